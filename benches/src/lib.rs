@@ -11,6 +11,7 @@ pub mod lamps;
 pub mod lenses;
 pub mod machine;
 pub mod memory;
+pub mod motion;
 pub mod obj;
 pub mod paths;
 pub mod peer;

@@ -16,6 +16,7 @@
 //! | `trees` | time to build the accelerator, a triangle |
 //! | `obj` | a million triangles from their OBJ file to the first ray, by stages |
 //! | `instances` | the street with 10⁵ instances more: time and memory until its light can be gathered |
+//! | `motion` | the street with fifty objects more, at rest and moving |
 //! | `memory` | peak memory of a scene, in a process of its own |
 //! | `frames` | raw and picture of a frame of two megapixels |
 //! | `sensor` | mean electrons to digital numbers: all noises, all effects, each alone; time and memory |
@@ -28,15 +29,15 @@
 
 use etendue_benches::table::Table;
 use etendue_benches::{
-    defocus, files, frames, instances, lamps, lenses, machine, memory, obj, paths, peer, rays, road, sensor, trees,
-    views,
+    defocus, files, frames, instances, lamps, lenses, machine, memory, motion, obj, paths, peer, rays, road, sensor,
+    trees, views,
 };
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 15] = [
+const BENCHMARKS: [Benchmark; 16] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
@@ -48,6 +49,7 @@ const BENCHMARKS: [Benchmark; 15] = [
     ("trees", trees::table),
     ("obj", obj::table),
     ("instances", instances::table),
+    ("motion", motion::table),
     ("memory", memory::table),
     ("frames", frames::table),
     ("sensor", sensor::table),

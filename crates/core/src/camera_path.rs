@@ -69,6 +69,15 @@ impl CameraPath {
         }
     }
 
+    /// The times, s, of all keys that it moves by, rising; none where it stands still.
+    #[must_use]
+    pub fn key_times_s(&self) -> Vec<f64> {
+        match &self.0 {
+            Kind::Still(_) => Vec::new(),
+            Kind::Moving(to_world) => to_world.times_s(),
+        }
+    }
+
     /// Whether it has one pose at all times.
     #[must_use]
     pub fn is_still(&self) -> bool {

@@ -147,7 +147,7 @@ impl Motion {
     }
 
     /// The times of all keys, s, rising, each once.
-    fn times_s(&self) -> Vec<f64> {
+    pub(crate) fn times_s(&self) -> Vec<f64> {
         let mut times_s: Vec<f64> = self.links().iter().flat_map(|link| link.times_s()).copied().collect();
         times_s.sort_by(f64::total_cmp);
         times_s.dedup();

@@ -4,7 +4,7 @@ use crate::camera_file::{open_camera, stem};
 use crate::error::Error;
 use crate::observer::{Message, Observer};
 use crate::results::Files;
-use crate::results::frames::{Wanted, write_frames};
+use crate::results::frames::{Wanted, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
 use crate::stored_radiance::StoredRadiance;
@@ -145,8 +145,8 @@ fn write(
         let products = products(body);
         let wanted =
             Wanted { products: &products, camera: &writer.prefix.clone(), facts: &facts, undistorted: None, observer };
-        let frames = (&request.frames, SensorState::default());
-        points = write_frames(body, captures, frames, address, wanted, writer)?;
+        let taken = frames(body, captures, (request.frames.clone(), SensorState::default()), address, false);
+        points = write_frames(body, taken, address, wanted, writer)?;
     }
     let mut facts = sidecar(body, stored, request, seed, &depth_of_field);
     facts["frames"] = points.into();

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::observer::{Message, Observer};
 use crate::ranges::{number, whole};
 use crate::results::Files;
-use crate::results::frames::{Wanted, encoded_raw, write_frames};
+use crate::results::frames::{Wanted, encoded_raw, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
 use etendue_io::{Existing, OutputFolder, Provenance};
@@ -190,9 +190,10 @@ impl Task<'_> {
         let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());
         let wanted =
             Wanted { products: &products, camera: &camera, facts: &facts, undistorted: None, observer: self.observer };
-        let frames = (&self.request.frames, SensorState::default());
+        let begun = (self.request.frames.clone(), SensorState::default());
         let steady = CaptureLight::steady(&electrons);
-        let points = write_frames(self.body, steady, frames, |n| self.address(n), wanted, writer)?;
+        let taken = frames(self.body, steady, begun, |n| self.address(n), products.signal_breakdown);
+        let points = write_frames(self.body, taken, |n| self.address(n), wanted, writer)?;
         let mut facts = self.sidecar(light);
         facts["light"]["photons_per_pixel"] =
             flat::photons(self.sensor, light, self.sensor.parameters().exposure.exposure_s).into();

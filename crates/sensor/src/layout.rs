@@ -5,9 +5,14 @@
 //!   register is taken to hold the sum). Digital: their digital numbers are averaged and rounded.
 //!   Of tiles w × h pixels, the pixel (x, y) of the result takes the pixels ⌊x/w⌋ w n + x mod w + i w of a row, i < n, and so down: the
 //!   tile's order stays.
+//! - Skipping: of every n × m tiles of the colour filter array only the first is read. The pixel (x, y) of the result is the pixel
+//!   (⌊x/w⌋ w n + x mod w, ⌊y/h⌋ h m + y mod h) alone, without its neighbours' charge: finer patterns alias. The others still collect,
+//!   smear and bloom.
 //! - Region: a rectangle of the picture is read. The pixels around it still collect, smear and bloom.
 //!
-//! Left out: binning without regard to colour, subsampling.
+//! Left out: binning without regard to colour, binning and skipping together.
+
+mod skipping;
 
 use crate::cfa::Cfa;
 use crate::check::{Checks, SensorError};
@@ -15,6 +20,8 @@ use crate::effect::{Effect, SensorFacts};
 use crate::operation::Operation;
 use etendue_core::quantity::{Charge, DigitalNumber, MeanElectrons, Quantity, SignalPart};
 use etendue_core::{EffectStatus, Plane};
+pub use skipping::Skipping;
+use skipping::first_of;
 
 /// Pixels that no light reaches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,6 +74,8 @@ pub struct Layout {
     pub region: Option<Region>,
     /// Pixels that are read together; `None`: each on its own.
     pub binning: Option<Binning>,
+    /// Pixels that are not read; `None`: all are.
+    pub skipping: Option<Skipping>,
 }
 
 impl Effect for Layout {
@@ -76,7 +85,7 @@ impl Effect for Layout {
     fn check(&self, _: &SensorFacts, _: &mut Checks) {}
 
     fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
-        let Layout { optical_black: dark, region, binning } = *self;
+        let Layout { optical_black: dark, region, binning, skipping } = *self;
         let mut parts = Vec::new();
         if dark != OpticalBlack::default() {
             parts.push(format!("{} rows above and {} columns left are optically black", dark.rows, dark.columns));
@@ -84,6 +93,11 @@ impl Effect for Layout {
         if let Some(Binning { columns, rows, of }) = binning {
             let how = if of == BinningOf::Charge { "charge is added" } else { "digital numbers are averaged" };
             parts.push(format!("{columns} × {rows} pixels of a colour give one: {how}"));
+        }
+        if let Some(Skipping { columns, rows }) = skipping {
+            parts.push(format!(
+                "of {columns} × {rows} tiles of the filter array the first is read, the others are skipped"
+            ));
         }
         if let Some(Region { x, y, width, height }) = region {
             parts.push(format!("{width} × {height} pixels from column {x}, row {y} are read"));
@@ -93,6 +107,12 @@ impl Effect for Layout {
 }
 
 impl Layout {
+    /// Whether the picture has each pixel of the sensor as one of its own.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.region.is_none() && self.binning.is_none() && self.skipping.is_none()
+    }
+
     /// What is wrong with this layout on a picture of `width` × `height` pixels under a tile.
     pub(crate) fn errors(&self, cfa: &Cfa, width: usize, height: usize) -> Vec<SensorError> {
         let mut checks = Checks::default();
@@ -100,11 +120,15 @@ impl Layout {
         checks.agree("cfa", width.is_multiple_of(w) && height.is_multiple_of(h), || {
             format!("a tile of {w} × {h} pixels does not tile a sensor of {width} × {height}: give multiples of it")
         });
-        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
-        checks.agree("binning", (1..=64).contains(&n) && (1..=64).contains(&m), || {
-            format!("{n} × {m} pixels cannot be read together: give 1 to 64 each")
+        let (n, m) = self.steps();
+        let key = if self.skipping.is_some() { "skipping" } else { "binning" };
+        checks.agree("skipping", self.skipping.is_none() || self.binning.is_none(), || {
+            "pixels are read together or skipped, not both: remove this or \"binning\"".to_owned()
         });
-        checks.agree("binning", self.binning.is_none() || (n, m) != (1, 1), || {
+        checks.agree(key, (1..=64).contains(&n) && (1..=64).contains(&m), || {
+            format!("{n} × {m} pixels cannot give one: give 1 to 64 each")
+        });
+        checks.agree(key, (self.binning.is_none() && self.skipping.is_none()) || (n, m) != (1, 1), || {
             "1 × 1 pixels are each on their own: give more, or remove it".to_owned()
         });
         if !checks.errors.is_empty() {
@@ -113,8 +137,8 @@ impl Layout {
         let (w, h) = (w * n, h * m);
         let whole = |columns: usize, rows: usize| columns.is_multiple_of(w) && rows.is_multiple_of(h);
         let multiples =
-            || format!("columns must be multiples of {w} and rows of {h} (the colour tile times the binning)");
-        checks.agree("binning", whole(width, height), multiples);
+            || format!("columns must be multiples of {w} and rows of {h} (the colour tile times the {key})");
+        checks.agree(key, whole(width, height), multiples);
         let dark = self.optical_black;
         checks.agree("optical_black", whole(dark.columns, dark.rows), multiples);
         if let Some(r) = self.region {
@@ -160,37 +184,51 @@ impl Layout {
         self.binning.filter(|b| b.of == BinningOf::Numbers)
     }
 
+    /// How many columns and rows of the array make one of the result.
+    fn steps(&self) -> (usize, usize) {
+        let binned = self.binning.map(|b| (b.columns, b.rows));
+        binned.or(self.skipping.map(|s| (s.columns, s.rows))).unwrap_or((1, 1))
+    }
+
     /// The part of the array that is read, in pixels of the result; `None` for all of it.
     pub(crate) fn read_part(&self) -> Option<Region> {
-        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
+        let (n, m) = self.steps();
         self.region.map(|r| Region { x: r.x / n, y: r.y / m, width: r.width / n, height: r.height / m })
     }
 
     /// Where the picture lies in a raw of `width` × `height` pixels.
     pub(crate) fn picture_in_raw(&self, width: usize, height: usize) -> Region {
-        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
+        let (n, m) = self.steps();
         let (x, y) = (self.optical_black.columns / n, self.optical_black.rows / m);
         Region { x, y, width: width - x, height: height - y }
     }
 
     /// Columns and rows of the delivered picture of a sensor of `width` × `height` pixels.
     pub(crate) fn picture_size(&self, width: usize, height: usize) -> (usize, usize) {
-        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
+        let (n, m) = self.steps();
         let (width, height) = self.region.map_or((width, height), |r| (r.width, r.height));
         (width / n, height / m)
     }
 
-    /// Where a point of the sensor (pixels, the top left corner is 0, 0) lies in the delivered picture.
-    pub(crate) fn in_picture(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
+    /// Where a point of the sensor (pixels, the top left corner is 0, 0) lies in the delivered picture. Of tiles that are not skipped, those of
+    /// more than one pixel keep their middle.
+    pub(crate) fn in_picture(&self, cfa: &Cfa, [x, y]: [f64; 2]) -> [f64; 2] {
+        let (n, m) = self.steps();
         let (left, top) = self.region.map_or((0, 0), |r| (r.x, r.y));
-        [(x - left as f64) / n as f64, (y - top as f64) / m as f64]
+        let middle = |tile: usize| if self.skipping.is_some() { 0.5 * tile as f64 } else { 0.0 };
+        let along = |at: f64, middle: f64, n: usize| (at - middle) / n as f64 + middle;
+        let (x, y) = (x - left as f64, y - top as f64);
+        [along(x, middle(cfa.width()), n), along(y, middle(cfa.height()), m)]
     }
 
-    /// Where pixel (x, y) of the array is found in the raw.
+    /// Where pixel (x, y) of the array is found in the raw; `None` where it is not read.
     pub(crate) fn raw_of_array(&self, cfa: &Cfa, (x, y): (usize, usize)) -> Option<(usize, usize)> {
         let along = |i: usize, tile: usize, n: usize| i / (tile * n) * tile + i % tile;
-        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
+        let (n, m) = self.steps();
+        let is_first = |i: usize, tile: usize, n: usize| i % (tile * n) < tile;
+        if self.skipping.is_some() && !(is_first(x, cfa.width(), n) && is_first(y, cfa.height(), m)) {
+            return None;
+        }
         let (x, y) = (along(x, cfa.width(), n), along(y, cfa.height(), m));
         match self.read_part() {
             None => Some((x, y)),
@@ -216,7 +254,7 @@ impl Binning {
         let mut samples = Vec::with_capacity(n * m);
         for y in 0..out.height() {
             for x in 0..out.width() {
-                let (x0, y0) = (x / w * w * n + x % w, y / h * h * m + y % h);
+                let (x0, y0) = (first_of(x, w, n), first_of(y, h, m));
                 samples.clear();
                 samples.extend(
                     (0..m).flat_map(|j| (0..n).map(move |i| (x0 + i * w, y0 + j * h))).map(|(x, y)| plane.at(x, y)),
@@ -305,6 +343,46 @@ mod tests {
         assert_eq!(sensor.in_picture([5.0, 3.0]), [1.5, 1.0]);
     }
 
+    /// Bayer tiles, of every two columns of tiles and three rows of them the first, of 8 × 12 pixels that are each its own number.
+    #[test]
+    fn skipped_tiles_are_not_in_the_raw_and_leave_the_others_as_they_are() {
+        let mut p = quiet();
+        p.cfa = Cfa::bayer(BayerPhase::Rggb);
+        let channel = p.channels[0].clone();
+        p.channels = ["r", "g", "b"].map(|name| crate::Channel { name: name.into(), ..channel.clone() }).to_vec();
+        p.noise = true;
+        let means = Plane::from_samples(8, 12, (0..96).map(|i| 10.0 * i as f32).collect()).expect("filled");
+        let whole = run(&p, &means, ADDRESS).plane;
+        p.read_out.layout.skipping = Some(Skipping { columns: 2, rows: 3 });
+        let read = run(&p, &means, ADDRESS).plane;
+        assert_eq!((read.width(), read.height()), (4, 4));
+        for (i, x) in [0, 1, 4, 5].into_iter().enumerate() {
+            for (j, y) in [0, 1, 6, 7].into_iter().enumerate() {
+                assert_eq!(read.at(i, j), whole.at(x, y));
+                assert_eq!(p.read_out.layout.raw_of_array(&p.cfa, (x, y)), Some((i, j)));
+            }
+        }
+        assert_eq!(p.read_out.layout.raw_of_array(&p.cfa, (2, 1)), None);
+        let region = Region { x: 4, y: 6, width: 4, height: 6 };
+        p.read_out.layout.region = Some(region);
+        let part = run(&p, &means, ADDRESS).plane;
+        assert_eq!(part, Region { x: 2, y: 2, width: 2, height: 2 }.of(&read));
+    }
+
+    /// The middle of the tile that is read, and of the next one.
+    #[test]
+    fn points_of_a_thinned_picture_lie_where_its_tiles_do() {
+        let mut layout = Layout { skipping: Some(Skipping { columns: 2, rows: 3 }), ..Layout::default() };
+        let bayer = Cfa::bayer(BayerPhase::Rggb);
+        assert_eq!(layout.in_picture(&bayer, [1.0, 1.0]), [1.0, 1.0]);
+        assert_eq!(layout.in_picture(&bayer, [5.0, 7.0]), [3.0, 3.0]);
+        layout.region = Some(Region { x: 4, y: 6, width: 4, height: 6 });
+        assert_eq!(layout.in_picture(&bayer, [5.0, 7.0]), [1.0, 1.0]);
+        let mono = Cfa::mono();
+        layout.region = None;
+        assert_eq!(layout.in_picture(&mono, [2.5, 3.5]), [1.5, 1.5]);
+    }
+
     #[test]
     fn optical_black_sees_heat_and_no_light() {
         let mut p = quiet();
@@ -336,6 +414,14 @@ mod tests {
             errors(&|p| p.read_out.layout.binning = Some(Binning { columns: 3, rows: 1, of: BinningOf::Charge })),
             1
         );
+        let skipping = Some(Skipping { columns: 1, rows: 4 });
+        assert_eq!(errors(&|p| p.read_out.layout.skipping = skipping), 1, "rows left over");
+        assert_eq!(errors(&|p| p.read_out.layout.skipping = Some(Skipping { columns: 1, rows: 1 })), 1);
+        let both = |p: &mut SensorParameters| {
+            p.read_out.layout.skipping = Some(Skipping { columns: 2, rows: 2 });
+            p.read_out.layout.binning = Some(Binning { columns: 2, rows: 2, of: BinningOf::Charge });
+        };
+        assert_eq!(errors(&both), 1);
         for x in [8, usize::MAX] {
             assert_eq!(errors(&|p| p.read_out.layout.region = Some(Region { x, y: 0, width: 4, height: 1 })), 1);
         }

@@ -81,13 +81,13 @@ impl Sensor {
         supports.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
-    /// What is wrong with a picture of `width` × `height` pixels: tile, binning and region have to fit it.
+    /// What is wrong with a picture of `width` × `height` pixels: tile, binning, skipping and region have to fit it.
     #[must_use]
     pub fn misfits(&self, width: usize, height: usize) -> Vec<SensorError> {
         self.parameters.read_out.layout.errors(&self.parameters.cfa, width, height)
     }
 
-    /// Columns and rows of the delivered picture of a sensor of `width` × `height` pixels: those of its region, binned.
+    /// Columns and rows of the delivered picture of a sensor of `width` × `height` pixels: those of its region that are read, binned.
     #[must_use]
     pub fn picture_size(&self, width: usize, height: usize) -> (usize, usize) {
         self.parameters.read_out.layout.picture_size(width, height)
@@ -96,7 +96,7 @@ impl Sensor {
     /// Where a point of the sensor lies in the delivered picture; raster coordinates of both, px.
     #[must_use]
     pub fn in_picture(&self, raster_px: [f64; 2]) -> [f64; 2] {
-        self.parameters.read_out.layout.in_picture(raster_px)
+        self.parameters.read_out.layout.in_picture(&self.parameters.cfa, raster_px)
     }
 
     /// Bits of the numbers that are delivered: the converter's, or those after merging and companding.

@@ -87,6 +87,20 @@ fn tables_that_say_nothing() {
     );
     let binning = "binning = { columns = 1, rows = 1, of = \"charge\" }";
     refused_below(1, BITS, &with(binning), &["cameras.front.sensor.binning", "1 × 1", "remove it"]);
+    refused_below(1, BITS, &with("skipping = {}"), &["cameras.front.sensor.skipping", "1 × 1", "remove it"]);
+}
+
+#[test]
+fn skipped_rows_that_cannot_be() {
+    let with = |more: &str| format!("{BITS}\n{more}");
+    refused_below(1, BITS, &with("skipping = { rows = 65 }"), &["cameras.front.sensor.skipping.rows", "found 65"]);
+    // 30 rows of tiles of two.
+    let left_over = ["cameras.front.sensor.skipping", "rows of 8"];
+    refused_below(1, BITS, &with("skipping = { rows = 4 }"), &left_over);
+    let both = "skipping = { rows = 3 }\nbinning = { columns = 1, rows = 3, of = \"charge\" }";
+    refused_below(1, BITS, &with(both), &["cameras.front.sensor.skipping", "not both", "\"binning\""]);
+    let region = "skipping = { rows = 3 }\nroi_px = [0, 2, 46, 24]";
+    refused_below(2, BITS, &with(region), &["cameras.front.sensor.roi_px", "rows of 6"]);
 }
 
 #[test]

@@ -56,6 +56,28 @@ fn single_frames_have_raw_picture_and_side_car_and_a_seed() {
     assert_ne!(files["web/raw.0003.png"], other["web/raw.0003.png"]);
 }
 
+/// Of every two columns and rows of tiles of two pixels the first: columns 0, 1, 4, 5, 8, 9, 12, 13 of 16 and rows 0, 1, 4, 5 of 8, each pixel as it is without.
+#[test]
+fn a_thinned_picture_has_the_pixels_that_are_read() {
+    let options = [&SMALL[..], &["--irradiance-w-m2", "0.002"]].concat();
+    let (_, whole) = flat(WEB, &options);
+    let (ran, thin) = flat("scenes/cameras/web-video.toml", &options);
+    ran.ok();
+    let (whole, [width, _]) = numbers(&whole["web/raw.0000.png"]);
+    let (thin_numbers, size) = numbers(&thin["web-video/raw.0000.png"]);
+    assert_eq!(size, [8, 4]);
+    let place = |i: u32| i / 2 * 4 + i % 2;
+    for (x, y) in (0..32).map(|i| (i % 8, i / 8)) {
+        assert_eq!(thin_numbers[(y * 8 + x) as usize], whole[(place(y) * width + place(x)) as usize], "{x} {y}");
+    }
+    let facts: serde_json::Value = serde_json::from_slice(&thin["web-video/camera.json"]).expect("JSON");
+    let rows = &facts["sensor"]["shutter"];
+    assert_eq!(
+        (&rows["rows"], &rows["rows_read"]["together"], &rows["rows_read"]["of"]),
+        (&4.into(), &2.into(), &4.into())
+    );
+}
+
 #[test]
 fn light_is_given_by_its_photons_too() {
     let (ran, files) = flat(WEB, &[&SMALL[..], &["--photons", "1234.5"]].concat());

@@ -122,6 +122,38 @@ fn what_needs_more_than_is_there_is_refused() {
     told("cameras.right.output={ video = \"y4m\" }", &["\"video\" is asked for", "no [isp]"]);
     told("cameras.left.output.picture=false", &["\"video\" is asked for", "ask for \"picture\""]);
     told("cameras.left.isp={ picture_format = \"jpeg\" }", &["\"video\" is asked for", "JPEG"]);
+    let late = ["cameras.right.sensor.shutter.exposure_s", "a row takes 0.2", "every 0.05 s"];
+    told("cameras.right.sensor.shutter.exposure_s=0.2", &late);
+    let slow = ["cameras.left.sensor.shutter.row_time_us", "to read all rows takes", "read rows faster"];
+    told("cameras.left.sensor.shutter.row_time_us=20000", &slow);
+}
+
+/// Two cameras that nothing joins are rectified at first, and the right one turns by 2° from key to key.
+#[test]
+fn pairs_that_come_apart_are_not_rectified() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let lens = "lens = { type = \"pinhole\", focal_length_mm = 4, f_number = 2 }\n\
+                sensor = { width_px = 30, height_px = 20, pixel_pitch_um = 80 }";
+    let keys = |y: f64, pitch_deg: f64| {
+        format!(
+            "keys = [{{ time_s = 0, position_m = [0, {y}, 1], rotation_deg = [0, 0, 0] }}, \
+             {{ time_s = 2, position_m = [4, {y}, 1], rotation_deg = [0, {pitch_deg}, 0] }}]"
+        )
+    };
+    let refused = |pitch_deg: f64| {
+        let job = format!(
+            "format = 1\n[[cameras]]\nname = \"left\"\n{}\n{lens}\noutput = {{ disparity_to = \"right\" }}\n\
+             [[cameras]]\nname = \"right\"\n{}\n{lens}\n[sequence]\nframe_rate_hz = 10\n[scene]\n\
+             environment = {{ type = \"uniform\", luminance_cd_m2 = 20, illuminant = \"D65\" }}\n",
+            keys(0.1, 0.0),
+            keys(-0.1, pitch_deg)
+        );
+        let file = place.path().join("pair.toml");
+        fs::write(&file, job).expect("a file");
+        etendue(["plan".to_owned(), text(&file)])
+    };
+    refused(0.0).ok();
+    refused(2.0).refused(&["cameras.left.output.disparity_to", "at 1 s", "not rectified"]);
 }
 
 /// What a run leaves that is killed within frame 2: whole frames 0 and 1, a file of frame 2 that has its name, no side-cars.
@@ -149,6 +181,21 @@ fn a_frame_of_another_plan_is_no_part_of_the_run() {
     let options =
         ["render", &job(), "-o", &text(&out), "--frames", "0..2", "--resume", "--spp", "16"].map(str::to_owned);
     etendue(options).refused(&["frame.0000.json", "another plan"]);
+}
+
+/// Of a camera whose light is steady only the side-car tells of which plan it is.
+#[test]
+fn a_steady_camera_of_another_plan_is_no_part_of_the_run() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = text(&place.path().join("out"));
+    let steady = |more: &[&str]| {
+        let small = text(&tests().join("jobs/small/small.toml"));
+        let arguments = ["render", &small, "-o", &out];
+        etendue(arguments.iter().chain(more).map(|word| (*word).to_owned()))
+    };
+    steady(&["--spp", "4"]).ok();
+    steady(&["--spp", "4", "--resume"]).ok();
+    steady(&["--spp", "8", "--resume"]).refused(&["camera.json", "another plan"]);
 }
 
 #[test]

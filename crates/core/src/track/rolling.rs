@@ -4,7 +4,7 @@
 //! middle in the world and the unit direction x̂ in which its hub points forward. Between two moments without a key of any
 //! track that carries the hub the integrand is analytic; it is integrated by Gauss's rule of five points, and φ is kept as
 //! cubic Hermite polynomials with the exact rate at both ends. Their number is doubled until φ is met to 1e-6 rad at the quarters
-//! of each; along straight lines at an even speed one is exact.
+//! of each, beyond 4096 only where it is not yet; along straight lines at an even speed one is exact.
 
 use super::cubic::Cubic;
 use super::span::{Pose, Span};
@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// The greatest error of φ at the quarters of a polynomial, rad.
 const TOLERANCE_RAD: f64 = 1e-6;
-/// Polynomials between two keys at most.
+/// Polynomials of one length between two keys at most; halves of these are made where it takes more.
 const MOST: u32 = 4096;
 
 impl Track {
@@ -85,7 +85,7 @@ impl Piece {
     }
 }
 
-/// As few pieces of one length as meet the tolerance.
+/// As few pieces of one length as meet the tolerance; of more than are reasonable, those halved that do not.
 fn pieces((start_s, end_s): (f64, f64), rate_rad_s: &impl Fn(f64) -> f64) -> Vec<Piece> {
     let mut made = vec![Piece::new(start_s, end_s, rate_rad_s)];
     while !made.iter().all(Piece::is_met) {
@@ -93,9 +93,27 @@ fn pieces((start_s, end_s): (f64, f64), rate_rad_s: &impl Fn(f64) -> f64) -> Vec
         let end_of = |i: u32| start_s + (end_s - start_s) * (f64::from(i) / f64::from(count));
         let ends_s: Vec<f64> = (0..count).map(end_of).chain([end_s]).collect();
         if count > MOST || ends_s.windows(2).any(|pair| pair[0] >= pair[1]) {
-            break;
+            return halved(made, end_s, rate_rad_s);
         }
         made = ends_s.windows(2).map(|pair| Piece::new(pair[0], pair[1], rate_rad_s)).collect();
+    }
+    made
+}
+
+/// The same with pieces halved that do not meet the tolerance, as long as times between their ends can be told apart.
+fn halved(pieces: Vec<Piece>, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Vec<Piece> {
+    let mut ends_s: Vec<f64> = pieces.iter().skip(1).map(|piece| piece.start_s).chain([end_s]).collect();
+    ends_s.reverse();
+    let (mut waiting, mut made) = (pieces, Vec::new());
+    waiting.reverse();
+    while let Some((piece, end_s)) = waiting.pop().zip(ends_s.pop()) {
+        let middle_s = piece.start_s + 0.5 * (end_s - piece.start_s);
+        if piece.is_met() || middle_s <= piece.start_s || middle_s >= end_s {
+            made.push(piece);
+            continue;
+        }
+        waiting.extend([Piece::new(middle_s, end_s, rate_rad_s), Piece::new(piece.start_s, middle_s, rate_rad_s)]);
+        ends_s.extend([end_s, middle_s]);
     }
     made
 }
@@ -107,4 +125,25 @@ fn gauss(a: f64, b: f64, f: &impl Fn(f64) -> f64) -> f64 {
     let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
     let pair = |node: f64| f(middle - half * node) + f(middle + half * node);
     half * (WEIGHTS[0] * f(middle) + WEIGHTS[1] * pair(NODES[0]) + WEIGHTS[2] * pair(NODES[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// φ = A (1 − cos ωt): a cubic over h misses it at its quarters by 9/6144 A ω⁴ h⁴ times the cosine, which with A = 10¹⁰ rad and ω = π/s takes
+    /// 6 100 pieces a second where that is 1, and fewer than 4 096 where it is below 0.2.
+    #[test]
+    fn a_wheel_of_very_many_turns_is_met_wherever_one_looks() {
+        let amplitude = 1e10;
+        let omega = core::f64::consts::PI;
+        let rate = |time_s: f64, _: f64| amplitude * omega * crate::maths::f64::sin(omega * time_s);
+        let found = pieces((0.0, 1.0), &|time_s| rate(time_s, 0.5));
+        assert!(found.len() > MOST as usize && found.len() < 2 * MOST as usize, "{}", found.len());
+        assert!(found.iter().all(Piece::is_met));
+        assert!(found.windows(2).all(|pair| pair[0].start_s < pair[1].start_s));
+        let turned: f64 = found.iter().map(|piece| piece.turns).sum();
+        // Rounding of some 7 000 sums of up to 2·10¹⁰ rad, half of 4·10⁻⁶ each.
+        assert!((turned - 2.0 * amplitude).abs() < 1.5e-2, "{turned}");
+    }
 }

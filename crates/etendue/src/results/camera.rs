@@ -6,7 +6,7 @@ use crate::render_options::RenderOptions;
 use etendue_core::Plane;
 use etendue_core::quantity::MeanElectrons;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::photograph::{Frame, Light, take};
+use etendue_pipeline::photograph::{Frame, Light, take, take_with_breakdown};
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_pipeline::pupil_depth::{PupilDepth, pupil_depth};
 use etendue_pipeline::rays::{RayTable, ray_table};
@@ -15,6 +15,7 @@ use etendue_pipeline::sampling::SamplingPlanes;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
 use etendue_sensor::{FrameAddress, Sensor, SensorState};
 use etendue_tracer::accel::Simd;
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -31,9 +32,18 @@ pub struct CameraResults {
     pub(super) frames: Range<u32>,
     /// Of the sensor before the first of them.
     state: SensorState,
-    /// After the only one, where it has a light of its own and the sensor remembers, with the first frame that it remembers.
-    after: Option<(SensorState, u32)>,
+    /// The only one, where it has a light of its own and the sensor remembers it: the frames after it need it before anybody asks.
+    taken: Option<Taken>,
     pub(super) simd: Simd,
+}
+
+/// A frame that has been taken, and what the sensor remembers of it.
+#[derive(Clone, Debug)]
+struct Taken {
+    frame: Frame,
+    after: SensorState,
+    /// The first frame that the sensor remembers.
+    since: u32,
 }
 
 impl CameraResults {
@@ -55,10 +65,10 @@ impl CameraResults {
             RectifiedCamera::of(&camera.body, scale).expect("a compiled plan's camera has its rectified twin")
         });
         let (frames, simd) = (options.frames.clone(), options.simd);
-        let (plan, after) = (Arc::clone(plan), None);
-        let mut results = Self { plan, camera: place, light, sampling, depth, undistorted, frames, state, after, simd };
+        let (plan, taken) = (Arc::clone(plan), None);
+        let mut results = Self { plan, camera: place, light, sampling, depth, undistorted, frames, state, taken, simd };
         if results.has_own_light() {
-            results.after = results.remembered().map(|after| (after, since));
+            results.taken = results.remembered(since);
         }
         Ok(results)
     }
@@ -96,12 +106,19 @@ impl CameraResults {
     /// The photographs of the run's frames, one after the other as the sensor's state runs through them: raw, and picture where
     /// the camera processes it; nothing where the camera has no electronics.
     pub fn frames(&self) -> impl Iterator<Item = Frame> + '_ {
+        self.numbered_frames().map(|(_, frame)| frame.into_owned())
+    }
+
+    /// The same with their numbers; one that has been taken is not taken again.
+    pub(super) fn numbered_frames(&self) -> impl Iterator<Item = (u32, Cow<'_, Frame>)> + '_ {
         let signal_breakdown = self.camera().products.signal_breakdown;
-        let frames = self.light.captures().map(|light| {
+        let kept = self.taken.as_ref().map(|taken| (self.frames.start, Cow::Borrowed(&taken.frame)));
+        let light = self.light.captures().filter(|_| kept.is_none());
+        let anew = light.map(|light| {
             let (address, state) = (|frame| self.address(frame), self.state.clone());
             frames(&self.camera().body, light, (self.frames.clone(), state), address, signal_breakdown)
         });
-        frames.into_iter().flatten().map(|(_, frame)| frame)
+        kept.into_iter().chain(anew.into_iter().flatten())
     }
 
     /// The numbers of the run's frames that these results are of: one where light depends on time.
@@ -128,22 +145,18 @@ impl CameraResults {
         self.camera().time != TimeDependence::None
     }
 
-    /// The state of the sensor before the first frame.
-    pub(super) fn state(&self) -> SensorState {
-        self.state.clone()
-    }
-
     /// What the sensor remembers of a frame that has a light of its own, and since which frame; `None` where it remembers nothing.
     pub(crate) fn state_after(&self) -> Option<(&SensorState, u32)> {
-        self.after.as_ref().map(|(after, since)| (after, *since))
+        self.taken.as_ref().map(|taken| (&taken.after, taken.since))
     }
 
-    /// The frame is taken for it, where anything is remembered.
-    fn remembered(&self) -> Option<SensorState> {
-        let body = &self.camera().body;
-        let light = self.light.captures().filter(|_| body.sensor.as_ref().is_some_and(Sensor::remembers))?;
-        let step = |state, frame| Some(take(body, state, light, self.address(frame))?.0);
-        self.frames.clone().try_fold(self.state.clone(), step)
+    /// Takes the frame, where anything is remembered.
+    fn remembered(&self, since: u32) -> Option<Taken> {
+        let camera = self.camera();
+        let light = self.light.captures().filter(|_| camera.body.sensor.as_ref().is_some_and(Sensor::remembers))?;
+        let step = if camera.products.signal_breakdown { take_with_breakdown } else { take };
+        let (after, frame) = step(&camera.body, self.state.clone(), light, self.address(self.frames.start))?;
+        Some(Taken { frame, after, since })
     }
 
     /// Where a frame of the camera stands among all.

@@ -26,29 +26,21 @@ impl DoneFrames {
     /// What stands in a folder of results. A frame's own file is written last: where it is, the frame is whole.
     ///
     /// # Errors
-    /// Where a frame there is of another plan, or its file cannot be read.
+    /// Where a frame or a side-car there is of another plan, or cannot be read.
     pub(crate) fn in_folder(folder: &Path, plan: &Plan, frames: &Range<u32>) -> Result<Self, Error> {
         let mut facts = BTreeMap::new();
         for camera in plan.cameras.iter().filter(|camera| camera.time != TimeDependence::None) {
             for frame in frames.clone() {
                 let path = folder.join(&camera.name).join(Files::frame(frame));
-                let refuse = |why: &str| Error::input(format!("{}: {why}", path.display()));
-                let text = match fs::read_to_string(&path) {
-                    Ok(text) => text,
-                    Err(cause) if cause.kind() == ErrorKind::NotFound => continue,
-                    Err(cause) => return Err(refuse(&format!("it cannot be read: {cause}"))),
-                };
-                let value: Value = serde_json::from_str(&text).map_err(|_| {
-                    refuse("this is not the file of a frame; remove it, or choose another output folder")
-                })?;
+                let Some(value) = written(&path, "this is not the file of a frame")? else { continue };
                 if value["plan_hash"] != plan.hash_text() {
-                    return Err(refuse(
-                        "it is a frame of another plan; choose another output folder, or --overwrite it",
-                    ));
+                    let why = "it is a frame of another plan; choose another output folder, or --overwrite it";
+                    return Err(refused(&path, why));
                 }
                 facts.insert((camera.name.clone(), frame), value);
             }
         }
+        plan.cameras.iter().try_for_each(|camera| check_sidecar(&folder.join(&camera.name), plan))?;
         Ok(Self { facts, first: frames.start })
     }
 
@@ -81,4 +73,31 @@ impl DoneFrames {
     fn of(&self, camera: &CameraPlan, frame: u32) -> Option<&Value> {
         self.facts.get(&(camera.name.clone(), frame))
     }
+}
+
+/// Refuses the results of a whole run of another plan: cameras whose light does not depend on time have no other file that tells.
+fn check_sidecar(folder: &Path, plan: &Plan) -> Result<(), Error> {
+    let path = folder.join(Files::SIDECAR);
+    match written(&path, "this is not the side-car of a camera")? {
+        Some(facts) if facts["plan_hash"] != plan.hash_text() => {
+            let why = "it is of a run of another plan; choose another output folder, or --overwrite it";
+            Err(refused(&path, why))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A file of facts; `None` where there is none.
+fn written(path: &Path, otherwise: &str) -> Result<Option<Value>, Error> {
+    let text = match fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(cause) => return Err(refused(path, &format!("it cannot be read: {cause}"))),
+    };
+    let value = serde_json::from_str(&text);
+    value.map(Some).map_err(|_| refused(path, &format!("{otherwise}; remove it, or choose another output folder")))
+}
+
+fn refused(path: &Path, why: &str) -> Error {
+    Error::input(format!("{}: {why}", path.display()))
 }

@@ -18,6 +18,7 @@ use etendue_pipeline::raw_colour::RawColour;
 use etendue_pipeline::rectified::RectifiedCamera;
 use etendue_sensor::{CaptureLight, FrameAddress, Raw, SensorState, SignalBreakdown, SignalComponent};
 use serde_json::Value;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Which photographs are wanted.
@@ -53,20 +54,19 @@ pub(crate) fn frames<'a>(
     (frames, before): (Range<u32>, SensorState),
     address: impl Fn(u32) -> FrameAddress + 'a,
     signal_breakdown: bool,
-) -> impl Iterator<Item = (u32, Frame)> + 'a {
+) -> impl Iterator<Item = (u32, Cow<'a, Frame>)> + 'a {
     let step = if signal_breakdown { take_with_breakdown } else { take };
     frames.scan(before, move |state, number| {
         let (next, frame) = step(body, std::mem::take(state), light, address(number))?;
         *state = next;
-        Some((number, frame))
+        Some((number, Cow::Owned(frame)))
     })
 }
 
-/// Takes frame after frame and writes what is wanted of each. Answers with exposure and gain of each frame.
-pub(crate) fn write_frames(
+/// Writes what is wanted of frame after frame; none is taken where nothing is. Answers with exposure and gain of each frame.
+pub(crate) fn write_frames<'a>(
     body: &CameraBody,
-    light: CaptureLight<'_>,
-    (numbers, before): (&Range<u32>, SensorState),
+    taken: impl Iterator<Item = (u32, Cow<'a, Frame>)>,
     address: impl Fn(u32) -> FrameAddress,
     wanted: Wanted<'_>,
     writer: &mut ResultWriter<'_>,
@@ -76,7 +76,7 @@ pub(crate) fn write_frames(
     if !(products.raw || products.picture || products.signal_breakdown) {
         return Ok(points);
     }
-    for (number, frame) in frames(body, light, (numbers.clone(), before), &address, products.signal_breakdown) {
+    for (number, frame) in taken {
         if !frame.raw.invalid.is_empty() {
             let count = frame.raw.invalid.len();
             let told = format!("frame {number}: {count} pixels have no valid light; their digital number is 0");
@@ -84,7 +84,7 @@ pub(crate) fn write_frames(
         }
         let file = products.raw.then(|| Files::raw(number, products.raw_format));
         points.push(metadata::frame(number, file, &frame.raw));
-        write_frame(body, frame, address(number), wanted, writer)?;
+        write_frame(body, &frame, address(number), wanted, writer)?;
     }
     Ok(points)
 }
@@ -92,13 +92,13 @@ pub(crate) fn write_frames(
 /// Writes what is wanted of a frame.
 fn write_frame(
     body: &CameraBody,
-    frame: Frame,
+    frame: &Frame,
     address: FrameAddress,
     wanted: Wanted<'_>,
     writer: &mut ResultWriter<'_>,
 ) -> Result<(), Error> {
     let (products, number) = (wanted.products, address.frame);
-    let Frame { raw, signal_breakdown, picture } = &frame;
+    let Frame { raw, signal_breakdown, picture } = frame;
     let mut files: Vec<(String, Encoder<'_>)> = Vec::new();
     if products.raw {
         let name = Files::raw(number, products.raw_format);

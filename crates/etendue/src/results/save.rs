@@ -72,16 +72,6 @@ impl Results {
 }
 
 impl CameraResults {
-    /// Writes everything that the camera delivers into its folder within an output folder.
-    ///
-    /// # Errors
-    /// Where a file cannot be written.
-    pub fn write(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
-        let mut sequence = Sequence::default();
-        sequence.write(self, folder, observer)?;
-        sequence.finish(folder)
-    }
-
     /// Writes all files but the camera's side-car; answers with what that says of each frame.
     pub(super) fn write_files(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<Vec<Value>, Error> {
         let mut writer = ResultWriter { prefix: self.camera().name.clone(), folder };
@@ -149,12 +139,11 @@ impl CameraResults {
 
     /// The frames; answers with what the side-car says of each.
     fn write_photographs(&self, writer: &mut ResultWriter<'_>, observer: &dyn Observer) -> Result<Vec<Value>, Error> {
-        let (camera, Some(light)) = (self.camera(), self.light.captures()) else { return Ok(Vec::new()) };
+        let camera = self.camera();
         let facts = self.provenance();
         let (products, undistorted) = (&camera.products, self.undistorted.as_ref());
         let wanted = Wanted { products, camera: &camera.name, facts: &facts, undistorted, observer };
-        let frames = (&self.frames, self.state());
-        write_frames(&camera.body, light, frames, |frame| self.address(frame), wanted, writer)
+        write_frames(&camera.body, self.numbered_frames(), |frame| self.address(frame), wanted, writer)
     }
 
     fn write_truth(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {

@@ -21,8 +21,10 @@ pub(super) fn calibration(body: &CameraBody) -> Result<Calibration, String> {
         return Err(format!("it looks by a {}, which no calibration file describes", optic.name()));
     }
     let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
-    if layout.is_some_and(|layout| layout.region.is_some() || layout.binning.is_some()) {
-        return Err("its pictures are a region or binned pixels, whose grid is not the lens's".to_owned());
+    if layout.is_some_and(|layout| !layout.is_whole()) {
+        return Err(
+            "its pictures are a region, or of binned or skipped pixels, whose grid is not the lens's".to_owned()
+        );
     }
     let found = match &body.lens {
         Lens::Calibrated(lens) => lens.parameters().calibration.clone(),

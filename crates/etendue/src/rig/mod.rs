@@ -112,15 +112,18 @@ fn moves(parent: &str) -> String {
     format!("it moves in \"{parent}\", so that no fixed transform holds it; let a frame carry it")
 }
 
-/// How far to the right of a rectified pair's left camera it stands, m; 0 where it is no right camera.
+/// How far to the right of a rectified pair's left camera it stands, m; 0 where it is no right camera, or one that does not keep its distance.
 fn base_m(plan: &Plan, camera: &CameraPlan) -> f64 {
     let is_left = |left: &&CameraPlan| left.products.annotations.disparity.is_some_and(|d| d.right == camera.index);
     plan.cameras.iter().find(is_left).map_or(0.0, |left| {
         // In their own frame, if they share one: without the rounding of a far origin.
-        let fixed = left.mount.pose.zip(camera.mount.pose).filter(|_| left.mount.frame == camera.mount.frame);
-        let time_s = left.timing.capture(0, 0).middle_s();
-        let (from, to) = fixed.unwrap_or_else(|| (left.path.at(time_s), camera.path.at(time_s)));
-        from.point_to_camera(to.position_m).x
+        if let Some([from, to]) = left.fixed_pair(camera) {
+            return from.point_to_camera(to.position_m).x;
+        }
+        let at = |time_s: f64| left.path.at(time_s).point_to_camera(camera.path.at(time_s).position_m).x;
+        let bases_m: Vec<f64> = left.times_beside_s(camera).into_iter().map(at).collect();
+        let is_kept = bases_m.iter().all(|base_m| (base_m - bases_m[0]).abs() <= 1e-9 * bases_m[0].abs());
+        if is_kept { bases_m[0] } else { 0.0 }
     })
 }
 

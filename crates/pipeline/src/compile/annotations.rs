@@ -94,9 +94,21 @@ fn disparity(
     Some(DisparityProduct { right: right.index, format })
 }
 
-/// Why two views are not rectified: points of the left one's pixels, near and far, are not seen on the same rows, or not farther left.
+/// Why two views are not rectified at some time: in frame 0 or, of cameras that nothing joins, at their keys and half-way between.
 fn not_rectified(left: &CameraPlan, right: &CameraPlan) -> Option<String> {
-    let time_s = left.timing.row(0, 0, 0).middle_s();
+    let mut times_s = left.times_beside_s(right);
+    if left.fixed_pair(right).is_some() {
+        times_s.truncate(1);
+    }
+    let first_s = times_s[0];
+    times_s.into_iter().find_map(|time_s| {
+        let when = if time_s == first_s { String::new() } else { format!("at {time_s} s ") };
+        not_rectified_at(left, right, time_s).map(|why| format!("{when}{why}"))
+    })
+}
+
+/// Why two views are not rectified at a time: points of the left one's pixels, near and far, are not seen on the same rows, or not farther left.
+fn not_rectified_at(left: &CameraPlan, right: &CameraPlan, time_s: f64) -> Option<String> {
     let (from, to) = (left.path.at(time_s), right.path.at(time_s));
     let base_m = from.point_to_camera(to.position_m);
     if base_m.x <= 0.0 {

@@ -1,7 +1,7 @@
 //! When rows are exposed: from records to a camera's shutter.
 
 use super::context::Context;
-use crate::plan::{CaptureTiming, RowExposure};
+use crate::plan::{CaptureTiming, RowExposure, RowSkipping};
 use etendue_core::{RowTiming, Shutter};
 use etendue_projection::Raster;
 use etendue_scene::Placed;
@@ -19,6 +19,8 @@ pub(super) fn row_exposure(
 ) -> RowExposure {
     let region = sensor.and_then(|sensor| sensor.parameters().read_out.layout.region);
     let (first_row, rows) = region.map_or((0, raster.height()), |region| (region.y, region.height));
+    let skipping = sensor.map_or(RowSkipping::NONE, row_skipping);
+    let rows = rows / skipping.pitch * skipping.together;
     let exposure_s = exposure_s(record);
     let hdr = record.electronics.as_ref().and_then(|e| e.hdr.as_ref());
     let further = hdr.map_or(&[][..], |hdr| &hdr.captures);
@@ -31,7 +33,16 @@ pub(super) fn row_exposure(
         Shutter::Global | Shutter::Rolling(_) => exposure_s,
     };
     let captures = captures(further, exposure_s, length_s, context);
-    RowExposure { shutter, first_row, rows, exposure_s, captures }
+    RowExposure { shutter, first_row, rows, skipping, exposure_s, captures }
+}
+
+/// Rows of tiles that are skipped; a sensor's layout fits its picture, so that they come out even.
+fn row_skipping(sensor: &Sensor) -> RowSkipping {
+    let p = sensor.parameters();
+    p.read_out.layout.skipping.filter(|skipping| skipping.rows > 1).map_or(RowSkipping::NONE, |skipping| {
+        let together = p.cfa.height();
+        RowSkipping { together, pitch: together * skipping.rows }
+    })
 }
 
 fn shutter(record: &record::sensor::Shutter) -> Shutter {

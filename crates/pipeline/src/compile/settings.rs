@@ -120,9 +120,10 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
         context.fault(&key.place, problem, "ask for one of them, or remove the key");
     }
     let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
-    if products.picture && layout.is_some_and(|l| l.region.is_some() || l.binning.is_some()) {
-        let problem = "pictures of a region or of binned pixels have no undistorted twins";
-        context.fault(&key.place, problem, "remove the key, or \"roi_px\" and \"binning\" of the sensor");
+    if products.picture && layout.is_some_and(|l| !l.is_whole()) {
+        let problem =
+            "pictures of a region, of binned pixels or without some that are skipped have no undistorted twins";
+        context.fault(&key.place, problem, "remove the key, or \"roi_px\", \"binning\" and \"skipping\" of the sensor");
     }
     let scale = scale.as_ref().map_or(1.0, |scale| scale.value);
     context.accept(&key.place, RectifiedCamera::of(body, scale)).map(|_| scale)

@@ -110,13 +110,18 @@ fn check(timing: &Timing, sensor: &record::Sensor, sequence: Option<&Sequence>, 
         let problem = format!(
             "to read all rows takes {read_s} s, jitter included, and frames follow each other every {period_s} s"
         );
-        let place = sensor.shutter.as_ref().map_or(&sensor.place, |_| place(sensor, sequence));
-        context.fault(place, problem, "read rows faster, or take fewer frames a second");
+        let rows = sensor.shutter.as_ref().and_then(|shutter| shutter.row_time_us());
+        context.fault(
+            rows.map_or(&sensor.place, |time| &time.place),
+            problem,
+            "read rows faster, or take fewer frames a second",
+        );
     }
 }
 
 fn place<'a>(sensor: &'a record::Sensor, sequence: Option<&'a Sequence>) -> &'a Place {
     let electronics = |e: &'a Electronics| &e.exposure_s.place;
+    let by_shutter = sensor.shutter.as_ref().and_then(|shutter| shutter.exposure_s()).map(|e| &e.place);
     let by_sequence = sequence.map(|s| &s.frame_rate_hz.place);
-    sensor.electronics.as_ref().map(electronics).or(by_sequence).unwrap_or(&sensor.place)
+    sensor.electronics.as_ref().map(electronics).or(by_shutter).or(by_sequence).unwrap_or(&sensor.place)
 }

@@ -6,7 +6,7 @@ use super::products::Products;
 use super::row_exposure::RowExposure;
 use super::settings::{Route, Settings};
 use super::timing::{TimeDependence, Timing};
-use etendue_core::CameraPath;
+use etendue_core::{CameraPath, CameraPose};
 use etendue_optics::{DepthOfField, Effects, Front, FrontRay, Lens};
 use etendue_projection::Raster;
 use etendue_scene::Place;
@@ -38,6 +38,26 @@ pub struct CameraPlan {
     pub depth_of_field: DepthOfField,
     /// What it delivers.
     pub products: Products,
+}
+
+impl CameraPlan {
+    /// Where this camera and another are fixed in the frame that carries both; `None` where none does, so that they may come apart.
+    #[must_use]
+    pub fn fixed_pair(&self, other: &Self) -> Option<[CameraPose; 2]> {
+        let fixed = self.mount.pose.zip(other.mount.pose).filter(|_| self.mount.frame == other.mount.frame);
+        fixed.map(|(own, others)| [own, others])
+    }
+
+    /// The times, s, at which two cameras that nothing joins are compared: the middle of the first row's exposure in frame 0, and all their keys and half-way between.
+    #[must_use]
+    pub fn times_beside_s(&self, other: &Self) -> Vec<f64> {
+        let mut keys_s = self.path.key_times_s();
+        keys_s.extend(other.path.key_times_s());
+        keys_s.sort_by(f64::total_cmp);
+        let between_s = keys_s.windows(2).map(|pair| pair[0] + 0.5 * (pair[1] - pair[0]));
+        let first_s = self.timing.row(0, 0, 0).middle_s();
+        [first_s].into_iter().chain(between_s).chain(keys_s.iter().copied()).collect()
+    }
 }
 
 /// The camera that a film is rendered for; others of equal light use it too.

@@ -27,7 +27,7 @@ pub use development::{Development, PictureFormat};
 pub use mount::Mount;
 pub use precipitation::Precipitation;
 pub use products::{Products, RawFormat};
-pub use row_exposure::{CaptureTiming, RowExposure};
+pub use row_exposure::{CaptureTiming, RowExposure, RowSkipping};
 pub use settings::{AdaptiveSampling, Route, Settings};
 pub use timing::{Jitter, TimeDependence, Timing};
 

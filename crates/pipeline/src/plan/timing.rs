@@ -48,7 +48,7 @@ impl Timing {
         self.start_s + self.period_s.map_or(0.0, |period_s| f64::from(frame) * period_s) + deviation
     }
 
-    /// The exposure of a row of the picture in a capture of a frame; rows beyond those that are read have that of the nearest.
+    /// The exposure of a row of the sensor in a capture of a frame; rows that are not read have that of the nearest.
     #[must_use]
     pub fn row(&self, frame: u32, capture: usize, row: usize) -> TimeInterval {
         self.exposure.row(capture, row).later(self.frame_start_s(frame))

@@ -40,17 +40,9 @@ impl<'a> FrameView<'a> {
     #[must_use]
     pub fn middle_at_s(&self, y_px: f64, row: usize) -> f64 {
         let exposure = &self.camera.timing.exposure;
-        let fields = exposure.shutter.row_timing().map_or(1, |timing| timing.fields.max(1) as usize);
-        let last = exposure.first_row + exposure.rows - 1;
-        let first = exposure.first_row + row.clamp(exposure.first_row, last).abs_diff(exposure.first_row) % fields;
-        let steps = (last - first) / fields;
-        if steps == 0 || exposure.shutter.row_timing().is_none() {
-            return self.row_middle_s(row);
-        }
-        // Rows of the field, counted from its first.
-        let place = (y_px - 0.5 - first as f64) / fields as f64;
-        let low = place.floor().clamp(0.0, (steps - 1) as f64);
-        let [from_s, to_s] = [0, 1].map(|next| self.row_middle_s(first + fields * (low as usize + next)));
-        from_s + (to_s - from_s) * (place - low)
+        let neighbours = exposure.shutter.row_timing().and_then(|_| exposure.neighbours(y_px, row));
+        let Some((rows, share)) = neighbours else { return self.row_middle_s(row) };
+        let [from_s, to_s] = rows.map(|row| self.row_middle_s(row));
+        from_s + (to_s - from_s) * share
     }
 }

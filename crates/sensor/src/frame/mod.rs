@@ -233,6 +233,10 @@ impl Sensor {
             numbers = binning.averaged(&p.cfa, &numbers);
             signal_breakdown = signal_breakdown.map(|c| c.mapped(|layer| binning.mean(&p.cfa, layer)));
         }
+        if let Some(skipping) = layout.skipping {
+            numbers = skipping.of(&p.cfa, &numbers);
+            signal_breakdown = signal_breakdown.map(|c| c.mapped(|layer| skipping.of(&p.cfa, layer)));
+        }
         if let Some(part) = layout.read_part() {
             numbers = part.of(&numbers);
             signal_breakdown = signal_breakdown.map(|c| c.mapped(|layer| part.of(layer)));

@@ -1,7 +1,7 @@
 //! What a side-car says of the sensor and of its frames.
 
 use etendue_core::Shutter;
-use etendue_pipeline::plan::{CameraBody, RowExposure};
+use etendue_pipeline::plan::{CameraBody, RowExposure, RowSkipping};
 use etendue_sensor::dynamic_range::Switch;
 use etendue_sensor::{ChargeAccount, DynamicRange, Raw, Sensor};
 use serde_json::{Value, json};
@@ -47,14 +47,19 @@ fn shutter(rows: &RowExposure) -> Value {
         Shutter::Rolling(timing) => ("rolling", timing),
         Shutter::GlobalReset(timing) => ("global_reset", timing),
     };
-    json!({
+    let RowSkipping { together, pitch } = rows.skipping;
+    let mut said = json!({
         "type": word,
         "row_time_s": timing.row_time_s,
         "direction": if timing.upwards { "up" } else { "down" },
         "fields": timing.fields,
         "first_row": rows.first_row,
         "rows": rows.rows,
-    })
+    });
+    if rows.skipping.skips() {
+        said["rows_read"] = json!({ "together": together, "of": pitch });
+    }
+    said
 }
 
 /// What range of light a frame holds, in photo-electrons of the first capture, and the signal-to-noise ratios at switches of

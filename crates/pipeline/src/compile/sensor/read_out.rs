@@ -13,7 +13,7 @@ use etendue_sensor::effects::rts_noise::RtsNoise;
 use etendue_sensor::effects::two_level::TwoLevel;
 use etendue_sensor::hdr::companding::Companding;
 use etendue_sensor::hdr::{Capture, HighDynamicRange};
-use etendue_sensor::layout::{Binning, BinningOf, Layout, OpticalBlack, Region};
+use etendue_sensor::layout::{Binning, BinningOf, Layout, OpticalBlack, Region, Skipping};
 use etendue_sensor::{ReadOut, VoltageEffects};
 
 pub(super) fn voltage(e: &record::Electronics) -> VoltageEffects {
@@ -79,6 +79,10 @@ fn layout(e: &record::Electronics) -> Layout {
                 description::BinningOf::Charge => BinningOf::Charge,
                 description::BinningOf::Numbers => BinningOf::Numbers,
             },
+        }),
+        skipping: e.skipping.as_ref().map(|s| {
+            let tiles = |key: Option<&etendue_scene::Placed<u64>>| key.map_or(1, |k| k.value as usize);
+            Skipping { columns: tiles(s.columns.as_ref()), rows: tiles(s.rows.as_ref()) }
         }),
     }
 }

@@ -1,7 +1,7 @@
 //! What of a plan depends on time, and when its frames and rows are exposed.
 
 use super::words::figure;
-use crate::plan::{CameraPlan, Plan, RowExposure, TimeDependence};
+use crate::plan::{CameraPlan, Plan, RowExposure, RowSkipping, TimeDependence};
 use etendue_core::{RowTiming, Shutter};
 use etendue_tracer::geometry::{Instance, Shape};
 
@@ -77,5 +77,11 @@ fn order(rows: &RowExposure, timing: &RowTiming) -> String {
     let from = if *upwards { "from the bottom" } else { "from the top" };
     let fields = if *fields > 1 { format!(" in {fields} fields") } else { String::new() };
     let last_ms = figure(1e3 * rows.shutter.length_s(rows.rows, 0.0));
-    format!("{} µs from row to row {from}{fields}, the last one {last_ms} ms after the first", figure(1e6 * row_time_s))
+    let RowSkipping { together, pitch } = rows.skipping;
+    let skipped =
+        if rows.skipping.skips() { format!(" of {} rows, {together} of {pitch},", rows.rows) } else { String::new() };
+    format!(
+        "{} µs from row to row{skipped} {from}{fields}, the last one {last_ms} ms after the first",
+        figure(1e6 * row_time_s)
+    )
 }

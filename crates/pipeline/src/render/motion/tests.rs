@@ -2,6 +2,7 @@
 
 use super::{MotionTruth, Visibility, disparity, motion_truth};
 use crate::Plan;
+use crate::plan::{RowExposure, RowSkipping};
 use crate::render::frame_view::FrameView;
 use crate::render::test_scenes::{
     BOARD, FOCAL_PX, PINHOLE, WALL, camera, path, plan, plan_of, pose_of, shifting, track, with_motion,
@@ -126,6 +127,26 @@ fn rolling_rows_see_a_point_when_it_comes_to_them() {
         assert_flow(&truth, 0, |_| velocity * later(velocity.y));
         let expected = |y: usize| 0.005 + row_time_s * if upwards { 23.0 - y as f64 } else { y as f64 };
         assert!((0..24).all(|y| (f64::from(truth.time.at(3, y)) - expected(y)).abs() < 1e-8));
+    }
+}
+
+/// Of every three rows one is read, so that a row of the sensor takes a third of a row time.
+#[test]
+fn rows_between_those_that_are_read_take_no_time() {
+    let plan = plan(PINHOLE, WALL);
+    let path = path(pose_of(&plan), &shifting(DVec3::new(0.0, 3.0, 5.0)));
+    let velocity = DVec2::new(3.0, 5.0) * FOCAL_PX / 10.0;
+    let shutter = Shutter::Rolling(RowTiming { row_time_s: 1e-3, upwards: false, fields: 1 });
+    let mut camera = camera(&plan, &path, &shutter);
+    let skipping = RowSkipping { together: 1, pitch: 3 };
+    camera.timing.exposure = RowExposure { rows: 8, skipping, ..camera.timing.exposure };
+    let at = |frame: u32| FrameView { camera: &camera, frame };
+    let truth = motion_truth(&plan, &at(1), &[at(2)], Simd::Auto);
+    let expected = (velocity * (0.1 / (1.0 - velocity.y * 1e-3 / 3.0))).as_vec2().to_array();
+    for (x, y) in (0..32 * 8).map(|i| (i % 32, 3 * (i / 32))) {
+        assert!((f64::from(truth.time.at(x, y)) - 0.005 - 1e-3 * (y / 3) as f64).abs() < 1e-8);
+        let found = truth.neighbours[0].flow.at(x, y);
+        assert!((0..2).all(|i| (found[i] - expected[i]).abs() < CLOSE_PX), "{x} {y}: {found:?} for {expected:?}");
     }
 }
 

@@ -5,7 +5,7 @@ use super::charge::{Blooming, Dark, NonUniformity, Smear, Trap};
 use super::efficiency::{QuantumEfficiency, check_channels, quantum_efficiency};
 use super::exposure::{AngleResponse, AutoExposure, Exchange};
 use super::hdr::{Companding, Hdr};
-use super::read_out::{Binning, OpticalBlack, Response, RtsNoise};
+use super::read_out::{Binning, OpticalBlack, Response, RtsNoise, Skipping};
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{flag, list, number, record, vector, whole};
@@ -76,6 +76,8 @@ record! {
         optional roi_px: Placed<[f64; 4]> = vector::<4>(number("px").at_least(0.0));
         /// Pixels that are read together. Default: each on its own.
         optional binning: Binning = record();
+        /// Pixels that are not read, so that the picture has fewer. Default: none.
+        optional skipping: Skipping = record();
         /// Several captures of a frame. Default: one.
         optional hdr: Hdr = record();
         /// Fewer bits by straight lines. Default: none.

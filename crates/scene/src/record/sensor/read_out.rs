@@ -63,6 +63,17 @@ record! {
     }
 }
 
+record! {
+    /// Pixels that are not read: of every `columns` × `rows` tiles of the filter array only the first is, in region and optical black alike.
+    pub struct Skipping {
+        /// Tiles beside each other of which one is read. Default: 1, no column is skipped.
+        optional columns: Placed<u64> = whole(1, 64);
+        /// Tiles below each other of which one is read; rows that are skipped take no time of a shutter that reads row after row.
+        /// Default: 1, no row is skipped.
+        optional rows: Placed<u64> = whole(1, 64);
+    }
+}
+
 choice! {
     /// What is put together.
     pub enum BinningOf {

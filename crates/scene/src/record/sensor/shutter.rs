@@ -25,7 +25,8 @@ record! {
 }
 
 record! {
-    /// A shutter whose rows are read in turn. Of a region ("roi_px") only its own rows take time.
+    /// A shutter whose rows are read in turn. Only rows that are read take time: those of a region ("roi_px"), and none that
+    /// "skipping" leaves out.
     pub struct Rows {
         /// Time from one row to the next, µs, 0 or more.
         required row_time_us: Placed<f64> = number("µs").at_least(0.0);
@@ -50,6 +51,15 @@ choice! {
 }
 
 impl Shutter {
+    /// Time from one row to the next; `None` where all rows are exposed together.
+    #[must_use]
+    pub fn row_time_us(&self) -> Option<&Placed<f64>> {
+        match self {
+            Self::Global(_) => None,
+            Self::Rolling(rows) | Self::GlobalReset(rows) => Some(&rows.row_time_us),
+        }
+    }
+
     /// Exposure time of a sensor without electronics, where it is given.
     #[must_use]
     pub fn exposure_s(&self) -> Option<&Placed<f64>> {
