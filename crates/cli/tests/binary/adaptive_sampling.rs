@@ -18,8 +18,7 @@ reflectance = 0.5
 [[scene.materials]]
 name = "light"
 type = "emitter"
-luminance_cd_m2 = 3000
-illuminant = "A"
+emission = { luminance_cd_m2 = 3000, illuminant = "A" }
 [[scene.objects]]
 name = "floor"
 shape = { type = "quad", size_m = [30, 30] }

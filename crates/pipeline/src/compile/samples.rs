@@ -4,7 +4,7 @@ use super::context::Context;
 use super::{Choices, Quality};
 use crate::plan::AdaptiveSampling;
 use etendue_scene::record::{Output, Render};
-use etendue_scene::stated;
+use etendue_scene::{Placed, stated};
 
 /// Independent replicates where nobody says how many.
 const REPLICATES: u64 = 4;
@@ -20,16 +20,16 @@ pub(super) struct Samples {
     /// Divide them.
     pub(super) replicates: u32,
     /// Where noise decides.
-    pub(super) limit: Option<AdaptiveSampling>,
+    pub(super) adaptive: Option<AdaptiveSampling>,
 }
 
 /// How many samples pixels get.
 pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<'_>) -> Samples {
     match render.threshold_in_force() {
-        Some(factor) => limited(factor.value, render, context),
+        Some(threshold) => adaptive(threshold, render, context),
         None => {
             let (spp, replicates) = even(render, choices, context);
-            Samples { spp, replicates, limit: None }
+            Samples { spp, replicates, adaptive: None }
         }
     }
 }
@@ -39,14 +39,8 @@ const DECIDING_REPLICATES: u64 = 8;
 const LEAST_DECIDING: u64 = 5;
 
 /// By noise.
-fn limited(factor: f64, render: &Render, context: &mut Context<'_>) -> Samples {
-    let replicates = render.replicates.as_ref().map_or(DECIDING_REPLICATES, |r| r.value);
-    if let Some(given) = render.replicates.as_ref().filter(|_| replicates < LEAST_DECIDING) {
-        let problem = format!("\"noise_threshold\" needs replicates that decide of each other, and found {replicates}");
-        context.fault(&given.place, problem, format!("give {LEAST_DECIDING} or more, or none: {DECIDING_REPLICATES}"));
-    }
-    let pilot = render.min_spp.as_ref().map_or_else(|| MIN_SPP.next_multiple_of(replicates), |spp| spp.value);
-    let max = render.max_spp.as_ref().map_or_else(|| MAX_SPP.max(pilot).next_multiple_of(replicates), |spp| spp.value);
+fn adaptive(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>) -> Samples {
+    let replicates = deciding(threshold, render, context);
     let keys = [("min_spp", &render.min_spp), ("max_spp", &render.max_spp)];
     for (key, given) in keys.into_iter().filter_map(|(key, given)| Some((key, given.as_ref()?))) {
         if given.value % replicates != 0 {
@@ -54,12 +48,27 @@ fn limited(factor: f64, render: &Render, context: &mut Context<'_>) -> Samples {
             context.fault(&given.place, problem, format!("give a \"{key}\" that is a multiple of the replicates"));
         }
     }
-    if let Some(given) = [&render.max_spp, &render.min_spp].into_iter().flatten().next().filter(|_| max < pilot) {
-        let problem = format!("at most {max} samples are fewer than the {pilot} that every pixel gets");
+    let said = |key: &Option<Placed<u64>>, default: u64| key.as_ref().map_or(default, |spp| spp.value);
+    let min = said(&render.min_spp, MIN_SPP.next_multiple_of(replicates));
+    let max = said(&render.max_spp, MAX_SPP.max(min).next_multiple_of(replicates));
+    if let Some(given) = render.max_spp.as_ref().or(render.min_spp.as_ref()).filter(|_| max < min) {
+        let problem = format!("at most {max} samples are fewer than the {min} that every pixel gets");
         context.fault(&given.place, problem, "give a larger \"max_spp\" or a smaller \"min_spp\"");
     }
-    let limit = AdaptiveSampling { threshold: factor, min_spp: pilot as u32 };
-    Samples { spp: max as u32, replicates: replicates as u32, limit: Some(limit) }
+    let adaptive = AdaptiveSampling { threshold: threshold.value, min_spp: min as u32 };
+    Samples { spp: max as u32, replicates: replicates as u32, adaptive: Some(adaptive) }
+}
+
+/// Replicates that decide of each other.
+fn deciding(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>) -> u64 {
+    let Some(given) = &render.replicates else { return DECIDING_REPLICATES };
+    if given.value >= LEAST_DECIDING {
+        return given.value;
+    }
+    let problem = format!("\"noise_threshold\" needs replicates that decide of each other, and found {}", given.value);
+    let remedy = format!("give {LEAST_DECIDING} or more, or none: {DECIDING_REPLICATES}");
+    context.idle(("replicates", &given.place), Some(&threshold.place), problem, &remedy);
+    DECIDING_REPLICATES
 }
 
 /// Samples a pixel and replicates; the replicates divide the samples.

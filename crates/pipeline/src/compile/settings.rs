@@ -186,13 +186,13 @@ pub(super) fn settings(
     choices: &Choices,
     context: &mut Context<'_>,
 ) -> Option<Settings> {
-    let Samples { spp, replicates, limit } = samples(render, choices, context);
+    let Samples { spp, replicates, adaptive } = samples(render, choices, context);
     products.variance &= has_variance(output, replicates, render, context);
     let route = route(render, body, depth_of_field, context)?;
     let (cube, folded) = accumulation(render, body, products, &route, context);
     let range_nm = range(render, body, cube);
     let bands = if cube { Some(bands(render, range_nm, context)?) } else { None };
-    check_size(body, &route, &Layout { bands, folded, watched: limit.is_some() }, context)?;
+    check_size(body, &route, &Layout { bands, folded, watched: adaptive.is_some() }, context)?;
     remark_losses(products, &route, folded, body, context);
     remark_margin(body, context);
     remark_bands(render, cube, context);
@@ -210,12 +210,9 @@ pub(super) fn settings(
         range_nm,
         bands,
         folded,
-        adaptive: limit,
-        tile_px: (render.tile_px.as_ref().map_or(TILE_PX, |t| t.value) as u32).next_multiple_of(if limit.is_some() {
-            cell_px(blocks)
-        } else {
-            blocks.tile_px(1)
-        }),
+        adaptive,
+        tile_px: (render.tile_px.as_ref().map_or(TILE_PX, |t| t.value) as u32)
+            .next_multiple_of(if adaptive.is_some() { cell_px(blocks) } else { blocks.tile_px(1) }),
         blocks,
         seed: render.seed.as_ref().map_or(0, |s| s.value),
     })

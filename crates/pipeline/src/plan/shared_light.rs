@@ -6,9 +6,8 @@
 //! light share one film: that of the first of them in the job, whose place is in the random addresses of all.
 
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, Route, Settings, TimeDependence, Timing};
-use crate::render::adaptive::Tolerance;
 use crate::render::spectrum_spread::SpectrumSpread;
-use crate::render::tolerance;
+use crate::render::{Tolerance, tolerance};
 use etendue_core::CameraPath;
 use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;

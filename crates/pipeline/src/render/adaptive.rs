@@ -10,60 +10,20 @@
 //! mean by which T is told are means of the pixel's own and of those of all pixels of its colour in its cell, as few replicates
 //! know them badly. Errors of stratified samples fall faster than 1/n: then the limit is kept with something to spare.
 
-use crate::plan::AdaptiveSampling;
 use crate::render::block::Blocks;
 use crate::render::gather::{Gather, Layout, PixelLight, Sums};
 use crate::render::light::{Asked, RaySource, RenderJob};
 use crate::render::tile::Tile;
+use crate::render::tolerance::Tolerance;
 use etendue_core::RadianceField;
 use etendue_core::random::Pixel;
-use etendue_sensor::TemporalNoise;
 
 /// Least side of a cell, px.
 const CELL_PX: u32 = 8;
-/// How many standard deviations of the mean a pixel lies above white before its error is let be.
-const SURELY_WHITE: f64 = 4.0;
-
 /// Side of the cells whose pixels know their noise together, px: they cut no block. Cells lie on a grid of the whole frame.
 #[must_use]
 pub fn cell_px(blocks: Blocks) -> u32 {
     blocks.tile_px(CELL_PX)
-}
-
-/// Which errors are let be.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Tolerance {
-    limit: AdaptiveSampling,
-    /// Where electrons are watched; else the pixel's own mean decides.
-    sensor: Option<TemporalNoise>,
-}
-
-impl Tolerance {
-    /// A part of the noise of a sensor; of each pixel's mean where there is none.
-    #[must_use]
-    pub fn new(limit: AdaptiveSampling, sensor: Option<TemporalNoise>) -> Self {
-        Self { limit, sensor }
-    }
-
-    /// The sensor's noise, where that is the measure.
-    #[must_use]
-    pub fn sensor(&self) -> Option<&TemporalNoise> {
-        self.sensor.as_ref()
-    }
-
-    /// The variance that a pixel's mean may have, in the square of the mean's unit: electrons a second where there is a sensor.
-    #[must_use]
-    pub fn variance(&self, mean: f64) -> f64 {
-        let factor = self.limit.threshold;
-        let Some(noise) = &self.sensor else { return factor * factor * mean * mean };
-        let exposure_s = noise.exposure_s();
-        if exposure_s == 0.0 {
-            return f64::INFINITY;
-        }
-        let mean_e = mean * exposure_s;
-        let beyond_e = (mean_e - noise.white_e()).max(0.0) / SURELY_WHITE;
-        (factor * factor * noise.variance_e2(mean_e)).max(beyond_e * beyond_e) / (exposure_s * exposure_s)
-    }
 }
 
 /// The samples of a block so far: sums of each replicate and pixel.
@@ -140,7 +100,7 @@ impl<S: RaySource> RenderJob<'_, S> {
         let layout = self.gathered();
         let mut asked = Asked::default();
         let replicates = self.sampling.replicates as usize;
-        let pilot = tolerance.limit.min_spp / self.sampling.replicates;
+        let pilot = tolerance.min_spp() / self.sampling.replicates;
         let empty =
             |block: Vec<Pixel>| Sampled { replicates: vec![vec![Sums::new(layout); block.len()]; replicates], block };
         let mut cell: Vec<Sampled> = self.blocks.of(cell).map(empty).collect();
@@ -171,7 +131,7 @@ impl<S: RaySource> RenderJob<'_, S> {
     /// How many samples a replicate of each block of a cell needs, as those that decide of it see it.
     fn needs(&self, cell: &[Sampled], replicate: usize, tolerance: &Tolerance) -> Vec<u32> {
         let replicates = self.sampling.replicates;
-        let pilot = tolerance.limit.min_spp / replicates;
+        let pilot = tolerance.min_spp() / replicates;
         let colour = |sampled: &Sampled| self.mosaic.map_or(0, |mosaic| mosaic.place(sampled.block[0]));
         let pilots: Vec<(usize, Vec<Pilot>)> =
             cell.iter().map(|sampled| (colour(sampled), sampled.pilots(replicate, pilot).collect())).collect();
@@ -192,6 +152,7 @@ impl<S: RaySource> RenderJob<'_, S> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::AdaptiveSampling;
     use crate::render::Shot;
     use crate::render::exposure::FilmExposure;
     use crate::render::film::Film;
@@ -314,16 +275,5 @@ mod tests {
     fn tiles_do_not_change_the_film() {
         let sparks = Sparks { strength: 5.0 };
         assert_eq!(film(&sparks, 0.2, 8), film(&sparks, 0.2, 32));
-    }
-
-    #[test]
-    fn a_sensor_lets_more_be_the_brighter_it_is_and_all_beyond_white() {
-        let noise = TemporalNoise::of_one_capture(0.5, 9.0, 1000.0);
-        let tolerance = Tolerance::new(AdaptiveSampling { threshold: 0.5, min_spp: 16 }, Some(noise));
-        // Electrons a second; the exposure is half a second.
-        let at = |mean: f64| tolerance.variance(mean);
-        assert!((at(0.0) - 0.25 * 9.0 * 4.0).abs() < 1e-9 && (at(200.0) - 0.25 * 109.0 * 4.0).abs() < 1e-9);
-        let far = 2.0 * 9000.0;
-        assert!((at(far) - 2000.0 * 2000.0 * 4.0).abs() < 1.0);
     }
 }

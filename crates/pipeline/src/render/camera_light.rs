@@ -1,7 +1,6 @@
 //! Rendering a camera's light.
 
 use crate::plan::{CameraBody, CameraPlan, Plan, Precipitation, Route, Settings};
-use crate::render::adaptive::Tolerance;
 use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
 use crate::render::gather::Layout;
@@ -11,6 +10,7 @@ use crate::render::near_precipitation::{near, seen_region};
 use crate::render::observer::Observer;
 use crate::render::spectrum_spread::SpectrumSpread;
 use crate::render::tile::Shard;
+use crate::render::tolerance::Tolerance;
 use etendue_core::PupilRay;
 use etendue_core::maths::f64::atan2;
 use etendue_optics::{Front, Lens, PupilProjection};

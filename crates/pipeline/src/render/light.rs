@@ -1,6 +1,5 @@
 //! The light of a frame: every pixel's samples sent into a radiance field and gathered on the film.
 
-use crate::render::adaptive::Tolerance;
 use crate::render::block::Blocks;
 use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
@@ -9,6 +8,7 @@ use crate::render::mosaic::{Mosaic, Site};
 use crate::render::observer::Observer;
 use crate::render::spectrum_spread::{Heroes, SpectrumSpread};
 use crate::render::tile::{Shard, Tile, tiles};
+use crate::render::tolerance::Tolerance;
 use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_core::{FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
 use glam::DVec2;

@@ -32,9 +32,11 @@ pub mod spectrum_spread;
 #[cfg(test)]
 mod test_scenes;
 pub mod tile;
+mod tolerance;
 pub mod truth;
 pub mod weather_layers;
 
 pub use camera_light::{Request, change_over, layout, light, light_counts, tolerance};
 pub use exposure::Shot;
 pub(crate) use near_precipitation::region_of_projection;
+pub use tolerance::Tolerance;

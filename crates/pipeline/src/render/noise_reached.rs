@@ -1,7 +1,7 @@
 //! How far a film that noise limits has come: samples, errors, and what is short of the limit.
 
-use crate::render::adaptive::Tolerance;
 use crate::render::film::Film;
+use crate::render::tolerance::Tolerance;
 
 /// What became of a limit of noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +25,6 @@ impl NoiseReached {
         let (mut samples, mut range, mut squares, mut short, mut count) = (0.0, (u32::MAX, 0), 0.0, 0.0, 0.0);
         let light = watched.mean.samples().iter().zip(watched.variance.samples());
         for (n, (mean, variance)) in film.samples.samples().iter().zip(light).filter(|(n, _)| **n > 0) {
-            // Beyond the limit by no fault of the limit's: no light at all.
             let tolerated = tolerance.variance(f64::from(*mean));
             let excess = if *variance == 0.0 { 0.0 } else { f64::from(*variance) / tolerated };
             (samples, count, squares) = (samples + f64::from(*n), count + 1.0, squares + excess);
