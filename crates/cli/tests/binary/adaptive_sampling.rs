@@ -92,13 +92,13 @@ fn the_limit_is_reached_and_told() {
     let output = text(&place.path().join("out"));
     let ran = etendue(["render", &job, "-o", &output, "--noise", "0.2"]).ok();
     assert!(ran.err.contains("--noise 0.2 supersedes") && ran.err.contains("spp"), "{}", ran.err);
-    assert!(ran.err.contains("samples a pixel (16 to") && ran.err.contains("of the sensor's noise"), "{}", ran.err);
+    assert!(ran.err.contains("samples a pixel (") && ran.err.contains("of the sensor's noise"), "{}", ran.err);
     assert!(!ran.err.contains("still noisier"), "{}", ran.err);
     let file = read_exr(&Path::new(&output).join("front/sampling.exr")).expect("layers");
     let (light, sensor) = (floats(&file, "monte_carlo_variance"), floats(&file, "sensor_variance"));
     let Some(Samples::Uint(samples)) = file.channel("samples") else { panic!("samples") };
     let (least, most) = (samples.iter().min(), samples.iter().max());
-    assert!(least == Some(&16) && most > Some(&64), "{least:?} {most:?}");
+    assert!(least >= Some(&16) && least < Some(&64) && most > Some(&640), "{least:?} {most:?}");
     let ratio: Vec<f64> = light.iter().zip(&sensor).map(|(a, b)| a / b).collect();
     // The limit is 0.04; samples that are stratified do better, and no pixel gets fewer than 16.
     assert!((0.003..0.044).contains(&mean(&ratio)), "{}", mean(&ratio));
