@@ -117,7 +117,7 @@ fn streaks_over_stored_radiance() {
     refused(&RAIN.replace("exposure_s = 0.01\n", ""), &["weather.toml:6", "precipitation", "exposure_s"]);
     refused(&RAIN.replace("0.01\n[a", "-1\n[a"), &["weather.toml:2", "exposure_s", "-1"]);
     refused(&RAIN.replace("= 100", "= 400"), &["weather.toml:9", "400 mm/h", "0.1 to 150"]);
-    refused(&RAIN.replace("smallest_px = 0.05", "crystals = \"rimed\""), &["weather.toml:9", "crystals"]);
+    refused(&RAIN.replace("smallest_px = 0.05", "crystals = \"rimed\""), &["weather.toml:10", "crystals"]);
     let (head, _) = RAIN.split_once("[precipitation]").expect("it has one");
     refused(head, &["weather.toml:2", "\"exposure_s\" has no effect", "precipitation"]);
     refused(&head.replace("exposure_s = 0.01\n", ""), &["weather.toml", "no weather", "fog"]);
