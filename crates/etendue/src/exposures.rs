@@ -52,31 +52,37 @@ impl<'a> Exposures<'a> {
         let film = light(self.plan, camera, Request { shot, simd: self.simd, shard: self.shard }, &tiles);
         self.done += tile_count(camera, self.shard);
         let film = film.map_err(|cancelled| Error::Run(cancelled.to_string()))?;
-        self.tell_noise(camera, &film);
+        self.tell_noise(&place(camera, shot), camera, &film);
         Ok(film)
     }
 
     /// Where noise decided the samples: how many it took, and whether the limit was reached.
-    fn tell_noise(&self, camera: &CameraPlan, film: &Film) {
+    fn tell_noise(&self, place: &str, camera: &CameraPlan, film: &Film) {
         let Some((limit, tolerance)) = camera.settings.adaptive.zip(tolerance(camera)) else { return };
         let Some(reached) = NoiseReached::of(film, &tolerance, camera.settings.spp) else { return };
         let of = if tolerance.sensor().is_some() { "the sensor's noise" } else { "the pixel's mean" };
         let (fewest, most) = reached.range_spp;
         self.observer.message(Message::Note(&format!(
-            "camera {}: {:.1} samples a pixel ({fewest} to {most}); standard error {:.3} of {of} (root mean square; asked for {})",
-            camera.name,
+            "{place}: {:.1} samples a pixel ({fewest} to {most}); standard error {:.3} of {of} (root mean square; asked for {})",
             reached.mean_spp,
             limit.threshold * reached.error,
             limit.threshold
         )));
         if reached.short > 0.0 {
             self.observer.message(Message::Warning(&format!(
-                "camera {}: {:.2} % of the pixels got {most} samples and are still noisier than {} of {of}; give a larger \"max_spp\"",
-                camera.name,
+                "{place}: {:.2} % of the pixels are still noisier than {} of {of} with at most {most} samples; give a larger \"max_spp\"",
                 100.0 * reached.short,
                 limit.threshold
             )));
         }
+    }
+}
+
+/// Which film, in words.
+fn place(camera: &CameraPlan, shot: Shot) -> String {
+    match camera.time {
+        TimeDependence::None => format!("camera {}", camera.name),
+        _ => format!("camera {}, frame {}, capture {}", camera.name, shot.frame, shot.capture),
     }
 }
 

@@ -68,6 +68,13 @@ impl Sensor {
         Cow::Owned(self.rate_responsivities())
     }
 
+    /// Whether light of a pixel changes the numbers of others: by blooming, smear or crosstalk.
+    #[must_use]
+    pub fn spills(&self) -> bool {
+        let p = &self.parameters;
+        p.charge.full_well.blooming.is_some() || p.light.smear.is_some() || p.light.crosstalk.is_some()
+    }
+
     /// The channel of the pixel in column `x`, row `y`.
     #[must_use]
     pub fn channel_at(&self, x: usize, y: usize) -> usize {

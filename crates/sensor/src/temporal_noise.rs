@@ -25,8 +25,8 @@ struct CaptureNoise {
     wells: f64,
     /// Variance of all but the signal's shot noise, e⁻² of its own, at the signal 0.
     dark_e2: f64,
-    /// Signal of a pixel at which it is white, e⁻ of the described exposure.
-    white_e: f64,
+    /// Signal of a pixel up to which it is read, e⁻ of the described exposure: to white, or to the switch to the next one.
+    up_to_e: f64,
 }
 
 impl Sensor {
@@ -38,13 +38,15 @@ impl Sensor {
         let point = most_sensitive(p);
         let wells = p.wells_read();
         let controlled = p.exposure.control.is_some();
-        let of = |reading: &Reading<'_>| CaptureNoise {
+        let of = |(reading, fraction): (&Reading<'_>, f64)| CaptureNoise {
             light: reading.light,
             wells,
             dark_e2: if p.noise { reading.dark_variance_e2(0.0) } else { reading.quantisation_e2() },
-            white_e: if controlled { f64::INFINITY } else { reading.signal_e(1.0) / wells },
+            up_to_e: if controlled { f64::INFINITY } else { reading.signal_e(fraction) / wells },
         };
-        let captures = readings(p, point).iter().map(of).collect();
+        let readings = readings(p, point);
+        let switches = std::iter::repeat_n(p.hdr.switch(), readings.len() - 1).chain([1.0]);
+        let captures = readings.iter().zip(switches).map(of).collect();
         TemporalNoise { captures, exposure_s: p.exposure.exposure_s, counts: p.noise }
     }
 }
@@ -61,15 +63,26 @@ impl TemporalNoise {
     /// That of one capture of `exposure_s` with photon noise and a constant variance (e⁻²), white at `white_e` electrons.
     #[must_use]
     pub fn of_one_capture(exposure_s: f64, dark_e2: f64, white_e: f64) -> Self {
-        Self { captures: vec![CaptureNoise { light: 1.0, wells: 1.0, dark_e2, white_e }], exposure_s, counts: true }
+        Self {
+            captures: vec![CaptureNoise { light: 1.0, wells: 1.0, dark_e2, up_to_e: white_e }],
+            exposure_s,
+            counts: true,
+        }
+    }
+
+    /// The same of a sensor that no light saturates.
+    #[must_use]
+    pub fn never_white(mut self) -> Self {
+        self.captures.iter_mut().for_each(|capture| capture.up_to_e = f64::INFINITY);
+        self
     }
 
     /// Variance of the signal of a pixel of `mean_e` electrons of the described exposure (below 0: as 0), e⁻² of that exposure: that
-    /// of the most sensitive capture that is not white. Of pixels that are read together each has its share.
+    /// of the capture that is read there. Of pixels that are read together each has its share.
     #[must_use]
     pub fn variance_e2(&self, mean_e: f64) -> f64 {
         let mean_e = mean_e.max(0.0);
-        let capture = self.captures.iter().find(|capture| mean_e < capture.white_e).or(self.captures.last());
+        let capture = self.captures.iter().find(|capture| mean_e < capture.up_to_e).or(self.captures.last());
         capture.map_or(0.0, |c| {
             let shot_e2 = if self.counts { mean_e * c.light } else { 0.0 };
             (shot_e2 + c.dark_e2 / c.wells) / (c.light * c.light)
@@ -79,7 +92,7 @@ impl TemporalNoise {
     /// The signal of a pixel, e⁻ of the described exposure, from which on every capture is white.
     #[must_use]
     pub fn white_e(&self) -> f64 {
-        self.captures.iter().map(|capture| capture.white_e).fold(0.0, f64::max)
+        self.captures.last().map_or(0.0, |capture| capture.up_to_e)
     }
 
     /// The described exposure, s.

@@ -112,7 +112,11 @@ fn what_is_short_of_the_limit_is_told() {
     let job = job(place.path(), "noise_threshold = 0.01\nmax_spp = 32\n");
     let output = text(&place.path().join("out"));
     let ran = etendue(["render", &job, "-o", &output]).ok();
-    assert!(ran.err.contains("% of the pixels got 32 samples and are still noisier than 0.01"), "{}", ran.err);
+    assert!(
+        ran.err.contains("% of the pixels are still noisier than 0.01 of the sensor's noise with at most 32 samples"),
+        "{}",
+        ran.err
+    );
 }
 
 #[test]

@@ -12,7 +12,7 @@ use etendue_sensor::Sensor;
 pub struct SamplingPlanes {
     /// Samples of each pixel.
     pub samples: Plane<Identity>,
-    /// Variance of each pixel's mean by its samples, e⁻² of the described exposure; (W/m²)² where no electrons are made. `None` where neither
+    /// Variance of each pixel's mean by its samples, e⁻² of the described exposure; (W/m²)² of irradiance where no electrons are made, (W·m⁻²·sr⁻¹)² of radiance at the pupil. `None` where neither
     /// electrons are summed nor noise is watched, NaN where a single replicate knows none.
     pub monte_carlo: Option<Plane<Variance>>,
     /// Variance of a pixel's signal from frame to frame by the sensor ([`etendue_sensor::TemporalNoise`]), e⁻² of the described exposure. `None`

@@ -197,7 +197,8 @@ pub(super) fn settings(
     remark_margin(body, context);
     remark_bands(render, cube, context);
     let level = level(render);
-    let blocks = blocks(level, render, body, folded);
+    let is_watched = adaptive.is_some() && route == Route::Lens;
+    let blocks = blocks(level, render, body, folded || is_watched);
     Some(Settings {
         spp,
         replicates,
@@ -250,10 +251,10 @@ fn max_bounces(level: Level, render: &Render, choices: &Choices) -> u32 {
     }
 }
 
-/// Pixels that share tails. They carry the same wavelengths: where electrons are folded, they have one colour.
-fn blocks(level: Level, render: &Render, body: &CameraBody, folded: bool) -> Blocks {
+/// Pixels that share tails. They carry the same wavelengths: where these are drawn `by_colour`, they have one colour.
+fn blocks(level: Level, render: &Render, body: &CameraBody, by_colour: bool) -> Blocks {
     let Some(side) = render.path_reuse_px.as_ref().filter(|_| level == Level::Path) else { return Blocks::SINGLE };
-    let filter = body.sensor.as_ref().filter(|_| folded).map(|sensor| &sensor.parameters().cfa);
+    let filter = body.sensor.as_ref().filter(|_| by_colour).map(|sensor| &sensor.parameters().cfa);
     let stride = filter.map_or((1, 1), |cfa| (cfa.width() as u32, (cfa.channels().len() / cfa.width()) as u32));
     Blocks::new(side.value as u32, stride)
 }

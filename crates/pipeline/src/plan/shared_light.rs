@@ -2,7 +2,7 @@
 //!
 //! The light of a camera depends on where the camera stands, on its lens and what stands before it, on its film, on how light is
 //! sampled and kept, and, where pixels fold electrons, on their response to a second of light. It does not depend on
-//! the exposure (but where something moves or flickers), noise, converter, effects behind the lens (but for the margin that they need) or processing. Cameras of equal
+//! the exposure (but where something moves or flickers), noise (but where samples are adaptive), converter, effects behind the lens (but for the margin that they need) or processing. Cameras of equal
 //! light share one film: that of the first of them in the job, whose place is in the random addresses of all.
 
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, Route, Settings, TimeDependence, Timing};

@@ -136,7 +136,8 @@ impl<S: RaySource> RenderJob<'_, S> {
         let pilots: Vec<(usize, Vec<Pilot>)> =
             cell.iter().map(|sampled| (colour(sampled), sampled.pilots(replicate, pilot).collect())).collect();
         let need = |(colour, pixels): &(usize, Vec<Pilot>)| {
-            let cell = Pilot::mean_of(pilots.iter().filter(|(c, _)| c == colour).flat_map(|(_, pixels)| pixels));
+            let alike = pilots.iter().filter(|(c, _)| c == colour).flat_map(|(_, pixels)| pixels);
+            let cell = Pilot::mean_of(alike.filter(|pilot| pilot.variance.is_finite()));
             let times = |pixel: &Pilot| {
                 let pilot = Pilot::mean_of([pixel, &cell].into_iter());
                 pilot.variance / (f64::from(replicates) * tolerance.variance(pilot.mean))

@@ -124,7 +124,8 @@ fn through<S: RaySource>(
         .with_near(near.as_ref());
     let settings = &camera.settings;
     let sensor = camera.body.sensor.as_ref().filter(|_| settings.folded || watches_electrons(settings));
-    let mosaic = sensor.map(|sensor| Mosaic::of(sensor, settings.range_nm, settings.bands.is_some()));
+    let mosaic =
+        sensor.map(|sensor| Mosaic::of(sensor, settings.range_nm, settings.bands.is_some()).beyond(margin_px(camera)));
     let job = render_job((camera, rows), request, source, mosaic.as_ref());
     match settings.wavelengths {
         1 => job.gather::<1>(&tracer, observer),
@@ -160,7 +161,25 @@ pub fn tolerance(camera: &CameraPlan) -> Option<Tolerance> {
     let settings = &camera.settings;
     let limit = settings.adaptive?;
     let sensor = camera.body.sensor.as_ref().filter(|_| watches_electrons(settings));
-    Some(Tolerance::new(limit, sensor.map(Sensor::temporal_noise)))
+    let noise = sensor.map(|sensor| match light_stays(camera, sensor) {
+        true => sensor.temporal_noise(),
+        false => sensor.temporal_noise().never_white(),
+    });
+    Some(Tolerance::new(limit, noise))
+}
+
+/// Whether nothing but a pixel's own number shows how bright it is beyond white: no effect spreads its light, no charge flows over, and
+/// no spectrum is kept.
+fn light_stays(camera: &CameraPlan, sensor: &Sensor) -> bool {
+    camera.body.effects.is_idle() && camera.settings.bands.is_none() && !sensor.spills()
+}
+
+/// Columns and rows of a camera's film before its picture.
+fn margin_px(camera: &CameraPlan) -> [usize; 2] {
+    match camera.settings.route {
+        Route::Lens => camera.body.effects.margin_px(),
+        Route::Pupil(_) => [0, 0],
+    }
 }
 
 pub(super) fn region_and_change_over<'a, S: RaySource>(

@@ -32,6 +32,8 @@ pub struct Site {
 #[derive(Clone, Debug)]
 pub struct Mosaic {
     columns: usize,
+    /// Columns and rows of the film before the first of the sensor.
+    margin_px: [usize; 2],
     sites: Vec<Site>,
 }
 
@@ -46,10 +48,16 @@ impl Mosaic {
             let responsivity = rates[*channel].clone();
             Site { density: density(&responsivity, range_nm, uniform_share), responsivity }
         };
-        Self { columns: cfa.width(), sites: cfa.channels().iter().map(site).collect() }
+        Self { columns: cfa.width(), margin_px: [0, 0], sites: cfa.channels().iter().map(site).collect() }
     }
 
-    /// The site that `pixel` has.
+    /// The same for a film that begins `margin_px` columns and rows before the sensor.
+    #[must_use]
+    pub fn beyond(self, margin_px: [usize; 2]) -> Self {
+        Self { margin_px, ..self }
+    }
+
+    /// The site that `pixel` of the film has.
     #[must_use]
     pub fn at(&self, pixel: Pixel) -> &Site {
         &self.sites[self.place(pixel)]
@@ -59,7 +67,10 @@ impl Mosaic {
     #[must_use]
     pub fn place(&self, pixel: Pixel) -> usize {
         let rows = self.sites.len() / self.columns;
-        (pixel.y as usize % rows) * self.columns + pixel.x as usize % self.columns
+        let [x, y] = self.margin_px;
+        let column = (pixel.x as usize + self.columns - x % self.columns) % self.columns;
+        let row = (pixel.y as usize + rows - y % rows) % rows;
+        row * self.columns + column
     }
 }
 
@@ -88,6 +99,18 @@ mod tests {
         let (inside, outside) = (300.0 * density.pdf(550.0), 300.0 * density.pdf(430.0));
         // A third of the range holds three quarters of the density beside a quarter spread evenly.
         assert!((inside - (0.25 + 0.75 * 3.0)).abs() < 0.05 && (outside - 0.25).abs() < 0.01, "{inside} {outside}");
+    }
+
+    #[test]
+    fn a_margin_moves_the_tile() {
+        let site = || Site {
+            responsivity: Spectrum::constant(1.0),
+            density: density(&Spectrum::constant(1.0), (400.0, 700.0), 0.5),
+        };
+        let mosaic =
+            Mosaic { columns: 2, margin_px: [0, 0], sites: vec![site(), site(), site(), site()] }.beyond([3, 2]);
+        let places = |x: u32, y: u32| mosaic.place(Pixel { x, y });
+        assert_eq!([places(3, 2), places(4, 2), places(3, 3), places(0, 0), places(1, 1)], [0, 1, 2, 1, 2]);
     }
 
     #[test]

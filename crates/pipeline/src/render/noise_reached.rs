@@ -12,7 +12,7 @@ pub struct NoiseReached {
     pub range_spp: (u32, u32),
     /// Standard error over what is tolerated: the root of the mean square over all pixels with samples. 1 at the limit.
     pub error: f64,
-    /// Share of the pixels that got the most samples that there are and whose error is still beyond the limit.
+    /// Share of the pixels that got more than half of the most samples and whose error is still beyond the limit.
     pub short: f64,
 }
 
@@ -27,9 +27,12 @@ impl NoiseReached {
         for (n, (mean, variance)) in film.samples.samples().iter().zip(light).filter(|(n, _)| **n > 0) {
             let tolerated = tolerance.variance(f64::from(*mean));
             let excess = if *variance == 0.0 { 0.0 } else { f64::from(*variance) / tolerated };
+            if !excess.is_finite() {
+                continue;
+            }
             (samples, count, squares) = (samples + f64::from(*n), count + 1.0, squares + excess);
             range = (range.0.min(*n), range.1.max(*n));
-            short += f64::from(u8::from(*n >= max_spp && excess > 1.0));
+            short += f64::from(u8::from(2 * u64::from(*n) > u64::from(max_spp) && excess > 1.0));
         }
         (count > 0.0).then(|| Self {
             mean_spp: samples / count,

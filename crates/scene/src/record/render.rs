@@ -231,7 +231,16 @@ impl Render {
     /// What this record says, and `base` where it is silent.
     #[must_use]
     pub fn over(&self, base: &Self) -> Self {
-        let (a, b) = (self.clone(), base.clone());
+        let (mut a, mut b) = (self.clone(), base.clone());
+        // One's own choice between as many samples everywhere and as many as noise asks for.
+        if a.noise_threshold.is_some() {
+            b.spp = b.spp.filter(|spp| spp.place.is_command_line());
+        } else if a.spp.is_some() && b.noise_threshold.as_ref().is_some_and(|limit| !limit.place.is_command_line()) {
+            (b.noise_threshold, b.min_spp, b.max_spp) = (None, None, None);
+        }
+        if b.noise_threshold.as_ref().is_some_and(|limit| limit.place.is_command_line()) {
+            a.noise_threshold = None;
+        }
         Self {
             place: a.place,
             spp: a.spp.or(b.spp),

@@ -12,7 +12,7 @@ pub struct PathSettings {
     pub max_bounces: u32,
     /// Scattering events after which paths may end at random.
     pub roulette_start: u32,
-    /// Samples of a replicate: paths that share their tails take turns over them.
+    /// Samples of a replicate, or of a run of them where their number is not known before: paths that share their tails take turns over them.
     pub samples: u32,
     /// Full angle of the cone that a camera ray stands for, rad: that of a pixel over the root of its samples. Chooses the
     /// resolution of textures.

@@ -101,7 +101,9 @@ impl Followed {
         let parts = parts(rays.len());
         let stream = &rays[0].stream;
         let first = (stream.with_sample(0).one(Draw::Followed, 0) * parts as f32) as usize;
-        let turn = u64::from(stream.sample() % samples) * parts as u64 / u64::from(samples);
+        let (run, place) = (stream.sample() / samples, stream.sample() % samples);
+        // Runs of fewer samples than parts begin one part on each.
+        let turn = u64::from(place) * parts as u64 / u64::from(samples) + u64::from(run);
         Self { parts, part: (first + turn as usize) % parts }
     }
 
@@ -230,4 +232,28 @@ fn may_be_first<const N: usize>(path: &Path<'_, N>, vertex: &Vertex<'_, N>) -> b
     let scatters = !vertex.bsdf.is_delta() && !matches!(vertex.bsdf, Bsdf::Absorber);
     let in_air = path.medium.is_clear() && path.tracer.material_table.solid(vertex.material).is_none();
     path.bounces == 0 && scatters && in_air
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_core::random::{FrameAddress, PathStream, Pixel, PixelAddress};
+    use etendue_core::{Ray, TimeInterval};
+    use glam::Vec3;
+
+    /// Runs of 1, 2, 4 and 16 samples, of which those of one or two are shorter than the number of parts.
+    #[test]
+    fn every_part_has_its_turns_however_short_runs_are() {
+        let frame = FrameAddress { seed: 3, ..FrameAddress::default() };
+        let address = PixelAddress { frame, pixel: Pixel { x: 4, y: 2 }, replicate: 1 };
+        for samples in [1, 2, 4, 16] {
+            let mut turns = [0; PARTS];
+            for sample in 0..64 {
+                let stream = PathStream::new(&address, sample);
+                let ray = FieldRay { ray: Ray::new(Vec3::ZERO, Vec3::Z, 0.0), stream, lit: TimeInterval::default() };
+                turns[Followed::of(&[ray; 16], samples).part] += 1;
+            }
+            assert_eq!(turns, [64 / PARTS; PARTS], "{samples}");
+        }
+    }
 }

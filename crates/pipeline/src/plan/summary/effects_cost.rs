@@ -8,6 +8,7 @@
 
 use crate::camera::defocus::{margin_px, whole_margin_px};
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
+use crate::render::weather_layers;
 use etendue_core::Bands;
 use etendue_optics::effects::{Effect, OperationCounts};
 use etendue_optics::ghosts;
@@ -168,7 +169,7 @@ fn truth(camera: &CameraPlan) -> f64 {
 /// Layers of weather: paths for the airlight and rays for both shares.
 fn weather(camera: &CameraPlan) -> f64 {
     let (width, height) = camera.film_size();
-    let samples = f64::from(width) * f64::from(height) * f64::from(camera.settings.spp);
+    let samples = f64::from(width) * f64::from(height) * f64::from(weather_layers::spp(camera));
     if camera.products.weather { samples * (PATH_CPU_S + 2.0 * TRUTH_S) } else { 0.0 }
 }
 

@@ -6,8 +6,8 @@
 //! - **Cover**: the share of a pixel, its pupil and its exposure before whose first surface a drop or flake is.
 //! - **Airlight**: the part of the spectral radiance that media scattered into the pixel's rays before they met a surface, a drop or a flake.
 //!
-//! They are means over the samples of the light itself, with its random addresses: the airlight's error is that of the light, and light less airlight is
-//! what comes from surfaces. In the raster of the film, without what the effects behind the lens do. Where surfaces are cut out they are there as in
+//! They are means over as many samples as the light has, with its random addresses (wavelengths are drawn evenly here, and where the light's samples
+//! are adaptive there are 64): light less airlight is, but for noise, what comes from surfaces. In the raster of the film, without what the effects behind the lens do. Where surfaces are cut out they are there as in
 //! ground truth: where at least half of them is.
 
 use crate::plan::{CameraPlan, Plan, Settings};
@@ -97,7 +97,7 @@ impl SourceJob for LayersJob<'_> {
 }
 
 /// Samples a pixel: those of the light; where these are adaptive, 64, or as many as every pixel has.
-fn spp(camera: &CameraPlan) -> u32 {
+pub(crate) fn spp(camera: &CameraPlan) -> u32 {
     let Settings { spp, replicates, adaptive, .. } = camera.settings;
     adaptive.map_or(spp, |adaptive| adaptive.min_spp.max(64).next_multiple_of(replicates))
 }
