@@ -152,6 +152,20 @@ fn noise_of_no_amplitude_is_even() {
     assert_eq!(uneven(even.clone(), 0.0), even);
 }
 
+/// A box and a ball about all that is lit hold the fog that is everywhere: what lies beyond sends exp(−50) back.
+#[test]
+fn fog_about_the_whole_scene_is_that_everywhere() {
+    let mut scene = Scene::default();
+    let wall = scene.material(Surface::Absorber, Some((2.0, EmissionSides::Both)));
+    scene.square(Vec3::new(0.0, 0.0, 50.0), 30.0, wall);
+    let ready = scene.ready();
+    let settings = PathSettings { max_bounces: 8, ..PathSettings::default() };
+    let of = |shape| look(&ready, &[fog(0.05, 0.8, FORWARD, shape)], &up(), 1024, settings);
+    let everywhere = of(Region::Everywhere);
+    agree(&everywhere, &of(Region::Box { half_m: DVec3::splat(1000.0) }));
+    agree(&everywhere, &of(Region::Ball { radius_m: 1000.0 }));
+}
+
 /// Light of a point lamp scattered once, against ∫ β exp(−β (t + d)) p(cos) I/d² dt by Simpson's rule: within 1 %, and three standard errors.
 #[test]
 fn light_of_a_lamp_scattered_once() {
