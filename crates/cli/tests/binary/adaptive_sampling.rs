@@ -138,7 +138,10 @@ fn samples_are_even_or_as_noise_says_but_not_both() {
     let place = place();
     let limited = job(place.path(), "noise_threshold = 0.5\n");
     let plan = etendue(["plan", &limited]).ok().out;
-    assert!(plan.contains("16 to 4096 samples, until a pixel's error is 0.5 of the sensor's noise"), "{plan}");
+    assert!(
+        plan.contains("16 to 4096 samples a pixel in 8 replicates, until its error is 0.5 of the sensor's noise"),
+        "{plan}"
+    );
     let even = etendue(["plan", &limited, "--spp", "32"]).ok();
     assert!(even.out.contains("32 samples a pixel in 4 replicates"), "{}", even.out);
     assert!(even.err.contains("--spp 32 supersedes") && even.err.contains("noise_threshold"), "{}", even.err);

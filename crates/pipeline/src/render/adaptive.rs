@@ -13,6 +13,7 @@
 use crate::render::block::Blocks;
 use crate::render::gather::{Gather, Layout, PixelLight, Sums};
 use crate::render::light::{Asked, RaySource, RenderJob};
+use crate::render::mosaic::Mosaic;
 use crate::render::tile::Tile;
 use crate::render::tolerance::Tolerance;
 use etendue_core::RadianceField;
@@ -135,11 +136,15 @@ impl<S: RaySource> RenderJob<'_, S> {
         let colour = |sampled: &Sampled| self.mosaic.map_or(0, |mosaic| mosaic.place(sampled.block[0]));
         let pilots: Vec<(usize, Vec<Pilot>)> =
             cell.iter().map(|sampled| (colour(sampled), sampled.pilots(replicate, pilot).collect())).collect();
+        let of_cell = |colour: usize| {
+            let alike = pilots.iter().filter(|(c, _)| *c == colour).flat_map(|(_, pixels)| pixels);
+            Pilot::mean_of(alike.filter(|pilot| pilot.variance.is_finite()))
+        };
+        let cells: Vec<Pilot> = (0..self.mosaic.map_or(1, Mosaic::places)).map(of_cell).collect();
         let need = |(colour, pixels): &(usize, Vec<Pilot>)| {
-            let alike = pilots.iter().filter(|(c, _)| c == colour).flat_map(|(_, pixels)| pixels);
-            let cell = Pilot::mean_of(alike.filter(|pilot| pilot.variance.is_finite()));
+            let cell = &cells[*colour];
             let times = |pixel: &Pilot| {
-                let pilot = Pilot::mean_of([pixel, &cell].into_iter());
+                let pilot = Pilot::mean_of([pixel, cell].into_iter());
                 pilot.variance / (f64::from(replicates) * tolerance.variance(pilot.mean))
             };
             let most = pixels.iter().map(times).fold(0.0, f64::max);

@@ -63,6 +63,12 @@ impl Mosaic {
         &self.sites[self.place(pixel)]
     }
 
+    /// Pixels of the tile.
+    #[must_use]
+    pub fn places(&self) -> usize {
+        self.sites.len()
+    }
+
     /// The place of `pixel` in the tile, row by row.
     #[must_use]
     pub fn place(&self, pixel: Pixel) -> usize {

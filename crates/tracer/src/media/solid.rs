@@ -162,8 +162,14 @@ impl Node {
     fn is_met(&self, origin: DVec3, inverse: DVec3) -> bool {
         let (mut from, mut to) = (0.0_f64, f64::INFINITY);
         for axis in 0..3 {
+            if inverse[axis].is_infinite() {
+                // Along two of the sides; 0 · ∞ in the plane of one says nothing.
+                if origin[axis] < self.low[axis] || origin[axis] > self.high[axis] {
+                    return false;
+                }
+                continue;
+            }
             let [a, b] = [self.low, self.high].map(|side| (side[axis] - origin[axis]) * inverse[axis]);
-            // NaN, of a ray in the plane of a side, leaves the others to say.
             (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
         }
         from <= to * (1.0 + 1e-12)

@@ -152,19 +152,20 @@ fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
 
 fn samples(camera: &CameraPlan) -> String {
     let s = &camera.settings;
+    let replicates = count(s.replicates as usize, "replicate");
     match s.adaptive {
-        None => count(s.spp as usize, "sample"),
+        None => format!("{} a pixel in {replicates}", count(s.spp as usize, "sample")),
         Some(AdaptiveSampling { threshold, min_spp }) => {
             let by_sensor = s.route == Route::Lens && camera.body.sensor.is_some();
             let of = if by_sensor { "the sensor's noise" } else { "its mean" };
-            format!("{min_spp} to {} samples, until a pixel's error is {threshold} of {of};", s.spp)
+            format!("{min_spp} to {} samples a pixel in {replicates}, until its error is {threshold} of {of}", s.spp)
         }
     }
 }
 
 fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let s = &camera.settings;
-    let samples = format!("{} a pixel in {}", samples(camera), count(s.replicates as usize, "replicate"));
+    let samples = samples(camera);
     let alone =
         if s.wavelengths == 1 && camera.body.disperses() { ", as the lens treats each differently" } else { "" };
     let wavelengths = count(s.wavelengths as usize, "wavelength");
