@@ -21,14 +21,14 @@ pub enum FileKind {
     Weather,
 }
 
-/// The JSON Schema (draft 2020-12) of a kind of file. That of scenes and cameras is a choice: a file with a `base` ("then")
+/// The JSON Schema (draft 2020-12) of a kind of file. That of jobs, scenes and cameras is a choice: a file with a `base` ("then")
 /// may leave out what the base says, all others ("else") are whole.
 #[must_use]
 pub fn schema(kind: FileKind) -> Json {
     match kind {
         FileKind::Scene => based::<Scene>("Étendue scene"),
         FileKind::Camera => based::<Camera>("Étendue camera"),
-        FileKind::Job => unbased::<Job>("Étendue job"),
+        FileKind::Job => based::<Job>("Étendue job"),
         FileKind::DataSheet => unbased::<DataSheet>("EMVA 1288 data sheet"),
         FileKind::Weather => unbased::<Weather>("Étendue weather"),
     }

@@ -1,10 +1,10 @@
 //! Files that build on another: `base = "other.toml"`.
 //!
-//! A scene or a camera file may name a base of its own kind and say only what differs. What it says is laid over the
+//! A job, a scene or a camera file may name a base of its own kind and say only what differs. What it says is laid over the
 //! base's tree before any key is looked at:
 //! - a table is laid over the base's key by key, but one that says its `type` replaces the base's as a whole;
 //! - of lists whose entries have names, an entry takes the place of the base's of the same name; others follow at the
-//!   end;
+//!   end; a camera of a job is laid over the base's of its name;
 //! - any other value replaces the base's.
 //!
 //! `remove = ["lights.sun", "environment"]` first takes entries out of the base. A base may have a base.
@@ -104,11 +104,12 @@ fn merge(under: &mut Node, over: Node) {
         (Value::Table(base), Value::Table(table)) if !says_its_kind(&table) => {
             under.place = over.place;
             table.entries.into_iter().for_each(|entry| match base.get_mut(&entry.key) {
+                Some(node) if entry.key == LAID_OVER => merge_entries(node, entry.node, merge),
                 Some(node) => merge(node, entry.node),
                 None => base.entries.push(entry),
             });
         }
-        (Value::List(base), Value::List(list)) if named(base) && named(&list) => merge_lists(base, list),
+        (Value::List(base), Value::List(list)) if named(base) && named(&list) => merge_lists(base, list, replace),
         (value, other) => {
             *value = other;
             under.place = over.place;
@@ -116,8 +117,25 @@ fn merge(under: &mut Node, over: Node) {
     }
 }
 
-/// Puts entries in the place of those of the same name, and the others at the end.
-fn merge_lists(base: &mut Vec<Node>, list: Vec<Node>) {
+/// The list whose entries are laid over those of the base: the cameras of a job.
+const LAID_OVER: &str = "cameras";
+
+fn merge_entries(under: &mut Node, over: Node, lay: impl Fn(&mut Node, Node)) {
+    match (&mut under.value, over.value) {
+        (Value::List(base), Value::List(list)) if named(base) && named(&list) => merge_lists(base, list, lay),
+        (value, other) => {
+            *value = other;
+            under.place = over.place;
+        }
+    }
+}
+
+fn replace(under: &mut Node, over: Node) {
+    *under = over;
+}
+
+/// Lays entries on those of the same name, and puts the others at the end.
+fn merge_lists(base: &mut Vec<Node>, list: Vec<Node>, lay: impl Fn(&mut Node, Node)) {
     let name_of = |node: &Node| node.name().unwrap_or_default().to_owned();
     let mut places: BTreeMap<String, usize> = BTreeMap::new();
     for (i, entry) in base.iter().enumerate() {
@@ -125,7 +143,7 @@ fn merge_lists(base: &mut Vec<Node>, list: Vec<Node>) {
     }
     for entry in list {
         match places.get(&name_of(&entry)) {
-            Some(&at) => base[at] = entry,
+            Some(&at) => lay(&mut base[at], entry),
             None => {
                 places.insert(name_of(&entry), base.len());
                 base.push(entry);

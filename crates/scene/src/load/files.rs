@@ -99,7 +99,7 @@ pub(super) fn open(
 ) -> Option<Node> {
     let tree = own_tree(file, read, named, faults)?;
     let chain = [chain, &[file.to_owned()]].concat();
-    let tree = if kind == FileKind::Job { tree } else { base::lay_over(tree, kind, read, &chain, faults)? };
+    let tree = base::lay_over(tree, kind, read, &chain, faults)?;
     if let Some(other) = kind.mistaken_for(&tree) {
         note_other_kind(file, kind, other, named, faults);
         return None;

@@ -85,3 +85,27 @@ fn faults_name_the_file_that_says_it() {
     files.edit("scene.toml", "format = 1", "format = 1\nremove = []");
     assert!(load(&files, &[]).expect_err("a fault").to_string().contains("\"remove\" has no effect without \"base\""));
 }
+
+/// A job over the page's.
+fn derived_job(job: &str) -> Files {
+    let mut files = Files::of_example();
+    files.rename("job.toml", "base.toml");
+    files.put("job.toml", &format!("format = 1\nbase = \"base.toml\"\n{job}"));
+    files
+}
+
+#[test]
+fn a_job_says_what_differs_and_its_cameras_are_laid_over_those_of_their_names() {
+    let base = load(&Files::of_example(), &[]).expect("the example");
+    let job = "[render]\nseed = 9\n[[cameras]]\nname = \"front\"\nrender = { spp = 8 }\n";
+    let over = load(&derived_job(job), &[]).expect("laid over");
+    let spp = |d: &etendue_scene::Description, i: usize| d.cameras[i].render.spp.as_ref().map(|spp| spp.value);
+    assert_eq!((spp(&base, 0), spp(&over, 0)), (Some(256), Some(8)));
+    assert_eq!(spp(&over, 1), spp(&base, 1), "the other camera is as it was");
+    assert!(over.cameras.iter().all(|c| c.render.seed.as_ref().is_some_and(|seed| seed.value == 9)));
+    assert_eq!(over.cameras[0].camera.sensor.width_px, base.cameras[0].camera.sensor.width_px);
+    let fewer = load(&derived_job("remove = [\"cameras.left\"]\n"), &[]).expect("taken out");
+    assert_eq!((base.cameras.len(), fewer.cameras.len()), (2, 1));
+    let fault = load(&derived_job("[[cameras]]\nname = \"front\"\nrender = { spp = 0 }\n"), &[]);
+    assert!(fault.expect_err("a fault").to_string().starts_with("job.toml:5:"), "the file that says it");
+}
