@@ -37,7 +37,8 @@ const ARROWS: &[(&str, &[&str])] = &[
             "metrology",
         ],
     ),
-    ("cli", &["etendue", "optics", "scene"]),
+    ("study", &["core", "etendue"]),
+    ("cli", &["etendue", "optics", "scene", "study"]),
     ("testkit", &["core", "stats"]),
     ("scenes", &["core"]),
 ];

@@ -20,6 +20,7 @@ impl Bar {
         let unit = match progress.unit {
             Unit::Tiles => "tiles",
             Unit::Pictures => "pictures",
+            Unit::Pilots => "ways",
         };
         let style =
             ProgressStyle::with_template(&format!("{{prefix}} {{wide_bar}} {{pos}}/{{len}} {unit}, {{eta}} left"));

@@ -117,7 +117,7 @@ impl JobRequest {
     }
 
     /// The changes to the description: what is asked for goes through the same check as its key.
-    fn overrides(&self) -> Overrides {
+    pub(crate) fn overrides(&self) -> Overrides {
         let mut overrides = Overrides::new(&self.set);
         let mut flag = |name: &str, key, value: String, shown: &str| {
             overrides.push_render(&format!("--{name} {shown}"), key, &value);

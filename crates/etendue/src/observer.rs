@@ -7,6 +7,8 @@ pub enum Unit {
     Tiles,
     /// Pictures that are read and searched.
     Pictures,
+    /// Ways to render that a study looks at.
+    Pilots,
 }
 
 /// A frame among those of a run.

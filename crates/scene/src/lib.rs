@@ -28,7 +28,9 @@ mod suggest;
 pub mod written;
 
 pub use fault::{Fault, Faults, stated};
-pub use load::{CameraSetup, Description, ReadText, Trigger, Unused, load_camera, load_datasheet, load_weather};
+pub use load::{
+    CameraSetup, Description, ReadText, Trigger, Unused, load_camera, load_datasheet, load_weather, stated_render_keys,
+};
 pub use overrides::Overrides;
 pub use place::{Place, Placed};
 pub use schema::{FileKind, schema};

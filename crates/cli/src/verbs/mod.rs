@@ -14,6 +14,7 @@ mod plan;
 mod render;
 mod rig;
 mod schema;
+mod tradeoff;
 mod weather;
 
 use crate::subcommands::subcommands;
@@ -29,6 +30,8 @@ subcommands! {
     Rig(rig::Rig),
     /// Print what will be modelled, what is left out and why, and what it will cost
     Plan(plan::Plan),
+    /// Tell what each choice of rendering costs in time and error for a job, and recommend settings
+    Tradeoff(tradeoff::Tradeoff),
     /// Photograph a stored radiance image (rendered with route = "pupil") by another lens and sensor
     Expose(expose::Expose),
     /// Lay fog, rain or snow over a stored radiance image (rendered with route = "pupil"), by its distances

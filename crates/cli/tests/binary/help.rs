@@ -3,7 +3,7 @@
 use crate::support::etendue;
 
 /// What it does, one verb each.
-const VERBS: [&str; 12] = [
+const VERBS: [&str; 13] = [
     "render",
     "rig",
     "merge",
@@ -16,6 +16,7 @@ const VERBS: [&str; 12] = [
     "compare",
     "calibrate",
     "schema",
+    "tradeoff",
 ];
 /// Those whose options are their subcommands'.
 const GROUPS: [&str; 2] = ["chart", "measure"];

@@ -35,6 +35,7 @@ mod sequences;
 mod shared_light;
 mod shared_paths;
 mod support;
+mod tradeoff;
 mod truths;
 mod vertex_animation;
 mod weather;

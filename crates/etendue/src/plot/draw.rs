@@ -14,7 +14,8 @@ const BOTTOM: f64 = 60.0;
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"];
 
 /// Plots one below the other as one SVG file.
-pub(crate) fn svg(plots: &[Plot]) -> String {
+#[must_use]
+pub fn svg(plots: &[Plot]) -> String {
     let height = HEIGHT * plots.len() as f64;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" \

@@ -6,5 +6,5 @@ mod axis;
 mod draw;
 mod figure;
 
-pub(crate) use draw::svg;
-pub(crate) use figure::{Axis, Colour, Mark, Plot, Series};
+pub use draw::svg;
+pub use figure::{Axis, Colour, Mark, Plot, Series};

@@ -25,6 +25,12 @@ impl Blocks {
         if side == 1 { Self::SINGLE } else { Self { side, stride } }
     }
 
+    /// Columns and rows of pixels in a block.
+    #[must_use]
+    pub fn side_px(self) -> u32 {
+        self.side
+    }
+
     /// Pixels of a block away from the frame's border: their errors may be alike.
     #[must_use]
     pub fn len_px(self) -> u32 {

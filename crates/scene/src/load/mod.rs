@@ -198,3 +198,18 @@ pub fn load_datasheet(file: &Path, read: &ReadText<'_>) -> Result<DataSheet, Fau
     let sheet = document.and_then(|d| record::<DataSheet>().read(&d, &mut faults));
     faults.or(sheet)
 }
+
+/// Which keys of `[render]` the job in `file` states, for all cameras or for `camera`, as dotted keys of the job: `render.spp`,
+/// `cameras.front.render.spp`. What cannot be read states nothing; [`Description::load`] tells why.
+#[must_use]
+pub fn stated_render_keys(file: &Path, camera: &str, read: &ReadText<'_>) -> Vec<String> {
+    let Some(job) = files::job(file, read, &Overrides::default(), &mut Faults::none()) else { return Vec::new() };
+    let keys = |node: &Node, prefix: &str| -> Vec<String> {
+        let render = node.as_table().and_then(|table| table.get("render")).and_then(Node::as_table);
+        let keys = render.map(|render| render.entries.iter().map(|entry| format!("{prefix}render.{}", entry.key)));
+        keys.into_iter().flatten().collect()
+    };
+    let cameras = job.as_table().and_then(|table| table.get("cameras")).map_or(&[][..], Node::as_list);
+    let own = cameras.iter().find(|entry| entry.name() == Some(camera));
+    [keys(&job, ""), own.map_or_else(Vec::new, |entry| keys(entry, &format!("cameras.{camera}.")))].concat()
+}

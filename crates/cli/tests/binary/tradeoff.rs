@@ -1,0 +1,91 @@
+//! Time against error: what a study writes, that its job files are jobs, and what it refuses.
+
+use crate::support::{contents, etendue, text};
+use std::path::Path;
+
+/// A grey floor under an even sky with a ball on it, before a small colour camera.
+const JOB: &str = r#"format = 1
+[scene]
+[scene.environment]
+type = "uniform"
+luminance_cd_m2 = 30
+illuminant = "D65"
+[[scene.materials]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.8
+[[scene.objects]]
+name = "floor"
+shape = { type = "quad", size_m = [30, 30] }
+material = "grey"
+[[scene.objects]]
+name = "ball"
+shape = { type = "sphere", radius_m = 1 }
+position_m = [6, 0, 1]
+material = "grey"
+[[cameras]]
+name = "front"
+position_m = [0, 0, 1.4]
+look_at_m = [6, 0, 0.9]
+lens = { type = "thin", focal_length_mm = 6, f_number = 2, focus_distance_m = 5 }
+sensor = { width_px = 64, height_px = 48, pixel_pitch_um = 100, exposure_s = 1e-5, cfa = "rggb", quantum_efficiency = { camera = "nikon-d5100", peak = 0.5 }, full_well_e = 50_000, read_noise_e = 4, gain_dn_per_e = 0.05, black_level_dn = 64, bits = 12 }
+[render]
+spp = 32
+max_bounces = 6
+[output]
+ground_truth = false
+"#;
+
+fn job(folder: &Path) -> String {
+    let job = folder.join("job.toml");
+    std::fs::write(&job, JOB).expect("a file");
+    text(&job)
+}
+
+#[test]
+fn a_study_tells_times_and_errors_and_writes_jobs() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let (job, out) = (job(place.path()), text(&place.path().join("out")));
+    let told = etendue(["tradeoff", &job, "-o", &out, "--time", "10"]).ok().out;
+    for phrase in ["as the job says: 32 samples", "bias, named:", "the front", "draft: ", "standard: ", "reference: "] {
+        assert!(told.contains(phrase), "{phrase} is missing in:\n{told}");
+    }
+    let files = contents(Path::new(&out));
+    let names: Vec<_> = files.keys().map(String::as_str).collect();
+    assert_eq!(
+        names,
+        ["draft.toml", "reference.toml", "standard.toml", "tradeoff.json", "tradeoff.svg", "tradeoff.txt"],
+        "and nothing of the frame that was tried"
+    );
+    let study: serde_json::Value = serde_json::from_slice(&files["tradeoff.json"]).expect("JSON");
+    assert_eq!(study["signal"], "electrons");
+    let ways = study["ways"].as_array().expect("ways");
+    assert_eq!((&ways[0]["way"]["integrator"], &ways[0]["way"]["max_bounces"]), (&"path".into(), &6.into()));
+    let of = |integrator: &str| ways.iter().find(|w| w["way"]["integrator"] == integrator).expect("looked at");
+    // A white floor and ball without shadows or light from each other: some per cent of the light, far beyond doubt.
+    let bias = &of("flat")["bias"]["squares"]["relative"];
+    let (value, uncertainty) = (bias["value"].as_f64().expect("known"), bias["uncertainty"].as_f64().expect("known"));
+    assert!(value > 1e-4 && value > 5.0 * uncertainty, "{bias}");
+    // Its standing in for all bounces is a small part of that, and there are no caustics to lose.
+    let caustics = ways.iter().find(|w| w["way"]["caustics"] == false && w["way"]["max_bounces"] == 64);
+    assert_eq!(caustics.expect("looked at")["bias"]["squares"]["relative"]["value"], 0.0);
+    for (name, samples) in [("draft", 4), ("standard", 4), ("reference", 64)] {
+        let file = text(&place.path().join(format!("out/{name}.toml")));
+        let plan = etendue(["plan", &file]).ok().out;
+        let told = study["recommendations"].as_array().expect("a list").iter().find(|r| r["target"]["name"] == name);
+        let spp = told.expect("recommended")["point"]["spp"].as_u64().expect("a number");
+        assert!(spp >= samples, "{name}: {spp}");
+        assert!(plan.contains(&format!("{spp} samples a pixel")), "{name}: {spp} in {plan}");
+    }
+    assert!(etendue(["tradeoff", &job, "-o", &out, "--time", "10"]).status == 2, "there is a study already");
+}
+
+#[test]
+fn what_cannot_be_studied_is_refused() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let (job, out) = (job(place.path()), text(&place.path().join("out")));
+    etendue(["tradeoff", &job, "-o", &out, "--time", "5"]).refused(&["--time", "expected seconds from 10"]);
+    etendue(["tradeoff", &job, "-o", &out, "--camera", "rear"]).refused(&["--camera rear", "front"]);
+    etendue(["tradeoff", &job, "-o", &out, "--set", "render.sp=3"]).refused(&["render.sp"]);
+    assert!(!Path::new(&out).exists(), "nothing is written");
+}

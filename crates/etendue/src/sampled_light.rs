@@ -1,0 +1,229 @@
+//! The light of some of a camera's pixels, sampled otherwise than the job says: what a study of time and error is made of.
+
+use crate::error::Error;
+use crate::job::Job;
+use crate::observer::Observer;
+use crate::shard_spec::ShardSpec;
+use etendue_core::random::Pixel;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::plan::{CameraPlan, Route};
+use etendue_pipeline::render::{Request, Shot, light};
+use etendue_pipeline::tile::{Tile, tiles};
+use etendue_sensor::{Sensor, TemporalNoise};
+use etendue_tracer::accel::Simd;
+
+/// How densely which part of a frame is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LightSampling {
+    /// Samples a pixel, a multiple of the replicates.
+    pub spp: u32,
+    /// Independently scrambled replicates, 1 or more.
+    pub replicates: u32,
+    /// The seed of all random numbers.
+    pub seed: u64,
+    /// Side of a tile, px; the least from here on that cuts no pixels that share paths.
+    pub tile_px: u32,
+    /// Which tiles.
+    pub shard: ShardSpec,
+}
+
+/// What a pixel's signal is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightSignal {
+    /// Mean electrons of the described exposure, before effects behind the lens.
+    Electrons,
+    /// Irradiance on the sensor, mean over the bands, W·m⁻²·nm⁻¹.
+    Irradiance,
+    /// Radiance at the entrance pupil, mean over the bands, W·m⁻²·sr⁻¹·nm⁻¹.
+    Radiance,
+}
+
+/// One pixel of a film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SampledPixel {
+    /// Column.
+    pub x: u32,
+    /// Row.
+    pub y: u32,
+    /// Its tile, counted from 0 among those that were rendered.
+    pub tile: u32,
+    /// Its place in the tile of the colour filter, row by row; 0 where there is no filter.
+    pub colour: u32,
+}
+
+/// The light of the pixels of some tiles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SampledLight {
+    /// Which pixels, tile by tile.
+    pub pixels: Vec<SampledPixel>,
+    /// Of each its signal.
+    pub signal: Vec<f32>,
+    /// Of each the variance of that mean, by the scatter of the replicates, in the square of the signal's unit; NaN for one replicate, and for electrons that are made of bands.
+    pub variance: Vec<f32>,
+}
+
+impl Job {
+    /// What the signal of a camera's pixels is.
+    ///
+    /// # Errors
+    /// Where the job has no such camera.
+    pub fn light_signal(&self, camera: &str) -> Result<LightSignal, Error> {
+        Ok(signal_of(self.camera_plan(camera)?))
+    }
+
+    /// The noise that a camera's sensor adds to its electrons in one frame; `None` where its signal is not electrons.
+    ///
+    /// # Errors
+    /// Where the job has no such camera.
+    pub fn temporal_noise(&self, camera: &str) -> Result<Option<TemporalNoise>, Error> {
+        let camera = self.camera_plan(camera)?;
+        Ok(sensor_of(camera).map(Sensor::temporal_noise))
+    }
+
+    /// The light of a shard's pixels in frame 0, every one with as many samples as asked for, whatever the job says. Runs on the caller's thread pool.
+    ///
+    /// # Errors
+    /// Where the job has no such camera, the observer cancels, or light is not finite.
+    pub fn sampled_light(
+        &self,
+        camera: &str,
+        sampling: LightSampling,
+        simd: Simd,
+        observer: &dyn Observer,
+    ) -> Result<SampledLight, Error> {
+        let mut camera = self.camera_plan(camera)?.clone();
+        let settings = &mut camera.settings;
+        settings.adaptive = None;
+        (settings.spp, settings.replicates, settings.seed) = (sampling.spp, sampling.replicates, sampling.seed);
+        settings.tile_px = settings.blocks.tile_px(sampling.tile_px);
+        let request = Request { shot: Shot::default(), simd, shard: sampling.shard.shard()? };
+        let film = light(self.plan(), &camera, request, &Silent(observer));
+        let film = film.map_err(|cancelled| Error::Run(cancelled.to_string()))?;
+        crate::delivery::check_finite(&camera, &film)?;
+        let (width, height) = camera.film_size();
+        let tiles = tiles(width, height, camera.settings.tile_px, request.shard);
+        Ok(SampledLight::of(&camera, &film, &tiles))
+    }
+
+    /// The tiles of a camera's film, were they of this side: how many shards leave something to look at.
+    ///
+    /// # Errors
+    /// Where the job has no such camera.
+    pub fn tile_grid(&self, camera: &str, tile_px: u32) -> Result<[u32; 2], Error> {
+        let camera = self.camera_plan(camera)?;
+        let ((width, height), side) = (camera.film_size(), camera.settings.blocks.tile_px(tile_px));
+        Ok([width.div_ceil(side), height.div_ceil(side)])
+    }
+
+    /// Columns and rows of a camera's film: its picture, with the margin that effects behind the lens need; at the pupil the stored view.
+    ///
+    /// # Errors
+    /// Where the job has no such camera.
+    pub fn film_px(&self, camera: &str) -> Result<[u32; 2], Error> {
+        let (width, height) = self.camera_plan(camera)?.film_size();
+        Ok([width, height])
+    }
+
+    pub(crate) fn camera_plan(&self, name: &str) -> Result<&CameraPlan, Error> {
+        self.plan().camera(name).ok_or_else(|| Error::input(format!("the job has no camera {name}")))
+    }
+}
+
+/// Passes on the wish to stop alone.
+struct Silent<'a>(&'a dyn Observer);
+
+impl etendue_pipeline::Observer for Silent<'_> {
+    fn tiles(&self, _: usize, _: usize) {}
+
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}
+
+fn sensor_of(camera: &CameraPlan) -> Option<&Sensor> {
+    camera.body.sensor.as_ref().filter(|_| camera.settings.route == Route::Lens)
+}
+
+fn signal_of(camera: &CameraPlan) -> LightSignal {
+    match camera.settings.route {
+        Route::Pupil(_) => LightSignal::Radiance,
+        Route::Lens if camera.body.sensor.is_some() => LightSignal::Electrons,
+        Route::Lens => LightSignal::Irradiance,
+    }
+}
+
+impl SampledLight {
+    fn of(camera: &CameraPlan, film: &Film, tiles: &[Tile]) -> Self {
+        let reading = Reading::of(camera);
+        let mut sampled = Self { pixels: Vec::new(), signal: Vec::new(), variance: Vec::new() };
+        for (number, tile) in tiles.iter().enumerate() {
+            for at in tile.pixels() {
+                let colour = reading.colour(at);
+                let (signal, variance) = reading.read(film, at, colour);
+                sampled.pixels.push(SampledPixel { x: at.x, y: at.y, tile: number as u32, colour: colour as u32 });
+                sampled.signal.push(signal as f32);
+                sampled.variance.push(variance as f32);
+            }
+        }
+        sampled
+    }
+}
+
+/// How a pixel's signal is read off a film.
+struct Reading {
+    exposure_s: f64,
+    /// Columns and rows of the colour filter's tile, and of the film before the picture.
+    filter: [u32; 2],
+    margin_px: [u32; 2],
+    /// Of each place of the filter: electrons of a second by the bands' irradiances. Empty where there are none.
+    of_bands: Vec<Vec<f64>>,
+}
+
+impl Reading {
+    fn of(camera: &CameraPlan) -> Self {
+        let margin_px = match camera.settings.route {
+            Route::Lens => camera.body.effects.margin_px().map(|px| px as u32),
+            Route::Pupil(_) => [0, 0],
+        };
+        let Some(sensor) = sensor_of(camera) else {
+            return Self { exposure_s: 1.0, filter: [1, 1], margin_px, of_bands: Vec::new() };
+        };
+        let p = sensor.parameters();
+        let width = p.cfa.width();
+        let filter = [width as u32, (p.cfa.channels().len() / width) as u32];
+        let of_bands = camera.settings.bands.filter(|_| !camera.settings.folded).map_or_else(Vec::new, |bands| {
+            let rates = sensor.rate_responsivities();
+            let of = |channel: &usize| {
+                rates[*channel].band_means(bands).iter().map(|mean| mean * bands.width_nm()).collect()
+            };
+            p.cfa.channels().iter().map(of).collect()
+        });
+        Self { exposure_s: p.exposure.exposure_s, filter, margin_px, of_bands }
+    }
+
+    fn colour(&self, at: Pixel) -> usize {
+        let place = |pixel: u32, margin: u32, side: u32| (pixel + side - margin % side) % side;
+        let [columns, rows] = self.filter;
+        (place(at.y, self.margin_px[1], rows) * columns + place(at.x, self.margin_px[0], columns)) as usize
+    }
+
+    /// A pixel's signal, and the variance of it.
+    fn read(&self, film: &Film, at: Pixel, colour: usize) -> (f64, f64) {
+        let (x, y) = (at.x as usize, at.y as usize);
+        if let Some(rate) = &film.electron_rate {
+            let of = |value: f32, by: f64| f64::from(value) * by;
+            return (
+                of(rate.mean.at(x, y), self.exposure_s),
+                of(rate.variance.at(x, y), self.exposure_s * self.exposure_s),
+            );
+        }
+        let Some(cube) = &film.cube else { return (0.0, f64::NAN) };
+        let bands = cube.mean.planes().iter().map(|plane| f64::from(plane.at(x, y)));
+        match self.of_bands.get(colour) {
+            Some(weights) => {
+                (bands.zip(weights).map(|(value, weight)| value * weight).sum::<f64>() * self.exposure_s, f64::NAN)
+            }
+            None => (bands.sum::<f64>() / cube.mean.planes().len() as f64, f64::NAN),
+        }
+    }
+}

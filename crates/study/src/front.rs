@@ -1,0 +1,222 @@
+//! The ways that no other beats, and three of them for drafts, standard pictures and references.
+
+use crate::error::{Currencies, Estimate};
+use crate::measured::Measured;
+use crate::way::WayToRender;
+use serde::Serialize;
+
+/// Samples that are looked at, at most.
+const MOST_SPP: f64 = 1_048_576.0;
+/// What bias may have of the mean square that is wanted.
+const BIAS_PART: f64 = 0.25;
+
+/// A number of samples of a way, and what it comes to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FrontPoint {
+    /// Which way.
+    pub way: WayToRender,
+    /// Samples a pixel.
+    pub spp: u32,
+    /// Independent replicates of them.
+    pub replicates: u32,
+    /// The whole run, s.
+    pub seconds: Estimate,
+    /// Root mean square errors, bias and noise together.
+    pub error: Currencies<Estimate>,
+}
+
+/// How good a picture shall be: one of these is enough.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Target {
+    /// Its name, and that of the job file.
+    pub name: &'static str,
+    /// The root mean square error over the sensor's noise; `None` where no electrons are made.
+    pub sensor: Option<f64>,
+    /// That of the light, relative; `None` where the sensor's noise alone decides.
+    pub relative: Option<f64>,
+}
+
+/// Error over the sensor's noise; relative to the light. A draft is good enough by either.
+const TARGETS: [(&str, f64, f64); 3] = [("draft", 2.0, 0.1), ("standard", 0.5, 0.03), ("reference", 0.1, 0.01)];
+
+/// The three targets of a study.
+#[must_use]
+pub(crate) fn targets(has_sensor: bool) -> [Target; 3] {
+    TARGETS.map(|(name, sensor, relative)| Target {
+        name,
+        sensor: has_sensor.then_some(sensor),
+        relative: (name == TARGETS[0].0 || !has_sensor).then_some(relative),
+    })
+}
+
+impl Target {
+    /// Whether a way with so many samples is good enough, and its bias a small part of what is let be.
+    fn is_met(&self, way: &Measured, spp: f64, replicates: f64) -> bool {
+        let (error, bias) = (way.error(spp, replicates), &way.bias_squares);
+        let meets = |wanted: Option<f64>, error: Option<Estimate>, bias: Option<Estimate>| {
+            wanted.zip(error).zip(bias).is_some_and(|((wanted, error), bias)| {
+                error.value <= wanted * wanted && bias.value <= BIAS_PART * wanted * wanted
+            })
+        };
+        meets(self.sensor, error.sensor, bias.sensor) || meets(self.relative, Some(error.relative), Some(bias.relative))
+    }
+}
+
+/// What happened where a recommendation was tried on other tiles, over what was foretold.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Confirmation {
+    /// Tiles it was tried on.
+    pub tiles: u32,
+    /// Time found over time foretold.
+    pub seconds: f64,
+    /// Noise (root mean square, without bias) found over foretold.
+    pub noise: Estimate,
+}
+
+/// A setting for a target.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Recommendation {
+    /// What is wanted.
+    pub target: Target,
+    /// What is foretold.
+    pub point: FrontPoint,
+    /// Whether the target is reached.
+    pub is_reached: bool,
+    /// How it went where it was tried; `None` where that takes longer than a study may.
+    pub confirmation: Option<Confirmation>,
+}
+
+/// What a frame takes beside its light, and into how many replicates samples are shared.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    pub(crate) rest_s: f64,
+    pub(crate) replicates: u32,
+}
+
+/// A way with so many samples.
+pub(crate) fn point(measured: &Measured, spp: u32, frame: Frame) -> FrontPoint {
+    let replicates = frame.replicates.min(spp);
+    FrontPoint {
+        way: measured.way,
+        spp,
+        replicates,
+        seconds: measured.seconds(f64::from(spp), frame.rest_s),
+        error: measured.error(f64::from(spp), f64::from(replicates)).map(|square| square.root()),
+    }
+}
+
+/// What no other way beats in both time and error, by the deciding currency, shortest first.
+pub(crate) fn front(ways: &[Measured], frame: Frame) -> Vec<FrontPoint> {
+    let counts = (2..=16).map(|power| (1_u32 << power).next_multiple_of(frame.replicates));
+    let mut points: Vec<_> = counts.flat_map(|spp| ways.iter().map(move |way| point(way, spp, frame))).collect();
+    points.sort_by(|a, b| a.seconds.value.total_cmp(&b.seconds.value));
+    let mut least = f64::INFINITY;
+    points.retain(|point| {
+        let error = point.error.deciding().value;
+        let is_better = error < 0.99 * least;
+        least = least.min(error);
+        is_better
+    });
+    points
+}
+
+/// The quickest way to a target; that of the least error where none reaches it.
+pub(crate) fn recommend(ways: &[Measured], target: Target, frame: Frame) -> Option<Recommendation> {
+    let reaching = ways.iter().filter_map(|way| Some(point(way, samples_for(way, target, frame)?, frame)));
+    let quickest = reaching.min_by(|a, b| a.seconds.value.total_cmp(&b.seconds.value));
+    let best = || {
+        let most = (MOST_SPP as u32).next_multiple_of(frame.replicates);
+        let all = ways.iter().map(|way| point(way, most, frame));
+        all.min_by(|a, b| a.error.deciding().value.total_cmp(&b.error.deciding().value))
+    };
+    let is_reached = quickest.is_some();
+    let point = quickest.or_else(best)?;
+    Some(Recommendation { target, point, is_reached, confirmation: None })
+}
+
+/// The fewest samples that reach a target; `None` where no number does.
+fn samples_for(way: &Measured, target: Target, frame: Frame) -> Option<u32> {
+    let replicates = f64::from(frame.replicates);
+    let reaches = |rounds: u32| target.is_met(way, f64::from(rounds) * replicates, replicates);
+    let most = (MOST_SPP / replicates) as u32;
+    if !reaches(most) {
+        return None;
+    }
+    let (mut short, mut enough) = (0, most);
+    while enough - short > 1 {
+        let middle = short + (enough - short) / 2;
+        if reaches(middle) { enough = middle } else { short = middle }
+    }
+    Some(enough * frame.replicates)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measured::{PowerLaw, Role};
+    use crate::way::Accelerator;
+    use etendue::Integrator;
+
+    /// A way whose sample takes `sample_s`, of a variance and bias in the relative currency.
+    fn way(integrator: Integrator, sample_s: f64, variance: f64, bias: f64) -> Measured {
+        let exact = |value: f64| Estimate { value, uncertainty: 0.0 };
+        let law = PowerLaw { samples: 1.0, value: exact(variance), exponent: 1.0 };
+        Measured {
+            way: WayToRender {
+                integrator,
+                max_bounces: 64,
+                caustics: true,
+                path_reuse_px: 1,
+                wavelengths: 4,
+                accelerator: Accelerator::Default,
+            },
+            role: Role::Stated,
+            load_s: 0.5,
+            frame_s: 0.25,
+            sample_s: exact(sample_s),
+            variance: Currencies { relative: law, sensor: None, patch: law },
+            bias: None,
+            bias_squares: Currencies { relative: exact(bias), sensor: None, patch: exact(bias) },
+        }
+    }
+
+    const FRAME: Frame = Frame { rest_s: 0.25, replicates: 4 };
+
+    #[test]
+    fn cheap_ways_win_where_little_is_asked() {
+        let ways = [way(Integrator::Path, 1.0, 0.04, 0.0), way(Integrator::Direct, 0.25, 0.04, 1e-4)];
+        let of = |error: f64| {
+            recommend(&ways, Target { name: "draft", sensor: None, relative: Some(error) }, FRAME)
+                .map(|r| (r.point.way.integrator, r.point.spp))
+        };
+        // 0.04/n + 1e-4 is 0.0025 at 16.7.
+        assert_eq!(of(0.05), Some((Integrator::Direct, 20)));
+        // Of 1e-4 the bias alone would take all.
+        assert_eq!(of(0.01), Some((Integrator::Path, 400)));
+        let seconds = recommend(&ways, Target { name: "draft", sensor: None, relative: Some(0.01) }, FRAME)
+            .map(|r| r.point.seconds.value);
+        assert!(seconds.is_some_and(|s| (s - 401.0).abs() < 1e-9), "{seconds:?}");
+    }
+
+    #[test]
+    fn a_target_out_of_reach_is_said_to_be() {
+        let ways = [way(Integrator::Flat, 0.1, 0.04, 0.3)];
+        let told = recommend(&ways, Target { name: "reference", sensor: None, relative: Some(0.01) }, FRAME)
+            .expect("the best there is");
+        assert!(!told.is_reached && told.point.error.relative.value > 0.5);
+    }
+
+    #[test]
+    fn the_front_falls() {
+        let ways = [way(Integrator::Path, 1.0, 0.04, 0.0), way(Integrator::Direct, 0.25, 0.04, 1e-4)];
+        let front = front(&ways, FRAME);
+        assert!(
+            front
+                .windows(2)
+                .all(|p| p[0].seconds.value <= p[1].seconds.value
+                    && p[0].error.relative.value > p[1].error.relative.value)
+        );
+        assert_eq!(front.first().map(|p| p.way.integrator), Some(Integrator::Direct));
+        assert_eq!(front.last().map(|p| p.way.integrator), Some(Integrator::Path));
+    }
+}

@@ -1,0 +1,99 @@
+//! A recommendation as a job file that builds on the user's.
+
+use crate::front::Recommendation;
+use crate::report::{error_text, time_text};
+use etendue::{Error, JobRequest};
+use std::path::{Component, Path, PathBuf};
+
+/// Keys of `[render]` that a recommendation says, or that have no place beside it.
+const SUPERSEDED: [&str; 12] = [
+    "spp",
+    "noise_threshold",
+    "min_spp",
+    "max_spp",
+    "passes",
+    "replicates",
+    "integrator",
+    "max_bounces",
+    "caustics",
+    "path_reuse_px",
+    "wavelengths_per_path",
+    "accelerator",
+];
+
+/// The text of a job file in `folder` that renders `camera` of a job as recommended.
+///
+/// # Errors
+/// Where the job cannot be read.
+pub fn job_file(
+    recommendation: &Recommendation,
+    (job, camera): (&JobRequest, &str),
+    folder: &Path,
+) -> Result<String, Error> {
+    let stated = job.stated_render(camera)?.keys;
+    let removed = stated.iter().filter(|key| SUPERSEDED.iter().any(|k| key.ends_with(&format!("render.{k}"))));
+    let removed: Vec<_> = removed.map(|key| format!("{key:?}")).collect();
+    let Recommendation { target, point, is_reached, .. } = recommendation;
+    let keys = point.way.keys();
+    let keys = keys.iter().map(|(key, value)| format!("{key} = {value}"));
+    let samples = [format!("spp = {}", point.spp), format!("replicates = {}", point.replicates)];
+    let render: Vec<_> = samples.into_iter().chain(keys).collect();
+    let left_out = match point.way.left_out() {
+        none if none.is_empty() => "nothing".to_owned(),
+        what => what,
+    };
+    let mut text = format!(
+        "# A {} of camera {camera}: {} in {}{}.\n# Left out of the exact form: {left_out}.\n",
+        target.name,
+        error_text(&point.error),
+        time_text(point.seconds.value),
+        if *is_reached { "" } else { ", as near as samples come to what was wanted" },
+    );
+    if !job.set.is_empty() {
+        text += &format!("# The study had changes that this file does not hold: --set {}.\n", job.set.join(" --set "));
+    }
+    text += &format!("format = 1\nbase = {:?}\n", path_from(folder, &job.job)?.to_string_lossy());
+    if !removed.is_empty() {
+        text += &format!("remove = [{}]\n", removed.join(", "));
+    }
+    text += &format!("\n[[cameras]]\nname = {camera:?}\n\n[cameras.render]\n{}\n", render.join("\n"));
+    Ok(text)
+}
+
+/// A file as seen from a folder.
+fn path_from(folder: &Path, file: &Path) -> Result<PathBuf, Error> {
+    let whole =
+        |path: &Path| std::path::absolute(path).map_err(|error| Error::Run(format!("{}: {error}", path.display())));
+    let (folder, file) = (tidied(&whole(folder)?), tidied(&whole(file)?));
+    let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
+    let up = folder.components().skip(common).map(|_| Component::ParentDir);
+    Ok(up.chain(file.components().skip(common)).collect())
+}
+
+/// Without "." and "a/..".
+fn tidied(path: &Path) -> PathBuf {
+    let mut out = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                out.pop();
+            }
+            other => out.push(other),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_base_is_named_from_where_the_file_stands() {
+        let from = |folder: &str, file: &str| path_from(Path::new(folder), Path::new(file)).expect("a path");
+        assert_eq!(from("/a/out/study", "/a/scenes/job.toml"), Path::new("../../scenes/job.toml"));
+        assert_eq!(from("/a", "/a/b/../job.toml"), Path::new("job.toml"));
+        assert_eq!(from("/x/y", "/job.toml"), Path::new("../../job.toml"));
+    }
+}

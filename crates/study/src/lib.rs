@@ -1,0 +1,34 @@
+//! What each choice of rendering costs in time and in error, for a job of one's own.
+//!
+//! A study renders parts of a job's frame again and again, with few samples and in many ways ([`WayToRender`]); tells of each how long a sample takes and how noisy it is
+//! ([`pilot`]), and how far its mean lies from that of the exact form ([`error`]: bias and variance apart); foretells from these the time and error of any
+//! number of samples; and names the ways that no other beats ([`front`]), with three settings of them for drafts, standard pictures and references.
+//!
+//! No clock is read here: the caller gives one ([`Clock`]).
+
+mod error;
+mod front;
+mod job_file;
+mod measured;
+mod pictures;
+mod pilot;
+mod pixels;
+mod plan;
+mod report;
+mod study;
+mod way;
+
+pub use error::{Currencies, Estimate};
+pub use front::{FrontPoint, Recommendation, Target};
+pub use job_file::job_file;
+pub use measured::{Bias, Measured, PowerLaw, Role};
+pub use pictures::{Comparison, pictures};
+pub use report::{plot, table};
+pub use study::{Request, Study, study};
+pub use way::{Accelerator, WayToRender};
+
+/// A clock that only goes forward.
+pub trait Clock: Sync {
+    /// Seconds since any moment.
+    fn seconds(&self) -> f64;
+}

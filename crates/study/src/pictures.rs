@@ -1,0 +1,94 @@
+//! What approximations do to the picture: the exact form, the approximation, and their difference side by side.
+
+use crate::measured::{Measured, Role};
+use crate::study::{Request, Study};
+use crate::way::WayToRender;
+use etendue::{Error, Job, Observer, RenderOptions, display_png};
+use etendue_core::Plane;
+use etendue_core::quantity::Display;
+
+/// By how much differences are made brighter, in the encoded picture.
+const GAIN: f32 = 4.0;
+/// What part of a study's time one picture may take.
+const PICTURE_PART: f64 = 0.03;
+/// Samples of a picture, at most.
+const MOST_SPP: f64 = 64.0;
+
+/// A picture beside that of the exact form.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// The name of its file.
+    pub file: String,
+    /// Exact form, approximation, and four times their difference on grey, side by side, PNG.
+    pub png: Vec<u8>,
+}
+
+/// The pictures of what a study's approximations do, each with as many samples as there is time for, by the same random numbers as the exact
+/// form; none where the camera makes no pictures. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where the observer cancels, or light is not finite.
+pub fn pictures(study: &Study, request: &Request, observer: &dyn Observer) -> Result<Vec<Comparison>, Error> {
+    let Some(exact) = study.ways.iter().find(|way| way.way.is_exact()) else { return Ok(Vec::new()) };
+    let affordable = PICTURE_PART * request.budget_s / exact.sample_s.value;
+    let spp = affordable.clamp(1.0, MOST_SPP) as u64;
+    let picture = |way: &WayToRender| -> Result<Option<Plane<Display>>, Error> {
+        let mut request_of = way.request(&request.job, &study.camera);
+        (request_of.spp, request_of.noise) = (Some(spp), None);
+        picture_of(&request_of.open()?, request, observer)
+    };
+    let Some(reference) = picture(&exact.way)? else { return Ok(Vec::new()) };
+    let mut compared = Vec::new();
+    for way in study.ways.iter().filter(|way| is_shown(way)) {
+        let Some(own) = picture(&way.way)? else { continue };
+        let file = format!("{}.png", file_stem(&way.way));
+        compared.push(Comparison { file, png: display_png(&side_by_side(&reference, &own))? });
+    }
+    Ok(compared)
+}
+
+fn picture_of(job: &Job, request: &Request, observer: &dyn Observer) -> Result<Option<Plane<Display>>, Error> {
+    let options = RenderOptions { simd: request.simd, ..RenderOptions::default() };
+    let results = job.render(&options, observer)?;
+    Ok(results.cameras()[0].display_picture())
+}
+
+/// Approximations that are not the exact form.
+fn is_shown(way: &Measured) -> bool {
+    matches!(way.role, Role::Approximation | Role::Stated) && !way.way.is_exact()
+}
+
+fn file_stem(way: &WayToRender) -> String {
+    let word = way.label().replace([',', 'λ'], "");
+    word.split_whitespace().collect::<Vec<_>>().join("-")
+}
+
+/// The first, the second, and (second − first) times a gain about grey.
+fn side_by_side(first: &Plane<Display>, second: &Plane<Display>) -> Plane<Display> {
+    let (width, height) = (first.width(), first.height());
+    let mut sheet = Plane::new(3 * width, height);
+    for y in 0..height {
+        for x in 0..width {
+            let (a, b) = (first.at(x, y), second.at(x, y));
+            let difference = std::array::from_fn(|i| (0.5 + GAIN * (b[i] - a[i])).clamp(0.0, 1.0));
+            sheet.set(x, y, a);
+            sheet.set(width + x, y, b);
+            sheet.set(2 * width + x, y, difference);
+        }
+    }
+    sheet
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_pictures_differ_by_grey() {
+        let plane = |value: f32| Plane::<Display>::filled(4, 3, [value; 3]);
+        let sheet = side_by_side(&plane(0.25), &plane(0.25));
+        assert_eq!((sheet.width(), sheet.at(1, 2), sheet.at(9, 1)), (12, [0.25; 3], [0.5; 3]));
+        let sheet = side_by_side(&plane(0.25), &plane(0.3));
+        assert!((sheet.at(8, 0)[0] - 0.7).abs() < 1e-6 && sheet.at(5, 0) == [0.3; 3]);
+    }
+}

@@ -1,0 +1,58 @@
+//! Pilot runs: the light of some tiles with few samples, by one seed after the other.
+
+use crate::Clock;
+use crate::plan::PilotPlan;
+use etendue::{Error, Job, LightSampling, Observer, SampledPixel, Simd};
+
+/// The planes of one way with one number of samples, and how long each took.
+#[derive(Clone, Debug)]
+pub(crate) struct Pilot {
+    pub(crate) pixels: Vec<SampledPixel>,
+    /// One of each seed.
+    pub(crate) planes: Vec<Vec<f32>>,
+    /// Of each plane, s.
+    pub(crate) seconds: Vec<f64>,
+}
+
+/// What runs pilots.
+pub(crate) struct Pilots<'a> {
+    pub(crate) camera: &'a str,
+    pub(crate) plan: PilotPlan,
+    pub(crate) simd: Simd,
+    pub(crate) clock: &'a dyn Clock,
+    pub(crate) observer: &'a dyn Observer,
+}
+
+impl Pilots<'_> {
+    /// A pilot of `spp` samples a pixel in one replicate by each of `seeds` seeds. Equal seeds make equal paths as far as two ways have them in common, so that
+    /// their differences are little noisy.
+    pub(crate) fn run(&self, job: &Job, spp: u32, seeds: u32) -> Result<Pilot, Error> {
+        let own = job.render_settings(self.camera)?.seed;
+        let (mut pixels, mut planes, mut seconds) = (Vec::new(), Vec::new(), Vec::new());
+        for k in 0..seeds {
+            let (light, took_s) = self.timed(job, (spp, 1), seed(own, k))?;
+            (pixels, seconds) = (light.pixels, [seconds, vec![took_s]].concat());
+            planes.push(light.signal);
+        }
+        Ok(Pilot { pixels, planes, seconds })
+    }
+
+    /// The light of the study's tiles with so many samples and replicates, and how long it took, s.
+    pub(crate) fn timed(
+        &self,
+        job: &Job,
+        (spp, replicates): (u32, u32),
+        seed: u64,
+    ) -> Result<(etendue::SampledLight, f64), Error> {
+        let PilotPlan { tile_px, shard } = self.plan;
+        let sampling = LightSampling { spp, replicates, seed, tile_px, shard };
+        let from_s = self.clock.seconds();
+        let light = job.sampled_light(self.camera, sampling, self.simd, self.observer)?;
+        Ok((light, self.clock.seconds() - from_s))
+    }
+}
+
+/// A seed of a study, not the job's own: what is foretold is no part of what is told.
+pub(crate) fn seed(own: u64, k: u32) -> u64 {
+    (own.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (0x5851_f42d_4c95_7f2d_u64.wrapping_mul(u64::from(k) + 1))) >> 1
+}

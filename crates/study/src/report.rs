@@ -1,0 +1,196 @@
+//! A study for people: its table and its plot.
+
+use crate::error::{Currencies, Estimate};
+use crate::front::{FrontPoint, Recommendation};
+use crate::measured::{Measured, Role};
+use crate::study::Study;
+use etendue::plot::{Axis, Mark, Plot, Series, svg};
+use etendue_core::maths::f64::log10;
+use std::fmt::Write as _;
+
+/// A time as people say it.
+pub(crate) fn time_text(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => format!("{s:.2} s"),
+        s if s < 10.0 => format!("{s:.1} s"),
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
+        s => format!("{:.1} days", s / 86_400.0),
+    }
+}
+
+/// An error in words, in the currency that decides.
+pub(crate) fn error_text(error: &Currencies<Estimate>) -> String {
+    match &error.sensor {
+        Some(e) => format!("{} of the sensor's noise", figure(*e)),
+        None => format!("{} of the light", percent(error.relative)),
+    }
+}
+
+/// As many decimals as the first figure of the uncertainty needs, three at most.
+fn figure(e: Estimate) -> String {
+    let size = if e.uncertainty > 0.0 { e.uncertainty } else { e.value.abs().max(1.0) * 1e-2 };
+    let digits = (-log10(size)).ceil().clamp(0.0, 3.0) as usize;
+    format!("{:.digits$} ± {:.digits$}", e.value, e.uncertainty)
+}
+
+fn percent(e: Estimate) -> String {
+    format!("{} %", figure(e.times(100.0)))
+}
+
+/// The table of a study: what was looked at, what no other way beats, what is recommended.
+#[must_use]
+pub fn table(study: &Study) -> String {
+    let mut out = String::new();
+    let own = &study.as_stated;
+    let _ = writeln!(
+        out,
+        "camera {}: {} of the tiles looked at in {}; light is its {}\n",
+        study.camera,
+        if study.share >= 1.0 { "all".to_owned() } else { format!("{:.1} %", 100.0 * study.share) },
+        time_text(study.took_s),
+        study.signal
+    );
+    let _ = writeln!(
+        out,
+        "as the job says: {} samples, {}, {} in {}\n",
+        own.spp,
+        own.way.label(),
+        error_text(&own.error),
+        time_text(own.seconds.value)
+    );
+    ways(study, &mut out);
+    points(&study.front, &mut out);
+    study.recommendations.iter().for_each(|recommendation| recommended(recommendation, &mut out));
+    out += "\nDepth, normals and ids are the same by every way: they have rays of their own.\n";
+    out
+}
+
+/// Every way with as many samples as the job has.
+fn ways(study: &Study, out: &mut String) {
+    let (spp, replicates) = (study.as_stated.spp, study.as_stated.replicates);
+    let of = if study.as_stated.error.sensor.is_some() { "sensor's noise" } else { "light" };
+    let _ = writeln!(
+        out,
+        "ways to render, at {spp} samples: noise and bias over the {of}; noise of means of 8 × 8 px over their light\n\
+         {:<54} {:>8} {:>14} {:>16} {:>14}",
+        "way", "time", "noise", "of 8 × 8 px", "bias"
+    );
+    for way in &study.ways {
+        let noise = way
+            .variance
+            .map(|law| law.at(f64::from(spp) / f64::from(replicates)).times(1.0 / f64::from(replicates)).root());
+        let bias = way.bias.as_ref().filter(|_| way.role != Role::Choice);
+        let bias = bias.map(|bias| deciding(&bias.squares.map(|square| square.root())));
+        let _ = writeln!(
+            out,
+            "{:<54} {:>8} {:>14} {:>16} {:>14}",
+            way.way.label(),
+            time_text(way.seconds(f64::from(spp), study.rest_s).value),
+            deciding(&noise),
+            percent(noise.patch),
+            bias.unwrap_or_else(|| "–".to_owned()),
+        );
+    }
+    biases(&study.ways, out);
+}
+
+/// In the currency that decides.
+fn deciding(error: &Currencies<Estimate>) -> String {
+    error.sensor.map_or_else(|| percent(error.relative), figure)
+}
+
+/// What each approximation leaves out, and whether that is sure.
+fn biases(ways: &[Measured], out: &mut String) {
+    let _ = writeln!(out, "\nbias, named:");
+    for way in ways.iter().filter(|way| matches!(way.role, Role::Approximation | Role::Stated)) {
+        let (left_out, Some(bias)) = (way.way.left_out(), &way.bias) else { continue };
+        if left_out.is_empty() {
+            continue;
+        }
+        let told = error_text(&bias.squares.map(|square| square.root()));
+        let sure = match bias.squares.deciding() {
+            Estimate { value: 0.0, uncertainty: 0.0 } => ": no bit of the light changes",
+            square if square.exceeds(2.0) => "",
+            _ => ": not sure, less than two uncertainties",
+        };
+        let _ = writeln!(
+            out,
+            "  {}, against {}: {told}{sure}\n    it leaves out {left_out}",
+            way.way.label(),
+            bias.against.label()
+        );
+    }
+}
+
+fn points(front: &[FrontPoint], out: &mut String) {
+    let _ = writeln!(out, "\nthe front: no other way is both quicker and nearer\n{:>8} {:>22}  way", "time", "error");
+    for point in front {
+        let error = deciding(&point.error);
+        let _ = writeln!(
+            out,
+            "{:>8} {error:>22}  {} samples, {}",
+            time_text(point.seconds.value),
+            point.spp,
+            point.way.label()
+        );
+    }
+    out.push('\n');
+}
+
+fn recommended(recommendation: &Recommendation, out: &mut String) {
+    let Recommendation { target, point, is_reached, confirmation } = recommendation;
+    let _ = writeln!(
+        out,
+        "{}: {} samples, {}: {} in {}{}",
+        target.name,
+        point.spp,
+        point.way.label(),
+        error_text(&point.error),
+        time_text(point.seconds.value),
+        if *is_reached { "" } else { "; what was wanted is not reached" }
+    );
+    let _ = match confirmation {
+        Some(found) => writeln!(
+            out,
+            "  tried on {} other tiles: {:.2} of the time foretold, {} of the noise",
+            found.tiles,
+            found.seconds,
+            figure(found.noise)
+        ),
+        None => writeln!(out, "  not tried: that takes longer than this study may; give a larger --time"),
+    };
+}
+
+/// Time against error: the curve of each way, the front, and what is recommended, as SVG.
+#[must_use]
+pub fn plot(study: &Study) -> String {
+    let has_sensor = study.as_stated.error.sensor.is_some();
+    let label = if has_sensor { "error over the sensor's noise (rms)" } else { "error of the light (rms)" };
+    let place = |point: &FrontPoint| (point.seconds.value, point.error.deciding().value);
+    let mut series = Vec::new();
+    let on_front = study.front.iter().map(|p| p.way);
+    let mut named: Vec<_> = on_front.chain([study.as_stated.way]).collect();
+    named.dedup();
+    named.sort_by_key(|way| study.ways.iter().position(|m| m.way == *way));
+    named.dedup();
+    for way in named {
+        let Some(measured) = study.ways.iter().find(|m| m.way == way) else { continue };
+        let replicates = f64::from(study.as_stated.replicates);
+        let curve = (2..=14).map(|power| f64::from(1_u32 << power)).filter(|spp| *spp >= replicates).map(|spp| {
+            let error = measured.error(spp, replicates).deciding().root().value;
+            (measured.seconds(spp, study.rest_s).value, error)
+        });
+        series.push(Series::new(&way.label(), Mark::Line, curve));
+    }
+    series.push(Series::new("as the job says", Mark::Points, [place(&study.as_stated)]));
+    let recommended = study.recommendations.iter().map(|r| place(&r.point));
+    series.push(Series::new("draft, standard, reference", Mark::Points, recommended));
+    svg(&[Plot {
+        title: format!("Time against error: camera {}", study.camera),
+        x: Axis::log("time of a run, s"),
+        y: Axis::log(label),
+        series,
+    }])
+}

@@ -1,0 +1,318 @@
+//! A study: which ways are looked at, in which order, and what is made of them.
+
+use crate::Clock;
+use crate::error::{Currencies, Estimate};
+use crate::front::{Confirmation, Frame, FrontPoint, Recommendation, front, point, recommend, targets};
+use crate::measured::{Bias, Measured, Role, Times, bias, variance};
+use crate::pilot::{Pilot, Pilots, seed};
+use crate::pixels::Pixels;
+use crate::plan::PilotPlan;
+use crate::way::{Accelerator, EXACT_BOUNCES, WayToRender};
+use etendue::{
+    Error, Existing, Integrator, Job, JobRequest, LightSignal, Observer, Progress, RenderOptions, ShardSpec, Simd, Unit,
+};
+use serde::Serialize;
+use std::path::Path;
+
+/// Samples of a replicate of the short and of the long pilots, and replicates of each.
+const FEW: u32 = 2;
+const MANY: u32 = 8;
+const SEEDS: u32 = 8;
+/// Ways that a study looks at, about: what its time is shared among.
+const WAYS: f64 = 17.0;
+/// The part of the time that pilots may have; the rest is for whole frames and for trying what is recommended.
+const PILOTS_PART: f64 = 0.7;
+/// The part of the time that trying one recommendation may have, and the fewest tiles worth it.
+const TRIAL_PART: f64 = 0.1;
+const TRIAL_TILES: u32 = 16;
+/// By how much a choice without bias must be better to be taken.
+const WORTH: f64 = 0.9;
+
+/// What is studied.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The job, with what is changed in it.
+    pub job: JobRequest,
+    /// Which camera; `None`: the first.
+    pub camera: Option<String>,
+    /// About how long the study may take, s.
+    pub budget_s: f64,
+    /// The instruction set of the accelerator.
+    pub simd: Simd,
+}
+
+/// What a study found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Study {
+    /// The camera.
+    pub camera: String,
+    /// What its signal is: `electrons`, `irradiance` or `radiance`.
+    pub signal: &'static str,
+    /// What part of the frame's tiles was looked at.
+    pub share: f64,
+    /// What a frame takes beside loading and light, s: sensor, processing, ground truth, files.
+    pub rest_s: f64,
+    /// The job as it stands.
+    pub as_stated: FrontPoint,
+    /// All ways that were looked at, the job's own first.
+    pub ways: Vec<Measured>,
+    /// What no other way beats, shortest first.
+    pub front: Vec<FrontPoint>,
+    /// Settings for a draft, a standard picture and a reference.
+    pub recommendations: Vec<Recommendation>,
+    /// How long the study took, s.
+    pub took_s: f64,
+}
+
+/// Studies a job's frame. Runs on the caller's thread pool. `scratch` is a folder that is not there: one frame is written to it, and it is removed.
+///
+/// # Errors
+/// Where the job has faults or no such camera, the observer cancels, or `scratch` cannot be written.
+pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dyn Observer) -> Result<Study, Error> {
+    let from_s = clock.seconds();
+    let job = request.job.clone().open()?;
+    let camera = match &request.camera {
+        Some(name) => name.clone(),
+        None => job.plan().cameras[0].name.clone(),
+    };
+    let samples = f64::from(SEEDS * (FEW + MANY)) * WAYS;
+    let budget = (PILOTS_PART * request.budget_s, samples);
+    let plan = PilotPlan::within(&job, &camera, budget, request.simd, (clock, observer))?;
+    let pilots = Pilots { camera: &camera, plan, simd: request.simd, clock, observer };
+    let mut bench = Bench { request, pilots, job: &job, pixels: None, ways: Vec::new(), kept: Vec::new() };
+    let stated = WayToRender::of(&job, &camera)?;
+    bench.look_at_ways(stated)?;
+    let settings = job.render_settings(&camera)?;
+    let rest_s = bench.rest_s(scratch)?;
+    let frame = Frame { rest_s, replicates: settings.replicates };
+    bench.combine(settings.spp, frame)?;
+    let Bench { pilots, ways, .. } = &bench;
+    let has_sensor = ways[0].bias_squares.sensor.is_some();
+    let mut recommendations: Vec<_> =
+        targets(has_sensor).into_iter().filter_map(|target| recommend(ways, target, frame)).collect();
+    for recommendation in &mut recommendations {
+        recommendation.confirmation = bench.tried(recommendation)?;
+    }
+    Ok(Study {
+        signal: match job.light_signal(&camera)? {
+            LightSignal::Electrons => "electrons",
+            LightSignal::Irradiance => "irradiance",
+            LightSignal::Radiance => "radiance",
+        },
+        share: pilots.plan.share(),
+        rest_s,
+        as_stated: point(&ways[0], settings.spp, frame),
+        front: front(ways, frame),
+        recommendations,
+        took_s: clock.seconds() - from_s,
+        ways: bench.ways,
+        camera,
+    })
+}
+
+/// The part of a frame's pixels that a pilot has.
+fn share(job: &Job, camera: &str, pilot: &Pilot) -> Result<f64, Error> {
+    let [width, height] = job.film_px(camera)?;
+    Ok(pilot.pixels.len() as f64 / (f64::from(width) * f64::from(height)))
+}
+
+/// A study under way.
+struct Bench<'a> {
+    request: &'a Request,
+    pilots: Pilots<'a>,
+    /// The job as it stands.
+    job: &'a Job,
+    /// Known once the exact form is.
+    pixels: Option<Pixels>,
+    ways: Vec<Measured>,
+    /// Long pilots that others are compared with.
+    kept: Vec<(WayToRender, Pilot)>,
+}
+
+impl Bench<'_> {
+    /// Everything that is looked at for itself.
+    fn look_at_ways(&mut self, stated: WayToRender) -> Result<(), Error> {
+        let path = WayToRender {
+            integrator: Integrator::Path,
+            max_bounces: stated.max_bounces.max(EXACT_BOUNCES),
+            caustics: true,
+            ..stated
+        };
+        let bare = WayToRender { caustics: false, ..path };
+        let short = |max_bounces| WayToRender { max_bounces, ..bare };
+        let less = |integrator| WayToRender { integrator, max_bounces: 1, caustics: true, path_reuse_px: 1, ..stated };
+        self.keep(path, Role::Exact, None)?;
+        self.keep(bare, Role::Approximation, Some(path))?;
+        for bounces in [16, 8, 4, 2] {
+            self.look_at(short(bounces), Role::Approximation, Some(bare))?;
+        }
+        self.look_at(less(Integrator::Direct), Role::Approximation, Some(bare))?;
+        self.look_at(less(Integrator::Flat), Role::Approximation, Some(bare))?;
+        // The job's own, compared with what leaves out as little as it may beside its own omissions.
+        let against = if stated.is_exact() { None } else { Some(if stated.caustics { path } else { bare }) };
+        self.look_at(stated, Role::Stated, against)?;
+        let own = self.ways.iter().position(|measured| measured.way == stated).expect("looked at");
+        let own = self.ways.remove(own);
+        self.ways.insert(0, own);
+        for way in self.choices_without_bias(stated)? {
+            self.choose(way, stated, against)?;
+        }
+        Ok(())
+    }
+
+    /// Ways with the means of the job's own: other wavelengths, shared paths, trees.
+    fn choices_without_bias(&self, stated: WayToRender) -> Result<Vec<WayToRender>, Error> {
+        let disperses = self.job.render_settings(self.pilots.camera)?.disperses;
+        let wavelengths = [1, 4, 8].into_iter().filter(|n| !disperses || *n == 1);
+        let wavelengths = wavelengths.map(|wavelengths| WayToRender { wavelengths, ..stated });
+        let shares: &[u32] = if stated.integrator == Integrator::Path { &[1, 2, 4, 8] } else { &[] };
+        let shares = shares.iter().map(|px| WayToRender { path_reuse_px: *px, ..stated });
+        let trees = Accelerator::ALL.into_iter().map(|accelerator| WayToRender { accelerator, ..stated });
+        Ok(wavelengths.chain(shares).chain(trees).filter(|way| *way != stated).collect())
+    }
+
+    /// Looks at a way that others are compared with.
+    fn keep(&mut self, way: WayToRender, role: Role, against: Option<WayToRender>) -> Result<(), Error> {
+        let pilot = self.look_at(way, role, against)?;
+        self.kept.extend(pilot.map(|pilot| (way, pilot)));
+        Ok(())
+    }
+
+    /// Looks at a choice that changes no mean of the way `from`, whose bias it has.
+    fn choose(&mut self, way: WayToRender, from: WayToRender, against: Option<WayToRender>) -> Result<(), Error> {
+        if self.look_at(way, Role::Choice, against)?.is_some() {
+            let bias = self.ways.iter().find(|m| m.way == from).map(|m| m.bias_squares.clone());
+            let chosen = self.ways.last_mut().expect("just looked at");
+            chosen.bias_squares = bias.unwrap_or_else(|| chosen.bias_squares.clone());
+        }
+        Ok(())
+    }
+
+    /// Looks at a way, against one that was kept; answers with its long pilot. Ways that were looked at are not again.
+    fn look_at(&mut self, way: WayToRender, role: Role, against: Option<WayToRender>) -> Result<Option<Pilot>, Error> {
+        if self.ways.iter().any(|measured| measured.way == way) {
+            return Ok(None);
+        }
+        let (done, total) = (self.ways.len(), (WAYS as usize).max(self.ways.len() + 1));
+        let heading = way.label();
+        self.pilots.observer.progress(Progress { heading: &heading, frame: None, unit: Unit::Pilots, done, total });
+        let from_s = self.pilots.clock.seconds();
+        let job = way.request(&self.request.job, self.pilots.camera).open()?;
+        let load_s = self.pilots.clock.seconds() - from_s;
+        let few = self.pilots.run(&job, FEW, SEEDS)?;
+        let many = self.pilots.run(&job, MANY, SEEDS)?;
+        if self.pixels.is_none() {
+            let noise = self.job.temporal_noise(self.pilots.camera)?;
+            self.pixels = Some(Pixels::new(&many.pixels, &many.planes, noise.as_ref()));
+        }
+        let pixels = self.pixels.as_ref().expect("made above");
+        let times = Times::of((FEW, &few), (MANY, &many), share(&job, self.pilots.camera, &many)?);
+        let exact = against.and_then(|against| self.kept.iter().find(|(way, _)| *way == against));
+        let bias = exact.map(|(against, exact)| Bias { against: *against, squares: bias(pixels, &many, exact) });
+        let variance = variance(pixels, (FEW, &few), (MANY, &many));
+        let bias_squares = self.all_bias(bias.as_ref(), &variance.map(|_| Estimate::default()));
+        let Times { frame_s, sample_s } = times;
+        self.ways.push(Measured { way, role, load_s, frame_s, sample_s, variance, bias, bias_squares });
+        Ok(Some(many))
+    }
+
+    /// A bias, and that of what it is told against, where it is sure; all of it together.
+    fn all_bias(&self, own: Option<&Bias>, none: &Currencies<Estimate>) -> Currencies<Estimate> {
+        let Some(own) = own else { return none.clone() };
+        let under = self.ways.iter().find(|measured| measured.way == own.against);
+        let sure = |e: &Estimate| if e.exceeds(2.0) { *e } else { Estimate { value: 0.0, ..*e } };
+        let own = own.squares.map(sure);
+        match under {
+            Some(under) => own.with(&under.bias_squares, |a, b| a.plus(*b)),
+            None => own,
+        }
+    }
+
+    /// What one frame of the job takes beside loading and light, s.
+    fn rest_s(&self, scratch: &Path) -> Result<f64, Error> {
+        let mut request = JobRequest { spp: Some(1), noise: None, ..self.request.job.clone() };
+        request.camera = Some(self.pilots.camera.to_owned());
+        let job = request.open()?;
+        let options = RenderOptions { simd: self.request.simd, ..RenderOptions::default() };
+        let clock = self.pilots.clock;
+        let from_s = clock.seconds();
+        job.save(&options, (scratch, Existing::Refuse), &etendue::Unobserved)?;
+        let took_s = clock.seconds() - from_s;
+        std::fs::remove_dir_all(scratch)
+            .map_err(|error| Error::Run(format!("{}: cannot be removed: {error}", scratch.display())))?;
+        Ok((took_s - self.ways[0].frame_s - self.ways[0].sample_s.value).max(0.0))
+    }
+
+    /// The best choices without bias, joined with the ways that targets call for.
+    fn combine(&mut self, spp: u32, frame: Frame) -> Result<(), Error> {
+        let stated = self.ways[0].way;
+        let best = |of: fn(&WayToRender, &WayToRender) -> WayToRender| {
+            let alike = self.ways.iter().filter(|m| of(&stated, &m.way) == m.way);
+            let cost = |m: &Measured| cost(m, &self.ways[0], spp, frame);
+            let best = alike.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+            best.filter(|m| cost(m) < WORTH).map_or(stated, |m| m.way)
+        };
+        let wavelengths = best(|own, other| WayToRender { wavelengths: other.wavelengths, ..*own }).wavelengths;
+        let path_reuse_px = best(|own, other| WayToRender { path_reuse_px: other.path_reuse_px, ..*own }).path_reuse_px;
+        let accelerator = best(|own, other| WayToRender { accelerator: other.accelerator, ..*own }).accelerator;
+        let has_sensor = self.ways[0].bias_squares.sensor.is_some();
+        let called: Vec<_> = targets(has_sensor)
+            .into_iter()
+            .filter_map(|target| recommend(&self.ways, target, frame))
+            .map(|recommendation| recommendation.point.way)
+            .collect();
+        for way in called {
+            let shared = if way.integrator == Integrator::Path { path_reuse_px } else { 1 };
+            let joined = WayToRender { wavelengths, path_reuse_px: shared, accelerator, ..way };
+            let base = self.ways.iter().find(|m| m.way == way).and_then(|m| m.bias.as_ref()).map(|b| b.against);
+            self.choose(joined, way, base)?;
+        }
+        Ok(())
+    }
+
+    /// Tries a recommendation on tiles that the study has not seen.
+    fn tried(&self, recommendation: &Recommendation) -> Result<Option<Confirmation>, Error> {
+        let FrontPoint { way, spp, replicates, .. } = recommendation.point;
+        let measured = self.ways.iter().find(|m| m.way == way).expect("recommended of these");
+        let whole_s = measured.sample_s.value * f64::from(spp);
+        let fewest = (whole_s / (TRIAL_PART * self.request.budget_s)).ceil() as u32;
+        let PilotPlan { tile_px, shard } = self.pilots.plan;
+        let [columns, rows] = self.job.tile_grid(self.pilots.camera, tile_px)?;
+        let count = (fewest.max(shard.count)..).find(|n| !n.is_multiple_of(2) || columns % 2 == 1).unwrap_or(1);
+        let tiles = columns * rows / count;
+        if tiles < TRIAL_TILES || replicates < 2 {
+            return Ok(None);
+        }
+        let shard = ShardSpec { index: (shard.index + 1) % count, count };
+        let plan = PilotPlan { tile_px, shard };
+        let Pilots { camera, simd, clock, observer, .. } = self.pilots;
+        let pilots = Pilots { camera, plan, simd, clock, observer };
+        let job = way.request(&self.request.job, camera).open()?;
+        let own = job.render_settings(camera)?.seed;
+        let (mut planes, mut pixels, mut took_s) = (Vec::new(), Vec::new(), 0.0);
+        for k in 0..replicates {
+            let (light, replicate_s) = pilots.timed(&job, (spp / replicates, 1), seed(own, 2000 + k))?;
+            planes.push(light.signal);
+            (pixels, took_s) = (light.pixels, took_s + replicate_s);
+        }
+        let seen = pixels.len();
+        let pixels = Pixels::new(&pixels, &planes, self.job.temporal_noise(camera)?.as_ref());
+        let found = *pixels.variance(&planes).deciding();
+        let foretold = measured.variance.deciding().at(f64::from(spp / replicates));
+        let [width, height] = job.film_px(camera)?;
+        let share = seen as f64 / (f64::from(width) * f64::from(height));
+        let foretold_s = measured.frame_s * f64::from(replicates) + whole_s * share;
+        let ratio = Estimate { value: found.value / foretold.value, uncertainty: found.uncertainty / foretold.value };
+        Ok(Some(Confirmation { tiles, seconds: took_s / foretold_s, noise: ratio.root() }))
+    }
+}
+
+/// Time times mean square of a choice over that of the job's own, in the currency that gains least of it: noise that neighbours share is
+/// quiet in each pixel and loud in their mean.
+fn cost(choice: &Measured, own: &Measured, spp: u32, frame: Frame) -> f64 {
+    let replicate = f64::from(spp) / f64::from(frame.replicates);
+    let time = choice.seconds(f64::from(spp), frame.rest_s).value / own.seconds(f64::from(spp), frame.rest_s).value;
+    let ratios = choice.variance.with(&own.variance, |a, b| a.at(replicate).value / b.at(replicate).value);
+    let variance = ratios.deciding().max(ratios.patch);
+    time * if variance.is_finite() { variance } else { 1.0 }
+}

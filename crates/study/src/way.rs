@@ -1,0 +1,131 @@
+//! A way to render: what of a job's rendering a study changes.
+
+use etendue::{Integrator, Job, JobRequest};
+use serde::Serialize;
+
+/// How much work goes into the bounding-volume hierarchies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Accelerator {
+    /// Built quickly.
+    Fast,
+    /// As usual.
+    Default,
+    /// Built for many rays.
+    Best,
+}
+
+impl Accelerator {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Fast, Self::Default, Self::Best];
+
+    /// Its word in the key `render.accelerator`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Default => "default",
+            Self::Best => "best",
+        }
+    }
+}
+
+/// What of a camera's rendering a study changes; samples come on top.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct WayToRender {
+    /// How much of the light's ways is followed.
+    pub integrator: Integrator,
+    /// Greatest number of scattering events; of paths only.
+    pub max_bounces: u32,
+    /// Whether caustics of lamps are followed; of paths only.
+    pub caustics: bool,
+    /// Side of the squares of pixels that share the tails of their paths; of paths only.
+    pub path_reuse_px: u32,
+    /// Wavelengths a path.
+    pub wavelengths: u32,
+    /// How the hierarchies are built.
+    pub accelerator: Accelerator,
+}
+
+impl WayToRender {
+    /// That of a camera of a job.
+    ///
+    /// # Errors
+    /// Where the job cannot be read or has no such camera.
+    pub(crate) fn of(job: &Job, camera: &str) -> Result<Self, etendue::Error> {
+        let settings = job.render_settings(camera)?;
+        let word = job.request().stated_render(camera)?.accelerator;
+        Ok(Self {
+            integrator: settings.integrator,
+            max_bounces: settings.max_bounces,
+            caustics: settings.caustics,
+            path_reuse_px: settings.path_reuse_px,
+            wavelengths: settings.wavelengths,
+            accelerator: Accelerator::ALL.into_iter().find(|a| a.name() == word).unwrap_or(Accelerator::Default),
+        })
+    }
+
+    /// The keys of `[render]` that say it, with their values as TOML writes them: none that has no effect.
+    #[must_use]
+    pub fn keys(&self) -> Vec<(&'static str, String)> {
+        let mut keys = vec![("integrator", format!("\"{}\"", self.integrator.name()))];
+        if self.integrator == Integrator::Path {
+            keys.push(("max_bounces", self.max_bounces.to_string()));
+            keys.push(("caustics", self.caustics.to_string()));
+            keys.push(("path_reuse_px", self.path_reuse_px.to_string()));
+        }
+        keys.push(("wavelengths_per_path", self.wavelengths.to_string()));
+        keys.push(("accelerator", format!("\"{}\"", self.accelerator.name())));
+        keys
+    }
+
+    /// The job rendered so.
+    pub(crate) fn request(&self, job: &JobRequest, camera: &str) -> JobRequest {
+        let mut request = job.clone();
+        request.integrator = Some(self.integrator);
+        let keys = self.keys().into_iter().filter(|(key, _)| *key != "integrator");
+        request.set.extend(keys.map(|(key, value)| format!("cameras.{camera}.render.{key}={value}")));
+        request.camera = Some(camera.to_owned());
+        request
+    }
+
+    /// In a few words.
+    #[must_use]
+    pub fn label(&self) -> String {
+        let accelerator = match self.accelerator {
+            Accelerator::Default => String::new(),
+            other => format!(", {} accelerator", other.name()),
+        };
+        let wavelengths = format!("{} λ", self.wavelengths);
+        if self.integrator != Integrator::Path {
+            return format!("{}, {wavelengths}{accelerator}", self.integrator.name());
+        }
+        let caustics = if self.caustics { "caustics" } else { "no caustics" };
+        let reuse = if self.path_reuse_px == 1 { String::new() } else { format!(", reuse {} px", self.path_reuse_px) };
+        format!("path, {} bounces, {caustics}{reuse}, {wavelengths}{accelerator}", self.max_bounces)
+    }
+
+    /// Whether it follows all the light that the exact form follows: it has no bias.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.integrator == Integrator::Path && self.caustics && self.max_bounces >= EXACT_BOUNCES
+    }
+
+    /// What it leaves out of the exact form, in words.
+    #[must_use]
+    pub fn left_out(&self) -> String {
+        match self.integrator {
+            Integrator::Flat => "shadows and all light from other surfaces".to_owned(),
+            Integrator::Direct => "all light from other surfaces".to_owned(),
+            Integrator::Path => {
+                let bounces = (self.max_bounces < EXACT_BOUNCES)
+                    .then(|| format!("light after more than {} bounces", self.max_bounces));
+                let caustics = (!self.caustics).then(|| "caustics of lamps".to_owned());
+                bounces.into_iter().chain(caustics).collect::<Vec<_>>().join(" and ")
+            }
+        }
+    }
+}
+
+/// Bounces of the exact form: Russian roulette has ended nearly every path before, and a job that asks for more keeps its own.
+pub(crate) const EXACT_BOUNCES: u32 = 64;
