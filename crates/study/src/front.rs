@@ -7,8 +7,11 @@ use serde::Serialize;
 
 /// Samples that are looked at, at most.
 const MOST_SPP: f64 = 1_048_576.0;
-/// What bias may have of the mean square that is wanted.
+/// What bias may have of the mean square that is wanted, with this many of its uncertainties on top.
 const BIAS_PART: f64 = 0.25;
+const BIAS_UNCERTAINTIES: f64 = 1.0;
+/// The most samples of a point of the front, a power of two.
+const FRONT_POWERS: std::ops::RangeInclusive<u32> = 2..=14;
 
 /// A number of samples of a way, and what it comes to.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,7 +58,8 @@ impl Target {
         let (error, bias) = (way.error(spp, replicates), &way.bias_squares);
         let meets = |wanted: Option<f64>, error: Option<Estimate>, bias: Option<Estimate>| {
             wanted.zip(error).zip(bias).is_some_and(|((wanted, error), bias)| {
-                error.value <= wanted * wanted && bias.value <= BIAS_PART * wanted * wanted
+                let bias = bias.value + BIAS_UNCERTAINTIES * bias.uncertainty;
+                error.value <= wanted * wanted && bias <= BIAS_PART * wanted * wanted
             })
         };
         meets(self.sensor, error.sensor, bias.sensor) || meets(self.relative, Some(error.relative), Some(bias.relative))
@@ -107,7 +111,7 @@ pub(crate) fn point(measured: &Measured, spp: u32, frame: Frame) -> FrontPoint {
 
 /// What no other way beats in both time and error, by the deciding currency, shortest first.
 pub(crate) fn front(ways: &[Measured], frame: Frame) -> Vec<FrontPoint> {
-    let counts = (2..=16).map(|power| (1_u32 << power).next_multiple_of(frame.replicates));
+    let counts = FRONT_POWERS.map(|power| (1_u32 << power).next_multiple_of(frame.replicates));
     let mut points: Vec<_> = counts.flat_map(|spp| ways.iter().map(move |way| point(way, spp, frame))).collect();
     points.sort_by(|a, b| a.seconds.value.total_cmp(&b.seconds.value));
     let mut least = f64::INFINITY;

@@ -85,7 +85,7 @@ pub struct Measured {
     pub variance: Currencies<PowerLaw>,
     /// Found against the next more exact way; `None` of the exact form itself.
     pub bias: Option<Bias>,
-    /// The mean square of everything that it leaves out of the exact form, as far as that is sure (two uncertainties).
+    /// The mean square of everything that it leaves out of the exact form, 0 or more: what is found below 0 is chance.
     pub bias_squares: Currencies<Estimate>,
 }
 
@@ -139,10 +139,7 @@ impl Measured {
     #[must_use]
     pub fn error(&self, spp: f64, replicates: f64) -> Currencies<Estimate> {
         let variance = self.variance.map(|law| law.at(spp / replicates).times(1.0 / replicates));
-        variance.with(&self.bias_squares, |variance, bias| {
-            let above = Estimate { value: bias.value.max(0.0), uncertainty: bias.uncertainty };
-            variance.plus(above)
-        })
+        variance.with(&self.bias_squares, |variance, bias| variance.plus(*bias))
     }
 
     /// The whole run, s, with what a frame takes beside its light.

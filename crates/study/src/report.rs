@@ -30,6 +30,9 @@ pub(crate) fn error_text(error: &Currencies<Estimate>) -> String {
 
 /// As many decimals as the first figure of the uncertainty needs, three at most.
 fn figure(e: Estimate) -> String {
+    if e == Estimate::default() {
+        return "0".to_owned();
+    }
     let size = if e.uncertainty > 0.0 { e.uncertainty } else { e.value.abs().max(1.0) * 1e-2 };
     let digits = (-log10(size)).ceil().clamp(0.0, 3.0) as usize;
     format!("{:.digits$} ± {:.digits$}", e.value, e.uncertainty)

@@ -216,12 +216,11 @@ impl Bench<'_> {
         Ok(Some(many))
     }
 
-    /// A bias, and that of what it is told against, where it is sure; all of it together.
+    /// A bias, and that of what it is told against; all of it together.
     fn all_bias(&self, own: Option<&Bias>, none: &Currencies<Estimate>) -> Currencies<Estimate> {
         let Some(own) = own else { return none.clone() };
         let under = self.ways.iter().find(|measured| measured.way == own.against);
-        let sure = |e: &Estimate| if e.exceeds(2.0) { *e } else { Estimate { value: 0.0, ..*e } };
-        let own = own.squares.map(sure);
+        let own = own.squares.map(|square| Estimate { value: square.value.max(0.0), ..*square });
         match under {
             Some(under) => own.with(&under.bias_squares, |a, b| a.plus(*b)),
             None => own,
