@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::exposures::Exposures;
 use crate::memory::MemoryFiles;
 use crate::observer::{Message, Observer};
+use crate::plan_report::PlanReport;
 use crate::render_options::RenderOptions;
 use crate::results::{CameraResults, DoneFrames, Results, Sequence, file_names};
 use crate::rig;
@@ -12,6 +13,7 @@ use crate::shard_spec::ShardSpec;
 use etendue_io::{Existing, OutputFolder, complete_assets};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::plan::effects::PlannedEffect;
 use etendue_pipeline::render::Shot;
 use etendue_pipeline::summary::Summary;
 use etendue_pipeline::tile::Shard;
@@ -202,6 +204,19 @@ impl Job {
     #[must_use]
     pub fn summary(&self) -> String {
         Summary(&self.plan).to_string()
+    }
+
+    /// The same for programs.
+    #[must_use]
+    pub fn report(&self) -> PlanReport {
+        PlanReport::of(self)
+    }
+
+    /// Everything that can cost or change a frame, by cameras: whether it is modelled, what it takes, and by which changes of keys
+    /// ([`JobRequest::set`]) it is left out.
+    #[must_use]
+    pub fn effects(&self) -> Vec<(&CameraPlan, Vec<PlannedEffect>)> {
+        self.plan.cameras.iter().map(|camera| (camera, self.plan.effects(camera))).collect()
     }
 
     /// What the request supersedes of the job file, a sentence each.

@@ -17,6 +17,7 @@
 //! | from | to | by |
 //! | --- | --- | --- |
 //! | a job file | its plan, radiance, electrons, raw, picture, ground truth | [`Job`] |
+//! | a job file | what it will model and cost, effect by effect, and what each could be left out for | [`Job::report`], [`Job::effects`] |
 //! | a scene from arrays, a camera in code | the same | [`MemoryFiles`] |
 //! | a job file | where its cameras stand and how they project, for ROS, Kalibr and COLMAP | [`Job::save_calibration_files`] |
 //! | shards of a job | the files of the whole | [`merge()`] |
@@ -52,6 +53,7 @@ mod memory;
 mod merge;
 mod named_file;
 mod observer;
+pub mod plan_report;
 pub mod plot;
 mod ranges;
 mod raw_file;
@@ -85,6 +87,7 @@ pub use memory::{MemoryFiles, Triangles};
 pub use merge::merge;
 pub use named_file::write_file;
 pub use observer::{FramePlace, Message, Observer, Progress, Unit, Unobserved};
+pub use plan_report::PlanReport;
 pub use raw_file::Levels;
 pub use render_options::RenderOptions;
 pub use render_settings::RenderSettings;

@@ -3,7 +3,8 @@
 //! The key is a dotted path as the description would have it. An entry of a list is called by its name or its number
 //! (from 0): `cameras.front.sensor.exposure_s=0.01`, `scene.objects.2.material=red`. Referenced files are reached
 //! through the key that names them. The value is TOML; what is no TOML value is taken as a text, so that
-//! `scene=other.toml` needs no quotes.
+//! `scene=other.toml` needs no quotes. `null`, which TOML does not have, takes the key, or the entry of a list, out:
+//! `cameras.front.effects.psf=null`.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -92,6 +93,9 @@ fn note_no_pair(document: &Node, text: &Arc<str>, faults: &mut Faults) {
     faults.add(&place, "this is no key=value", "give a dotted key, \"=\" and a value: render.spp=16");
 }
 
+/// The value that takes a key out.
+const REMOVED: &str = "null";
+
 /// Parts that a key may have: as deep as the TOML reader follows tables. No description comes near.
 const DEEPEST: usize = 80;
 
@@ -140,7 +144,31 @@ impl<'t> Change<'t> {
             let Some(next) = self.step(node, part, faults) else { return };
             node = next;
         }
-        self.put(node, last, faults);
+        if self.value == REMOVED { self.take_out(node, last, faults) } else { self.put(node, last, faults) }
+    }
+
+    /// Takes the entry `last` out of `node`; one that is not there is a fault.
+    fn take_out(&self, node: &mut Node, last: &str, faults: &mut Faults) {
+        let place = Place::set(node.place.file().into(), self.text.clone(), join(node.place.key(), last).into());
+        let parent = node.place.key().to_owned();
+        let is_taken = match &mut node.value {
+            Value::Table(table) => table.remove(last).is_some(),
+            Value::List(list) => find_entry(list, last).map(|at| list.remove(at)).is_some(),
+            Value::Unreadable => true,
+            _ => false,
+        };
+        if is_taken {
+            return;
+        }
+        let names: Vec<&str> = match &node.value {
+            Value::Table(table) => table.entries.iter().map(|entry| entry.key.as_str()).collect(),
+            Value::List(list) => list.iter().filter_map(Node::name).collect(),
+            _ => Vec::new(),
+        };
+        let hint = nearest(last, &names).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
+        let within = if parent.is_empty() { String::new() } else { format!(" in \"{parent}\"") };
+        let problem = format!("there is no \"{last}\"{within} that could be taken out");
+        faults.add(&place, problem, format!("{hint}correct the key, or leave the change out"));
     }
 
     /// The entry `part` of `node`; a table that is not there yet is made.

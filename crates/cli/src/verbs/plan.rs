@@ -11,12 +11,20 @@ use etendue::Error;
 pub struct Plan {
     #[command(flatten)]
     pub job: JobArgs,
+    /// Print one JSON document: cameras, settings, effects with their costs and what leaving each out would bring, remarks (docs/plan.md)
+    #[arg(long)]
+    pub json: bool,
 }
 
 impl Plan {
     pub fn run(&self) -> Result<(), Error> {
         let job = self.job.open(&machine::pool(None)?)?;
-        print(&job.summary());
+        if !self.json {
+            print(&job.summary());
+            return Ok(());
+        }
+        let text = serde_json::to_string_pretty(&job.report()).map_err(|error| Error::Run(error.to_string()))?;
+        print(&format!("{text}\n"));
         Ok(())
     }
 }

@@ -69,7 +69,7 @@ impl<'a> Context<'a> {
         faults
     }
 
-    /// A remark that the plan prints, once.
+    /// A remark that the plan prints, equal ones once with their number.
     pub(super) fn remark(&mut self, text: impl Into<String>) {
         self.add(None, text.into(), Weight::Note);
     }
@@ -90,9 +90,10 @@ impl<'a> Context<'a> {
     }
 
     fn add(&mut self, about: Option<String>, text: String, weight: Weight) {
-        let remark = Remark { about, text, weight };
-        if !self.remarks.contains(&remark) {
-            self.remarks.push(remark);
+        let is_same = |other: &&mut Remark| other.about == about && other.text == text && other.weight == weight;
+        match self.remarks.iter_mut().find(is_same) {
+            Some(same) => same.count += 1,
+            None => self.remarks.push(Remark { about, text, weight, count: 1 }),
         }
     }
 }

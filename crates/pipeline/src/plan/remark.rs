@@ -20,6 +20,8 @@ pub struct Remark {
     pub text: String,
     /// How much it matters.
     pub weight: Weight,
+    /// How often it was made, 1 or more.
+    pub count: usize,
 }
 
 /// Remarks of one text, told once with all that they concern.
@@ -27,8 +29,29 @@ pub struct Remark {
 pub struct Grouped<'a> {
     about: Vec<&'a str>,
     text: &'a str,
+    count: usize,
     /// How much they matter.
     pub weight: Weight,
+}
+
+impl<'a> Grouped<'a> {
+    /// The files, places or things that they concern; empty where the text names them.
+    #[must_use]
+    pub fn about(&self) -> &[&'a str] {
+        &self.about
+    }
+
+    /// The remark, without a full stop.
+    #[must_use]
+    pub fn text(&self) -> &'a str {
+        self.text
+    }
+
+    /// How often they were made, 1 or more.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.count
+    }
 }
 
 impl Display for Grouped<'_> {
@@ -36,7 +59,8 @@ impl Display for Grouped<'_> {
         match self.about.as_slice() {
             [] => f.write_str(self.text),
             names => write!(f, "{}: {}", names.join(", "), self.text),
-        }
+        }?;
+        if self.count > 1 { write!(f, " ({} times)", self.count) } else { Ok(()) }
     }
 }
 
@@ -44,12 +68,17 @@ impl Display for Grouped<'_> {
 #[must_use]
 pub fn grouped(remarks: &[Remark]) -> Vec<Grouped<'_>> {
     let mut groups: Vec<Grouped<'_>> = Vec::new();
-    for Remark { about, text, weight } in remarks {
-        let same = |group: &&mut Grouped<'_>| group.text == text && group.weight == *weight;
-        match (groups.iter_mut().find(same), about) {
-            (Some(group), Some(name)) if !group.about.is_empty() => group.about.push(name),
-            (Some(group), None) if group.about.is_empty() => {}
-            _ => groups.push(Grouped { about: about.iter().map(String::as_str).collect(), text, weight: *weight }),
+    for Remark { about, text, weight, count } in remarks {
+        let is_same = |group: &&mut Grouped<'_>| {
+            group.text == text && group.weight == *weight && group.about.is_empty() == about.is_none()
+        };
+        let about = about.iter().map(String::as_str);
+        match groups.iter_mut().find(is_same) {
+            Some(group) => {
+                group.about.extend(about);
+                group.count += count;
+            }
+            None => groups.push(Grouped { about: about.collect(), text, count: *count, weight: *weight }),
         }
     }
     groups
@@ -60,7 +89,7 @@ mod tests {
     use super::*;
 
     fn remark(about: Option<&str>, text: &str, weight: Weight) -> Remark {
-        Remark { about: about.map(str::to_owned), text: text.to_owned(), weight }
+        Remark { about: about.map(str::to_owned), text: text.to_owned(), weight, count: 1 }
     }
 
     #[test]
@@ -73,6 +102,16 @@ mod tests {
             remark(Some("d"), "nothing is kept", Weight::Note),
         ];
         let told: Vec<String> = grouped(&remarks).iter().map(ToString::to_string).collect();
-        assert_eq!(told, ["a, b: ends at 700 nm", "nothing is kept", "c: ends at 700 nm", "d: nothing is kept"]);
+        let expected = ["a, b: ends at 700 nm (2 times)", "nothing is kept", "c: ends at 700 nm", "d: nothing is kept"];
+        assert_eq!(told, expected);
+    }
+
+    #[test]
+    fn equal_remarks_are_counted() {
+        let twice = Remark { count: 2, ..remark(None, "nothing is kept", Weight::Note) };
+        let remarks = [twice, remark(None, "nothing is kept", Weight::Note)];
+        let groups = grouped(&remarks);
+        assert_eq!((groups.len(), groups[0].count()), (1, 3));
+        assert_eq!(groups[0].to_string(), "nothing is kept (3 times)");
     }
 }

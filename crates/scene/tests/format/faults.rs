@@ -227,6 +227,21 @@ fn overrides_that_are_wrong() {
             "cameras.front.name.x=4",
             "--set cameras.front.name.x=4: there is no table that could hold \"x\"; correct the key",
         ),
+        (
+            "cameras.front.lens.distorsion=null",
+            "--set cameras.front.lens.distorsion=null: there is no \"distorsion\" in \"cameras.front.lens\" that could be taken out; correct \
+             the key, or leave the change out",
+        ),
+        (
+            "cameras.front.lens.focal_length=null",
+            "--set cameras.front.lens.focal_length=null: there is no \"focal_length\" in \"cameras.front.lens\" that could be taken out; did \
+             you mean \"focal_length_mm\"? correct the key, or leave the change out",
+        ),
+        (
+            "scene.objects.wal=null",
+            "--set scene.objects.wal=null: there is no \"wal\" in \"scene.objects\" that could be taken out; did you mean \
+             \"wall\"? correct the key, or leave the change out",
+        ),
     ];
     for (set, expected) in cases {
         assert_eq!(faults_of_sets(&[set]), expected);
@@ -234,6 +249,19 @@ fn overrides_that_are_wrong() {
     assert!(
         faults_of_sets(&["render.ssp=16"])
             .starts_with("--set render.ssp=16: \"ssp\" is no key of this table; did you mean \"spp\"?")
+    );
+}
+
+#[test]
+fn what_is_taken_out_is_as_if_it_had_not_been_written() {
+    let read = |sets: &[&str]| load(&Files::with_camera(JOB), sets).expect("a job");
+    let objects = read(&[]).scene.objects.len();
+    assert_eq!(read(&["scene.objects.wall=null"]).scene.objects.len(), objects - 1);
+    assert!(read(&["render.spp=16"]).cameras[0].render.spp.is_some());
+    assert!(read(&["render.spp=16", "render.spp=null"]).cameras[0].render.spp.is_none(), "the last one wins");
+    assert_eq!(
+        faults_of_sets(&["cameras.front.lens.f_number=null"]),
+        "job.toml:8:1: cameras.front.lens: the key \"f_number\" is missing; add it: a number of at least 0.5"
     );
 }
 

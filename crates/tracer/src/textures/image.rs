@@ -240,6 +240,12 @@ impl ImageTexture {
     pub fn size(&self) -> (u32, u32) {
         (self.levels[0].width, self.levels[0].height)
     }
+
+    /// Memory of the texels of all resolutions, bytes.
+    #[must_use]
+    pub fn texel_bytes(&self) -> usize {
+        self.levels.iter().map(Level::bytes).sum::<usize>() + self.alpha.iter().map(Level::bytes).sum::<usize>()
+    }
 }
 
 /// Readings along a footprint of `across` by `along` texels.

@@ -19,6 +19,11 @@ impl<T: Texel> Level<T> {
         Self { width, height, store }
     }
 
+    /// Memory of the texels, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.store.bytes()
+    }
+
     pub(super) fn texel(&self, x: usize, y: usize) -> T {
         self.store.get(y * self.width as usize + x)
     }

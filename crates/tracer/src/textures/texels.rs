@@ -87,6 +87,14 @@ impl Store<f32> {
 }
 
 impl<T: Texel> Store<T> {
+    /// Memory of the texels, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        match self {
+            Self::Bytes { texels, .. } => size_of_val(texels.as_slice()),
+            Self::Float(texels) => size_of_val(texels.as_slice()),
+        }
+    }
+
     pub(super) fn get(&self, i: usize) -> T {
         match self {
             Self::Bytes { texels, linear } => T::decoded(texels[i], linear),

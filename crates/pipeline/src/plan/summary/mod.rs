@@ -2,7 +2,7 @@
 
 mod depth_of_field;
 mod drops;
-mod effects_cost;
+mod effects_table;
 mod front;
 mod lens;
 mod precipitation;
@@ -12,13 +12,14 @@ mod spectrum;
 mod time;
 mod words;
 
+use crate::plan::film_cost::Share;
+use crate::plan::frame_cost::FrameCost;
 use crate::plan::remark::grouped;
 use crate::plan::{AdaptiveSampling, CameraPlan, Plan, Products, RawFormat, Route, Settings, SkyFacts};
 use crate::render::block::Blocks;
-use crate::render::film::Film;
-use crate::render::{layout, light_counts};
+use crate::render::light_counts;
 use depth_of_field::depth_of_field;
-use effects_cost::Share;
+use effects_table::effects_table;
 use etendue_core::{Bands, EffectStatus};
 use etendue_optics::effects::Effect;
 use etendue_sensor::dynamic_range::{DynamicRange, Switch};
@@ -42,12 +43,17 @@ impl Display for Summary<'_> {
             writeln!(f)?;
             self::camera(plan, camera, f)?;
         }
+        writeln!(f, "\n{LEGEND}")?;
         if !plan.remarks.is_empty() {
             writeln!(f, "\nremarks")?;
         }
         grouped(&plan.remarks).iter().try_for_each(|remark| writeln!(f, "  {remark}"))
     }
 }
+
+/// What the tables leave open.
+const LEGEND: &str =
+    "error ?: etendue tradeoff JOB --ablate renders with and without it; the keys: etendue plan JOB --json";
 
 fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     writeln!(f, "\nscene")?;
@@ -129,7 +135,8 @@ fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
     sensor(camera, f)?;
     processing::processing(camera, f)?;
     line(f, "delivers", products(&camera.products))?;
-    cost(plan, camera, f)
+    cost(plan, camera, f)?;
+    effects_table(plan, camera, f)
 }
 
 fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
@@ -307,31 +314,24 @@ const LISTED_SHARE: f64 = 0.05;
 const SHORT_CPU_S: f64 = 1.0;
 
 fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
-    let shares = effects_cost::shares(plan, camera);
-    let beside: f64 = shares.iter().map(|share| share.cpu_s).sum();
+    let cost = FrameCost::of(plan, camera);
     if let Some(server) = shared_light::server(plan, camera) {
         line(f, "cost", format!("no paths of its own: those of camera {}", server.name))?;
-        return cost_beside(&shares, beside, f);
+        return cost_beside(&cost.parts, cost.film_cpu_s(), f);
     }
-    let (width, height) = camera.film_size();
-    let settings = &camera.settings;
-    let (least, upwards) = match settings.adaptive {
-        Some(limit) => (limit.min_spp, " and more"),
-        None => (settings.spp, ""),
-    };
-    let paths = f64::from(width) * f64::from(height) * f64::from(least);
-    let film = Film::bytes(width as usize, height as usize, &layout(camera)) / 1e6;
-    let cpu = paths * effects_cost::PATH_CPU_S;
+    let upwards = if cost.is_lower_bound { " and more" } else { "" };
     let served = shared_light::served(plan, camera);
     line(
         f,
         "cost",
         format!(
-            "{:.1} million paths{upwards}, about {cpu:.0} CPU seconds at the street's rate{served}; film {film:.1} MB",
-            paths / 1e6
+            "{:.1} million paths{upwards}, about {:.0} CPU seconds at the street's rate{served}; film {:.1} MB",
+            cost.paths / 1e6,
+            cost.paths_cpu_s,
+            cost.film_bytes / 1e6
         ),
     )?;
-    cost_beside(&shares, cpu + beside, f)
+    cost_beside(&cost.parts, cost.cpu_s(), f)
 }
 
 /// What takes time beside the paths, and the whole; nothing where it is little.

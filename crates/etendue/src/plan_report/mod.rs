@@ -1,0 +1,51 @@
+//! What a job's plan says, for programs: `etendue plan --json`, field by field in docs/plan.md.
+
+mod camera;
+mod effect;
+mod remark;
+mod scene;
+
+use crate::job::Job;
+use std::path::PathBuf;
+
+pub use camera::{CameraReport, CostReport, FilmPart, LensSummary, SettingsReport};
+pub use effect::{EffectReport, IfDroppedReport, Need};
+pub use remark::{RemarkReport, RemarkWeight};
+pub use scene::{SceneReport, SkyReport};
+
+/// What a job's plan says. What is not known is `None`, null in JSON.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct PlanReport {
+    /// The program's version.
+    pub version: &'static str,
+    /// The job file.
+    pub job: PathBuf,
+    /// The plan's hash, hexadecimal: equal plans give equal bytes.
+    pub hash: String,
+    /// What there is to see.
+    pub scene: SceneReport,
+    /// The cameras of the job, or the one that was asked for.
+    pub cameras: Vec<CameraReport>,
+    /// What compiling found that is no fault, equal ones once.
+    pub remarks: Vec<RemarkReport>,
+    /// What a rendering repeats of them, and of the lights, in sentences.
+    pub warnings: Vec<String>,
+    /// What the command line supersedes of the job file, in sentences.
+    pub notices: Vec<String>,
+}
+
+impl PlanReport {
+    pub(crate) fn of(job: &Job) -> Self {
+        let plan = job.plan();
+        Self {
+            version: env!("CARGO_PKG_VERSION"),
+            job: job.request().job.clone(),
+            hash: plan.hash_text(),
+            scene: SceneReport::of(plan),
+            cameras: plan.cameras.iter().map(|camera| CameraReport::of(plan, camera)).collect(),
+            remarks: RemarkReport::all(plan),
+            warnings: plan.warnings(),
+            notices: plan.notices.clone(),
+        }
+    }
+}

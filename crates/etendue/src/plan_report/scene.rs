@@ -1,0 +1,72 @@
+//! What there is to see.
+
+use etendue_pipeline::Plan;
+use etendue_tracer::geometry::Shape;
+
+/// What there is to see.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct SceneReport {
+    /// Things that stand in the scene.
+    pub instances: usize,
+    /// Triangles of all instances.
+    pub triangles: usize,
+    /// Triangles that are stored: those of each mesh once.
+    pub stored_triangles: usize,
+    /// Spheres.
+    pub spheres: usize,
+    /// Materials.
+    pub materials: usize,
+    /// Pictures on surfaces.
+    pub textures: usize,
+    /// Fog and the like; that of rain or snow is among them.
+    pub media: usize,
+    /// Whether anything falls.
+    pub precipitation: bool,
+    /// Whether the strength of any light changes over time.
+    pub lights_change: bool,
+    /// A clear sky; `None` where the surroundings are none.
+    pub sky: Option<SkyReport>,
+}
+
+/// A clear sky.
+#[derive(Clone, Copy, Debug, serde::Serialize)]
+pub struct SkyReport {
+    /// How hazy the air is.
+    pub turbidity: f64,
+    /// Height of the sun's centre, degrees.
+    pub sun_elevation_deg: f64,
+    /// Azimuth of the sun's centre from +x towards +y, degrees.
+    pub sun_azimuth_deg: f64,
+    /// Illuminance of level ground by the sky, lx.
+    pub sky_lx: f64,
+    /// Illuminance of level ground by its own sun, lx; 0 where it is left out or down.
+    pub sun_lx: f64,
+}
+
+impl SceneReport {
+    pub(super) fn of(plan: &Plan) -> Self {
+        let instances = plan.world.instances();
+        let triangles = |shape: &Shape| match shape {
+            Shape::Mesh(id) => plan.world.mesh(*id).triangles().len(),
+            Shape::Sphere { .. } => 0,
+        };
+        Self {
+            instances: instances.len(),
+            triangles: instances.iter().map(|instance| triangles(&instance.shape)).sum(),
+            stored_triangles: plan.world.meshes().iter().map(|mesh| mesh.triangles().len()).sum(),
+            spheres: instances.iter().filter(|instance| matches!(instance.shape, Shape::Sphere { .. })).count(),
+            materials: plan.materials.len(),
+            textures: plan.material_table.textures().len(),
+            media: plan.media.len(),
+            precipitation: plan.precipitation.is_some(),
+            lights_change: plan.is_modulated(),
+            sky: plan.sky.map(|sky| SkyReport {
+                turbidity: sky.turbidity,
+                sun_elevation_deg: sky.sun_elevation_deg,
+                sun_azimuth_deg: sky.sun_azimuth_deg,
+                sky_lx: sky.sky_lx,
+                sun_lx: sky.sun_lx,
+            }),
+        }
+    }
+}

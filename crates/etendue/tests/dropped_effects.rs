@@ -1,0 +1,100 @@
+//! The keys by which a plan says that its effects are left out: each is tried on the jobs that ship.
+
+use etendue_io::complete_assets;
+use etendue_pipeline::plan::effects::PlannedEffect;
+use etendue_pipeline::{Choices, Plan, compile};
+use etendue_scene::asset::Assets;
+use etendue_scene::{Description, Overrides};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The jobs of the repository.
+fn jobs() -> Vec<PathBuf> {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let within = |folder: PathBuf| std::fs::read_dir(folder).expect("a folder").map(|e| e.expect("readable").path());
+    let is_job = |file: &PathBuf| {
+        file.extension().is_some_and(|e| e == "toml")
+            && std::fs::read_to_string(file).is_ok_and(|text| text.contains("[[cameras]]"))
+    };
+    let mut jobs: Vec<PathBuf> = within(scenes).filter(|p| p.is_dir()).flat_map(within).filter(is_job).collect();
+    jobs.sort();
+    jobs
+}
+
+/// The plan of a job under changes; the assets that it needs are added to those that are known.
+fn plan(job: &Path, set: &[String], assets: &mut Assets) -> Result<Plan, String> {
+    let told = |errors: Vec<String>| errors.join("\n");
+    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
+    let description = Description::load(job, &read, &Overrides::new(set)).map_err(|faults| faults.to_string())?;
+    let complete = complete_assets(std::mem::take(assets), &description.assets());
+    *assets = complete.map_err(|errors| told(errors.iter().map(ToString::to_string).collect()))?;
+    compile(&description, assets, &Choices::default())
+        .map_err(|faults| told(faults.iter().map(ToString::to_string).collect()))
+}
+
+/// What the plan of a job says of an effect after leaving it out.
+fn status(plan: &Plan, camera: usize, name: &str) -> PlannedEffect {
+    let effects = plan.effects(&plan.cameras[camera]);
+    effects.into_iter().find(|effect| effect.name == name).expect("every plan lists all effects")
+}
+
+/// One trial: a camera of a job and an effect of it with the changes that leave it out.
+struct Trial<'j> {
+    job: &'j Path,
+    camera: usize,
+    name: &'static str,
+    set: Vec<String>,
+    /// Triangles that are stored: what a trial takes.
+    weight: usize,
+}
+
+impl Trial<'_> {
+    /// What is tried: the effect, and the keys without cameras and values.
+    fn kind(&self) -> (&'static str, Vec<String>) {
+        let key = |set: &String| {
+            let key = set.split_once('=').map_or(set.as_str(), |(key, _)| key);
+            let parts: Vec<&str> = key.split('.').collect();
+            parts[if parts[0] == "cameras" { 2 } else { 0 }..].join(".")
+        };
+        (self.name, self.set.iter().map(key).collect())
+    }
+
+    /// Why it failed; nothing where the effect is skipped.
+    fn failure(&self) -> Option<String> {
+        let told = |why: &str| format!("{}: {} by {:?}: {why}", self.job.display(), self.name, self.set);
+        match plan(self.job, &self.set, &mut Assets::default()) {
+            Err(error) => Some(told(&error)),
+            Ok(plan) if status(&plan, self.camera, self.name).status.is_modelled() => Some(told("it is still there")),
+            Ok(_) => None,
+        }
+    }
+}
+
+fn trials(job: &Path) -> Vec<Trial<'_>> {
+    let whole = plan(job, &[], &mut Assets::default()).unwrap_or_else(|error| panic!("{}: {error}", job.display()));
+    let weight = whole.world.meshes().iter().map(|mesh| mesh.triangles().len()).sum();
+    let of = |(camera, setup)| {
+        let effects = whole.effects(setup).into_iter();
+        effects.filter_map(move |PlannedEffect { name, if_dropped, .. }| {
+            Some(Trial { job, camera, name, set: if_dropped?.set?, weight })
+        })
+    };
+    whole.cameras.iter().enumerate().flat_map(of).collect()
+}
+
+/// Each kind of a change once, in the job that takes least.
+#[test]
+fn an_effect_that_is_dropped_by_its_keys_is_skipped() {
+    let jobs = jobs();
+    assert!(jobs.len() > 20, "{}", jobs.len());
+    let mut all: Vec<Trial<'_>> = jobs.par_iter().flat_map_iter(|job| trials(job)).collect();
+    all.sort_by_key(|trial| trial.weight);
+    let mut kinds = BTreeMap::new();
+    all.into_iter().for_each(|trial| {
+        kinds.entry(trial.kind()).or_insert(trial);
+    });
+    assert!(kinds.len() > 50, "{}", kinds.len());
+    let failed: Vec<String> = kinds.into_values().par_bridge().filter_map(|trial| trial.failure()).collect();
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}

@@ -1,0 +1,129 @@
+//! How light is followed.
+
+use super::key_changes::of_camera;
+use super::planned_effect::{EffectGroup, PlannedEffect, where_there};
+use crate::plan::frame_cost::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, FrameCost, TWO_BOUNCES_CPU_S, path_cpu_s};
+use crate::plan::{CameraPlan, Plan, Settings};
+use crate::render::block::Blocks;
+use etendue_core::EffectStatus;
+use etendue_tracer::integrator::Level;
+
+const GROUP: EffectGroup = EffectGroup::LightTransport;
+
+pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
+    let paths = FrameCost::of(plan, camera).paths;
+    vec![
+        first_surfaces(paths),
+        shadows(camera, paths),
+        indirect_light(camera, paths),
+        later_bounces(camera, paths),
+        beyond_the_limit(&camera.settings),
+        caustics(camera),
+        path_reuse(camera),
+        adaptive_sampling(camera),
+        never("polarisation"),
+        never("fluorescence"),
+    ]
+}
+
+fn first_surfaces(paths: f64) -> PlannedEffect {
+    let status = EffectStatus::Modelled("the first surface of each sample, lit by what it sees".to_owned());
+    let cpu_s = paths * FLAT_PATH_CPU_S;
+    PlannedEffect { cpu_s: Some(cpu_s), ..PlannedEffect::new(GROUP, "first surfaces", status) }
+}
+
+fn shadows(camera: &CameraPlan, paths: f64) -> PlannedEffect {
+    let level = camera.settings.level;
+    let status = where_there(
+        level != Level::Flat,
+        "a ray to each light that is drawn finds what stands before it",
+        "integrator = \"flat\" sends no ray to a light",
+    );
+    let cpu_s = paths * (DIRECT_PATH_CPU_S - FLAT_PATH_CPU_S);
+    let effect = PlannedEffect::new(GROUP, "shadows", status).described_by("render.integrator").taking(cpu_s);
+    let saved_s = paths * (path_cpu_s(camera) - FLAT_PATH_CPU_S);
+    effect.dropped_by([of_camera(camera, "render.integrator", "flat")]).saving(saved_s)
+}
+
+fn indirect_light(camera: &CameraPlan, paths: f64) -> PlannedEffect {
+    let settings = &camera.settings;
+    let status = where_there(
+        settings.level == Level::Path && settings.max_bounces > 1,
+        format!("paths go on from surface to surface, {} of them at most", settings.max_bounces),
+        match settings.level {
+            Level::Path => "a path of one bounce meets one surface",
+            Level::Flat | Level::Direct => "integrator = \"path\" would follow it",
+        },
+    );
+    PlannedEffect::new(GROUP, "indirect light", status)
+        .described_by("render.integrator")
+        .dropped_by([of_camera(camera, "render.integrator", "direct")])
+        .taking(paths * (path_cpu_s(camera) - DIRECT_PATH_CPU_S))
+}
+
+/// A limit of two surfaces: what a lamp lights, and what that lights.
+const FEW_BOUNCES: u32 = 2;
+
+fn later_bounces(camera: &CameraPlan, paths: f64) -> PlannedEffect {
+    let Settings { level, max_bounces, .. } = camera.settings;
+    let status = if level == Level::Path && max_bounces > FEW_BOUNCES {
+        let text = format!("surfaces 3 to {max_bounces} of a path, as far as Russian roulette lets it go on");
+        EffectStatus::WhereNeeded(text)
+    } else {
+        EffectStatus::LeftOut("a path meets two surfaces at most".to_owned())
+    };
+    PlannedEffect::new(GROUP, "bounces beyond the second", status)
+        .described_by("render.max_bounces")
+        .dropped_by([of_camera(camera, "render.max_bounces", "2")])
+        .taking(paths * (path_cpu_s(camera) - TWO_BOUNCES_CPU_S))
+}
+
+fn beyond_the_limit(settings: &Settings) -> PlannedEffect {
+    let lack = format!("light that more than {} surfaces scatter is missing", settings.max_bounces);
+    let effect = PlannedEffect::new(GROUP, "bounces beyond the limit", EffectStatus::LeftOut(lack));
+    effect.described_by("render.max_bounces")
+}
+
+fn caustics(camera: &CameraPlan) -> PlannedEffect {
+    let settings = &camera.settings;
+    let status = if settings.level == Level::Path && settings.caustics {
+        let text = "light of lamps by way of smooth surfaces, for paths that leave a matt one and meet a smooth one";
+        EffectStatus::WhereNeeded(text.to_owned())
+    } else {
+        EffectStatus::LeftOut(match settings.level {
+            Level::Path => "caustics = false leaves out light thrown by smooth surfaces on matt ones".to_owned(),
+            Level::Flat | Level::Direct => "they need paths: integrator = \"path\"".to_owned(),
+        })
+    };
+    let effect = PlannedEffect::new(GROUP, "caustics", status).described_by("render.caustics");
+    effect.dropped_by([of_camera(camera, "render.caustics", "false")])
+}
+
+fn path_reuse(camera: &CameraPlan) -> PlannedEffect {
+    let blocks = camera.settings.blocks;
+    let status = where_there(
+        blocks != Blocks::SINGLE,
+        format!("{} pixels share the tails of their paths, and errors", blocks.len_px()),
+        "each pixel has paths of its own",
+    );
+    let effect = PlannedEffect::new(GROUP, "path reuse", status).described_by("render.path_reuse_px");
+    effect.dropped_by([of_camera(camera, "render.path_reuse_px", "1")])
+}
+
+fn adaptive_sampling(camera: &CameraPlan) -> PlannedEffect {
+    let (name, key) = ("adaptive sampling", "render.noise_threshold");
+    let Some(limit) = camera.settings.adaptive else {
+        let status = EffectStatus::LeftOut(format!("every pixel gets {} samples", camera.settings.spp));
+        return PlannedEffect::new(GROUP, name, status).described_by(key);
+    };
+    let text = format!("pixels whose error is small enough stop at {} samples", limit.min_spp);
+    PlannedEffect::new(GROUP, name, EffectStatus::WhereNeeded(text)).described_by(key).dropped_by([of_camera(
+        camera,
+        "render.spp",
+        &limit.min_spp.to_string(),
+    )])
+}
+
+fn never(name: &'static str) -> PlannedEffect {
+    PlannedEffect::new(GROUP, name, EffectStatus::LeftOut("not modelled by this program".to_owned()))
+}
