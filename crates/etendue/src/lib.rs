@@ -78,6 +78,7 @@ pub use display_picture::display_png;
 pub use error::Error;
 pub use etendue_io::Existing;
 pub use etendue_io::inspect::{Shown, inspect, inspect_showing};
+pub use etendue_pipeline::truth::GroundTruth;
 pub use etendue_sensor::TemporalNoise;
 pub use etendue_tracer::accel::Simd;
 pub use expose::{ExposeRequest, expose};

@@ -6,6 +6,7 @@
 //!
 //! No clock is read here: the caller gives one ([`Clock`]).
 
+mod ablation;
 mod error;
 mod front;
 mod job_file;
@@ -18,6 +19,7 @@ mod report;
 mod study;
 mod way;
 
+pub use ablation::{Ablation, Dropped, Kept, ablation, ablation_table};
 pub use error::{Currencies, Estimate};
 pub use front::{FrontPoint, Recommendation, Target};
 pub use job_file::job_file;

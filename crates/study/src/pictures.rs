@@ -64,7 +64,7 @@ fn file_stem(way: &WayToRender) -> String {
 }
 
 /// The first, the second, and (second − first) times a gain about grey.
-fn side_by_side(first: &Plane<Display>, second: &Plane<Display>) -> Plane<Display> {
+pub(crate) fn side_by_side(first: &Plane<Display>, second: &Plane<Display>) -> Plane<Display> {
     let (width, height) = (first.width(), first.height());
     let mut sheet = Plane::new(3 * width, height);
     for y in 0..height {

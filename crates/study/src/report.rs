@@ -38,7 +38,7 @@ fn figure(e: Estimate) -> String {
     format!("{:.digits$} ± {:.digits$}", e.value, e.uncertainty)
 }
 
-fn percent(e: Estimate) -> String {
+pub(crate) fn percent(e: Estimate) -> String {
     format!("{} %", figure(e.times(100.0)))
 }
 

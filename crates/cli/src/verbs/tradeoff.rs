@@ -6,8 +6,8 @@ use crate::machine;
 use crate::output::{print, print_paths};
 use crate::progress::Terminal;
 use clap::Args;
-use etendue::{Error, JobRequest, write_file};
-use etendue_study::{Clock, Request, Study, job_file, pictures, plot, study, table};
+use etendue::{Error, Existing, JobRequest, write_file};
+use etendue_study::{Clock, Dropped, Request, ablation, ablation_table, job_file, pictures, plot, study, table};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -24,6 +24,9 @@ pub struct Tradeoff {
     /// Worker threads [default: one a processor]. Times are those of as many
     #[arg(long, value_name = "N", value_parser = crate::args::run::whole(1, 1024))]
     pub threads: Option<u32>,
+    /// Leave out one effect of the plan after the other instead, and tell what that changes and saves
+    #[arg(long)]
+    pub ablate: bool,
     /// Print the study as JSON instead of as tables
     #[arg(long)]
     pub json: bool,
@@ -44,59 +47,84 @@ impl Clock for Stopwatch {
     }
 }
 
+/// What a study prints and writes: names of files below its folder with their bytes.
+struct Findings {
+    text: String,
+    json: String,
+    files: Vec<(String, Vec<u8>)>,
+}
+
 impl Tradeoff {
     pub fn run(&self) -> Result<(), Error> {
         let simd = machine::simd()?;
         let pool = machine::pool(self.threads)?;
-        let job = JobRequest::from(&self.job);
         // Its faults, and what the command line supersedes, before anything is written.
         self.job.open(&pool)?;
         let (folder, existing) = self.output.folder();
-        let names = ["tradeoff.json", "tradeoff.txt", "tradeoff.svg", "draft.toml", "standard.toml", "reference.toml"];
-        if let Some(name) =
-            names.iter().find(|name| existing == etendue::Existing::Refuse && folder.join(name).exists())
-        {
-            let path = folder.join(name);
-            return Err(Error::input(format!(
-                "{}: is there already; give another folder, or --overwrite",
-                path.display()
-            )));
-        }
-        let request = Request { job: job.clone(), camera: self.job.camera.clone(), budget_s: self.time, simd };
-        let scratch = folder.join("pilot");
-        let stopwatch = Stopwatch(Instant::now());
-        let observer = Terminal::default();
-        let found = pool.install(|| study(&request, &scratch, &stopwatch, &observer))?;
-        let compared = pool.install(|| pictures(&found, &request, &observer))?;
-        let json = to_json(&found)?;
-        let mut files = vec![
-            ("tradeoff.json".to_owned(), json.clone().into_bytes()),
-            ("tradeoff.txt".to_owned(), table(&found).into_bytes()),
-            ("tradeoff.svg".to_owned(), plot(&found).into_bytes()),
-        ];
-        for recommendation in &found.recommendations {
-            let text = job_file(recommendation, (&job, &found.camera), folder)?;
-            files.push((format!("{}.toml", recommendation.target.name), text.into_bytes()));
-        }
-        files.extend(compared.into_iter().map(|compared| (format!("pictures/{}", compared.file), compared.png)));
+        self.refuse_to_replace()?;
+        let job = JobRequest::from(&self.job);
+        let request = Request { job, camera: self.job.camera.clone(), budget_s: self.time, simd };
+        let findings = pool.install(|| if self.ablate { ablated(&request) } else { studied(&request, folder) })?;
         let write = |(name, bytes): &(String, Vec<u8>)| -> Result<PathBuf, Error> {
-            let path: PathBuf = Path::new(folder).join(name);
+            let path = folder.join(name);
             write_file(&path, bytes, existing)?;
             Ok(path)
         };
-        let written = files.iter().map(write).collect::<Result<Vec<_>, _>>()?;
+        let written = findings.files.iter().map(write).collect::<Result<Vec<_>, _>>()?;
         if self.json {
-            print(&json);
+            print(&findings.json);
         } else {
-            print(&table(&found));
-            print("\n");
+            print(&format!("{}\n", findings.text));
             print_paths(&written);
+        }
+        Ok(())
+    }
+
+    /// An older study is not replaced unasked; told before a new one takes its time.
+    fn refuse_to_replace(&self) -> Result<(), Error> {
+        let (folder, existing) = self.output.folder();
+        let report = folder.join(if self.ablate { "ablation.json" } else { "tradeoff.json" });
+        if existing == Existing::Refuse && report.exists() {
+            let problem = "is there already; give another folder, or --overwrite";
+            return Err(Error::input(format!("{}: {problem}", report.display())));
         }
         Ok(())
     }
 }
 
-fn to_json(study: &Study) -> Result<String, Error> {
-    let text = serde_json::to_string_pretty(study).map_err(|error| Error::Run(error.to_string()))?;
+/// Time against error, with three jobs.
+fn studied(request: &Request, folder: &Path) -> Result<Findings, Error> {
+    let (stopwatch, observer) = (Stopwatch(Instant::now()), Terminal::default());
+    let found = study(request, &folder.join("pilot"), &stopwatch, &observer)?;
+    let compared = pictures(&found, request, &observer)?;
+    let (text, json) = (table(&found), to_json(&found)?);
+    let mut files = vec![
+        ("tradeoff.json".to_owned(), json.clone().into_bytes()),
+        ("tradeoff.txt".to_owned(), text.clone().into_bytes()),
+        ("tradeoff.svg".to_owned(), plot(&found).into_bytes()),
+    ];
+    for recommendation in &found.recommendations {
+        let job = job_file(recommendation, (&request.job, &found.camera), folder)?;
+        files.push((format!("{}.toml", recommendation.target.name), job.into_bytes()));
+    }
+    files.extend(compared.into_iter().map(|compared| (format!("pictures/{}", compared.file), compared.png)));
+    Ok(Findings { text, json, files })
+}
+
+/// Effect by effect.
+fn ablated(request: &Request) -> Result<Findings, Error> {
+    let found = ablation(request, &Stopwatch(Instant::now()), &Terminal::default())?;
+    let (text, json) = (ablation_table(&found), to_json(&found)?);
+    let mut files = vec![
+        ("ablation.json".to_owned(), json.clone().into_bytes()),
+        ("ablation.txt".to_owned(), text.clone().into_bytes()),
+    ];
+    let picture = |dropped: Dropped| Some((format!("pictures/without-{}.png", dropped.id), dropped.png?));
+    files.extend(found.dropped.into_iter().filter_map(picture));
+    Ok(Findings { text, json, files })
+}
+
+fn to_json(found: &impl serde::Serialize) -> Result<String, Error> {
+    let text = serde_json::to_string_pretty(found).map_err(|error| Error::Run(error.to_string()))?;
     Ok(text + "\n")
 }

@@ -1,14 +1,12 @@
 //! How many samples a pixel gets, where noise decides.
 //!
-//! Every pixel gets the pilot's samples in each of its R replicates. Then replicate r goes on to a part of what the *next*
-//! ⌊(R − 1)/2⌋ replicates ask for, counted round, and from there to as many as the same replicates, now better known, ask for: what is summed has no say in how long
-//! it is summed (what decides of what decides reaches 2 ⌊(R − 1)/2⌋ < R replicates on, and never back), so that the mean of each
-//! replicate has no bias (a pixel that stops when it looks right is wrong on average). Nor do any two replicates' sums decide of each other, so
+//! Every pixel gets the pilot's samples in each of its R replicates. Then replicate r goes on to as many as the pilots of the *next*
+//! ⌊(R − 1)/2⌋ replicates ask for, counted round: what is summed has no say in how long it is summed, so that the mean of each
+//! replicate has no bias (a pixel that stops when it looks right is wrong on average). Nor do any two replicates decide of each other, so
 //! that their errors are not correlated: the mean of all, each of weight 1/R whatever its samples, has the variance that their scatter tells.
-//! (Of two halves that decide of each other, each is unbiased, but where bright light is rare both err to the same side. Beyond the first
-//! look replicates do reach each other round the circle, but only by how well others are known: a test bounds what that does.)
+//! (Of two halves that decide of each other, each is unbiased, but where bright light is rare both err to the same side.)
 //!
-//! A replicate needs n = v/(R T) samples: v the variance of one sample, T the variance that is tolerated. v, by the scatter of the deciding replicates' means, each times its samples, and the
+//! A pilot asks for n = n₀ v/(R T): v the variance of the mean of one replicate of n₀ samples, T the variance that is tolerated. v and the
 //! mean by which T is told are means of the pixel's own and of those of all pixels of its colour in its cell, as few replicates
 //! know them badly. Errors of stratified samples fall faster than 1/n: then the limit is kept with something to spare.
 
@@ -23,8 +21,6 @@ use etendue_core::random::Pixel;
 
 /// Least side of a cell, px: where bright light is rare, fewer pixels do not know it together.
 const CELL_PX: u32 = 16;
-/// What part of the need that the pilots see is rendered before the need is looked at again.
-const LOOK_PART: f64 = 0.25;
 /// Side of the cells whose pixels know their noise together, px: they cut no block. Cells lie on a grid of the whole frame.
 #[must_use]
 pub fn cell_px(blocks: Blocks) -> u32 {
@@ -35,11 +31,9 @@ pub fn cell_px(blocks: Blocks) -> u32 {
 struct Sampled {
     block: Vec<Pixel>,
     replicates: Vec<Vec<Sums>>,
-    /// Samples of each replicate.
-    samples: Vec<u32>,
 }
 
-/// What some replicates say of one pixel: its mean, and the variance of one sample.
+/// What the pilots of some replicates say of one pixel: its mean, and the variance of the mean of one replicate.
 #[derive(Clone, Copy)]
 struct Pilot {
     mean: f64,
@@ -57,29 +51,26 @@ impl Pilot {
 }
 
 impl Sampled {
-    /// What the replicates that decide of `replicate` say of each pixel.
-    fn pilots(&self, replicate: usize) -> impl Iterator<Item = Pilot> {
+    /// What the replicates that decide of `replicate` say of each pixel after `samples` samples each.
+    fn pilots(&self, replicate: usize, samples: u32) -> impl Iterator<Item = Pilot> {
         let all = self.replicates.len();
         let deciding = (all - 1) / 2;
-        let next = (1..=deciding).map(move |step| {
-            let of = (replicate + step) % all;
-            (&self.replicates[of], f64::from(self.samples[of]))
-        });
+        let next = (1..=deciding).map(move |step| &self.replicates[(replicate + step) % all]);
+        let count = deciding as f64;
         (0..self.block.len()).map(move |pixel| {
-            let sums = || next.clone().map(|(sums, n)| (sums[pixel].watched(), n));
-            let mean = sums().map(|(sum, _)| sum).sum::<f64>() / sums().map(|(_, n)| n).sum::<f64>();
-            let squares: f64 = sums().map(|(sum, n)| n * (sum / n - mean) * (sum / n - mean)).sum();
-            Pilot { mean, variance: squares / (deciding as f64 - 1.0) }
+            let means = || next.clone().map(|sums| sums[pixel].watched() / f64::from(samples));
+            let mean = means().sum::<f64>() / count;
+            let squares: f64 = means().map(|value| (value - mean) * (value - mean)).sum();
+            Pilot { mean, variance: squares / (count - 1.0) }
         })
     }
 
-    /// The light of each pixel.
-    fn light(mut self, layout: &Layout) -> Vec<(Pixel, PixelLight)> {
-        let samples = self.samples;
+    /// The light of each pixel, whose replicates had so many samples.
+    fn light(mut self, layout: &Layout, samples: &[u32]) -> Vec<(Pixel, PixelLight)> {
         let mut of = |pixel: usize| {
             let mut gather = Gather::new(layout);
             let mut not_finite = 0;
-            for (sums, samples) in self.replicates.iter_mut().zip(&samples) {
+            for (sums, samples) in self.replicates.iter_mut().zip(samples) {
                 not_finite += sums[pixel].not_finite();
                 gather.end_replicate(&mut sums[pixel], *samples);
             }
@@ -110,53 +101,41 @@ impl<S: RaySource> RenderJob<'_, S> {
         let layout = self.gathered();
         let mut asked = Asked::default();
         let replicates = self.sampling.replicates as usize;
-        let empty = |block: Vec<Pixel>| Sampled {
-            replicates: vec![vec![Sums::new(layout); block.len()]; replicates],
-            samples: vec![0; replicates],
-            block,
-        };
+        let pilot = tolerance.min_spp() / self.sampling.replicates;
+        let empty =
+            |block: Vec<Pixel>| Sampled { replicates: vec![vec![Sums::new(layout); block.len()]; replicates], block };
         let mut cell: Vec<Sampled> = self.blocks.of(cell).map(empty).collect();
-        let pilot = vec![self.pilot(tolerance); replicates];
-        cell.iter_mut().for_each(|sampled| self.go_on(field, sampled, &pilot, &mut asked));
-        for part in [LOOK_PART, 1.0] {
-            let needs: Vec<Vec<u32>> =
-                (0..replicates).map(|replicate| self.needs(&cell, replicate, (tolerance, part))).collect();
-            for (i, sampled) in cell.iter_mut().enumerate() {
-                let to: Vec<u32> = needs.iter().map(|of_replicate| of_replicate[i]).collect();
-                self.go_on(field, sampled, &to, &mut asked);
-            }
-        }
-        cell.into_iter().flat_map(|sampled| sampled.light(&layout)).collect()
+        cell.iter_mut().for_each(|sampled| self.add(field, sampled, 0, &vec![pilot; replicates], &mut asked));
+        let needs: Vec<Vec<u32>> = (0..replicates).map(|replicate| self.needs(&cell, replicate, tolerance)).collect();
+        let go_on = |(i, mut sampled): (usize, Sampled)| {
+            let samples: Vec<u32> = needs.iter().map(|of_replicate| of_replicate[i]).collect();
+            self.add(field, &mut sampled, pilot, &samples, &mut asked);
+            sampled.light(&layout, &samples)
+        };
+        cell.into_iter().enumerate().flat_map(go_on).collect()
     }
 
-    /// Samples of a pilot in each replicate.
-    fn pilot(&self, tolerance: &Tolerance) -> u32 {
-        tolerance.min_spp() / self.sampling.replicates
-    }
-
-    /// Goes on with the replicates of a block to so many samples each; one that has more keeps them.
-    fn go_on<const N: usize>(
+    /// Adds samples to the replicates of a block: each has `from`, and goes on to its own number.
+    fn add<const N: usize>(
         &self,
         field: &impl RadianceField<N>,
         sampled: &mut Sampled,
+        from: u32,
         to: &[u32],
         asked: &mut Asked<N>,
     ) {
-        let replicates = sampled.replicates.iter_mut().zip(&mut sampled.samples).zip(to);
-        for (replicate, ((sums, samples), to)) in replicates.enumerate() {
-            if to > samples {
-                self.add_replicate(field, (&sampled.block, replicate as u32), *samples..*to, asked, sums);
-                *samples = *to;
-            }
+        for (replicate, (sums, to)) in sampled.replicates.iter_mut().zip(to).enumerate() {
+            self.add_replicate(field, (&sampled.block, replicate as u32), from..*to, asked, sums);
         }
     }
 
-    /// How many samples a replicate of each block of a cell needs, times a part, as those that decide of it see it.
-    fn needs(&self, cell: &[Sampled], replicate: usize, (tolerance, part): (&Tolerance, f64)) -> Vec<u32> {
-        let pilot = self.pilot(tolerance);
+    /// How many samples a replicate of each block of a cell needs, as those that decide of it see it.
+    fn needs(&self, cell: &[Sampled], replicate: usize, tolerance: &Tolerance) -> Vec<u32> {
+        let replicates = self.sampling.replicates;
+        let pilot = tolerance.min_spp() / replicates;
         let colour = |sampled: &Sampled| self.mosaic.map_or(0, |mosaic| mosaic.place(sampled.block[0]));
         let pilots: Vec<(usize, Vec<Pilot>)> =
-            cell.iter().map(|sampled| (colour(sampled), sampled.pilots(replicate).collect())).collect();
+            cell.iter().map(|sampled| (colour(sampled), sampled.pilots(replicate, pilot).collect())).collect();
         let of_cell = |colour: usize| {
             let alike = pilots.iter().filter(|(c, _)| *c == colour).flat_map(|(_, pixels)| pixels);
             Pilot::mean_of(alike.filter(|pilot| pilot.variance.is_finite()))
@@ -164,13 +143,13 @@ impl<S: RaySource> RenderJob<'_, S> {
         let cells: Vec<Pilot> = (0..self.mosaic.map_or(1, Mosaic::places)).map(of_cell).collect();
         let need = |(colour, pixels): &(usize, Vec<Pilot>)| {
             let cell = &cells[*colour];
-            let samples = |pixel: &Pilot| {
-                let known = Pilot::mean_of([pixel, cell].into_iter());
-                known.variance / (f64::from(self.sampling.replicates) * tolerance.variance(known.mean))
+            let times = |pixel: &Pilot| {
+                let pilot = Pilot::mean_of([pixel, cell].into_iter());
+                pilot.variance / (f64::from(replicates) * tolerance.variance(pilot.mean))
             };
-            let most = pixels.iter().map(samples).fold(0.0, f64::max);
-            let samples = (part * most / f64::from(pilot)).ceil() * f64::from(pilot);
-            (samples.min(f64::from(u32::MAX)) as u32).clamp(pilot, self.sampling.spp / self.sampling.replicates)
+            let most = pixels.iter().map(times).fold(0.0, f64::max);
+            let samples = most.ceil() * f64::from(pilot);
+            (samples.min(f64::from(u32::MAX)) as u32).clamp(pilot, self.sampling.spp / replicates)
         };
         pilots.iter().map(need).collect()
     }
