@@ -9,7 +9,11 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The jobs of the repository.
+/// Jobs that are others at another hour or in other weather.
+const LIKE_OTHERS: [&str; 9] =
+    ["sunset", "wet-night", "light-rain", "snow", "puddles", "night-fog", "spray", "streaks", "pupil"];
+
+/// The jobs of the repository, each of its own kind.
 fn jobs() -> Vec<PathBuf> {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
     let within = |folder: PathBuf| std::fs::read_dir(folder).expect("a folder").map(|e| e.expect("readable").path());
@@ -17,7 +21,9 @@ fn jobs() -> Vec<PathBuf> {
         file.extension().is_some_and(|e| e == "toml")
             && std::fs::read_to_string(file).is_ok_and(|text| text.contains("[[cameras]]"))
     };
-    let mut jobs: Vec<PathBuf> = within(scenes).filter(|p| p.is_dir()).flat_map(within).filter(is_job).collect();
+    let is_other = |file: &PathBuf| file.file_stem().is_none_or(|name| LIKE_OTHERS.iter().all(|like| name != *like));
+    let files = within(scenes).filter(|p| p.is_dir()).flat_map(within);
+    let mut jobs: Vec<PathBuf> = files.filter(is_job).filter(is_other).collect();
     jobs.sort();
     jobs
 }

@@ -27,6 +27,7 @@ mod identity;
 mod kenney;
 mod lenses;
 mod measures;
+mod plan_json;
 mod plans;
 mod point_lists;
 mod precipitation;

@@ -2,8 +2,10 @@
 
 use super::effect::EffectReport;
 use crate::job::Integrator;
+use etendue_core::Shutter;
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::{CameraPlan, FrameCost, Route, TimeDependence};
+use etendue_pipeline::render::light_counts;
 use etendue_tracer::integrator::Level;
 
 /// A camera of a plan.
@@ -21,6 +23,14 @@ pub struct CameraReport {
     pub film_px: [u32; 2],
     /// How its light depends on time: "none", "lights", "motion".
     pub time: &'static str,
+    /// Exposure time of a row, s; 0: one moment.
+    pub exposure_s: f64,
+    /// "global", "rolling", "global_reset".
+    pub shutter: &'static str,
+    /// From frame to frame, s; null without a sequence.
+    pub frame_period_s: Option<f64>,
+    /// What shines.
+    pub lights: LightsReport,
     /// How its light is found.
     pub settings: SettingsReport,
     /// Its lens.
@@ -31,6 +41,23 @@ pub struct CameraReport {
     pub cost: CostReport,
     /// Everything that can cost or change a frame.
     pub effects: Vec<EffectReport>,
+}
+
+/// What shines: how many of each kind.
+#[derive(Clone, Copy, Debug, serde::Serialize)]
+pub struct LightsReport {
+    /// Discs of suns.
+    pub suns: usize,
+    /// Lamps without an opening.
+    pub lamps: usize,
+    /// Luminous openings of lamps.
+    pub lamp_openings: usize,
+    /// Glowing triangles.
+    pub glowing_triangles: usize,
+    /// Glowing spheres.
+    pub glowing_spheres: usize,
+    /// "sky", "image", "uniform"; null where nothing shines from infinitely far.
+    pub surroundings: Option<&'static str>,
 }
 
 /// How the light of a camera is found.
@@ -130,6 +157,14 @@ impl CameraReport {
                 TimeDependence::Lights => "lights",
                 TimeDependence::Motion => "motion",
             },
+            exposure_s: camera.body.exposure.exposure_s,
+            shutter: match camera.body.exposure.shutter {
+                Shutter::Global => "global",
+                Shutter::Rolling(_) => "rolling",
+                Shutter::GlobalReset(_) => "global_reset",
+            },
+            frame_period_s: camera.timing.period_s,
+            lights: LightsReport::of(plan, camera),
             settings: SettingsReport::of(camera),
             lens: LensSummary::of(camera),
             dynamic_range_db: camera
@@ -140,6 +175,21 @@ impl CameraReport {
                 .filter(|db| db.is_finite()),
             effects: effects.collect(),
             cost: CostReport::of(cost),
+        }
+    }
+}
+
+impl LightsReport {
+    fn of(plan: &Plan, camera: &CameraPlan) -> Self {
+        let counts = light_counts(plan, camera);
+        let kinds = [(counts.sky, "sky"), (counts.image_environment, "image"), (counts.uniform_environment, "uniform")];
+        Self {
+            suns: counts.suns,
+            lamps: counts.lamps,
+            lamp_openings: counts.openings,
+            glowing_triangles: counts.triangles,
+            glowing_spheres: counts.spheres,
+            surroundings: kinds.into_iter().find_map(|(is_there, kind)| is_there.then_some(kind)),
         }
     }
 }

@@ -8,7 +8,7 @@ mod scene;
 use crate::job::Job;
 use std::path::PathBuf;
 
-pub use camera::{CameraReport, CostReport, FilmPart, LensSummary, SettingsReport};
+pub use camera::{CameraReport, CostReport, FilmPart, LensSummary, LightsReport, SettingsReport};
 pub use effect::{EffectReport, IfDroppedReport, Need};
 pub use remark::{RemarkReport, RemarkWeight};
 pub use scene::{SceneReport, SkyReport};

@@ -54,7 +54,7 @@ fn vignetting(camera: &CameraPlan) -> PlannedEffect {
     );
     let effect = PlannedEffect::new(GROUP, "vignetting", status).described_by("lens.type");
     match vignetting_percent(&camera.body) {
-        Some(percent) => effect.erring("corner too bright by its loss of", percent, "%"),
+        Some(percent) => effect.erring("corner not darkened by", percent, "%"),
         None => effect,
     }
 }

@@ -98,7 +98,7 @@ fn quantisation(format: PictureFormat) -> PlannedEffect {
         PictureFormat::Jpeg { quality } => format!("8 bits, JPEG of quality {quality}"),
     };
     let effect = PlannedEffect::new(GROUP, "picture bits", EffectStatus::Modelled(text));
-    effect.described_by("isp.picture_bits").erring("rounding of σ", 1.0 / 12.0_f64.sqrt(), "DN")
+    effect.described_by("isp.picture_bits").erring("rounding σ", 1.0 / 12.0_f64.sqrt(), "DN")
 }
 
 fn never(name: &'static str) -> PlannedEffect {

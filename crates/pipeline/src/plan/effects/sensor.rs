@@ -36,7 +36,7 @@ fn rolling_shutter(camera: &CameraPlan) -> PlannedEffect {
         }
     };
     PlannedEffect::new(GROUP, "rolling shutter", status).described_by("sensor.shutter").dropped_by([global]).erring(
-        "last row early by",
+        "last row earlier by",
         1e3 * rows.shutter.length_s(rows.rows, 0.0),
         "ms",
     )
@@ -62,7 +62,7 @@ fn of_list(camera: &CameraPlan, sensor: &Sensor, name: &'static str, status: Eff
         "dead pixels" => {
             let key = "sensor.non_uniformity.dead_fraction";
             let percent = 100.0 * sensor.parameters().charge.dead_pixels.fraction;
-            effect.described_by(key).dropped_by([of_camera(camera, key, "0")]).erring("pixels not dark", percent, "%")
+            effect.described_by(key).dropped_by([of_camera(camera, key, "0")]).erring("dead pixels alive", percent, "%")
         }
         "region and binning" => effect.described_by("sensor.binning"),
         "response" => effect.described_by("sensor.response").dropped_by(gone("sensor.response")),
@@ -73,7 +73,7 @@ fn of_list(camera: &CameraPlan, sensor: &Sensor, name: &'static str, status: Eff
         "read noise" => read_noise(camera, sensor, effect),
         "RTS noise" => effect.described_by("sensor.rts_noise").dropped_by(gone("sensor.rts_noise")),
         // Rounding to whole numbers: a standard deviation of 1/√12 of a step.
-        "converter" => effect.described_by("sensor.bits").erring("rounding of σ", 1.0 / 12.0_f64.sqrt(), "DN"),
+        "converter" => effect.described_by("sensor.bits").erring("rounding σ", 1.0 / 12.0_f64.sqrt(), "DN"),
         "merging of captures" => {
             let companded = sensor.parameters().hdr.companding.as_ref().map(|_| without(camera, "sensor.companding"));
             effect.described_by("sensor.hdr").dropped_by(gone("sensor.hdr").into_iter().chain(companded))
@@ -97,7 +97,7 @@ fn photo_response(camera: &CameraPlan, sensor: &Sensor, effect: PlannedEffect) -
     ];
     let percent = 100.0 * f64::hypot(f64::hypot(p.white, p.row), p.column);
     let effect = effect.described_by("sensor.non_uniformity.prnu").dropped_by(zeroed(camera, keys));
-    effect.erring("responses too even by σ", percent, "%")
+    effect.erring("missing spread of responses", percent, "%")
 }
 
 fn offsets(camera: &CameraPlan, sensor: &Sensor, effect: PlannedEffect) -> PlannedEffect {
@@ -109,14 +109,14 @@ fn offsets(camera: &CameraPlan, sensor: &Sensor, effect: PlannedEffect) -> Plann
     ];
     let sigma_e = f64::hypot(f64::hypot(p.white_e, p.row_e), p.column_e);
     let effect = effect.described_by("sensor.non_uniformity.dsnu_e").dropped_by(zeroed(camera, keys));
-    effect.erring("offsets too even by σ", sigma_e, "e⁻")
+    effect.erring("missing spread of offsets", sigma_e, "e⁻")
 }
 
 /// The key that leaves out all randomness from frame to frame.
 fn shot_noise(camera: &CameraPlan, sensor: &Sensor, effect: PlannedEffect) -> PlannedEffect {
     let effect = effect.described_by("sensor.noise").dropped_by([of_camera(camera, "sensor.noise", "false")]);
     let grey_e = grey_e(sensor);
-    effect.erring("of a grey's variance", 100.0 * grey_e / (grey_e + dark_variance_e2(sensor)), "%")
+    effect.erring("variance of grey lost", 100.0 * grey_e / (grey_e + dark_variance_e2(sensor)), "%")
 }
 
 fn read_noise(camera: &CameraPlan, sensor: &Sensor, effect: PlannedEffect) -> PlannedEffect {
@@ -127,8 +127,8 @@ fn read_noise(camera: &CameraPlan, sensor: &Sensor, effect: PlannedEffect) -> Pl
     let variance = p.white_e * p.white_e + p.row_e * p.row_e + p.column_e * p.column_e;
     let percent = 100.0 * variance / (grey_e(sensor) + dark_variance_e2(sensor));
     let effect = effect.described_by("sensor.read_noise_e").dropped_by(set);
-    effect.erring("of a grey's variance", percent, "%").erring(
-        "of a black's variance",
+    effect.erring("variance of grey lost", percent, "%").erring(
+        "variance of black lost",
         100.0 * variance / dark_variance_e2(sensor),
         "%",
     )
@@ -142,7 +142,7 @@ fn dark_current(camera: &CameraPlan, sensor: &Sensor, effect: PlannedEffect) -> 
     let parts = parts.into_iter().filter(|(_, is_there)| *is_there).map(|(key, _)| without(camera, key));
     let set = std::iter::once(of_camera(camera, "sensor.dark_current_e_s", "0")).chain(parts);
     let mean_e = dark.current_e_s * dark.temperature_factor() * p.exposure.exposure_s;
-    effect.described_by("sensor.dark_current_e_s").dropped_by(set).erring("offset", mean_e, "e⁻")
+    effect.described_by("sensor.dark_current_e_s").dropped_by(set).erring("dark level lower by", mean_e, "e⁻")
 }
 
 /// A grey card as a well-exposed picture has it: 18 % of the largest signal.

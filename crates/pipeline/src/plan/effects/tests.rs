@@ -10,9 +10,11 @@ use std::path::Path;
 
 /// The plan of a job of one camera that looks along +x, under changes.
 pub(super) fn plan_of(lens: &str, camera: &str, render: &str, set: &str) -> Plan {
+    let plain = "sensor = { width_px = 120, height_px = 80, pixel_pitch_um = 6.0 }";
+    let sensor = if camera.starts_with("sensor") { "" } else { plain };
     let text = format!(
         "format = 1\n[scene.environment]\ntype = \"uniform\"\nluminance_cd_m2 = 10\nilluminant = \"D65\"\n[[cameras]]\nname = \"front\"\n\
-         position_m = [0, 0, 1]\nlook_at_m = [10, 0, 1]\n{lens}\nsensor = {{ width_px = 120, height_px = 80, pixel_pitch_um = 6.0 }}\n\
+         position_m = [0, 0, 1]\nlook_at_m = [10, 0, 1]\n{lens}\n{sensor}\n\
          {camera}\n[render]\nspp = 4\n{render}\n"
     );
     let read = |_: &Path| Ok(text.clone());
@@ -37,6 +39,22 @@ fn names_are_alone_and_every_reason_is_said() {
     let groups: Vec<_> = effects.iter().map(|effect| effect.group).collect();
     let order = |group: &EffectGroup| EffectGroup::ALL.iter().position(|other| other == group);
     assert!(groups.is_sorted_by_key(order), "effects stand in the order of their groups");
+}
+
+/// A sensor effect that is new to the list needs its keys in `sensor.rs`.
+#[test]
+fn every_effect_of_the_sensors_list_has_its_key() {
+    let electronics = "sensor = { exposure_s = 0.01, cfa = \"mono\", quantum_efficiency = 0.6, full_well_e = 20000, read_noise_e = 2, \
+                       dark_current_e_s = 5, gain_dn_per_e = 0.2, black_level_dn = 64, bits = 12, width_px = 120, \
+                       height_px = 80, pixel_pitch_um = 6.0 }";
+    let plan = plan_of(PINHOLE, electronics, "", "");
+    let camera = &plan.cameras[0];
+    let listed = camera.body.sensor.as_ref().expect("electronics").effects();
+    let planned = plan.effects(camera);
+    for (name, _) in listed {
+        let effect = planned.iter().find(|effect| effect.name == name).expect("the sensor's own list");
+        assert!(effect.key.is_some(), "{name} has no key in plan/effects/sensor.rs");
+    }
 }
 
 #[test]

@@ -52,8 +52,8 @@ impl Display for Summary<'_> {
 }
 
 /// What the tables leave open.
-const LEGEND: &str =
-    "error ?: etendue tradeoff JOB --ablate renders with and without it; the keys: etendue plan JOB --json";
+const LEGEND: &str = "no key: nothing leaves it out. error ?: etendue tradeoff JOB --ablate renders with and without it.\n\
+                      Keys, reasons, and all that is skipped: etendue plan JOB --json";
 
 fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     writeln!(f, "\nscene")?;
