@@ -44,6 +44,11 @@ impl Job {
         (folder, existing): (&Path, Existing),
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
+        if self.request().progressive || self.request().time_s.is_some() {
+            return Err(Error::input(
+                "a shard is rendered in the passes of its job: give them by the key render.passes in the place of --progressive or --time",
+            ));
+        }
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
         folder.claim(self.shard_names(&frames).iter().map(String::as_str)).map_err(Error::input)?;
         self.render_shard((spec, &frames), simd, observer, |camera, shot, film| {

@@ -203,12 +203,7 @@ impl<'a> Run<'a> {
     }
 
     /// One pass of a film; `None` where the time is well over.
-    fn pass(
-        &self,
-        place: usize,
-        (at, before): (PassAt, Option<&Film>),
-        is_kept: bool,
-    ) -> Result<Option<Film>, Error> {
+    fn pass(&self, place: usize, (at, before): (PassAt, Option<&Film>), is_kept: bool) -> Result<Option<Film>, Error> {
         let film = &self.films[place];
         let groups = self.plan.by_light();
         let camera = groups[film.group][0];
@@ -234,7 +229,12 @@ impl<'a> Run<'a> {
         let groups = plan.by_light();
         for film in &self.films {
             let place = (groups[film.group][0], film.shot);
-            progress.keep(&self.open, place, film.film.as_ref().ok_or_else(no_pass)?, (passes, replicates, elapsed_s))?;
+            progress.keep(
+                &self.open,
+                place,
+                film.film.as_ref().ok_or_else(no_pass)?,
+                (passes, replicates, elapsed_s),
+            )?;
         }
         for of_frame in self.films.chunk_by(|a, b| (a.group, a.shot.frame) == (b.group, b.shot.frame)) {
             let films: Vec<Film> = of_frame.iter().filter_map(|film| film.film.clone()).collect();

@@ -7,9 +7,9 @@ use std::path::Path;
 use ::exr::meta::attribute::AttributeValue;
 use ::exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers};
 
-use crate::{Error, Provenance};
 use crate::source::read_bytes;
 use crate::unpacked;
+use crate::{Error, Provenance};
 
 /// Samples of a channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]

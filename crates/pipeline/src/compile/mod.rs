@@ -197,20 +197,8 @@ fn camera_plan(
     let light = LightOwner { camera: name.clone(), index };
     let time = TimeDependence::None;
     let mount = mount(&setup.pose);
-    let camera = CameraPlan {
-        name,
-        index,
-        light,
-        path,
-        mount,
-        timing,
-        time,
-        body,
-        settings,
-        passes,
-        depth_of_field,
-        products,
-    };
+    let camera =
+        CameraPlan { name, index, light, path, mount, timing, time, body, settings, passes, depth_of_field, products };
     video::check(&setup.output, &camera, context);
     Some(camera)
 }

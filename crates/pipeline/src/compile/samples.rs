@@ -69,7 +69,8 @@ fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>
             Some(pass) => list.push(pass),
             None => {
                 let problem = format!("{} samples cannot be shared evenly among {replicates} replicates", number.value);
-                let remedy = "give each pass a multiple of the replicates, or less than their number: so many on average";
+                let remedy =
+                    "give each pass a multiple of the replicates, or less than their number: so many on average";
                 context.fault(&number.place, problem, remedy);
             }
         }
@@ -78,7 +79,11 @@ fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>
     let most = MOST_SPP as f64;
     if numbers.len() > MOST_PASSES || passes.mean_spp() > most {
         let problem = format!("found {} passes of {} samples", numbers.len(), passes.mean_spp());
-        context.fault(&numbers[0].place, problem, format!("give at most {MOST_PASSES} passes of at most {most} samples together"));
+        context.fault(
+            &numbers[0].place,
+            problem,
+            format!("give at most {MOST_PASSES} passes of at most {most} samples together"),
+        );
     } else if passes.list().len() == numbers.len() && passes.spp() == 0 {
         let problem = format!("no pass takes all pixels: each has fewer samples than the {replicates} replicates");
         context.fault(&numbers[0].place, problem, "give one pass a multiple of the replicates");

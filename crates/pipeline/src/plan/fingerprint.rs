@@ -36,7 +36,8 @@ pub(crate) fn fingerprint(
     // How films are refined is in their passes.
     let Choices { quality, refinement: _ } = choices;
     let in_passes = |place: usize| passes.get(place).is_some_and(|camera| camera.passes.is_some());
-    let cameras: Vec<_> = description.cameras.iter().enumerate().map(|(i, setup)| camera(setup, in_passes(i))).collect();
+    let cameras: Vec<_> =
+        description.cameras.iter().enumerate().map(|(i, setup)| camera(setup, in_passes(i))).collect();
     let table = Table::new()
         .with("version", env!("CARGO_PKG_VERSION"))
         .with("results_revision", RESULTS_REVISION)
@@ -104,7 +105,12 @@ mod tests {
         let spectrum = SpectrumAsset { points: vec![(400.0, 0.5)], hash: [paint; 32] };
         let spectra = [(PathBuf::from(folder).join("paint.csv"), spectrum)].into();
         let assets = Assets { spectra, ..Assets::default() };
-        fingerprint(&description.unwrap_or_else(|faults| panic!("{faults}")), &assets, &Choices { quality, ..Choices::default() }, &[])
+        fingerprint(
+            &description.unwrap_or_else(|faults| panic!("{faults}")),
+            &assets,
+            &Choices { quality, ..Choices::default() },
+            &[],
+        )
     }
 
     #[test]

@@ -90,7 +90,8 @@ impl<'a> LightKey<'a> {
         if (self.path, &self.optics) != (other.path, &other.optics) {
             return None;
         }
-        let samples = |key: &Self| (key.sampling.spp, key.sampling.passes.clone(), key.sampling.replicates, key.sampling.seed);
+        let samples =
+            |key: &Self| (key.sampling.spp, key.sampling.passes.clone(), key.sampling.replicates, key.sampling.seed);
         let kept = |s: &Settings| (s.bands, s.folded, s.range_nm);
         let (a, b) = (&self.settings, &other.settings);
         let same_kept = Settings { adaptive: b.adaptive, bands: b.bands, folded: b.folded, range_nm: b.range_nm, ..*a };

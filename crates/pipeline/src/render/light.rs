@@ -313,7 +313,9 @@ mod tests {
     }
 
     fn film(tile_px: u32, shard: Shard) -> Film {
-        exposure(tile_px, shard).gather::<4>(&ConstantField { radiance: 2.0 }, None, &Unobserved).expect("not cancelled")
+        exposure(tile_px, shard)
+            .gather::<4>(&ConstantField { radiance: 2.0 }, None, &Unobserved)
+            .expect("not cancelled")
     }
 
     #[test]
@@ -346,7 +348,8 @@ mod tests {
         exposure.height = 40;
         exposure.layout.bands = Bands::covering(380.0, 780.0, 5.0);
         let (low_nm, high_nm) = (380.0, 780.0);
-        exposure.sampling = Sampling { pass: PassAt::only(spp), replicates, low_nm, high_nm, spread, ..exposure.sampling };
+        exposure.sampling =
+            Sampling { pass: PassAt::only(spp), replicates, low_nm, high_nm, spread, ..exposure.sampling };
         let film = exposure.gather::<4>(&ConstantField { radiance: 4.0 }, None, &Unobserved).expect("not cancelled");
         let cube = film.cube.expect("a cube");
         let lit =

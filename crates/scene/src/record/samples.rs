@@ -92,7 +92,10 @@ pub(super) fn choose(own: &mut Render, base: &mut Render) {
 /// Checks a record into which the job's has been merged.
 pub(super) fn check(render: &Render, faults: &mut Faults) {
     if let Some(choice) = Choice::in_force(render) {
-        Choice::ALL.into_iter().filter(|other| *other != choice).for_each(|other| refuse(other, choice, render, faults));
+        Choice::ALL
+            .into_iter()
+            .filter(|other| *other != choice)
+            .for_each(|other| refuse(other, choice, render, faults));
     }
     let keys = [("min_spp", &render.min_spp), ("max_spp", &render.max_spp)];
     let keys = keys.into_iter().filter(|_| render.threshold_in_force().is_none());
@@ -113,7 +116,9 @@ fn refuse(other: Choice, choice: Choice, render: &Render, faults: &mut Faults) {
         (Choice::Noise, Choice::Passes) | (Choice::Passes, Choice::Noise) => {
             "\"passes\" and \"noise_threshold\" exclude each other: so many samples everywhere, or as many as a pixel needs"
         }
-        _ => "\"spp\" and \"noise_threshold\" exclude each other: so many samples everywhere, or as many as a pixel needs",
+        _ => {
+            "\"spp\" and \"noise_threshold\" exclude each other: so many samples everywhere, or as many as a pixel needs"
+        }
     };
     faults.add_idle((other.key(), place), choice.place(render), problem.into(), "remove one of them");
 }

@@ -71,7 +71,12 @@ impl SourceJob for LayersJob<'_> {
         let even = Layout { bands: Some(whole(camera)), folded: false, watched: false };
         let job = |layout| {
             let job = render_job((camera, rows.clone()), request, source, None);
-            RenderJob { layout, tolerance: None, sampling: Sampling { pass: PassAt::only(spp(camera)), ..job.sampling }, ..job }
+            RenderJob {
+                layout,
+                tolerance: None,
+                sampling: Sampling { pass: PassAt::only(spp(camera)), ..job.sampling },
+                ..job
+            }
         };
         let shares = |of| {
             let film = job(even).gather::<1>(&share(of), None, &Unobserved).expect("nobody cancels");
