@@ -24,7 +24,7 @@ pub struct Display {
     address: String,
     shared: Arc<Shared>,
     /// Closed when all is sent, or nothing more can be.
-    done: Receiver<()>,
+    done: Mutex<Receiver<()>>,
 }
 
 #[derive(Default)]
@@ -89,7 +89,7 @@ impl Display {
             send(stream, &sent, &told);
             drop(tell_done);
         });
-        Ok(Self { address: address.to_owned(), shared, done })
+        Ok(Self { address: address.to_owned(), shared, done: Mutex::new(done) })
     }
 
     /// Takes a tile over, to be sent.
@@ -105,7 +105,8 @@ impl Display {
     pub fn finish(self) {
         self.shared.state().is_ended = true;
         self.shared.changed.notify_one();
-        if self.done.recv_timeout(PATIENCE) == Err(mpsc::RecvTimeoutError::Timeout) {
+        let done = self.done.into_inner().unwrap_or_else(PoisonError::into_inner);
+        if done.recv_timeout(PATIENCE) == Err(mpsc::RecvTimeoutError::Timeout) {
             warn(&self.address, "it is slow, and has not taken the last tiles");
         }
     }
