@@ -130,11 +130,11 @@ impl JobRequest {
     /// Refuses what excludes one another, and a time that cannot be kept.
     fn check(&self) -> Result<(), Error> {
         let Some(time_s) = self.time_s else { return Ok(()) };
-        if !(time_s.is_finite() && time_s >= timed::LEAST_S) {
+        if !(time_s.is_finite() && time_s >= timed::MIN_TIME_S) {
             return Err(Error::input(format!(
                 "--time {time_s}: a time of {} s or more is kept; give --time {} or samples with --spp",
-                timed::LEAST_S,
-                timed::LEAST_S
+                timed::MIN_TIME_S,
+                timed::MIN_TIME_S
             )));
         }
         match (self.spp, self.noise) {

@@ -1,18 +1,18 @@
 //! How large the next pass is, where a time decides.
 //!
 //! The rate at which samples are made is that of the last pass, so that it may change: other work on the machine, a lower clock. No
-//! pass but the last ones is foreseen to take more than [`MOST`] of the time that is left, and none is more than all before it, so
-//! that the picture refines evenly and a wrong rate is noticed in time. When [`LAST`] of the whole is left, a pass takes all of
+//! pass but the last ones is foreseen to take more than [`MAX_FRACTION`] of the time that is left, and none is more than all before it, so
+//! that the picture refines evenly and a wrong rate is noticed in time. When [`LAST_FRACTION`] of the whole is left, a pass takes all of
 //! it. Passes are whole but where the least one, a sample a pixel in each replicate, is too much: then it takes a part of the pixels.
 
 use etendue_pipeline::plan::{PARTS, Pass};
 
 /// Part of the time left that a pass may take.
-const MOST: f64 = 0.6;
+const MAX_FRACTION: f64 = 0.6;
 /// Part of the whole time that one pass may use up.
-const LAST: f64 = 0.12;
+const LAST_FRACTION: f64 = 0.12;
 /// Part of the whole time that is not worth a pass.
-const IDLE: f64 = 0.01;
+const IDLE_FRACTION: f64 = 0.01;
 
 /// How fast samples are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,11 +41,11 @@ impl Pace {
         if done_spp == 0 {
             return Some(Pass::whole(self.least));
         }
-        if room_s < IDLE * self.total_s {
+        if room_s < IDLE_FRACTION * self.total_s {
             return None;
         }
-        let is_last = self.total_s - elapsed_s <= LAST * self.total_s;
-        let aim_s = if is_last { room_s } else { MOST * room_s };
+        let is_last = self.total_s - elapsed_s <= LAST_FRACTION * self.total_s;
+        let aim_s = if is_last { room_s } else { MAX_FRACTION * room_s };
         let least_s = rate.sample_s * f64::from(self.least);
         let times = (aim_s / least_s).min(f64::from(done_spp / self.least)).floor();
         if times >= 1.0 {

@@ -14,7 +14,7 @@ use crate::observer::{Message, Observer, Progress as Told, Unit};
 use crate::render_options::RenderOptions;
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::{CameraPlan, MOST_PASSES, PARTS, Pass, PassAt, Passes, TimeDependence};
+use etendue_pipeline::plan::{CameraPlan, MAX_PASSES, PARTS, Pass, PassAt, Passes, TimeDependence};
 use etendue_pipeline::render::{Request, Shot, pass};
 use etendue_pipeline::tile::{Shard, Tile};
 use etendue_sensor::SensorState;
@@ -22,17 +22,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 
 /// The least time that can be kept, s.
-pub(crate) const LEAST_S: f64 = 10.0;
+pub(crate) const MIN_TIME_S: f64 = 10.0;
 
 /// A round is given up at this part of the time.
-const GIVEN_UP: f64 = 1.05;
-
-/// Replicates where nobody says how many: fewer where a picture is so slow that the least pass is too much.
-const REPLICATES: [u32; 3] = [4, 2, 1];
+const GIVE_UP_RATIO: f64 = 1.05;
 
 /// Part of the time that the pilot is to take at least, and the most parts of the pixels for it.
-const PILOT: f64 = 0.004;
-const MOST_PILOT_PARTS: u32 = PARTS / 4;
+const PILOT_FRACTION: f64 = 0.01;
+const MAX_PILOT_PARTS: u32 = PARTS / 4;
 
 /// All light of a run, and the plan that makes it again.
 #[derive(Debug)]
@@ -68,20 +65,24 @@ pub(crate) fn light(
     let resumed = kept.iter().flatten().max_by_key(|kept| kept.passes.list().len()).cloned();
     run.watch.before_s = resumed.as_ref().map_or(0.0, |kept| kept.elapsed_s);
     let mut rate = run.pilot()?;
-    let replicates = resumed.as_ref().map_or_else(|| run.replicates(rate.sample_s), |kept| kept.replicates);
+    let replicates = match (run.plan.open_replicates(), &resumed) {
+        (None, _) => None,
+        (Some(_), Some(kept)) => Some(kept.replicates),
+        (Some(most), None) => Some(run.replicates(most, rate.sample_s)),
+    };
     let mut passes = resumed.map_or_else(Passes::default, |kept| kept.passes);
     run.plan = run.plan.with_passes(&passes, replicates);
     run.catch_up(kept, &passes)?;
     let pace = run.pace();
     run.warn(pace, rate);
-    while passes.list().len() < MOST_PASSES {
+    while passes.list().len() < MAX_PASSES {
         let Some(next) = pace.next(run.watch.elapsed_s(), rate, passes.spp()) else { break };
         let mut with_next = passes.clone();
         with_next.push(next);
         let at = with_next.at(passes.list().len());
         let Some(measured) = run.round(at, !passes.list().is_empty())? else { break };
         (rate, passes) = (measured, with_next);
-        run.keep(&passes, replicates, progress)?;
+        run.keep(&passes, progress)?;
     }
     run.tell(&passes);
     let plan = Arc::new(run.plan.with_passes(&passes, replicates));
@@ -170,27 +171,30 @@ impl<'a> Run<'a> {
                 self.pass(place, (at, None), false)?;
             }
             let rate = self.watch.rate(at.pass, begin_s, before_light_s);
-            if rate.sample_s * at.pass.number() >= PILOT * self.total_s || part >= MOST_PILOT_PARTS {
+            if rate.sample_s * at.pass.number() >= PILOT_FRACTION * self.total_s || part >= MAX_PILOT_PARTS {
                 return Ok(rate);
             }
             part *= 4;
         }
     }
 
-    /// How many replicates there are: as cameras say, or as the time allows.
-    fn replicates(&self, sample_s: f64) -> u32 {
-        let has_variance = self.plan.cameras.iter().any(|camera| camera.products.variance);
-        let choice = if has_variance { &REPLICATES[..2] } else { &REPLICATES[..] };
-        match self.plan.has_open_replicates() {
-            true => self.pace().replicates(sample_s, choice),
-            false => REPLICATES[0],
+    /// How many replicates there are: `most`, or fewer where the time does not allow so many.
+    fn replicates(&self, most: u32, sample_s: f64) -> u32 {
+        let fewest = if self.plan.cameras.iter().any(|camera| camera.products.variance) { 2 } else { 1 };
+        let choice: Vec<u32> = (fewest..=most).rev().filter(|replicates| most.is_multiple_of(*replicates)).collect();
+        let replicates = self.pace().replicates(sample_s, &choice);
+        if replicates < most {
+            let note =
+                format!("--time {} does not allow passes of {most} replicates; they have {replicates}", self.total_s);
+            self.observer.message(Message::Note(&note));
         }
+        replicates
     }
 
     /// One pass of all films; `None`, and nothing is changed, where the time is well over and `may_end`.
     fn round(&mut self, at: PassAt, may_end: bool) -> Result<Option<Rate>, Error> {
         let (begin_s, before_light_s) = (self.watch.now_s(), self.watch.light_s());
-        self.watch.limit_s = may_end.then_some(GIVEN_UP * self.total_s);
+        self.watch.limit_s = may_end.then_some(GIVE_UP_RATIO * self.total_s);
         let mut joined = Vec::with_capacity(self.films.len());
         for place in 0..self.films.len() {
             match self.pass(place, (at, self.films[place].film.as_ref()), true)? {
@@ -220,21 +224,17 @@ impl<'a> Run<'a> {
     }
 
     /// Keeps the state and refines the pictures.
-    fn keep(&self, passes: &Passes, replicates: u32, progress: &mut Progress) -> Result<(), Error> {
+    fn keep(&self, passes: &Passes, progress: &mut Progress) -> Result<(), Error> {
         if !progress.is_kept() {
             return Ok(());
         }
         let elapsed_s = self.watch.elapsed_s();
-        let plan = Arc::new(self.plan.with_passes(passes, replicates));
+        let plan = Arc::new(self.plan.with_passes(passes, None));
         let groups = plan.by_light();
         for film in &self.films {
-            let place = (groups[film.group][0], film.shot);
-            progress.keep(
-                &self.open,
-                place,
-                film.film.as_ref().ok_or_else(no_pass)?,
-                (passes, replicates, elapsed_s),
-            )?;
+            let camera = groups[film.group][0];
+            let done = (passes, camera.settings.replicates, elapsed_s);
+            progress.keep(&self.open, (camera, film.shot), film.film.as_ref().ok_or_else(no_pass)?, done)?;
         }
         for of_frame in self.films.chunk_by(|a, b| (a.group, a.shot.frame) == (b.group, b.shot.frame)) {
             let films: Vec<Film> = of_frame.iter().filter_map(|film| film.film.clone()).collect();
@@ -249,7 +249,7 @@ impl<'a> Run<'a> {
 
     fn warn(&self, pace: Pace, rate: Rate) {
         let needed_s = rate.sample_s * f64::from(pace.least);
-        if needed_s > GIVEN_UP * self.total_s {
+        if needed_s > GIVE_UP_RATIO * self.total_s {
             let samples = if pace.least == 1 { "one sample".to_owned() } else { format!("{} samples", pace.least) };
             self.observer.message(Message::Warning(&format!(
                 "{samples} of every pixel, the least that can be delivered, take about {needed_s:.0} s here, more than --time {}; \

@@ -160,7 +160,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
 
 /// How the samples of a camera come.
 fn camera_passes((setup, camera): (&CameraSetup, &CameraPlan)) -> CameraPasses {
-    let is_open = setup.render.replicates.is_none();
+    let is_open = setup.render.replicates.as_ref().is_none_or(|given| !given.place.is_command_line());
     CameraPasses { replicates: camera.settings.replicates, is_open, passes: camera.passes.clone() }
 }
 

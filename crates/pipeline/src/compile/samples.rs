@@ -2,8 +2,8 @@
 
 use super::context::Context;
 use super::{Choices, Quality, Refinement};
-use crate::plan::{AdaptiveSampling, MOST_PASSES, Pass, Passes};
-use etendue_scene::record::render::MOST_SPP;
+use crate::plan::{AdaptiveSampling, MAX_PASSES, Pass, Passes};
+use etendue_scene::record::render::MAX_SPP;
 use etendue_scene::record::{Output, Render};
 use etendue_scene::{Placed, stated};
 
@@ -76,13 +76,13 @@ fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>
         }
     }
     let passes = Passes::new(list);
-    let most = MOST_SPP as f64;
-    if numbers.len() > MOST_PASSES || passes.mean_spp() > most {
+    let most = MAX_SPP as f64;
+    if numbers.len() > MAX_PASSES || passes.mean_spp() > most {
         let problem = format!("found {} passes of {} samples", numbers.len(), passes.mean_spp());
         context.fault(
             &numbers[0].place,
             problem,
-            format!("give at most {MOST_PASSES} passes of at most {most} samples together"),
+            format!("give at most {MAX_PASSES} passes of at most {most} samples together"),
         );
     } else if passes.list().len() == numbers.len() && passes.spp() == 0 {
         let problem = format!("no pass takes all pixels: each has fewer samples than the {replicates} replicates");

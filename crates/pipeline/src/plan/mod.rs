@@ -28,7 +28,7 @@ pub use camera::{CameraBody, CameraPlan, LightOwner};
 pub use development::{Development, PictureFormat};
 pub use mount::Mount;
 pub(crate) use passes::CameraPasses;
-pub use passes::{MOST_PASSES, PARTS, Pass, PassAt, Passes};
+pub use passes::{MAX_PASSES, PARTS, Pass, PassAt, Passes};
 pub use precipitation::Precipitation;
 pub use products::{Products, RawFormat};
 pub use row_exposure::{CaptureTiming, RowExposure, RowSkipping};
@@ -107,12 +107,12 @@ impl Plan {
         self.sources.is_modulated() || self.material_table.is_modulated()
     }
 
-    /// The same with these passes of all cameras, where a time decides them; in `replicates` replicates, where they are left open.
+    /// The same with these passes of all cameras, where a time decides them; in `replicates` replicates, where the command line does not say how many.
     #[must_use]
-    pub fn with_passes(&self, passes: &Passes, replicates: u32) -> Self {
+    pub fn with_passes(&self, passes: &Passes, replicates: Option<u32>) -> Self {
         let mut plan = self.clone();
         for of_camera in &mut plan.passes {
-            of_camera.replicates = if of_camera.is_open { replicates } else { of_camera.replicates };
+            of_camera.replicates = replicates.filter(|_| of_camera.is_open).unwrap_or(of_camera.replicates);
             of_camera.passes = Some(passes.clone());
         }
         for camera in &mut plan.cameras {
@@ -129,10 +129,11 @@ impl Plan {
         self.passes.iter().map(|camera| camera.replicates)
     }
 
-    /// Whether nobody says how many replicates the cameras have.
+    /// The replicates that all cameras of the job have, where the command line does not say how many: a time may allow fewer.
     #[must_use]
-    pub fn has_open_replicates(&self) -> bool {
-        self.passes.iter().all(|camera| camera.is_open)
+    pub fn open_replicates(&self) -> Option<u32> {
+        let first = self.passes.first()?.replicates;
+        self.passes.iter().all(|camera| camera.is_open && camera.replicates == first).then_some(first)
     }
 
     /// The hash in hexadecimal.

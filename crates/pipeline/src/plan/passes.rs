@@ -11,7 +11,7 @@ use etendue_core::random::Pixel;
 pub const PARTS: u32 = 256;
 
 /// The most passes of a film.
-pub const MOST_PASSES: usize = 64;
+pub const MAX_PASSES: usize = 64;
 
 /// A pass: so many samples of all pixels, or of some.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,7 +141,7 @@ impl Passes {
 pub(crate) struct CameraPasses {
     /// Replicates of each pass.
     pub(crate) replicates: u32,
-    /// Whether nobody says how many.
+    /// Whether the command line does not say how many.
     pub(crate) is_open: bool,
     /// Its passes; `None`: all samples in one.
     pub(crate) passes: Option<Passes>,

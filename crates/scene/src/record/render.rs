@@ -9,18 +9,18 @@ use crate::record::samples;
 pub const MAX_SEED: u64 = i64::MAX.cast_unsigned();
 
 /// The most samples of a pixel.
-pub const MOST_SPP: u64 = 1 << 20;
+pub const MAX_SPP: u64 = 1 << 20;
 
 record! {
     /// How the light is found.
     pub struct Render check(check) {
         /// Samples per pixel, 1 … 1 048 576; a multiple of "replicates". Default: 64, or as `--quality` says.
-        optional spp: Placed<u64> = whole(1, MOST_SPP);
+        optional spp: Placed<u64> = whole(1, MAX_SPP);
         /// Samples per pixel of each of the passes whose weighted mean is the light, in the place of "spp": [8, 8, 16] are 32 in three
         /// independent passes. Each is a multiple of "replicates", or less than that many: then so many on average, as that part
         /// of the pixels, evenly spread, gets one sample in each replicate. At least one pass is whole; 64 passes at most.
         /// Default: one pass of "spp" samples, with `--progressive` by its schedule.
-        many passes: Placed<f64> = list(number("").above(0.0).at_most(MOST_SPP as f64), 1);
+        many passes: Placed<f64> = list(number("").above(0.0).at_most(MAX_SPP as f64), 1);
         /// Independent replicates from which the variance is told, 1 … 1 024; one gives no variance. Samples
         /// are spread evenly within a replicate only: where light is even, one replicate of few samples is less noisy than
         /// several. Wavelengths of bands are spread over all replicates, but where "variance" is asked for. Default: 4, or 2 or 1 where "spp" is no multiple.

@@ -86,6 +86,10 @@ pub(super) fn choose(own: &mut Render, base: &mut Render) {
     }
     if Choice::Passes.is_of_command_line(base) {
         own.passes.clear();
+        // Those of the passes.
+        if base.replicates.as_ref().is_some_and(|given| given.place.is_command_line()) {
+            own.replicates = None;
+        }
     }
 }
 
