@@ -36,7 +36,7 @@ impl Progress {
         state::check(folder, existing)?;
         let open = || OutputFolder::open(folder, Existing::Replace).map_err(Error::input);
         let refined = is_progressive.then(open).transpose()?;
-        if existing == Existing::Replace && state::is_in(folder) {
+        if existing == Existing::Replace {
             state::remove(folder).map_err(Error::run)?;
         }
         let resumed = (existing == Existing::Resume).then(|| folder.to_path_buf());
@@ -102,6 +102,6 @@ impl Progress {
 
     /// Removes the state of a run that is complete.
     pub(crate) fn finish(self, folder: &Path) -> Result<(), Error> {
-        if state::is_in(folder) { state::remove(folder).map_err(Error::run) } else { Ok(()) }
+        state::remove(folder).map_err(Error::run)
     }
 }

@@ -11,7 +11,7 @@ use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, Passes};
 use etendue_pipeline::render::Shot;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// The folder of the state, no name of a camera.
@@ -42,20 +42,20 @@ pub(crate) fn name(camera: &CameraPlan, shot: Shot) -> String {
 
 /// Whether an output folder holds a state.
 pub(crate) fn is_in(folder: &Path) -> bool {
-    folder.join(FOLDER).read_dir().is_ok_and(|mut files| files.next().is_some())
+    films(folder).next().is_some()
+}
+
+/// The films of a state.
+fn films(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let files = folder.join(FOLDER).read_dir().into_iter().flatten().flatten();
+    files.map(|file| file.path()).filter(|path| path.to_string_lossy().ends_with(FILM))
 }
 
 /// Removes the state in an output folder: the films, and their folder where nothing else is in it.
 pub(crate) fn remove(folder: &Path) -> io::Result<()> {
-    let folder = folder.join(FOLDER);
-    for file in folder.read_dir()? {
-        let path = file?.path();
-        if path.to_string_lossy().ends_with(FILM) {
-            fs::remove_file(&path)?;
-        }
-    }
-    // Left where another's file is in it.
-    let _ = fs::remove_dir(&folder);
+    films(folder).try_for_each(fs::remove_file)?;
+    // Left where it is missing, or another's file is in it.
+    let _ = fs::remove_dir(folder.join(FOLDER));
     Ok(())
 }
 

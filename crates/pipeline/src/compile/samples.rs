@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::{Choices, Quality, Refinement};
 use crate::plan::{AdaptiveSampling, MAX_PASSES, Pass, Passes};
-use etendue_scene::record::render::MAX_SPP;
+use etendue_scene::record::render::MAX_SPP as MAX_KEY_SPP;
 use etendue_scene::record::{Output, Render};
 use etendue_scene::{Placed, stated};
 
@@ -76,7 +76,7 @@ fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>
         }
     }
     let passes = Passes::new(list);
-    let most = MAX_SPP as f64;
+    let most = MAX_KEY_SPP as f64;
     if numbers.len() > MAX_PASSES || passes.mean_spp() > most {
         let problem = format!("found {} passes of {} samples", numbers.len(), passes.mean_spp());
         context.fault(
