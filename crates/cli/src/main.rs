@@ -4,6 +4,7 @@
 #![allow(unreachable_pub)]
 
 mod args;
+mod display;
 mod machine;
 mod output;
 mod progress;

@@ -1,13 +1,37 @@
 //! Progress on a terminal, and messages while a task runs. Ctrl-C stops by the operating system's own way.
 
+use crate::display::Display;
 use crate::output::print_message;
-use etendue::{Message, Observer, Progress, Unit};
+use etendue::{ImageTile, Message, Observer, Progress, Unit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::Mutex;
+use std::time::Instant;
 
 /// Draws a bar of each task on stderr where that is a terminal, and prints messages there.
-#[derive(Default)]
-pub struct Terminal(Mutex<Option<Bar>>);
+pub struct Terminal {
+    bar: Mutex<Option<Bar>>,
+    /// What its clock counts from.
+    start: Instant,
+    display: Option<Display>,
+}
+
+impl Default for Terminal {
+    fn default() -> Self {
+        Self { bar: Mutex::default(), start: Instant::now(), display: None }
+    }
+}
+
+impl Terminal {
+    /// The same, with light shown in a viewer as well.
+    pub fn with_display(display: Option<Display>) -> Self {
+        Self { display, ..Self::default() }
+    }
+
+    /// Waits a while until the viewer has all.
+    pub fn finish(self) {
+        self.display.into_iter().for_each(Display::finish);
+    }
+}
 
 struct Bar {
     total: usize,
@@ -38,6 +62,18 @@ fn heading(progress: Progress<'_>) -> String {
 }
 
 impl Observer for Terminal {
+    fn now_s(&self) -> Option<f64> {
+        Some(self.start.elapsed().as_secs_f64())
+    }
+
+    fn wants_tiles(&self) -> bool {
+        self.display.is_some()
+    }
+
+    fn tile(&self, tile: &ImageTile<'_>) {
+        self.display.iter().for_each(|display| display.tile(tile));
+    }
+
     fn message(&self, message: Message<'_>) {
         match message {
             Message::Note(text) => print_message(&format!("note: {text}\n")),
@@ -47,7 +83,7 @@ impl Observer for Terminal {
 
     fn progress(&self, progress: Progress<'_>) {
         // A thread that panicked while it drew leaves nothing half-done here.
-        let mut task = self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut task = self.bar.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if task.as_ref().is_some_and(|task| task.total != progress.total) {
             task.take().iter().for_each(|task| task.bar.finish_and_clear());
         }

@@ -46,13 +46,24 @@ pub(crate) fn shots_of(camera: &CameraPlan, frames: &Range<u32>) -> Vec<Shot> {
     }
 }
 
+/// What is known of a frame before one of its films is gathered.
+#[derive(Clone, Copy)]
+pub(crate) struct SoFar<'a> {
+    /// The films of its captures before that one.
+    pub(crate) films: &'a [Film],
+    /// How many films it has.
+    pub(crate) count: usize,
+    /// The states of the sensors before the frame, and the first frame that they remember.
+    pub(crate) states: (&'a [SensorState], u32),
+}
+
 /// Hands over the results of all cameras: of each group of cameras of equal light in turn, where light depends on time frame after
 /// frame, but for frames that are `done`. `film_of` gathers the light of a group.
 pub(crate) fn deliver(
     plan: &Arc<Plan>,
     options: &RenderOptions,
     done: &DoneFrames,
-    mut film_of: impl FnMut(&[&CameraPlan], Shot) -> Result<Film, Error>,
+    mut film_of: impl FnMut(&[&CameraPlan], Shot, SoFar<'_>) -> Result<Film, Error>,
     mut take: impl FnMut(CameraResults) -> Result<(), Error>,
 ) -> Result<(), Error> {
     check_frames(plan, &options.frames)?;
@@ -61,8 +72,9 @@ pub(crate) fn deliver(
     let (last, first): (Vec<_>, Vec<_>) = plan.by_light().into_iter().partition(steady);
     for group in first.into_iter().chain(last) {
         if group[0].time == TimeDependence::None {
-            let film = film_of(&group, Shot::default())?;
             let states = vec![SensorState::default(); group.len()];
+            let so_far = SoFar { films: &[], count: 1, states: (&states, options.frames.start) };
+            let film = film_of(&group, Shot::default(), so_far)?;
             deliver_films(plan, &group, vec![film], (&states, options.frames.start), options, &mut take)?;
             continue;
         }
@@ -72,9 +84,13 @@ pub(crate) fn deliver(
                 states = kept;
                 continue;
             }
-            let films = shots(group[0], frame).into_iter().map(|shot| film_of(&group, shot));
-            let films = films.collect::<Result<Vec<_>, _>>()?;
-            let since = options.frames.start;
+            let (shots, since) = (shots(group[0], frame), options.frames.start);
+            let mut films = Vec::with_capacity(shots.len());
+            for shot in &shots {
+                let so_far = SoFar { films: &films, count: shots.len(), states: (&states, since) };
+                let film = film_of(&group, *shot, so_far)?;
+                films.push(film);
+            }
             let options = RenderOptions { frames: frame..frame + 1, ..options.clone() };
             states = deliver_films(plan, &group, films, (&states, since), &options, &mut take)?;
         }

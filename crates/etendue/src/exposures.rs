@@ -1,13 +1,14 @@
 //! The films of a run, one after the other, and how far the whole run is.
 
+use crate::display;
 use crate::error::Error;
 use crate::observer::{FramePlace, Message, Observer, Progress, Unit};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::noise_reached::NoiseReached;
-use etendue_pipeline::plan::{CameraPlan, TimeDependence};
-use etendue_pipeline::render::{Request, Shot, light, tolerance};
-use etendue_pipeline::tile::{Shard, tiles};
+use etendue_pipeline::plan::{CameraPlan, PassAt, TimeDependence};
+use etendue_pipeline::render::{Request, Shot, pass, tolerance};
+use etendue_pipeline::tile::{Shard, Tile, tiles};
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
 
@@ -18,9 +19,9 @@ pub(crate) struct Exposures<'a> {
     shard: Shard,
     simd: Simd,
     observer: &'a dyn Observer,
-    /// Tiles of the films that are finished.
+    /// Tiles of the passes that are finished.
     done: usize,
-    /// Tiles of all films.
+    /// Tiles of all passes of all films.
     total: usize,
 }
 
@@ -32,12 +33,37 @@ impl<'a> Exposures<'a> {
         (shard, simd): (Shard, Simd),
         observer: &'a dyn Observer,
     ) -> Self {
-        let total = films.map(|camera| tile_count(camera, shard)).sum();
+        let total = films.map(|camera| camera.pass_count() * tile_count(camera, shard)).sum();
         Self { plan, frames: frames.clone(), shard, simd, observer, done: 0, total }
     }
 
-    /// The light of cameras that have the same.
-    pub(crate) fn film(&mut self, group: &[&CameraPlan], shot: Shot) -> Result<Film, Error> {
+    /// The light of cameras that have the same, in all its passes: from `kept` on, a film and how many passes it holds. `after` takes the
+    /// film after each further pass, with their number.
+    pub(crate) fn film(
+        &mut self,
+        (group, shot): (&[&CameraPlan], Shot),
+        kept: Option<(Film, usize)>,
+        mut after: impl FnMut(&Film, usize) -> Result<(), Error>,
+    ) -> Result<Film, Error> {
+        let camera = group[0];
+        let (mut film, first) = kept.map_or((None, 0), |(film, passes)| (Some(film), passes));
+        self.done += first * tile_count(camera, self.shard);
+        for number in first..camera.pass_count() {
+            let joined = self.pass((group, shot), (camera.pass(number), film.as_ref()))?;
+            after(&joined, number + 1)?;
+            film = Some(joined);
+        }
+        let film = film.ok_or_else(|| Error::Run(format!("camera {}: no pass was rendered", camera.name)))?;
+        self.tell_noise(&place(camera, shot), camera, &film);
+        Ok(film)
+    }
+
+    /// One pass, joined with what the passes before it gathered.
+    fn pass(
+        &mut self,
+        (group, shot): (&[&CameraPlan], Shot),
+        (number, before): (PassAt, Option<&Film>),
+    ) -> Result<Film, Error> {
         let camera = group[0];
         let heading = match group.len() {
             1 => camera.name.clone(),
@@ -48,12 +74,11 @@ impl<'a> Exposures<'a> {
             place: shot.frame - self.frames.start + 1,
             count: self.frames.len() as u32,
         });
-        let tiles = Tiles { heading: &heading, frame, before: self.done, run: self };
-        let film = light(self.plan, camera, Request { shot, simd: self.simd, shard: self.shard }, &tiles);
+        let tiles = Tiles { heading: &heading, frame, film: (camera, shot), before: self.done, run: self };
+        let request = Request { shot, simd: self.simd, shard: self.shard };
+        let film = pass(self.plan, camera, request, (number, before), &tiles);
         self.done += tile_count(camera, self.shard);
-        let film = film.map_err(|cancelled| Error::Run(cancelled.to_string()))?;
-        self.tell_noise(&place(camera, shot), camera, &film);
-        Ok(film)
+        film.map_err(|cancelled| Error::Run(cancelled.to_string()))
     }
 
     /// Where noise decided the samples: how many it took, and whether the limit was reached.
@@ -96,14 +121,19 @@ fn tile_count(camera: &CameraPlan, shard: Shard) -> usize {
 struct Tiles<'a> {
     heading: &'a str,
     frame: Option<FramePlace>,
+    film: (&'a CameraPlan, Shot),
     before: usize,
     run: &'a Exposures<'a>,
 }
 
 impl etendue_pipeline::Observer for Tiles<'_> {
     fn tiles(&self, done: usize, _: usize) {
-        let Self { heading, frame, before, run } = *self;
+        let Self { heading, frame, before, run, .. } = *self;
         run.observer.progress(Progress { heading, frame, unit: Unit::Tiles, done: before + done, total: run.total });
+    }
+
+    fn tile(&self, tile: Tile, film: &Film) {
+        display::show(self.run.observer, self.film, tile, film);
     }
 
     fn cancelled(&self) -> bool {

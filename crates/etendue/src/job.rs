@@ -1,25 +1,27 @@
 //! From a job file and what changes it to a plan, and from a plan to results.
 
-use crate::delivery::{check_finite, check_frames, deliver, films_of, shots_of};
+use crate::delivery::{SoFar, check_finite, check_frames, deliver, films_of, shots_of};
 use crate::error::Error;
 use crate::exposures::Exposures;
 use crate::memory::MemoryFiles;
 use crate::observer::{Message, Observer};
 use crate::plan_report::PlanReport;
+use crate::refine::{Progress, timed};
 use crate::render_options::RenderOptions;
 use crate::results::{CameraResults, DoneFrames, Results, Sequence, file_names};
 use crate::rig;
 use crate::shard_spec::ShardSpec;
 use etendue_io::{Existing, OutputFolder, complete_assets};
 use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::plan::effects::PlannedEffect;
+use etendue_pipeline::plan::{CameraPlan, Passes};
 use etendue_pipeline::render::Shot;
 use etendue_pipeline::summary::Summary;
 use etendue_pipeline::tile::Shard;
-use etendue_pipeline::{Choices, Plan, compile};
+use etendue_pipeline::{Choices, Plan, Refinement, compile};
 use etendue_scene::{Description, Overrides};
 use etendue_tracer::accel::Simd;
+use std::cell::RefCell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -72,6 +74,12 @@ pub struct JobRequest {
     pub spp: Option<u64>,
     /// As many samples as it takes for a standard error of this part of the noise of the sensor; `None`: as the job says.
     pub noise: Option<f64>,
+    /// As many samples as this much time of light allows, s, 10 or more: all cameras and frames together, from the first sample on, by the
+    /// observer's clock; `None`: as the job says.
+    pub time_s: Option<f64>,
+    /// Whether light comes in passes, by a schedule that doubles where neither the job nor a time says others, and what is saved
+    /// is refined and can be resumed after each.
+    pub progressive: bool,
     /// The integrator of every camera; `None`: the job's, or path.
     pub integrator: Option<Integrator>,
     /// A preset for what the job file leaves open.
@@ -90,6 +98,8 @@ impl JobRequest {
             set: Vec::new(),
             spp: None,
             noise: None,
+            time_s: None,
+            progressive: false,
             integrator: None,
             quality: None,
             camera: None,
@@ -110,12 +120,29 @@ impl JobRequest {
     /// # Errors
     /// All faults of the job and of the files that it names.
     pub fn open_in(self, files: &MemoryFiles) -> Result<Job, Error> {
+        self.check()?;
         let description = Description::load(&self.job, &|path| files.read(path), &self.overrides());
         let description = description.map_err(|faults| Error::inputs(faults.list()))?;
         let assets = complete_assets(files.assets().clone(), &description.assets()).map_err(Error::inputs)?;
         let plan = compile(&description, &assets, &self.choices()).map_err(Error::inputs)?;
         let plan = Arc::new(self.narrowed(plan)?);
         Ok(Job { request: self, plan })
+    }
+
+    /// Refuses what excludes one another, and a time that cannot be kept.
+    fn check(&self) -> Result<(), Error> {
+        let Some(time_s) = self.time_s else { return Ok(()) };
+        if !(time_s.is_finite() && time_s >= timed::MIN_TIME_S) {
+            return Err(Error::input(format!(
+                "--time {time_s}: a time of {} s or more is kept; give --time {} or samples with --spp",
+                timed::MIN_TIME_S,
+                timed::MIN_TIME_S
+            )));
+        }
+        match (self.spp, self.noise) {
+            (None, None) => Ok(()),
+            _ => Err(Error::input("--time decides the samples, and --spp or --noise would, too; give one of them")),
+        }
     }
 
     /// The changes to the description: what is asked for goes through the same check as its key.
@@ -146,7 +173,12 @@ impl JobRequest {
             Quality::Standard => etendue_pipeline::Quality::Standard,
             Quality::Reference => etendue_pipeline::Quality::Reference,
         });
-        Choices { quality }
+        let refinement = match (self.time_s, self.progressive) {
+            (Some(_), _) => Refinement::Timed,
+            (None, true) => Refinement::Progressive,
+            (None, false) => Refinement::Described,
+        };
+        Choices { quality, refinement }
     }
 
     /// Only the camera that was asked for. Its random addresses are those it has among all.
@@ -256,21 +288,45 @@ impl Job {
         observer: &dyn Observer,
         mut take: impl FnMut(CameraResults) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        self.deliver(options, &DoneFrames::default(), observer, &mut take)
+        let progress = RefCell::new(Progress::default());
+        self.deliver(options, |_| Ok(DoneFrames::default()), &progress, observer, &mut take)
     }
 
+    /// The results of all cameras. `done` are the frames that an earlier run of the plan has written, which is the job's, with the passes that
+    /// were done where a time decides them.
     fn deliver(
         &self,
         options: &RenderOptions,
-        done: &DoneFrames,
+        done: impl FnOnce(&Arc<Plan>) -> Result<DoneFrames, Error>,
+        progress: &RefCell<Progress>,
         observer: &dyn Observer,
         take: impl FnMut(CameraResults) -> Result<(), Error>,
     ) -> Result<(), Error> {
         self.warn(observer);
-        let films = films_of(&self.plan, &options.frames, done);
-        let mut exposures =
-            Exposures::new((&self.plan, &options.frames), films, (Shard::WHOLE, options.simd), observer);
-        deliver(&self.plan, options, done, |group, shot| exposures.film(group, shot), take)
+        if let Some(total_s) = self.request.time_s {
+            check_frames(&self.plan, &options.frames)?;
+            let mut light = timed::light(&self.plan, total_s, options, observer, &mut progress.borrow_mut())?;
+            let plan = Arc::clone(&light.plan);
+            return deliver(&plan, options, &done(&plan)?, |group, shot, _| light.take(group[0], shot), take);
+        }
+        let (plan, done) = (&self.plan, done(&self.plan)?);
+        let films = films_of(plan, &options.frames, &done);
+        let mut exposures = Exposures::new((plan, &options.frames), films, (Shard::WHOLE, options.simd), observer);
+        let film_of = |group: &[&CameraPlan], shot, so_far: SoFar<'_>| {
+            let camera = group[0];
+            let kept = progress.borrow().kept(plan, camera, shot)?;
+            let kept = kept.map(|kept| (kept.film, kept.passes.list().len()));
+            exposures.film((group, shot), kept, |film, passes| {
+                let mut progress = progress.borrow_mut();
+                let done = Passes::new((0..passes).map(|number| camera.pass(number).pass).collect());
+                progress.keep(plan, (camera, shot), film, (&done, camera.settings.replicates, 0.0))?;
+                match passes < camera.pass_count() {
+                    true => progress.refine(plan, (group, shot), film, so_far, options),
+                    false => Ok(()),
+                }
+            })
+        };
+        deliver(plan, options, &done, film_of, take)
     }
 
     /// Renders camera after camera, where light depends on time frame after frame, and writes each one's files before the next is
@@ -285,24 +341,37 @@ impl Job {
         (folder, existing): (&Path, Existing),
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
-        let done = match existing {
-            Existing::Resume => DoneFrames::in_folder(folder, &self.plan, &options.frames)?,
-            Existing::Refuse | Existing::Replace => DoneFrames::default(),
+        let root = folder;
+        let done = |plan: &Arc<Plan>| match existing {
+            Existing::Resume => DoneFrames::in_folder(root, plan, &options.frames),
+            Existing::Refuse | Existing::Replace => Ok(DoneFrames::default()),
         };
-        let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+        if self.request.time_s.is_none() {
+            done(&self.plan)?;
+        }
+        let progress = RefCell::new(Progress::of(self.request.progressive, (root, existing))?);
+        let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
         folder.claim(self.file_names(&options.frames).iter().map(String::as_str)).map_err(Error::input)?;
-        let (mut sequence, mut written) = (Sequence::default(), Vec::new());
-        done.note_all(&self.plan, &options.frames, &mut sequence);
-        self.deliver(options, &done, observer, |camera| {
-            sequence.write(&camera, &mut folder, observer)?;
+        let mut folder = if self.request.progressive { folder.refining() } else { folder };
+        let (sequence, mut written) = (RefCell::new(Sequence::default()), Vec::new());
+        let done_and_noted = |plan: &Arc<Plan>| {
+            let done = done(plan)?;
+            done.note_all(plan, &options.frames, &mut sequence.borrow_mut());
+            Ok(done)
+        };
+        self.deliver(options, done_and_noted, &progress, observer, |camera| {
+            sequence.borrow_mut().write(&camera, &mut folder, observer)?;
             if camera.has_own_light() {
                 written.extend(folder.publish().map_err(Error::run)?);
+                progress.borrow().forget(camera.camera(), camera.frame_numbers().start)?;
             }
             Ok(())
         })?;
+        let sequence = sequence.into_inner();
         sequence.finish(&mut folder)?;
         rig::write(&rig::asked_files(&self.plan, &options.frames), &mut folder, observer)?;
         written.extend(folder.commit().map_err(Error::run)?);
+        progress.into_inner().finish(root)?;
         Ok(written)
     }
 
@@ -342,7 +411,7 @@ impl Job {
         let mut exposures = Exposures::new((&self.plan, frames), films, (shard, simd), observer);
         for group in self.plan.by_light() {
             for shot in shots_of(group[0], frames) {
-                let film = exposures.film(&group, shot)?;
+                let film = exposures.film((&group, shot), None, |_, _| Ok(()))?;
                 check_finite(group[0], &film)?;
                 take(group[0], shot, film)?;
             }

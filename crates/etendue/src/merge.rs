@@ -1,6 +1,6 @@
 //! The shards of one job to the result of an unsharded run.
 
-use crate::delivery::deliver;
+use crate::delivery::{SoFar, deliver};
 use crate::error::Error;
 use crate::observer::Observer;
 use crate::render_options::RenderOptions;
@@ -39,7 +39,7 @@ pub fn merge(
     folder.claim(job.file_names(&manifest.frames).iter().map(String::as_str)).map_err(Error::input)?;
     let options = RenderOptions { frames: manifest.frames.clone(), simd };
     let mut sequence = Sequence::default();
-    let film_of = |group: &[&CameraPlan], shot| joined(group[0], shot, &shards);
+    let film_of = |group: &[&CameraPlan], shot, _: SoFar<'_>| joined(group[0], shot, &shards);
     deliver(job.shared_plan(), &options, &DoneFrames::default(), film_of, |camera| {
         sequence.write(&camera, &mut folder, observer)
     })?;

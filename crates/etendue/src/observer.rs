@@ -46,6 +46,23 @@ pub enum Message<'a> {
     Warning(&'a str),
 }
 
+/// A finished part of an image that is being made, to look at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImageTile<'a> {
+    /// The image's name: the camera's, with the frame where each has a light of its own.
+    pub image: &'a str,
+    /// Columns and rows of the image.
+    pub size_px: [u32; 2],
+    /// First column and row of the tile.
+    pub first_px: [u32; 2],
+    /// Columns and rows of the tile.
+    pub tile_px: [u32; 2],
+    /// `R`, `G`, `B`: radiance in linear sRGB, (1, 1, 1) at 1 cd/m²; or `Y`: mean electrons of the exposure.
+    pub channels: &'static [&'static str],
+    /// The values of each channel, row by row, one channel after the other.
+    pub values: &'a [f32],
+}
+
 /// What a task tells its caller, and asks of it. Called from worker threads.
 pub trait Observer: Sync {
     /// The caller should know this.
@@ -53,6 +70,19 @@ pub trait Observer: Sync {
 
     /// The task got so far; at the end `done` is `total`.
     fn progress(&self, _progress: Progress<'_>) {}
+
+    /// Whether the caller wants to look at light while it is gathered.
+    fn wants_tiles(&self) -> bool {
+        false
+    }
+
+    /// A tile of an image has been finished or refined, where the caller wants them. The task waits: whoever takes long does so elsewhere.
+    fn tile(&self, _tile: &ImageTile<'_>) {}
+
+    /// The caller's clock, s, from a moment of its choice on; `None`: it has none, and nothing is done by time.
+    fn now_s(&self) -> Option<f64> {
+        None
+    }
 
     /// Whether the caller wants the task to stop.
     fn cancelled(&self) -> bool {

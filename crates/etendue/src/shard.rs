@@ -6,18 +6,16 @@
 use crate::camera_file::read_text;
 use crate::delivery::shots_of;
 use crate::error::Error;
+use crate::film_file::{self, film_name};
 use crate::job::{Job, JobRequest};
 use crate::observer::Observer;
 use crate::results::metadata;
 use crate::shard_spec::ShardSpec;
-use etendue_core::Plane;
-use etendue_core::quantity::{Identity, Quantity};
-use etendue_io::exr::{ExrFile, Layer, Samples, encode_layers, read_exr_within};
-use etendue_io::{Existing, OutputFolder, Provenance, sidecar};
+use etendue_io::{Existing, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::{CameraPlan, TimeDependence};
-use etendue_pipeline::render::{Shot, layout};
+use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::render::Shot;
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -46,10 +44,15 @@ impl Job {
         (folder, existing): (&Path, Existing),
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
+        if self.request().progressive || self.request().time_s.is_some() {
+            return Err(Error::input(
+                "a shard is rendered in the passes of its job: give them by the key render.passes in the place of --progressive or --time",
+            ));
+        }
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
         folder.claim(self.shard_names(&frames).iter().map(String::as_str)).map_err(Error::input)?;
         self.render_shard((spec, &frames), simd, observer, |camera, shot, film| {
-            let bytes = encode(&film, &metadata::provenance(self.plan(), camera, shot.frame))?;
+            let bytes = film_file::encode(&film, &metadata::provenance(self.plan(), camera, shot.frame))?;
             folder.write(&film_name(camera, shot), &bytes).map_err(Error::run)
         })?;
         let (request, plan_hash, tile_px) = (self.request().clone(), self.plan().hash_text(), tile_sides(self.plan()));
@@ -103,98 +106,15 @@ impl Manifest {
     }
 }
 
-/// The name of a camera's film in a shard's folder; with frame and capture where each has its own.
-fn film_name(camera: &CameraPlan, shot: Shot) -> String {
-    let Shot { frame, capture } = shot;
-    match camera.time {
-        TimeDependence::None => format!("{}.film.exr", camera.name),
-        TimeDependence::Lights | TimeDependence::Motion => format!("{}.{frame:04}.{capture}.film.exr", camera.name),
-    }
-}
-
-/// The bytes of a film.
-fn encode(film: &Film, facts: &Provenance) -> Result<Vec<u8>, Error> {
-    let mut layers = vec![
-        ("weight".to_owned(), Layer::Float(film.weight.samples())),
-        ("samples".to_owned(), Layer::Uint(film.samples.samples())),
-        ("not_finite".to_owned(), Layer::Uint(film.not_finite.samples())),
-    ];
-    if let Some(cube) = &film.cube {
-        for (i, (mean, variance)) in cube.mean.planes().iter().zip(cube.variance.planes()).enumerate() {
-            layers.push((format!("band.{i:04}.mean"), Layer::Float(mean.samples())));
-            layers.push((format!("band.{i:04}.variance"), Layer::Float(variance.samples())));
-        }
-    }
-    if let Some(rate) = &film.electron_rate {
-        layers.push(("electron_rate.mean".to_owned(), Layer::Float(rate.mean.samples())));
-        layers.push(("electron_rate.variance".to_owned(), Layer::Float(rate.variance.samples())));
-    }
-    if let Some(watched) = &film.watched {
-        layers.push(("watched.mean".to_owned(), Layer::Float(watched.mean.samples())));
-        layers.push(("watched.variance".to_owned(), Layer::Float(watched.variance.samples())));
-    }
-    encode_layers(film.weight.width(), film.weight.height(), &layers, facts)
-        .map_err(|error| Error::Run(format!("the film cannot be encoded: {error}")))
-}
-
 /// The film of a camera of the plan, from a shard's folder.
 pub(crate) fn read(folder: &Path, camera: &CameraPlan, shot: Shot) -> Result<Film, Error> {
     let path = folder.join(film_name(camera, shot));
-    let (width, height) = camera.film_size();
-    // Most of a shard's film is black, and packs well.
-    let most_bytes = Film::bytes(width as usize, height as usize, &layout(camera)) as u64;
-    let file = read_exr_within(&path, most_bytes).map_err(Error::input)?;
-    decode(&file, camera).ok_or_else(|| {
+    let (film, _) = film_file::read(&path, camera)?.ok_or_else(|| {
         Error::input(format!(
             "{}: this is not the film of camera {}; render the shard again",
             path.display(),
             camera.name
         ))
-    })
-}
-
-fn decode(file: &ExrFile, camera: &CameraPlan) -> Option<Film> {
-    let (width, height) = camera.film_size();
-    let (settings, (width, height)) = (&camera.settings, (width as usize, height as usize));
-    let mut film = Film::new(width, height, &layout(camera), settings.replicates);
-    fill(&mut film.weight, file, "weight")?;
-    fill_counts(&mut film.samples, file, "samples")?;
-    fill_counts(&mut film.not_finite, file, "not_finite")?;
-    if let Some(cube) = &mut film.cube {
-        for (i, plane) in cube.mean.planes_mut().iter_mut().enumerate() {
-            fill(plane, file, &format!("band.{i:04}.mean"))?;
-        }
-        for (i, plane) in cube.variance.planes_mut().iter_mut().enumerate() {
-            fill(plane, file, &format!("band.{i:04}.variance"))?;
-        }
-    }
-    if let Some(rate) = &mut film.electron_rate {
-        fill(&mut rate.mean, file, "electron_rate.mean")?;
-        fill(&mut rate.variance, file, "electron_rate.variance")?;
-    }
-    if let Some(watched) = &mut film.watched {
-        fill(&mut watched.mean, file, "watched.mean")?;
-        fill(&mut watched.variance, file, "watched.variance")?;
-    }
-    Some(film)
-}
-
-fn fill<Q: Quantity<Sample = f32>>(plane: &mut Plane<Q>, file: &ExrFile, name: &str) -> Option<()> {
-    match file.channel(name)? {
-        Samples::Float(values) if values.len() == plane.samples().len() => {
-            plane.samples_mut().copy_from_slice(values);
-            Some(())
-        }
-        _ => None,
-    }
-}
-
-fn fill_counts(plane: &mut Plane<Identity>, file: &ExrFile, name: &str) -> Option<()> {
-    match file.channel(name)? {
-        Samples::Uint(values) if values.len() == plane.samples().len() => {
-            plane.samples_mut().copy_from_slice(values);
-            Some(())
-        }
-        _ => None,
-    }
+    })?;
+    Ok(film)
 }

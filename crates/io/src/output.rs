@@ -62,6 +62,29 @@ impl OutputFolder {
         names.into_iter().try_for_each(|name| self.check_free(&self.resolve(name)?))
     }
 
+    /// From now on, files of these names that are there are the run's own, which it replaces.
+    #[must_use]
+    pub fn refining(mut self) -> Self {
+        self.existing = Existing::Replace;
+        self
+    }
+
+    /// Removes the files of these names, where they are, and their folder, where nothing else is in it.
+    pub fn remove<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), Error> {
+        for name in names {
+            let path = self.resolve(name)?;
+            match fs::remove_file(&path) {
+                Err(cause) if cause.kind() != io::ErrorKind::NotFound => {
+                    return Err(Error::new(&path, format!("cannot be removed: {cause}")));
+                }
+                _ => {}
+            }
+            // Left where it is not empty.
+            let _ = path.parent().filter(|folder| *folder != self.root).map(fs::remove_dir);
+        }
+        Ok(())
+    }
+
     /// Writes `bytes` for `name` (relative, `/` between folders) under a temporary name.
     pub fn write(&mut self, name: &str, bytes: &[u8]) -> Result<(), Error> {
         self.write_with(name, |file| file.write_all(bytes))

@@ -13,7 +13,9 @@ pub mod plan;
 pub mod render;
 
 pub use camera::{datasheet, defocus, flat, light_meter, photograph, raw_colour, rectified, sampling, stored, weather};
-pub use compile::{Choices, Quality, compile, compile_camera, compile_camera_with_remarks, compile_weather};
+pub use compile::{
+    Choices, Quality, Refinement, compile, compile_camera, compile_camera_with_remarks, compile_weather,
+};
 pub use plan::{Plan, remark, summary};
 pub use render::observer::{Observer, Unobserved};
 pub use render::{

@@ -55,6 +55,8 @@ impl From<&JobArgs> for JobRequest {
             set: a.set.clone(),
             spp: a.spp,
             noise: a.noise,
+            time_s: None,
+            progressive: false,
             integrator: a.integrator,
             quality: a.quality,
             camera: a.camera.clone(),
@@ -66,7 +68,12 @@ impl From<&JobArgs> for JobRequest {
 impl JobArgs {
     /// Opens the job and prints what the command line supersedes of it.
     pub fn open(&self, pool: &rayon::ThreadPool) -> Result<Job, Error> {
-        let job = pool.install(|| JobRequest::from(self).open())?;
+        Self::open_request(self.into(), pool)
+    }
+
+    /// The same of a request.
+    pub fn open_request(request: JobRequest, pool: &rayon::ThreadPool) -> Result<Job, Error> {
+        let job = pool.install(|| request.open())?;
         job.notices().iter().for_each(|notice| print_message(&format!("note: {notice}\n")));
         Ok(job)
     }

@@ -3,11 +3,12 @@
 use crate::args::folder::Output;
 use crate::args::job::JobArgs;
 use crate::args::run::{frames, shard, whole};
+use crate::display::Display;
 use crate::machine;
 use crate::output::print_paths;
 use crate::progress::Terminal;
 use clap::Args;
-use etendue::{Error, Existing, RenderOptions, ShardSpec};
+use etendue::{Error, Existing, JobRequest, RenderOptions, ShardSpec};
 use std::path::Path;
 
 /// `etendue render`
@@ -22,9 +23,20 @@ pub struct Render {
     #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
     pub frames: std::ops::Range<u32>,
     /// Go on where a run of the same plan into this folder was interrupted: whole frames of light that depends on time are
-    /// kept, everything else is rendered and replaced
+    /// kept, and passes of a progressive run; everything else is rendered and replaced
     #[arg(long, conflicts_with_all = ["overwrite", "shard"])]
     pub resume: bool,
+    /// As many samples as this time of light allows, s, 10 or more, from the first sample on, all cameras and frames together; the
+    /// passes that were done are told and written, and render.passes makes the same bytes again
+    #[arg(long, value_name = "S", conflicts_with_all = ["spp", "noise", "shard"])]
+    pub time: Option<f64>,
+    /// Refine the picture on disk pass by pass, and keep the state after each: a run that is stopped or killed goes on with --resume, to the
+    /// same bytes
+    #[arg(long, conflicts_with_all = ["noise", "shard"])]
+    pub progressive: bool,
+    /// Show light while it is gathered in a viewer that speaks tev's protocol. The result does not depend on it
+    #[arg(long, value_name = "HOST:PORT")]
+    pub display: Option<String>,
     /// Worker threads [default: one a processor]. The result does not depend on it
     #[arg(long, value_name = "N", value_parser = whole(1, 1024))]
     pub threads: Option<u32>,
@@ -42,14 +54,16 @@ impl Render {
     pub fn run(&self) -> Result<(), Error> {
         let simd = machine::simd()?;
         let pool = machine::pool(self.threads)?;
-        let job = self.job.open(&pool)?;
+        let request = JobRequest { time_s: self.time, progressive: self.progressive, ..JobRequest::from(&self.job) };
+        let job = JobArgs::open_request(request, &pool)?;
         let (folder, frames) = (self.folder(), self.frames.clone());
-        let observer = Terminal::default();
+        let observer = Terminal::with_display(self.display.as_deref().map(Display::connect).transpose()?);
         let written = pool.install(|| match self.shard {
             None => job.save(&RenderOptions { frames, simd }, folder, &observer),
             Some(spec) => job.save_shard(spec, frames, simd, folder, &observer),
-        })?;
-        print_paths(&written);
+        });
+        observer.finish();
+        print_paths(&written?);
         Ok(())
     }
 }

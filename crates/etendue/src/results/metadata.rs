@@ -62,7 +62,7 @@ pub(crate) fn provenance(plan: &Plan, camera: &CameraPlan, frame: u32) -> Proven
         time_s: camera.timing.frame_start_s(frame),
         geometry: THROUGH_LENS.to_owned(),
         camera_to_world: Some(pose_rows(&camera.path.at(middle_s(camera, frame)))),
-        further: further(settings).chain(exposure_facts(camera, frame)).collect(),
+        further: further(settings).chain(passes_fact(camera)).chain(exposure_facts(camera, frame)).collect(),
     }
 }
 
@@ -72,6 +72,11 @@ fn spp(settings: &Settings) -> Value {
         None => settings.spp.into(),
         Some(limit) => json!({ "noise_threshold": limit.threshold, "least": limit.min_spp, "most": settings.spp }),
     }
+}
+
+/// The passes that samples came in.
+fn passes(camera: &CameraPlan) -> Option<Vec<f64>> {
+    camera.passes.as_ref().map(|passes| passes.list().iter().map(|pass| pass.number()).collect())
 }
 
 fn further(settings: &Settings) -> impl Iterator<Item = (String, String)> {
@@ -84,6 +89,11 @@ fn further(settings: &Settings) -> impl Iterator<Item = (String, String)> {
         .adaptive
         .map(|limit| [("noise_threshold", limit.threshold.to_string()), ("min_spp", limit.min_spp.to_string())]);
     even.into_iter().chain(limited.into_iter().flatten()).map(|(name, value)| (name.to_owned(), value))
+}
+
+/// The passes that samples came in, as the key `passes` has them.
+fn passes_fact(camera: &CameraPlan) -> Option<(String, String)> {
+    camera.passes.as_ref().map(|passes| ("passes".to_owned(), passes.text()))
 }
 
 /// When light that depends on time was gathered.
@@ -228,7 +238,7 @@ fn pose_rows(pose: &CameraPose) -> [[f64; 4]; 3] {
 pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTreeMap<String, Value>) -> Value {
     let first = if camera.time == TimeDependence::None { 0 } else { first };
     let settings = &camera.settings;
-    json!({
+    let mut facts = json!({
         "program": "etendue",
         "version": VERSION,
         "plan_hash": plan.hash_text(),
@@ -271,7 +281,11 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
             "materials": plan.materials,
             "ids": "instances and materials: place in the list, from 1; 0 is the background",
         },
-    })
+    });
+    if let Some(passes) = passes(camera) {
+        facts["sampling"]["passes"] = json!(passes);
+    }
+    facts
 }
 
 /// How things out of focus were blurred in the picture.

@@ -86,6 +86,13 @@ impl CameraResults {
         Ok(points)
     }
 
+    /// Writes the files of light and photographs.
+    pub(crate) fn write_light(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
+        let mut writer = ResultWriter { prefix: self.camera().name.clone(), folder };
+        self.write_spectra(&mut writer)?;
+        self.write_photographs(&mut writer, observer).map(|_| ())
+    }
+
     /// Writes what is the same in all frames: the rays of the pixels.
     pub(super) fn write_rays(&self, folder: &mut OutputFolder) -> Result<(), Error> {
         let camera = self.camera();

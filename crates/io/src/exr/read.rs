@@ -7,9 +7,9 @@ use std::path::Path;
 use ::exr::meta::attribute::AttributeValue;
 use ::exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers};
 
-use crate::Error;
 use crate::source::read_bytes;
 use crate::unpacked;
+use crate::{Error, Provenance};
 
 /// Samples of a channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +44,15 @@ pub struct ExrFile {
     pub attributes: BTreeMap<String, String>,
     /// Compression, in the words of OpenEXR.
     pub compression: String,
+}
+
+impl ExrFile {
+    /// The facts that a result carries; of other files all are at their defaults.
+    #[must_use]
+    pub fn provenance(&self) -> Provenance {
+        let facts = self.attributes.iter().filter_map(|(name, text)| Some((name.strip_prefix("etendue:")?, text)));
+        Provenance::from_texts(&facts.map(|(name, text)| (name.to_owned(), text.clone())).collect())
+    }
 }
 
 impl Samples {

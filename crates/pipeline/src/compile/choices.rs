@@ -8,6 +8,20 @@
 pub struct Choices {
     /// A preset for what the description leaves open; `None` is standard.
     pub quality: Option<Quality>,
+    /// Whether films are refined pass by pass.
+    pub refinement: Refinement,
+}
+
+/// Whether and how films are refined pass by pass.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Refinement {
+    /// In the passes of the description; without any, in one.
+    #[default]
+    Described,
+    /// In the passes of the description; without any, in those of [`Passes::doubling`](crate::plan::Passes::doubling).
+    Progressive,
+    /// In passes that a time decides while it runs: the plan has one, the least, until [`Plan::with_passes`](crate::Plan::with_passes).
+    Timed,
 }
 
 /// Presets of the trade of time for accuracy.

@@ -47,12 +47,12 @@ mod video;
 mod weather;
 mod world;
 
-pub use choices::{Choices, Quality};
+pub use choices::{Choices, Quality, Refinement};
 
-use crate::plan::fingerprint::fingerprint;
+use crate::plan::fingerprint::{fingerprint, with_passes};
 use crate::plan::remark::grouped;
 use crate::plan::shared_light;
-use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, TimeDependence};
+use crate::plan::{CameraBody, CameraPasses, CameraPlan, LightOwner, Plan, TimeDependence};
 use camera_path::{camera_path, mount};
 use context::Context;
 use etendue_core::{CameraPath, TimeInterval};
@@ -64,6 +64,7 @@ use etendue_tracer::geometry::{Mesh, VertexAnimation};
 use etendue_tracer::media::Medium;
 use frames::Frames;
 use material::MaterialTableBuilder;
+use std::sync::Arc;
 pub use weather::compile_weather;
 
 /// The plan of a description.
@@ -135,10 +136,12 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     if context.faults.is_empty() {
         unread(description, context);
     }
-    let hash = context.faults.is_empty().then(|| fingerprint(description, context.assets, choices))?;
+    let passes: Vec<_> = description.cameras.iter().zip(&cameras).map(camera_passes).collect();
+    let described = context.faults.is_empty().then(|| fingerprint(description, context.assets, choices, &passes))?;
+    let hash = with_passes(&described, &passes);
     Some(Plan {
-        world,
-        material_table,
+        world: Arc::new(world),
+        material_table: Arc::new(material_table),
         sources,
         media,
         precipitation,
@@ -150,7 +153,15 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         remarks,
         notices,
         hash,
+        described,
+        passes,
     })
+}
+
+/// How the samples of a camera come.
+fn camera_passes((setup, camera): (&CameraSetup, &CameraPlan)) -> CameraPasses {
+    let is_open = setup.render.replicates.as_ref().is_none_or(|given| !given.place.is_command_line());
+    CameraPasses { replicates: camera.settings.replicates, is_open, passes: camera.passes.clone() }
 }
 
 /// Refuses files that are named and were not read, also those that no step asked for: two contents would have one hash.
@@ -178,7 +189,7 @@ fn camera_plan(
     let mut products = settings::products(&setup.output, &body, context);
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
     let delivered = (&setup.output, &mut products);
-    let settings = settings::settings(&setup.render, &body, &depth_of_field, delivered, choices, context)?;
+    let (settings, passes) = settings::settings(&setup.render, &body, &depth_of_field, delivered, choices, context)?;
     let index = index as u32;
     let path = camera_path(&setup.pose, frames, context)?;
     let timing = timing::timing((index, setup), description.sequence.as_ref(), &body, settings.seed, context);
@@ -186,7 +197,8 @@ fn camera_plan(
     let light = LightOwner { camera: name.clone(), index };
     let time = TimeDependence::None;
     let mount = mount(&setup.pose);
-    let camera = CameraPlan { name, index, light, path, mount, timing, time, body, settings, depth_of_field, products };
+    let camera =
+        CameraPlan { name, index, light, path, mount, timing, time, body, settings, passes, depth_of_field, products };
     video::check(&setup.output, &camera, context);
     Some(camera)
 }

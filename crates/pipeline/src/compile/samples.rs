@@ -1,8 +1,9 @@
 //! Samples a pixel, and the replicates that tell their variance.
 
 use super::context::Context;
-use super::{Choices, Quality};
-use crate::plan::AdaptiveSampling;
+use super::{Choices, Quality, Refinement};
+use crate::plan::{AdaptiveSampling, MAX_PASSES, Pass, Passes};
+use etendue_scene::record::render::MAX_SPP as MAX_KEY_SPP;
 use etendue_scene::record::{Output, Render};
 use etendue_scene::{Placed, stated};
 
@@ -21,17 +22,73 @@ pub(super) struct Samples {
     pub(super) replicates: u32,
     /// Where noise decides.
     pub(super) adaptive: Option<AdaptiveSampling>,
+    /// Where they come in several passes, or a time decides them.
+    pub(super) passes: Option<Passes>,
 }
 
 /// How many samples pixels get.
 pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<'_>) -> Samples {
-    match render.threshold_in_force() {
-        Some(threshold) => adaptive(threshold, render, context),
-        None => {
-            let (spp, replicates) = even(render, choices, context);
-            Samples { spp, replicates, adaptive: None }
+    if choices.refinement == Refinement::Timed {
+        return timed(render, context);
+    }
+    if let Some(threshold) = render.threshold_in_force() {
+        if choices.refinement == Refinement::Progressive {
+            let problem = "\"noise_threshold\" decides the samples pixel by pixel, and --progressive refines all pixels pass by pass";
+            context.fault(&threshold.place, problem, "give --spp, or render without --progressive");
+        }
+        return adaptive(threshold, render, context);
+    }
+    if let Some(numbers) = render.passes_in_force() {
+        return in_passes(numbers, render, context);
+    }
+    let (spp, replicates) = even(render, choices, context);
+    let passes = (choices.refinement == Refinement::Progressive).then(|| Passes::doubling(spp, replicates));
+    Samples { spp, replicates, adaptive: None, passes }
+}
+
+/// By a time: one pass, the least, until it is known.
+fn timed(render: &Render, context: &mut Context<'_>) -> Samples {
+    let noise = render.noise_threshold.as_ref().map(|limit| ("noise_threshold", &limit.place));
+    let passes = render.passes.first().map(|pass| ("passes", &pass.place));
+    let spp = render.spp.as_ref().map(|spp| ("spp", &spp.place));
+    for (key, place) in [noise, passes, spp].into_iter().flatten() {
+        context.notice(format!("--time supersedes {}", stated(key, place)));
+    }
+    let replicates = render.replicates.as_ref().map_or(REPLICATES, |given| given.value) as u32;
+    Samples { spp: replicates, replicates, adaptive: None, passes: Some(Passes::new(vec![Pass::whole(replicates)])) }
+}
+
+/// By the passes that are stated.
+fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>) -> Samples {
+    let divides = |r: &u64| numbers.iter().all(|n| n.value.fract() != 0.0 || (n.value as u64).is_multiple_of(*r));
+    let most = || [REPLICATES, 2, 1].into_iter().find(divides).unwrap_or(1);
+    let replicates = render.replicates.as_ref().map_or_else(most, |given| given.value) as u32;
+    let mut list = Vec::new();
+    for number in numbers {
+        match Pass::of_number(number.value, replicates) {
+            Some(pass) => list.push(pass),
+            None => {
+                let problem = format!("{} samples cannot be shared evenly among {replicates} replicates", number.value);
+                let remedy =
+                    "give each pass a multiple of the replicates, or less than their number: so many on average";
+                context.fault(&number.place, problem, remedy);
+            }
         }
     }
+    let passes = Passes::new(list);
+    let most = MAX_KEY_SPP as f64;
+    if numbers.len() > MAX_PASSES || passes.mean_spp() > most {
+        let problem = format!("found {} passes of {} samples", numbers.len(), passes.mean_spp());
+        context.fault(
+            &numbers[0].place,
+            problem,
+            format!("give at most {MAX_PASSES} passes of at most {most} samples together"),
+        );
+    } else if passes.list().len() == numbers.len() && passes.spp() == 0 {
+        let problem = format!("no pass takes all pixels: each has fewer samples than the {replicates} replicates");
+        context.fault(&numbers[0].place, problem, "give one pass a multiple of the replicates");
+    }
+    Samples { spp: passes.spp().max(replicates), replicates, adaptive: None, passes: Some(passes) }
 }
 
 /// Independent replicates, and the fewest, where noise decides: two or more decide of each, and none of two of each other.
@@ -56,7 +113,7 @@ fn adaptive(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
         context.fault(&given.place, problem, "give a larger \"max_spp\" or a smaller \"min_spp\"");
     }
     let adaptive = AdaptiveSampling { threshold: threshold.value, min_spp: min as u32 };
-    Samples { spp: max as u32, replicates: replicates as u32, adaptive: Some(adaptive) }
+    Samples { spp: max as u32, replicates: replicates as u32, adaptive: Some(adaptive), passes: None }
 }
 
 /// Replicates that decide of each other.

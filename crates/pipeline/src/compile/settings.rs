@@ -7,7 +7,7 @@ use crate::camera::defocus::{margin_px, whole_margin_px};
 use crate::camera::photograph::front_on_picture;
 use crate::camera::raw_colour::RawColour;
 use crate::camera::rectified::RectifiedCamera;
-use crate::plan::{CameraBody, Products, RawFormat, Route, Settings};
+use crate::plan::{CameraBody, Passes, Products, RawFormat, Route, Settings};
 use crate::render::adaptive::cell_px;
 use crate::render::block::Blocks;
 use crate::render::film::Film;
@@ -185,8 +185,8 @@ pub(super) fn settings(
     (output, products): (&Output, &mut Products),
     choices: &Choices,
     context: &mut Context<'_>,
-) -> Option<Settings> {
-    let Samples { spp, replicates, adaptive } = samples(render, choices, context);
+) -> Option<(Settings, Option<Passes>)> {
+    let Samples { spp, replicates, adaptive, passes } = samples(render, choices, context);
     products.variance &= has_variance(output, replicates, render, context);
     let route = route(render, body, depth_of_field, context)?;
     let (cube, folded) = accumulation(render, body, products, &route, context);
@@ -199,7 +199,7 @@ pub(super) fn settings(
     let level = level(render);
     let is_watched = adaptive.is_some() && route == Route::Lens;
     let blocks = blocks(level, render, body, folded || is_watched);
-    Some(Settings {
+    let settings = Settings {
         spp,
         replicates,
         level,
@@ -216,7 +216,8 @@ pub(super) fn settings(
             .next_multiple_of(if adaptive.is_some() { cell_px(blocks) } else { blocks.tile_px(1) }),
         blocks,
         seed: render.seed.as_ref().map_or(0, |s| s.value),
-    })
+    };
+    Some((settings, passes))
 }
 
 /// Wavelengths a path: one where the lens treats each differently, as a ray that was found for one wavelength says nothing

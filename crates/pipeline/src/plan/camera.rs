@@ -2,6 +2,7 @@
 
 use super::development::{Development, PictureFormat};
 use super::mount::Mount;
+use super::passes::{PassAt, Passes};
 use super::products::Products;
 use super::row_exposure::RowExposure;
 use super::settings::{Route, Settings};
@@ -34,6 +35,8 @@ pub struct CameraPlan {
     pub body: CameraBody,
     /// How its light is found.
     pub settings: Settings,
+    /// The passes that its samples come in; `None`: all in one.
+    pub passes: Option<Passes>,
     /// How things out of focus are blurred at the pupil; none through the lens, whose rays do it.
     pub depth_of_field: DepthOfField,
     /// What it delivers.
@@ -41,6 +44,18 @@ pub struct CameraPlan {
 }
 
 impl CameraPlan {
+    /// In how many passes its samples come.
+    #[must_use]
+    pub fn pass_count(&self) -> usize {
+        self.passes.as_ref().map_or(1, |passes| passes.list().len())
+    }
+
+    /// One of these.
+    #[must_use]
+    pub fn pass(&self, number: usize) -> PassAt {
+        self.passes.as_ref().map_or(PassAt::only(self.settings.spp), |passes| passes.at(number))
+    }
+
     /// Where this camera and another are fixed in the frame that carries both; `None` where none does, so that they may come apart.
     #[must_use]
     pub fn fixed_pair(&self, other: &Self) -> Option<[CameraPose; 2]> {

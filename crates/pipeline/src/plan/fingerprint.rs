@@ -9,8 +9,12 @@
 //! The hash is stricter than the result: a default spelt out, an effect of no strength, a material, mesh or texture that
 //! nothing uses, and the quality where every key that it governs is stated make another plan of the same picture. To leave these
 //! out, what has no effect would have to be known here a second time, and a mistake in it would give two pictures one hash.
+//!
+//! Samples that come in passes are the exception: a schedule or a time makes passes that no description says. There the
+//! passes and the replicates are hashed, and the keys that decide samples are not: the same passes have one hash however they came about.
 
 use crate::compile::{Choices, Quality};
+use crate::plan::{CameraPasses, Pass};
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Render;
 use etendue_scene::written::Table;
@@ -23,9 +27,17 @@ const RESULTS_REVISION: u32 = 4;
 
 /// SHA-256 of all that decides the plan's result, the program's version and revision included. Every file that the description
 /// uses is among the assets.
-pub(crate) fn fingerprint(description: &Description, assets: &Assets, choices: &Choices) -> [u8; 32] {
-    let Choices { quality } = choices;
-    let cameras: Vec<_> = description.cameras.iter().map(camera).collect();
+pub(crate) fn fingerprint(
+    description: &Description,
+    assets: &Assets,
+    choices: &Choices,
+    passes: &[CameraPasses],
+) -> [u8; 32] {
+    // How films are refined is in their passes.
+    let Choices { quality, refinement: _ } = choices;
+    let in_passes = |place: usize| passes.get(place).is_some_and(|camera| camera.passes.is_some());
+    let cameras: Vec<_> =
+        description.cameras.iter().enumerate().map(|(i, setup)| camera(setup, in_passes(i))).collect();
     let table = Table::new()
         .with("version", env!("CARGO_PKG_VERSION"))
         .with("results_revision", RESULTS_REVISION)
@@ -41,10 +53,36 @@ pub(crate) fn fingerprint(description: &Description, assets: &Assets, choices: &
     hash.finalize().into()
 }
 
-/// The size of a tile and the trees do not change the result.
-fn camera(setup: &CameraSetup) -> Table {
-    CameraSetup { render: Render { tile_px: None, accelerator: None, ..setup.render.clone() }, ..setup.clone() }
-        .to_table()
+/// The hash of a plan whose description, without what decides the samples of cameras that have passes, has the hash `described`.
+pub(crate) fn with_passes(described: &[u8; 32], cameras: &[CameraPasses]) -> [u8; 32] {
+    if cameras.iter().all(|camera| camera.passes.is_none()) {
+        return *described;
+    }
+    let mut hash = Sha256::new();
+    hash.update(described);
+    for camera in cameras {
+        let passes = camera.passes.as_ref().map_or(&[][..], |passes| passes.list());
+        hash.update((passes.len() as u64).to_le_bytes());
+        if !passes.is_empty() {
+            hash.update(camera.replicates.to_le_bytes());
+        }
+        for Pass { samples, part } in passes {
+            hash.update(samples.to_le_bytes());
+            hash.update(part.to_le_bytes());
+        }
+    }
+    hash.finalize().into()
+}
+
+/// The size of a tile and the trees do not change the result, nor what stands in the place of passes.
+fn camera(setup: &CameraSetup, in_passes: bool) -> Table {
+    let mut render = Render { tile_px: None, accelerator: None, ..setup.render.clone() };
+    if in_passes {
+        let (spp, replicates, noise_threshold, min_spp, max_spp) = (None, None, None, None, None);
+        let passes = Vec::new();
+        render = Render { spp, passes, replicates, noise_threshold, min_spp, max_spp, ..render };
+    }
+    CameraSetup { render, ..setup.clone() }.to_table()
 }
 
 #[cfg(test)]
@@ -67,7 +105,12 @@ mod tests {
         let spectrum = SpectrumAsset { points: vec![(400.0, 0.5)], hash: [paint; 32] };
         let spectra = [(PathBuf::from(folder).join("paint.csv"), spectrum)].into();
         let assets = Assets { spectra, ..Assets::default() };
-        fingerprint(&description.unwrap_or_else(|faults| panic!("{faults}")), &assets, &Choices { quality })
+        fingerprint(
+            &description.unwrap_or_else(|faults| panic!("{faults}")),
+            &assets,
+            &Choices { quality, ..Choices::default() },
+            &[],
+        )
     }
 
     #[test]

@@ -8,6 +8,7 @@ mod film_cost;
 pub(crate) mod fingerprint;
 mod frame_cost;
 mod mount;
+mod passes;
 mod precipitation;
 mod products;
 pub mod remark;
@@ -23,6 +24,7 @@ use etendue_tracer::accel::World;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::MaterialTable;
 use etendue_tracer::media::Medium;
+use std::sync::Arc;
 
 pub use annotations::{Annotations, CorrespondenceFormat, DisparityProduct};
 pub use camera::{CameraBody, CameraPlan, LightOwner};
@@ -30,6 +32,8 @@ pub use development::{Development, PictureFormat};
 pub use film_cost::Share;
 pub use frame_cost::FrameCost;
 pub use mount::Mount;
+pub(crate) use passes::CameraPasses;
+pub use passes::{MAX_PASSES, PARTS, Pass, PassAt, Passes};
 pub use precipitation::Precipitation;
 pub use products::{Products, RawFormat};
 pub use row_exposure::{CaptureTiming, RowExposure, RowSkipping};
@@ -40,9 +44,9 @@ pub use timing::{Jitter, TimeDependence, Timing};
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Meshes and instances.
-    pub world: World,
+    pub world: Arc<World>,
     /// Materials and textures.
-    pub material_table: MaterialTable,
+    pub material_table: Arc<MaterialTable>,
     /// What shines but is no surface.
     pub sources: Sources,
     /// What scatters light between surfaces.
@@ -65,6 +69,10 @@ pub struct Plan {
     pub notices: Vec<String>,
     /// Hash of all that decides the result: description, assets by content, version.
     pub hash: [u8; 32],
+    /// The same without the passes of cameras that have some.
+    pub(crate) described: [u8; 32],
+    /// The replicates and passes of all cameras of the job, those included that are not rendered.
+    pub(crate) passes: Vec<CameraPasses>,
 }
 
 /// A clear sky in figures, for people.
@@ -102,6 +110,35 @@ impl Plan {
     #[must_use]
     pub fn is_modulated(&self) -> bool {
         self.sources.is_modulated() || self.material_table.is_modulated()
+    }
+
+    /// The same with these passes of all cameras, where a time decides them; in `replicates` replicates, where the command line does not say how many.
+    #[must_use]
+    pub fn with_passes(&self, passes: &Passes, replicates: Option<u32>) -> Self {
+        let mut plan = self.clone();
+        for of_camera in &mut plan.passes {
+            of_camera.replicates = replicates.filter(|_| of_camera.is_open).unwrap_or(of_camera.replicates);
+            of_camera.passes = Some(passes.clone());
+        }
+        for camera in &mut plan.cameras {
+            camera.settings.spp = passes.spp();
+            camera.settings.replicates = plan.passes[camera.index as usize].replicates;
+            camera.passes = Some(passes.clone());
+        }
+        plan.hash = fingerprint::with_passes(&plan.described, &plan.passes);
+        plan
+    }
+
+    /// The replicates of each camera of the job.
+    pub fn replicates(&self) -> impl Iterator<Item = u32> {
+        self.passes.iter().map(|camera| camera.replicates)
+    }
+
+    /// The replicates that all cameras of the job have, where the command line does not say how many: a time may allow fewer.
+    #[must_use]
+    pub fn open_replicates(&self) -> Option<u32> {
+        let first = self.passes.first()?.replicates;
+        self.passes.iter().all(|camera| camera.is_open && camera.replicates == first).then_some(first)
     }
 
     /// The hash in hexadecimal.

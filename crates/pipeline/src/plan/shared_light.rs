@@ -5,7 +5,7 @@
 //! the exposure (but where something moves or flickers), noise (but where samples are adaptive), converter, effects behind the lens (but for the margin that they need) or processing. Cameras of equal
 //! light share one film: that of the first of them in the job, whose place is in the random addresses of all.
 
-use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, Route, Settings, TimeDependence, Timing};
+use crate::plan::{CameraBody, CameraPlan, LightOwner, Passes, Plan, Route, Settings, TimeDependence, Timing};
 use crate::render::spectrum_spread::SpectrumSpread;
 use crate::render::{Tolerance, tolerance};
 use etendue_core::CameraPath;
@@ -46,9 +46,10 @@ struct LensKey<'a> {
 }
 
 /// How many samples, of which seed, and whether wavelengths are spread for replicates that tell a variance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 struct SamplingKey {
     spp: u32,
+    passes: Option<Passes>,
     replicates: u32,
     seed: u64,
     spread: SpectrumSpread,
@@ -72,6 +73,7 @@ impl<'a> LightKey<'a> {
             optics: OpticsKey::of(camera),
             sampling: SamplingKey {
                 spp: s.spp,
+                passes: camera.passes.clone(),
                 replicates: s.replicates,
                 seed: s.seed,
                 spread: SpectrumSpread::of(camera),
@@ -88,7 +90,8 @@ impl<'a> LightKey<'a> {
         if (self.path, &self.optics) != (other.path, &other.optics) {
             return None;
         }
-        let samples = |key: &Self| (key.sampling.spp, key.sampling.replicates, key.sampling.seed);
+        let samples =
+            |key: &Self| (key.sampling.spp, key.sampling.passes.clone(), key.sampling.replicates, key.sampling.seed);
         let kept = |s: &Settings| (s.bands, s.folded, s.range_nm);
         let (a, b) = (&self.settings, &other.settings);
         let same_kept = Settings { adaptive: b.adaptive, bands: b.bands, folded: b.folded, range_nm: b.range_nm, ..*a };

@@ -149,7 +149,7 @@ impl<S: RaySource> RenderJob<'_, S> {
             };
             let most = pixels.iter().map(times).fold(0.0, f64::max);
             let samples = most.ceil() * f64::from(pilot);
-            (samples.min(f64::from(u32::MAX)) as u32).clamp(pilot, self.sampling.spp / replicates)
+            (samples.min(f64::from(u32::MAX)) as u32).clamp(pilot, self.sampling.spp() / replicates)
         };
         pilots.iter().map(need).collect()
     }
@@ -158,7 +158,7 @@ impl<S: RaySource> RenderJob<'_, S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::AdaptiveSampling;
+    use crate::plan::{AdaptiveSampling, PassAt};
     use crate::render::Shot;
     use crate::render::exposure::FilmExposure;
     use crate::render::film::Film;
@@ -214,7 +214,7 @@ mod tests {
             layout: Layout { bands: None, folded: false, watched: true },
             mosaic: None,
             sampling: Sampling {
-                spp: 4096,
+                pass: PassAt::only(4096),
                 replicates: 8,
                 seed: 11,
                 camera: 0,
@@ -228,7 +228,7 @@ mod tests {
             tile_px,
             shard: Shard::WHOLE,
         };
-        job.gather::<1>(field, &Unobserved).expect("not cancelled")
+        job.gather::<1>(field, None, &Unobserved).expect("not cancelled")
     }
 
     /// Rows of the film.

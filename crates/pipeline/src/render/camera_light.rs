@@ -1,6 +1,6 @@
 //! Rendering a camera's light.
 
-use crate::plan::{CameraBody, CameraPlan, Plan, Precipitation, Route, Settings};
+use crate::plan::{CameraBody, CameraPlan, PassAt, Plan, Precipitation, Route, Settings};
 use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
 use crate::render::gather::Layout;
@@ -51,7 +51,25 @@ impl Default for Request {
 /// # Errors
 /// [`Cancelled`] where the observer asked to stop.
 pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn Observer) -> Result<Film, Cancelled> {
-    with_source(camera, request.shot, LightJob { plan, camera, request, observer })
+    let mut film = pass(plan, camera, request, (camera.pass(0), None), observer)?;
+    for number in 1..camera.pass_count() {
+        film = pass(plan, camera, request, (camera.pass(number), Some(&film)), observer)?;
+    }
+    Ok(film)
+}
+
+/// One pass of it, joined with what the passes before it gathered.
+///
+/// # Errors
+/// [`Cancelled`] where the observer asked to stop.
+pub fn pass(
+    plan: &Plan,
+    camera: &CameraPlan,
+    request: Request,
+    (pass, before): (PassAt, Option<&Film>),
+    observer: &dyn Observer,
+) -> Result<Film, Cancelled> {
+    with_source(camera, request.shot, LightJob { plan, camera, request, pass, before, observer })
 }
 
 /// What is done with a camera's rays, whatever they come through.
@@ -81,6 +99,8 @@ struct LightJob<'a> {
     plan: &'a Plan,
     camera: &'a CameraPlan,
     request: Request,
+    pass: PassAt,
+    before: Option<&'a Film>,
     observer: &'a dyn Observer,
 }
 
@@ -88,7 +108,7 @@ impl SourceJob for LightJob<'_> {
     type Output = Result<Film, Cancelled>;
 
     fn run<S: RaySource>(self, source: &S) -> Self::Output {
-        through(self.plan, self.camera, self.request, self.observer, source)
+        through(&self, source)
     }
 }
 
@@ -105,13 +125,8 @@ pub(super) fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -
         .expect("a compiled plan names only materials that it has")
 }
 
-fn through<S: RaySource>(
-    plan: &Plan,
-    camera: &CameraPlan,
-    request: Request,
-    observer: &dyn Observer,
-    source: &S,
-) -> Result<Film, Cancelled> {
+fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, Cancelled> {
+    let LightJob { plan, camera, request, pass, before, observer } = *job;
     let rows = FilmExposure::of(camera, request.shot);
     let view = plan.world.render_space_with(rows.origin_m(), rows.interval(), request.simd);
     let lights = lights(plan, camera, &view);
@@ -119,7 +134,7 @@ fn through<S: RaySource>(
     let near = region_and_change_over(plan, camera, &rows, source).map(|(precipitation, region, change_over)| {
         near(precipitation, &media, (&rows, request.simd), &region, &change_over)
     });
-    let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera))
+    let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera, pass))
         .with_media(&media)
         .with_near(near.as_ref());
     let settings = &camera.settings;
@@ -127,10 +142,11 @@ fn through<S: RaySource>(
     let mosaic =
         sensor.map(|sensor| Mosaic::of(sensor, settings.range_nm, settings.bands.is_some()).beyond(margin_px(camera)));
     let job = render_job((camera, rows), request, source, mosaic.as_ref());
+    let job = RenderJob { sampling: Sampling { pass, ..job.sampling }, ..job };
     match settings.wavelengths {
-        1 => job.gather::<1>(&tracer, observer),
-        8 => job.gather::<8>(&tracer, observer),
-        _ => job.gather::<4>(&tracer, observer),
+        1 => job.gather::<1>(&tracer, before, observer),
+        8 => job.gather::<8>(&tracer, before, observer),
+        _ => job.gather::<4>(&tracer, before, observer),
     }
 }
 
@@ -212,7 +228,7 @@ pub(super) fn render_job<'a, S>(
         layout: layout(camera),
         mosaic,
         sampling: Sampling {
-            spp: settings.spp,
+            pass: PassAt::only(settings.spp),
             replicates: settings.replicates,
             seed: settings.seed,
             camera: camera.light.index,
@@ -244,8 +260,11 @@ fn pitch_tan(camera: &CameraPlan) -> f64 {
     }
 }
 
-pub(super) fn path_settings(camera: &CameraPlan) -> PathSettings {
-    let Settings { spp, replicates, adaptive, .. } = camera.settings;
+pub(super) fn path_settings(camera: &CameraPlan, pass: PassAt) -> PathSettings {
+    let Settings { replicates, adaptive, .. } = camera.settings;
+    let spp = pass.pass.samples;
+    // The pixel is covered by the samples of all passes so far.
+    let covering = pass.before_spp + spp;
     // Where noise decides, runs of samples are as long as all pixels have.
     let samples = adaptive.map_or(spp, |limit| limit.min_spp) / replicates;
     PathSettings {
@@ -253,7 +272,7 @@ pub(super) fn path_settings(camera: &CameraPlan) -> PathSettings {
         max_bounces: camera.settings.max_bounces,
         roulette_start: ROULETTE_START,
         samples,
-        cone_spread_rad: pitch_tan(camera) as f32 * sample_width(spp / replicates),
+        cone_spread_rad: pitch_tan(camera) as f32 * sample_width(covering / replicates),
         caustics: camera.settings.caustics,
         ..PathSettings::default()
     }

@@ -118,6 +118,26 @@ impl Film {
         self.not_finite.set(x, y, light.not_finite().max(u32::from(is_lost)));
     }
 
+    /// The light of one pixel, as it is stored; `layout` is the film's.
+    #[must_use]
+    pub fn light(&self, pixel: Pixel, layout: &Layout) -> PixelLight {
+        let (x, y) = (pixel.x as usize, pixel.y as usize);
+        let (mut means, mut variances) = (Vec::new(), Vec::new());
+        if let Some(cube) = &self.cube {
+            means.extend(cube.mean.planes().iter().map(|plane| f64::from(plane.at(x, y))));
+            variances.extend(cube.variance.planes().iter().map(|plane| f64::from(plane.at(x, y))));
+        }
+        means.push(f64::from(self.weight.at(x, y)));
+        variances.push(0.0);
+        let folded = self.electron_rate.as_ref().map(|rate| (rate.mean.at(x, y), rate.variance.at(x, y)));
+        let watched = self.watched.as_ref().map(|light| (light.mean.at(x, y), light.variance.at(x, y)));
+        if let Some((mean, variance)) = folded.or(watched) {
+            means.push(f64::from(mean));
+            variances.push(f64::from(variance));
+        }
+        PixelLight::of(layout, means, variances, (self.samples.at(x, y), self.not_finite.at(x, y)))
+    }
+
     /// Copies `tile` from a film of the same size and layout.
     pub fn copy_tile(&mut self, tile: Tile, from: &Self) {
         if let (Some(to), Some(from)) = (&mut self.cube, &from.cube) {

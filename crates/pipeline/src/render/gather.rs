@@ -148,6 +148,31 @@ pub struct PixelLight {
 }
 
 impl PixelLight {
+    /// Of these means and variances of [`Layout::slots`] numbers.
+    pub(super) fn of(layout: &Layout, means: Vec<f64>, variances: Vec<f64>, (samples, not_finite): (u32, u32)) -> Self {
+        Self { layout: *layout, means, variances, samples, not_finite }
+    }
+
+    /// The light of these samples and, independent of them, those of `before`: means weighted by samples, m = (n a + k b)/(n + k), whose
+    /// variance is (n² v + k² w)/(n + k)².
+    #[must_use]
+    pub fn joined(mut self, before: &Self) -> Self {
+        if before.samples == 0 {
+            return self;
+        }
+        let (n, k) = (f64::from(self.samples), f64::from(before.samples));
+        let (own, earlier) = (n / (n + k), k / (n + k));
+        for (mean, before) in self.means.iter_mut().zip(&before.means) {
+            *mean = own * *mean + earlier * before;
+        }
+        for (variance, before) in self.variances.iter_mut().zip(&before.variances) {
+            *variance = own * own * *variance + earlier * earlier * before;
+        }
+        self.samples += before.samples;
+        self.not_finite += before.not_finite;
+        self
+    }
+
     /// Mean band irradiances, W·m⁻²·nm⁻¹ (empty where no cube is kept).
     #[must_use]
     pub fn bands(&self) -> &[f64] {

@@ -1,5 +1,6 @@
 //! The light of a frame: every pixel's samples sent into a radiance field and gathered on the film.
 
+use crate::plan::PassAt;
 use crate::render::block::Blocks;
 use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
@@ -27,9 +28,9 @@ pub trait RaySource: Sync {
 /// How densely light is sampled, and by which random addresses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// Samples a pixel, over all replicates; the most where noise decides.
-    pub spp: u32,
-    /// Independently scrambled replicates; divides `spp`.
+    /// Which pass: its samples a pixel are those of all replicates; the most where noise decides.
+    pub pass: PassAt,
+    /// Independently scrambled replicates of a pass; divides its samples.
     pub replicates: u32,
     /// The job's seed.
     pub seed: u64,
@@ -43,6 +44,20 @@ pub struct Sampling {
     pub high_nm: f32,
     /// How wavelengths lie over the spectrum.
     pub spread: SpectrumSpread,
+}
+
+impl Sampling {
+    /// Samples a pixel, over all replicates; the most where noise decides.
+    #[must_use]
+    pub fn spp(&self) -> u32 {
+        self.pass.pass.samples
+    }
+
+    /// The number of the first replicate of the pass.
+    #[must_use]
+    pub fn first_replicate(&self) -> u32 {
+        self.pass.number * self.replicates
+    }
 }
 
 /// What a frame's light is gathered from and into.
@@ -97,24 +112,26 @@ impl<const N: usize> Asked<N> {
 pub struct Cancelled;
 
 impl<S: RaySource> RenderJob<'_, S> {
-    /// Renders the shard's tiles in parallel on the caller's thread pool.
+    /// Renders the shard's tiles in parallel on the caller's thread pool; joined with what the passes before it gathered, where there are some.
     ///
     /// # Errors
     /// [`Cancelled`] where the observer asked to stop.
     pub fn gather<const N: usize>(
         &self,
         field: &impl RadianceField<N>,
+        before: Option<&Film>,
         observer: &dyn Observer,
     ) -> Result<Film, Cancelled> {
-        let film = Mutex::new(self.empty_film());
+        let film = Mutex::new(before.map_or_else(|| self.empty_film(), Film::clone));
         let tiles = tiles(self.width, self.height, self.tile_px, self.shard);
         let done = AtomicUsize::new(0);
+        observer.begins();
         // Tile by tile, or the last of a thread are a row of tiles that no other can take over.
         tiles.par_iter().with_max_len(1).try_for_each(|tile| {
             if observer.cancelled() {
                 return Err(Cancelled);
             }
-            self.gather_tile(field, *tile, &film);
+            self.gather_tile(field, (*tile, before.is_some()), &film, observer);
             observer.tiles(done.fetch_add(1, Ordering::Relaxed) + 1, tiles.len());
             Ok(())
         })?;
@@ -126,13 +143,24 @@ impl<S: RaySource> RenderJob<'_, S> {
     }
 
     /// Gathers a tile's pixels, then stores them together: the film is locked once a tile.
-    fn gather_tile<const N: usize>(&self, field: &impl RadianceField<N>, tile: Tile, film: &Mutex<Film>) {
-        let pixels = match &self.tolerance {
-            None => self.blocks.of(tile).flat_map(|block| self.gather_block(field, &block)).collect(),
+    fn gather_tile<const N: usize>(
+        &self,
+        field: &impl RadianceField<N>,
+        (tile, has_before): (Tile, bool),
+        film: &Mutex<Film>,
+        observer: &dyn Observer,
+    ) {
+        let taken = |block: &Vec<Pixel>| self.sampling.pass.takes(block[0]);
+        let pixels: Vec<(Pixel, PixelLight)> = match &self.tolerance {
+            None => self.blocks.of(tile).filter(taken).flat_map(|block| self.gather_block(field, &block)).collect(),
             Some(tolerance) => self.gather_to_tolerance(field, tile, tolerance),
         };
         let mut film = film.lock().expect("no tile panicked");
-        pixels.iter().for_each(|(pixel, light)| film.store(*pixel, light));
+        for (pixel, light) in pixels {
+            let joined = if has_before { light.joined(&film.light(pixel, &self.layout)) } else { light };
+            film.store(pixel, &joined);
+        }
+        observer.tile(tile, &film);
     }
 
     /// What is gathered of each pixel: what the film keeps, and electrons where their noise is watched.
@@ -146,12 +174,12 @@ impl<S: RaySource> RenderJob<'_, S> {
         let mut sums = vec![Sums::new(layout); block.len()];
         let mut gathers = vec![Gather::new(&layout); block.len()];
         let mut asked = Asked::default();
-        let samples = self.sampling.spp / self.sampling.replicates;
+        let samples = self.sampling.spp() / self.sampling.replicates;
         for replicate in 0..self.sampling.replicates {
             self.add_replicate(field, (block, replicate), 0..samples, &mut asked, &mut sums);
             gathers.iter_mut().zip(&mut sums).for_each(|(gather, sums)| gather.end_replicate(sums, samples));
         }
-        let of = |(gather, sums): (Gather, &Sums)| gather.light(&layout, self.sampling.spp, sums.not_finite());
+        let of = |(gather, sums): (Gather, &Sums)| gather.light(&layout, self.sampling.spp(), sums.not_finite());
         block.iter().copied().zip(gathers.into_iter().zip(&sums).map(of)).collect()
     }
 
@@ -173,13 +201,15 @@ impl<S: RaySource> RenderJob<'_, S> {
 
     fn address(&self, pixel: Pixel, replicate: u32) -> PixelAddress {
         let Sampling { seed, camera, shot: Shot { frame, capture }, .. } = self.sampling;
+        let replicate = self.sampling.first_replicate() + replicate;
         PixelAddress { frame: FrameAddress { seed, camera, frame, capture }, pixel, replicate }
     }
 
     /// The wavelengths of a replicate of a block, which are those of its first pixel.
     fn heroes(&self, pixel: Pixel, replicate: u32) -> Heroes {
-        let Sampling { spp, replicates, spread, .. } = self.sampling;
-        Heroes::new(spread, &self.address(pixel, replicate), spp / replicates, replicates)
+        let Sampling { replicates, spread, .. } = self.sampling;
+        let group = (self.sampling.first_replicate(), replicates);
+        Heroes::new(spread, &self.address(pixel, replicate), self.sampling.spp() / replicates, group)
     }
 
     /// One sample of each pixel of a block.
@@ -266,7 +296,7 @@ mod tests {
             layout: Layout { bands, folded: false, watched: false },
             mosaic: None,
             sampling: Sampling {
-                spp: 64,
+                pass: PassAt::only(64),
                 replicates: 2,
                 seed: 3,
                 camera: 0,
@@ -283,7 +313,9 @@ mod tests {
     }
 
     fn film(tile_px: u32, shard: Shard) -> Film {
-        exposure(tile_px, shard).gather::<4>(&ConstantField { radiance: 2.0 }, &Unobserved).expect("not cancelled")
+        exposure(tile_px, shard)
+            .gather::<4>(&ConstantField { radiance: 2.0 }, None, &Unobserved)
+            .expect("not cancelled")
     }
 
     #[test]
@@ -316,8 +348,9 @@ mod tests {
         exposure.height = 40;
         exposure.layout.bands = Bands::covering(380.0, 780.0, 5.0);
         let (low_nm, high_nm) = (380.0, 780.0);
-        exposure.sampling = Sampling { spp, replicates, low_nm, high_nm, spread, ..exposure.sampling };
-        let film = exposure.gather::<4>(&ConstantField { radiance: 4.0 }, &Unobserved).expect("not cancelled");
+        exposure.sampling =
+            Sampling { pass: PassAt::only(spp), replicates, low_nm, high_nm, spread, ..exposure.sampling };
+        let film = exposure.gather::<4>(&ConstantField { radiance: 4.0 }, None, &Unobserved).expect("not cancelled");
         let cube = film.cube.expect("a cube");
         let lit =
             |y: usize, x: usize| cube.mean.planes().iter().map(move |p| f64::from(p.at(x, y))).collect::<Vec<_>>();

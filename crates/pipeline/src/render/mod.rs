@@ -36,7 +36,7 @@ mod tolerance;
 pub mod truth;
 pub mod weather_layers;
 
-pub use camera_light::{Request, change_over, layout, light, light_counts, tolerance};
+pub use camera_light::{Request, change_over, layout, light, light_counts, pass, tolerance};
 pub use exposure::Shot;
 pub(crate) use near_precipitation::region_of_projection;
 pub use tolerance::Tolerance;

@@ -20,7 +20,7 @@ pub enum SpectrumSpread {
     Drawn,
     /// The wavelengths of each replicate lie at equal steps.
     EachReplicate,
-    /// The wavelengths of all replicates together lie at equal steps.
+    /// The wavelengths of all replicates of a pass together lie at equal steps.
     AllReplicates,
     /// The wavelengths of each replicate lie evenly however many there will be.
     Open,
@@ -93,14 +93,20 @@ enum Order {
 }
 
 impl Heroes {
-    /// Those of the replicate of `address`, which has `samples` samples, of `replicates`.
-    pub(crate) fn new(spread: SpectrumSpread, address: &PixelAddress, samples: u32, replicates: u32) -> Self {
+    /// Those of the replicate of `address`, which has `samples` samples, of a pass whose first replicate and number of replicates are
+    /// given.
+    pub(crate) fn new(
+        spread: SpectrumSpread,
+        address: &PixelAddress,
+        samples: u32,
+        (first, replicates): (u32, u32),
+    ) -> Self {
         let order = match spread {
             SpectrumSpread::Drawn => Order::Drawn,
             SpectrumSpread::EachReplicate => Order::Lattice(ShiftedLattice::new(address, samples), 0),
             SpectrumSpread::AllReplicates => {
-                let all = PixelAddress { replicate: 0, ..*address };
-                Order::Lattice(ShiftedLattice::new(&all, samples * replicates), address.replicate * samples)
+                let all = PixelAddress { replicate: first, ..*address };
+                Order::Lattice(ShiftedLattice::new(&all, samples * replicates), (address.replicate - first) * samples)
             }
             SpectrumSpread::Open => Order::Golden(GoldenSequence::new(address)),
         };

@@ -48,7 +48,7 @@ pub(super) fn with_motion(mut plan: Plan, instance: usize, motion: &Track) -> Pl
         builder.add_instance(Instance { to_world, ..placed.clone() });
     }
     let world: World = builder.build().expect("a legal world");
-    plan.world = world;
+    plan.world = world.into();
     plan
 }
 

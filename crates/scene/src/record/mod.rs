@@ -25,6 +25,7 @@ pub mod precipitation;
 pub mod processing;
 pub mod reflectance;
 pub mod render;
+mod samples;
 pub mod scene;
 pub mod sensor;
 pub mod sequence;

@@ -2,16 +2,25 @@
 
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{Rule, among, choice, either, flag, keyed, number, record, variant, vector, whole};
+use crate::reader::{Rule, among, choice, either, flag, keyed, list, number, record, variant, vector, whole};
+use crate::record::samples;
 
 /// The largest seed: TOML holds no larger whole number.
 pub const MAX_SEED: u64 = i64::MAX.cast_unsigned();
+
+/// The most samples of a pixel.
+pub const MAX_SPP: u64 = 1 << 20;
 
 record! {
     /// How the light is found.
     pub struct Render check(check) {
         /// Samples per pixel, 1 … 1 048 576; a multiple of "replicates". Default: 64, or as `--quality` says.
-        optional spp: Placed<u64> = whole(1, 1 << 20);
+        optional spp: Placed<u64> = whole(1, MAX_SPP);
+        /// Samples per pixel of each of the passes whose weighted mean is the light, in the place of "spp": [8, 8, 16] are 32 in three
+        /// independent passes. Each is a multiple of "replicates", or less than that many: then so many on average, as that part
+        /// of the pixels, evenly spread, gets one sample in each replicate. At least one pass is whole; 64 passes at most.
+        /// Default: one pass of "spp" samples, with `--progressive` by its schedule.
+        many passes: Placed<f64> = list(number("").above(0.0).at_most(MAX_SPP as f64), 1);
         /// Independent replicates from which the variance is told, 1 … 1 024; one gives no variance. Samples
         /// are spread evenly within a replicate only: where light is even, one replicate of few samples is less noisy than
         /// several. Wavelengths of bands are spread over all replicates, but where "variance" is asked for. Default: 4, or 2 or 1 where "spp" is no multiple.
@@ -183,6 +192,7 @@ impl Render {
         Self {
             place,
             spp: None,
+            passes: Vec::new(),
             replicates: None,
             noise_threshold: None,
             min_spp: None,
@@ -204,15 +214,6 @@ impl Render {
         }
     }
 
-    /// The limit of noise, where it decides the samples: the command line's "spp" supersedes that of a file.
-    #[must_use]
-    pub fn threshold_in_force(&self) -> Option<&Placed<f64>> {
-        let by_command_line = |spp: &Placed<u64>| spp.place.is_command_line();
-        let limit = self.noise_threshold.as_ref()?;
-        let is_superseded = self.spp.as_ref().is_some_and(by_command_line) && !limit.place.is_command_line();
-        (!is_superseded).then_some(limit)
-    }
-
     /// The keys that only paths need, as far as they are said, and where.
     fn of_paths(&self) -> impl Iterator<Item = (&'static str, &Place)> {
         let keys = [
@@ -232,18 +233,11 @@ impl Render {
     #[must_use]
     pub fn over(&self, base: &Self) -> Self {
         let (mut a, mut b) = (self.clone(), base.clone());
-        // One's own choice between as many samples everywhere and as many as noise asks for.
-        if a.noise_threshold.is_some() {
-            b.spp = b.spp.filter(|spp| spp.place.is_command_line());
-        } else if a.spp.is_some() && b.noise_threshold.as_ref().is_some_and(|limit| !limit.place.is_command_line()) {
-            (b.noise_threshold, b.min_spp, b.max_spp) = (None, None, None);
-        }
-        if b.noise_threshold.as_ref().is_some_and(|limit| limit.place.is_command_line()) {
-            a.noise_threshold = None;
-        }
+        samples::choose(&mut a, &mut b);
         Self {
             place: a.place,
             spp: a.spp.or(b.spp),
+            passes: if a.passes.is_empty() { b.passes } else { a.passes },
             replicates: a.replicates.or(b.replicates),
             noise_threshold: a.noise_threshold.or(b.noise_threshold),
             min_spp: a.min_spp.or(b.min_spp),
@@ -292,7 +286,7 @@ pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone
 
 /// Checks a record into which the job's has been merged. The default route is through the lens.
 pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
-    check_samples(render, faults);
+    samples::check(render, faults);
     if render.route.as_ref().is_some_and(|r| r.value == Route::Pupil) {
         return;
     }
@@ -309,28 +303,5 @@ pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
             let problem = format!("\"{key}\" has no effect here, it belongs to route = \"pupil\"");
             faults.add_idle((key, place), render.route.as_ref().map(|route| &route.place), problem, remedy);
         }
-    }
-}
-
-/// Samples are either as many everywhere or limited by noise.
-fn check_samples(render: &Render, faults: &mut Faults) {
-    if let (Some(limit), Some(spp)) = (&render.noise_threshold, &render.spp) {
-        let problem = "\"spp\" and \"noise_threshold\" exclude each other: so many samples everywhere, or as many as a pixel needs";
-        match render.threshold_in_force() {
-            Some(_) => faults.add_idle(("spp", &spp.place), Some(&limit.place), problem.into(), "remove one of them"),
-            None => faults.add_idle(
-                ("noise_threshold", &limit.place),
-                Some(&spp.place),
-                problem.into(),
-                "remove one of them",
-            ),
-        }
-    }
-    let keys = [("min_spp", &render.min_spp), ("max_spp", &render.max_spp)];
-    let keys = keys.into_iter().filter(|_| render.threshold_in_force().is_none());
-    for (key, value) in keys.filter_map(|(key, value)| Some((key, value.as_ref()?))) {
-        let problem = format!("\"{key}\" has no effect without \"noise_threshold\"");
-        let cause = render.spp.as_ref().map(|spp| &spp.place);
-        faults.add_idle((key, &value.place), cause, problem, "add it, or remove the key");
     }
 }

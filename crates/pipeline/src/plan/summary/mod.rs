@@ -15,7 +15,7 @@ mod words;
 use crate::plan::film_cost::Share;
 use crate::plan::frame_cost::FrameCost;
 use crate::plan::remark::grouped;
-use crate::plan::{AdaptiveSampling, CameraPlan, Plan, Products, RawFormat, Route, Settings, SkyFacts};
+use crate::plan::{AdaptiveSampling, CameraPlan, Passes, Plan, Products, RawFormat, Route, Settings, SkyFacts};
 use crate::render::block::Blocks;
 use crate::render::light_counts;
 use depth_of_field::depth_of_field;
@@ -161,7 +161,15 @@ fn samples(camera: &CameraPlan) -> String {
     let s = &camera.settings;
     let replicates = count(s.replicates as usize, "replicate");
     match s.adaptive {
-        None => format!("{} a pixel in {replicates}", count(s.spp as usize, "sample")),
+        None => match camera.passes.as_ref().map(Passes::list) {
+            None => format!("{} a pixel in {replicates}", count(s.spp as usize, "sample")),
+            Some(passes) => {
+                let spp: f64 = passes.iter().map(|pass| pass.number()).sum();
+                let list: Vec<String> = passes.iter().map(|pass| pass.number().to_string()).collect();
+                let each = if passes.len() == 1 { "pass" } else { "passes" };
+                format!("{spp} samples a pixel in {} {each} ({}), each in {replicates}", passes.len(), list.join(", "))
+            }
+        },
         Some(AdaptiveSampling { threshold, min_spp }) => {
             let by_sensor = s.route == Route::Lens && camera.body.sensor.is_some();
             let of = if by_sensor { "the sensor's noise" } else { "its mean" };

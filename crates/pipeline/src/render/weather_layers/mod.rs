@@ -10,7 +10,7 @@
 //! are adaptive there are 64): light less airlight is, but for noise, what comes from surfaces. In the raster of the film, without what the effects behind the lens do. Where surfaces are cut out they are there as in
 //! ground truth: where at least half of them is.
 
-use crate::plan::{CameraPlan, Plan, Settings};
+use crate::plan::{CameraPlan, PassAt, Plan, Settings};
 use crate::render::camera_light::{SourceJob, lights, path_settings, region_and_change_over, render_job, with_source};
 use crate::render::exposure::FilmExposure;
 use crate::render::film::Film;
@@ -71,22 +71,27 @@ impl SourceJob for LayersJob<'_> {
         let even = Layout { bands: Some(whole(camera)), folded: false, watched: false };
         let job = |layout| {
             let job = render_job((camera, rows.clone()), request, source, None);
-            RenderJob { layout, tolerance: None, sampling: Sampling { spp: spp(camera), ..job.sampling }, ..job }
+            RenderJob {
+                layout,
+                tolerance: None,
+                sampling: Sampling { pass: PassAt::only(spp(camera)), ..job.sampling },
+                ..job
+            }
         };
         let shares = |of| {
-            let film = job(even).gather::<1>(&share(of), &Unobserved).expect("nobody cancels");
+            let film = job(even).gather::<1>(&share(of), None, &Unobserved).expect("nobody cancels");
             radiance(&film).planes()[0].samples().to_vec()
         };
         let lights = lights(plan, camera, &view);
-        let settings = PathSettings { only_airlight: true, ..path_settings(camera) };
+        let settings = PathSettings { only_airlight: true, ..path_settings(camera, PassAt::only(camera.settings.spp)) };
         let tracer =
             PathTracer::new(&view, &plan.material_table, &lights, settings).with_media(&media).with_near(near.as_ref());
         let bands = camera.settings.bands.unwrap_or_else(|| whole(camera));
         let job = job(Layout { bands: Some(bands), folded: false, watched: false });
         let airlight = match camera.settings.wavelengths {
-            1 => job.gather::<1>(&tracer, &Unobserved),
-            8 => job.gather::<8>(&tracer, &Unobserved),
-            _ => job.gather::<4>(&tracer, &Unobserved),
+            1 => job.gather::<1>(&tracer, None, &Unobserved),
+            8 => job.gather::<8>(&tracer, None, &Unobserved),
+            _ => job.gather::<4>(&tracer, None, &Unobserved),
         };
         WeatherLayers {
             transmittance: plane(camera, shares(Share::Transmittance)),

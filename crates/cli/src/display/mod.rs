@@ -1,0 +1,129 @@
+//! Light shown in a viewer while it is gathered, over the network.
+//!
+//! [`tev`] writes the packets of the protocol; [`Display`] sends them from a thread of its own, so that a slow viewer does not hold
+//! up the rendering. Tiles wait in the images themselves: one that is refined before it is sent is sent once. A viewer that goes
+//! away is told of once, and the rendering goes on.
+
+mod images;
+mod tev;
+
+use crate::output::print_message;
+use etendue::{Error, ImageTile};
+use images::Images;
+use std::io::Write as _;
+use std::net::{TcpStream, ToSocketAddrs as _};
+use std::sync::mpsc::{self, Receiver};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// How long a viewer may take to answer a call, and to take a packet.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// A viewer.
+pub struct Display {
+    address: String,
+    shared: Arc<Shared>,
+    /// Closed when all is sent, or nothing more can be.
+    done: Mutex<Receiver<()>>,
+}
+
+#[derive(Default)]
+struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct State {
+    images: Images,
+    /// Nothing more comes.
+    is_ended: bool,
+    /// Nothing more can be sent.
+    is_lost: bool,
+}
+
+impl Shared {
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The packets of the next tile; `None` when nothing more comes. Waits.
+    fn next(&self) -> Option<Vec<u8>> {
+        let mut state = self.state();
+        loop {
+            if let Some(packets) = state.images.next() {
+                return Some(packets);
+            }
+            if state.is_ended {
+                return None;
+            }
+            state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+impl Display {
+    /// Calls the viewer at HOST:PORT.
+    ///
+    /// # Errors
+    /// Where none answers.
+    pub fn connect(address: &str) -> Result<Self, Error> {
+        let refused = |why: String| {
+            Error::input(format!(
+                "--display {address}: {why}; start the viewer there first (tev listens at 127.0.0.1:14158), or leave it out"
+            ))
+        };
+        let mut addresses = address.to_socket_addrs().map_err(|cause| refused(cause.to_string()))?.peekable();
+        let mut why = "no such host".to_owned();
+        let stream = addresses.find_map(|address| {
+            TcpStream::connect_timeout(&address, PATIENCE)
+                .map_err(|cause| why = format!("no viewer answers ({cause})"))
+                .ok()
+        });
+        let stream = stream.ok_or_else(|| refused(why))?;
+        let prepared = stream.set_write_timeout(Some(PATIENCE)).and_then(|()| stream.set_nodelay(true));
+        prepared.map_err(|cause| refused(cause.to_string()))?;
+        let (shared, (tell_done, done)) = (Arc::new(Shared::default()), mpsc::channel());
+        let (sent, told) = (Arc::clone(&shared), address.to_owned());
+        std::thread::spawn(move || {
+            send(stream, &sent, &told);
+            drop(tell_done);
+        });
+        Ok(Self { address: address.to_owned(), shared, done: Mutex::new(done) })
+    }
+
+    /// Takes a tile over, to be sent.
+    pub fn tile(&self, tile: &ImageTile<'_>) {
+        let mut state = self.shared.state();
+        if !state.is_lost {
+            state.images.put(tile);
+            self.shared.changed.notify_one();
+        }
+    }
+
+    /// Waits a while until all is sent.
+    pub fn finish(self) {
+        self.shared.state().is_ended = true;
+        self.shared.changed.notify_one();
+        let done = self.done.into_inner().unwrap_or_else(PoisonError::into_inner);
+        if done.recv_timeout(PATIENCE) == Err(mpsc::RecvTimeoutError::Timeout) {
+            warn(&self.address, "it is slow, and has not taken the last tiles");
+        }
+    }
+}
+
+/// Sends tiles until there are no more, or the viewer goes away.
+fn send(mut stream: TcpStream, shared: &Shared, address: &str) {
+    while let Some(packets) = shared.next() {
+        if let Err(cause) = stream.write_all(&packets) {
+            let mut state = shared.state();
+            (state.is_lost, state.images) = (true, Images::default());
+            drop(state);
+            return warn(address, &format!("it takes no more tiles ({cause}); the rendering goes on"));
+        }
+    }
+}
+
+fn warn(address: &str, what: &str) {
+    print_message(&format!("warning: the viewer at {address}: {what}\n"));
+}

@@ -1,0 +1,129 @@
+//! How large the next pass is, where a time decides.
+//!
+//! The rate at which samples are made is that of the last pass, so that it may change: other work on the machine, a lower clock. No
+//! pass but the last ones is foreseen to take more than [`MAX_FRACTION`] of the time that is left, and none is more than all before it, so
+//! that the picture refines evenly and a wrong rate is noticed in time. When [`LAST_FRACTION`] of the whole is left, a pass takes all of
+//! it. Passes are whole but where the least one, a sample a pixel in each replicate, is too much: then it takes a part of the pixels.
+
+use etendue_pipeline::plan::{PARTS, Pass};
+
+/// Part of the time left that a pass may take.
+const MAX_FRACTION: f64 = 0.6;
+/// Part of the whole time that one pass may use up.
+const LAST_FRACTION: f64 = 0.12;
+/// Part of the whole time that is not worth a pass.
+const IDLE_FRACTION: f64 = 0.01;
+
+/// How fast samples are made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rate {
+    /// Time of one sample of every pixel of all films, s.
+    pub(crate) sample_s: f64,
+    /// Time of what a pass takes beside its samples, s.
+    pub(crate) beside_s: f64,
+}
+
+/// How passes fill a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pace {
+    /// The whole time, s.
+    pub(crate) total_s: f64,
+    /// Samples of the least whole pass: all passes are multiples of it.
+    pub(crate) least: u32,
+    /// Whether a pass may take a part of the pixels.
+    pub(crate) has_parts: bool,
+}
+
+impl Pace {
+    /// The next pass after passes of `done_spp` samples of every pixel; `None` where the time is up.
+    pub(crate) fn next(&self, elapsed_s: f64, rate: Rate, done_spp: u32) -> Option<Pass> {
+        let room_s = self.total_s - elapsed_s - rate.beside_s;
+        if done_spp == 0 {
+            return Some(Pass::whole(self.least));
+        }
+        if room_s < IDLE_FRACTION * self.total_s {
+            return None;
+        }
+        let is_last = self.total_s - elapsed_s <= LAST_FRACTION * self.total_s;
+        let aim_s = if is_last { room_s } else { MAX_FRACTION * room_s };
+        let least_s = rate.sample_s * f64::from(self.least);
+        let times = (aim_s / least_s).min(f64::from(done_spp / self.least)).floor();
+        if times >= 1.0 {
+            return Some(Pass::whole(self.least * times as u32));
+        }
+        if least_s <= room_s {
+            return Some(Pass::whole(self.least));
+        }
+        let part = (aim_s / least_s * f64::from(PARTS)).floor() as u32;
+        (self.has_parts && part > 0).then_some(Pass { samples: self.least, part })
+    }
+
+    /// The most replicates, of these, that leave time for three passes; the fewest where none does.
+    pub(crate) fn replicates(&self, sample_s: f64, choice: &[u32]) -> u32 {
+        let fits = |replicates: &&u32| sample_s * f64::from(**replicates) <= self.total_s / 3.0;
+        choice.iter().find(fits).or(choice.last()).copied().unwrap_or(self.least)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The time that a run takes on a machine whose speed at a time is `speed`, and its passes.
+    fn run(pace: Pace, beside_s: f64, sample_s: f64, speed: impl Fn(f64) -> f64) -> (f64, Vec<Pass>) {
+        let (mut now_s, mut spp, mut passes) = (0.0, 0, Vec::new());
+        let mut rate = Rate { sample_s: sample_s / speed(0.0), beside_s };
+        while let Some(pass) = pace.next(now_s, rate, spp) {
+            let mut left = pass.number() * sample_s;
+            let begin_s = now_s;
+            while left > 0.0 {
+                let step_s = (left / speed(now_s)).min(0.01);
+                (left, now_s) = (left - step_s * speed(now_s), now_s + step_s);
+            }
+            rate.sample_s = (now_s - begin_s) / pass.number();
+            now_s += beside_s;
+            spp += if pass.is_whole() { pass.samples } else { 0 };
+            passes.push(pass);
+        }
+        (now_s, passes)
+    }
+
+    const PACE: Pace = Pace { total_s: 10.0, least: 4, has_parts: true };
+
+    #[test]
+    fn a_steady_machine_keeps_the_time_at_every_rate() {
+        for sample_s in [1e-4, 0.003, 0.02, 0.1, 0.3, 0.5, 0.83, 1.4, 2.2] {
+            for beside_s in [0.0, 0.05, 0.2] {
+                let (took_s, passes) = run(PACE, beside_s, sample_s, |_| 1.0);
+                assert!((took_s / 10.0 - 1.0).abs() < 0.03, "{sample_s} {beside_s}: {took_s} s, {passes:?}");
+                assert!(passes.len() <= 32, "{} passes", passes.len());
+            }
+        }
+    }
+
+    #[test]
+    fn a_machine_whose_speed_changes_keeps_it_within_a_tenth() {
+        for sample_s in [1e-3, 0.02, 0.2] {
+            let slowed = |at_s: f64| move |now_s: f64| if now_s < at_s { 1.0 } else { 0.6 };
+            for at_s in [1.0, 3.0, 5.0, 7.0, 9.0, 9.5] {
+                let (took_s, _) = run(PACE, 0.05, sample_s, slowed(at_s));
+                assert!((took_s / 10.0 - 1.0).abs() < 0.1, "slower from {at_s} s: {took_s} s");
+                let (took_s, _) = run(PACE, 0.05, sample_s, |now_s| 1.0 / slowed(at_s)(now_s));
+                assert!((took_s / 10.0 - 1.0).abs() < 0.1, "faster from {at_s} s: {took_s} s");
+            }
+            let (took_s, _) = run(PACE, 0.05, sample_s, |now_s| 1.0 + 0.5 * f64::from((2.0 * now_s) as u32 % 2));
+            assert!((took_s / 10.0 - 1.0).abs() < 0.1, "to and fro: {took_s} s");
+        }
+    }
+
+    #[test]
+    fn slow_scenes_have_fewer_replicates_and_parts() {
+        let choice = [4, 2, 1];
+        let replicates = |sample_s| PACE.replicates(sample_s, &choice);
+        assert_eq!([0.5, 1.2, 2.0, 9.0, 50.0].map(replicates), [4, 2, 1, 1, 1]);
+        let (took_s, passes) = run(Pace { least: 1, ..PACE }, 0.0, 7.0, |_| 1.0);
+        assert!((took_s - 10.0).abs() < 0.5, "{took_s}");
+        assert!(passes[0].is_whole() && passes[1..].iter().all(|pass| !pass.is_whole()), "{passes:?}");
+        assert_eq!(run(Pace { least: 1, ..PACE }, 0.0, 25.0, |_| 1.0).1, [Pass::whole(1)]);
+    }
+}

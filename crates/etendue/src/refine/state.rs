@@ -1,0 +1,112 @@
+//! The state of a progressive run: its films so far, in a folder beside the results.
+//!
+//! A file a film, named as a shard's and replaced as a whole after each pass, whose header says of which plan it is and which passes it
+//! holds. A run that is killed at any moment finds the last whole pass; at the end of a run there is no state.
+
+use crate::error::Error;
+use crate::film_file::{self, FILM, film_name};
+use crate::results::metadata;
+use etendue_io::{Existing, OutputFolder};
+use etendue_pipeline::Plan;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::plan::{CameraPlan, Passes};
+use etendue_pipeline::render::Shot;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+/// The folder of the state, no name of a camera.
+const FOLDER: &str = ".progress";
+
+/// Facts of a film of a state.
+const PASSES: &str = "passes_done";
+const REPLICATES: &str = "passes_replicates";
+const SECONDS: &str = "passes_s";
+
+/// A film after some of its passes.
+#[derive(Clone, Debug)]
+pub(crate) struct KeptFilm {
+    /// The film.
+    pub(crate) film: Film,
+    /// What it holds.
+    pub(crate) passes: Passes,
+    /// Replicates of each of them.
+    pub(crate) replicates: u32,
+    /// Time that the run had taken, s, where a time decides the passes.
+    pub(crate) elapsed_s: f64,
+}
+
+/// The name, within an output folder, of the state of a film.
+pub(crate) fn name(camera: &CameraPlan, shot: Shot) -> String {
+    format!("{FOLDER}/{}", film_name(camera, shot))
+}
+
+/// Whether an output folder holds a state.
+pub(crate) fn is_in(folder: &Path) -> bool {
+    films(folder).next().is_some()
+}
+
+/// The films of a state.
+fn films(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let files = folder.join(FOLDER).read_dir().into_iter().flatten().flatten();
+    files.map(|file| file.path()).filter(|path| path.to_string_lossy().ends_with(FILM))
+}
+
+/// Removes the state in an output folder: the films, and their folder where nothing else is in it.
+pub(crate) fn remove(folder: &Path) -> io::Result<()> {
+    films(folder).try_for_each(fs::remove_file)?;
+    // Left where it is missing, or another's file is in it.
+    let _ = fs::remove_dir(folder.join(FOLDER));
+    Ok(())
+}
+
+/// Refuses a folder that holds the state of another run, where the run may neither go on with it nor replace it.
+pub(crate) fn check(folder: &Path, existing: Existing) -> Result<(), Error> {
+    if existing != Existing::Refuse || !is_in(folder) {
+        return Ok(());
+    }
+    Err(Error::input(format!(
+        "{}: a run that was interrupted left its state here; go on with --resume, or begin anew with --overwrite",
+        folder.join(FOLDER).display()
+    )))
+}
+
+/// The film that an interrupted run of the plan left in an output folder; `None` where there is none.
+///
+/// # Errors
+/// Where it is of another plan, or cannot be read.
+pub(crate) fn read(folder: &Path, plan: &Plan, camera: &CameraPlan, shot: Shot) -> Result<Option<KeptFilm>, Error> {
+    let path = folder.join(name(camera, shot));
+    if !path.exists() {
+        return Ok(None);
+    }
+    let refused = || {
+        let remedy = "resume with the same options, choose another output folder, or --overwrite it";
+        Error::input(format!("{}: it is the state of a run of another plan; {remedy}", path.display()))
+    };
+    let (film, facts) = film_file::read(&path, camera)?.ok_or_else(refused)?;
+    let fact = |name: &str| facts.further.get(name);
+    let replicates = fact(REPLICATES).and_then(|text| text.parse().ok());
+    let passes = fact(PASSES).zip(replicates).and_then(|(text, replicates)| Passes::of_text(text, replicates));
+    let elapsed_s = fact(SECONDS).and_then(|text| text.parse().ok());
+    match (passes, replicates, elapsed_s) {
+        (Some(passes), Some(replicates), Some(elapsed_s)) if facts.plan_hash == plan.hash_text() => {
+            Ok(Some(KeptFilm { film, passes, replicates, elapsed_s }))
+        }
+        _ => Err(refused()),
+    }
+}
+
+/// Writes a film to the state in an output folder, where it has its final name when that publishes.
+pub(crate) fn write(
+    folder: &mut OutputFolder,
+    plan: &Plan,
+    (camera, shot): (&CameraPlan, Shot),
+    film: &Film,
+    (passes, replicates, elapsed_s): (&Passes, u32, f64),
+) -> Result<(), Error> {
+    let mut facts = metadata::provenance(plan, camera, shot.frame);
+    facts.further.insert(PASSES.to_owned(), passes.text());
+    facts.further.insert(REPLICATES.to_owned(), replicates.to_string());
+    facts.further.insert(SECONDS.to_owned(), elapsed_s.to_string());
+    folder.write(&name(camera, shot), &film_file::encode(film, &facts)?).map_err(Error::run)
+}

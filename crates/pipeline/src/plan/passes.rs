@@ -1,0 +1,233 @@
+//! The passes whose weighted mean is a camera's light.
+//!
+//! A pass is a rendering by itself: its replicates have numbers of their own (those of pass p are R·p … R·p + R − 1), so that
+//! passes are independent, each stratified by itself. A pass of part of the pixels takes those whose place in a sequence that is even over the
+//! plane (R2, by the powers of 1/ρ, ρ³ = ρ + 1; M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018) falls in
+//! the part; the next such pass goes on where it ended.
+
+use etendue_core::random::Pixel;
+
+/// Parts of the pixels are counted in these: 256ths.
+pub const PARTS: u32 = 256;
+
+/// The most passes of a film.
+pub const MAX_PASSES: usize = 64;
+
+/// A pass: so many samples of all pixels, or of some.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// Samples of each pixel that it takes, over all replicates.
+    pub samples: u32,
+    /// How many 256ths of the pixels it takes.
+    pub part: u32,
+}
+
+impl Pass {
+    /// Of all pixels.
+    #[must_use]
+    pub fn whole(samples: u32) -> Self {
+        Self { samples, part: PARTS }
+    }
+
+    /// From its number in a list of passes: samples a pixel, a multiple of `replicates` or, on average, fewer than these. `None` where it
+    /// is neither.
+    #[must_use]
+    pub fn of_number(number: f64, replicates: u32) -> Option<Self> {
+        let most = f64::from(replicates);
+        if number < most {
+            let part = (number / most * f64::from(PARTS)).round() as u32;
+            return Some(Self { samples: replicates, part: part.clamp(1, PARTS) });
+        }
+        let is_multiple = number.fract() == 0.0 && (number as u64).is_multiple_of(replicates.into());
+        is_multiple.then(|| Self::whole(number as u32))
+    }
+
+    /// Its number in a list of passes.
+    #[must_use]
+    pub fn number(self) -> f64 {
+        f64::from(self.samples) * f64::from(self.part) / f64::from(PARTS)
+    }
+
+    /// Whether it takes all pixels.
+    #[must_use]
+    pub fn is_whole(self) -> bool {
+        self.part == PARTS
+    }
+}
+
+/// The passes of a film, in their order.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Passes(Vec<Pass>);
+
+impl Passes {
+    /// These.
+    #[must_use]
+    pub fn new(list: Vec<Pass>) -> Self {
+        Self(list)
+    }
+
+    /// Passes that refine a picture of `spp` samples: two samples of each replicate, then as many as there are so far, until the rest,
+    /// which is not less than half of that.
+    #[must_use]
+    pub fn doubling(spp: u32, replicates: u32) -> Self {
+        let (mut list, mut done) = (Vec::new(), 0);
+        while done < spp {
+            let next = done.max(2 * replicates);
+            let left = spp - done;
+            let samples = if left < next + next / 2 { left } else { next };
+            list.push(Pass::whole(samples));
+            done += samples;
+        }
+        Self(list)
+    }
+
+    /// Each of them.
+    #[must_use]
+    pub fn list(&self) -> &[Pass] {
+        &self.0
+    }
+
+    /// Adds one.
+    pub fn push(&mut self, pass: Pass) {
+        self.0.push(pass);
+    }
+
+    /// Samples that every pixel gets at least.
+    #[must_use]
+    pub fn spp(&self) -> u32 {
+        self.0.iter().filter(|pass| pass.is_whole()).map(|pass| pass.samples).sum()
+    }
+
+    /// Mean samples of a pixel.
+    #[must_use]
+    pub fn mean_spp(&self) -> f64 {
+        self.0.iter().map(|pass| pass.number()).sum()
+    }
+
+    /// A pass and what is before it.
+    #[must_use]
+    pub fn at(&self, number: usize) -> PassAt {
+        let before = &self.0[..number];
+        let parts = before.iter().filter(|pass| !pass.is_whole()).map(|pass| pass.part);
+        PassAt {
+            pass: self.0[number],
+            number: number as u32,
+            before_spp: before.iter().filter(|pass| pass.is_whole()).map(|pass| pass.samples).sum(),
+            first_part: parts.fold(0, |sum, part| (sum + part) % PARTS),
+        }
+    }
+
+    /// As a list in TOML.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let numbers: Vec<String> = self.0.iter().map(|pass| pass.number().to_string()).collect();
+        format!("[{}]", numbers.join(", "))
+    }
+
+    /// The passes of [`Passes::text`]; `None` where it is not that of passes.
+    #[must_use]
+    pub fn of_text(text: &str, replicates: u32) -> Option<Self> {
+        let numbers = text.strip_prefix('[')?.strip_suffix(']')?;
+        if numbers.is_empty() {
+            return Some(Self::default());
+        }
+        let pass = |number: &str| Pass::of_number(number.parse().ok()?, replicates);
+        numbers.split(", ").map(pass).collect::<Option<Vec<_>>>().map(Self)
+    }
+}
+
+/// How the samples of a camera of a job come.
+#[derive(Clone, Debug)]
+pub(crate) struct CameraPasses {
+    /// Replicates of each pass.
+    pub(crate) replicates: u32,
+    /// Whether the command line does not say how many.
+    pub(crate) is_open: bool,
+    /// Its passes; `None`: all samples in one.
+    pub(crate) passes: Option<Passes>,
+}
+
+/// A pass in its place among the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PassAt {
+    /// The pass.
+    pub pass: Pass,
+    /// How many are before it.
+    pub number: u32,
+    /// Samples that every pixel has before it.
+    pub before_spp: u32,
+    /// Where its part of the pixels begins, in 256ths.
+    pub first_part: u32,
+}
+
+impl PassAt {
+    /// The only one.
+    #[must_use]
+    pub fn only(samples: u32) -> Self {
+        Self { pass: Pass::whole(samples), number: 0, before_spp: 0, first_part: 0 }
+    }
+
+    /// Whether it takes the block of pixels whose first this is.
+    #[must_use]
+    pub fn takes(self, first: Pixel) -> bool {
+        if self.pass.is_whole() {
+            return true;
+        }
+        // The fractional parts of 1/ρ and 1/ρ², in 2³²nds.
+        let place = first.x.wrapping_mul(3_242_174_889).wrapping_add(first.y.wrapping_mul(2_447_445_414));
+        let part = place >> 24;
+        (part + PARTS - self.first_part) % PARTS < self.pass.part
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(passes: &Passes) -> Vec<f64> {
+        passes.list().iter().map(|pass| pass.number()).collect()
+    }
+
+    #[test]
+    fn a_schedule_doubles_and_ends_with_the_rest() {
+        for (spp, replicates, told) in [
+            (64, 4, vec![8.0, 8.0, 16.0, 32.0]),
+            (72, 4, vec![8.0, 8.0, 16.0, 40.0]),
+            (100, 4, vec![8.0, 8.0, 16.0, 32.0, 36.0]),
+            (4, 4, vec![4.0]),
+            (3, 1, vec![3.0]),
+        ] {
+            let passes = Passes::doubling(spp, replicates);
+            assert_eq!(numbers(&passes), told, "{spp}");
+            assert_eq!(passes.spp(), spp);
+        }
+    }
+
+    #[test]
+    fn a_number_is_read_as_it_is_written() {
+        let passes: Option<Vec<Pass>> = [8.0, 16.0, 1.5, 0.015_625].iter().map(|n| Pass::of_number(*n, 4)).collect();
+        let passes = Passes::new(passes.expect("multiples, or fewer than the replicates"));
+        assert_eq!(passes.list()[2], Pass { samples: 4, part: 96 });
+        assert_eq!(passes.text(), "[8, 16, 1.5, 0.015625]");
+        assert_eq!(Passes::of_text(&passes.text(), 4), Some(passes.clone()));
+        assert_eq!((passes.spp(), passes.mean_spp()), (24, 25.515_625));
+        assert!([6.0, 4.5].iter().all(|n| Pass::of_number(*n, 4).is_none()));
+    }
+
+    /// Each pixel is in one of three parts that make the whole, and every square of 16 × 16 has its share.
+    #[test]
+    fn parts_follow_one_another_and_are_even() {
+        let part = |part| Pass { samples: 4, part };
+        let passes = Passes::new(vec![Pass::whole(4), part(100), part(56), part(100)]);
+        let taken = |number: usize, x: u32, y: u32| passes.at(number).takes(Pixel { x, y });
+        for (x0, y0) in [(0, 0), (160, 96)] {
+            let square = || (0..256).map(|i| (x0 + i % 16, y0 + i / 16));
+            assert!(square().all(|(x, y)| (1..4).filter(|number| taken(*number, x, y)).count() == 1));
+            for (number, share) in [(1, 100), (2, 56)] {
+                let count = square().filter(|(x, y)| taken(number, *x, *y)).count();
+                // The star discrepancy of 256 points of such a sequence is some hundredths.
+                assert!(count.abs_diff(share) <= 8, "{count} of {share}");
+            }
+        }
+    }
+}
