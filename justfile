@@ -35,6 +35,10 @@ faults:
 gallery *names:
     docs/pictures/gallery {{names}}
 
+# Time against error of five scenes: writes docs/tradeoff-scenes.md (names: some of them)
+tradeoff *names:
+    docs/pictures/tradeoff {{names}}
+
 # Efficiency beside Mitsuba 3 and Cycles (needs Python 3.11, PyPI, libllvm19)
 peers *arguments:
     benches/peers/run {{arguments}}

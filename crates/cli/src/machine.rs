@@ -27,3 +27,12 @@ pub fn simd() -> Result<Simd, Error> {
         Ok(other) => Err(Error::input(format!("{SIMD_VARIABLE}={other}: expected auto or scalar"))),
     }
 }
+
+/// Processor time of all threads of this process, s; `None` where the system does not tell it.
+pub fn processor_seconds() -> Option<f64> {
+    // proc(5): user and system time are the 14th and 15th field, in ticks of 1/100 s; the 2nd, in brackets, may hold blanks.
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
+    let ticks: u64 = fields.get(11)?.parse::<u64>().ok()? + fields.get(12)?.parse::<u64>().ok()?;
+    Some(ticks as f64 / 100.0)
+}

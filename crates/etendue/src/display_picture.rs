@@ -4,8 +4,7 @@ use crate::error::Error;
 use crate::results::CameraResults;
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
-use etendue_io::photograph::Encoding;
-use etendue_io::png::encode_display;
+use etendue_io::jpeg::encode_jpeg;
 
 impl CameraResults {
     /// The first frame's picture as a display shows it, 0 to 1; `None` where the camera has no processing.
@@ -15,10 +14,10 @@ impl CameraResults {
     }
 }
 
-/// A display picture as an 8-bit PNG that says it is sRGB.
+/// A display picture as a JPEG of a quality from 1 to 100.
 ///
 /// # Errors
 /// Where it cannot be encoded.
-pub fn display_png(picture: &Plane<Display>) -> Result<Vec<u8>, Error> {
-    encode_display(picture, &Encoding::Srgb).map_err(|error| Error::Run(error.to_string()))
+pub fn display_jpeg(picture: &Plane<Display>, quality: u8) -> Result<Vec<u8>, Error> {
+    encode_jpeg(picture, quality).map_err(|error| Error::Run(error.to_string()))
 }

@@ -2,10 +2,11 @@
 
 use crate::Clock;
 use crate::error::Estimate;
-use crate::pictures::side_by_side;
+use crate::pictures::{QUALITY, side_by_side};
 use crate::pilot::seed;
 use crate::study::Request;
-use etendue::{CameraResults, Error, Job, JobRequest, Observer, Progress, RenderOptions, Unit, display_png};
+use etendue::EffectGroup;
+use etendue::{CameraResults, Error, Job, JobRequest, Observer, Progress, RenderOptions, Unit, display_jpeg};
 use etendue_core::Plane;
 use etendue_core::maths::f64::acos;
 use etendue_core::quantity::{Display, Quantity};
@@ -28,12 +29,14 @@ pub struct Dropped {
     pub id: String,
     /// The changes of keys that leave it out.
     pub set: Vec<String>,
-    /// Time that is saved of loading the job and making one frame with its samples, s; below 0 where it takes longer without.
-    pub seconds_saved: f64,
+    /// Processor time of all threads (time, where the machine does not tell that) that is saved of loading the job and making one frame with its samples, s; below 0 where it takes longer without.
+    pub cpu_saved_s: f64,
     /// Root mean square change of a pixel's mean light, over the mean light of the 16 × 16 px about it; of electrons where there are any. `None` where the light has another size.
     pub light: Option<Estimate>,
     /// Root mean square change of the digital numbers of one frame, DN, the random numbers of both alike; `None` where there are none, or of another size.
     pub raw_dn: Option<f64>,
+    /// Root mean square change of the encoded picture, 0 to 1; `None` where there is none, or of another size.
+    pub picture: Option<f64>,
     /// Part of the pixels that see another instance.
     pub instances: Option<f64>,
     /// Root mean square change of the distance of what a pixel sees, relative, of pixels that see the same instance.
@@ -42,7 +45,7 @@ pub struct Dropped {
     pub direction_px: Option<f64>,
     /// Its picture beside that with the effect, as of [`crate::pictures`]; `None` where there is no picture of the same size.
     #[serde(skip)]
-    pub png: Option<Vec<u8>>,
+    pub jpeg: Option<Vec<u8>>,
 }
 
 /// An effect that no key leaves out, or whose keys the job does not take.
@@ -61,8 +64,8 @@ pub struct Ablation {
     pub camera: String,
     /// Samples a pixel that the errors are found with.
     pub spp: u32,
-    /// Loading and making one frame as the job says, s.
-    pub seconds: f64,
+    /// Processor time of loading and of making one frame as the job says, s.
+    pub cpu_s: f64,
     /// What was left out, in the order of the light.
     pub dropped: Vec<Dropped>,
     /// What was not.
@@ -83,15 +86,18 @@ pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -
     let mut kept = Vec::new();
     for effect in effects {
         match effect.if_dropped.as_ref().map(|dropped| dropped.set.clone()) {
+            // What is written changes no frame.
+            _ if effect.group == EffectGroup::Output => {}
             Some(Some(set)) => trials.push((effect.name, effect.id(), set)),
             Some(None) => kept.push(Kept { effect: effect.name, reason: "no key leaves it out".to_owned() }),
             None => {}
         }
     }
     let looks = Looks { request, camera: &camera, clock, observer, own_seed: settings.seed };
-    let first = looks.at(&request.job, 1)?;
+    let from_s = clock.seconds();
+    looks.look(&request.job, 1, 3)?;
     let runs = f64::from(1 + MORE) * (trials.len() + 1) as f64;
-    let spp = (request.budget_s / (runs * first.seconds)).clamp(1.0, MOST_SPP) as u32;
+    let spp = (request.budget_s / (runs * (clock.seconds() - from_s))).clamp(1.0, MOST_SPP) as u32;
     let with = looks.pair(&request.job, spp)?;
     let mut dropped = Vec::new();
     let total = trials.len();
@@ -108,7 +114,8 @@ pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -
         }
     }
     observer.progress(Progress { heading: "done", frame: None, unit: Unit::Pilots, done: total, total });
-    Ok(Ablation { spp: spp * (1 + MORE), seconds: with.seconds(f64::from(settings.spp)), camera, dropped, kept })
+    let cpu_s = with.seconds(f64::from(settings.spp));
+    Ok(Ablation { spp: spp * (1 + MORE), cpu_s, camera, dropped, kept })
 }
 
 /// Renders looks at a frame.
@@ -118,6 +125,15 @@ struct Looks<'a> {
     clock: &'a dyn Clock,
     observer: &'a dyn Observer,
     own_seed: u64,
+}
+
+/// Passes on the wish to stop, and no message: frames without this or that have much to warn of.
+struct Quiet<'a>(&'a dyn Observer);
+
+impl Observer for Quiet<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
 }
 
 /// One look: the frame with so many samples, and how long it took.
@@ -145,28 +161,28 @@ impl Pair {
 }
 
 impl Looks<'_> {
-    fn pair(&self, job: &JobRequest, spp: u32) -> Result<Pair, Error> {
-        Ok(Pair { few: self.look(job, spp, 1)?, many: self.look(job, MORE * spp, 2)?, spp })
+    fn now_s(&self) -> f64 {
+        self.clock.processor_seconds().unwrap_or_else(|| self.clock.seconds())
     }
 
-    fn at(&self, job: &JobRequest, spp: u32) -> Result<Look, Error> {
-        self.look(job, spp, 3)
+    fn pair(&self, job: &JobRequest, spp: u32) -> Result<Pair, Error> {
+        Ok(Pair { few: self.look(job, spp, 1)?, many: self.look(job, MORE * spp, 2)?, spp })
     }
 
     fn look(&self, job: &JobRequest, spp: u32, k: u32) -> Result<Look, Error> {
         let mut request = JobRequest { spp: Some(spp.into()), noise: None, ..job.clone() };
         (request.camera, request.seed) = (Some(self.camera.to_owned()), Some(seed(self.own_seed, 3000 + k)));
-        let from_s = self.clock.seconds();
+        let from_s = self.now_s();
         let job: Job = request.open()?;
         let options = RenderOptions { simd: self.request.simd, ..RenderOptions::default() };
         let mut cameras = Vec::new();
-        job.render_each(&options, self.observer, |camera| {
+        job.render_each(&options, &Quiet(self.observer), |camera| {
             cameras.push(camera);
             Ok(())
         })?;
         let results = cameras.pop().expect("the job's only camera");
         let frame = results.frames().next();
-        let seconds = self.clock.seconds() - from_s;
+        let seconds = self.now_s() - from_s;
         let (raw, picture) = frame.map_or((None, None), |frame| {
             (Some(frame.raw.plane.samples().to_vec()), frame.picture.map(|developed| developed.display))
         });
@@ -190,13 +206,17 @@ fn compared(
         effect,
         id,
         set,
-        seconds_saved: with.seconds(spp) - without.seconds(spp),
+        cpu_saved_s: with.seconds(spp) - without.seconds(spp),
         light: change_of_light(with, without),
         raw_dn: numbers.map(|(a, b)| root_mean_square(a.iter().zip(b).map(|(a, b)| f64::from(*a) - f64::from(*b)))),
+        picture: pictures.map(|(a, b)| {
+            let channels = a.samples().iter().flatten().zip(b.samples().iter().flatten());
+            root_mean_square(channels.map(|(a, b)| f64::from(*a) - f64::from(*b)))
+        }),
         instances: is_same.then(|| changed(&truths[0].instance, &truths[1].instance)),
         distance: is_same.then(|| change_of_distance(&truths)),
         direction_px: is_same.then(|| change_of_direction(with, without)),
-        png: pictures.map(|(a, b)| display_png(&side_by_side(a, b))).transpose()?,
+        jpeg: pictures.map(|(a, b)| display_jpeg(&side_by_side(a, b), QUALITY)).transpose()?,
     })
 }
 
@@ -282,14 +302,16 @@ fn change_of_direction(with: &Pair, without: &Pair) -> f64 {
 pub fn ablation_table(ablation: &Ablation) -> String {
     use std::fmt::Write as _;
     let mut out = format!(
-        "camera {}: one frame in {}; found with {} samples a pixel\n\n{:<34} {:>10} {:>18} {:>10} {:>10} {:>10} {:>10}\n",
+        "camera {}: one frame takes {:.1} s of processor time; found with {} samples a pixel\n\n\
+         {:<30} {:>10} {:>14} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
         ablation.camera,
-        crate::report::time_text(ablation.seconds),
+        ablation.cpu_s,
         ablation.spp,
         "without",
-        "time saved",
+        "saved",
         "light (rms)",
         "raw, DN",
+        "picture",
         "other ids",
         "distance",
         "rays, px"
@@ -300,10 +322,11 @@ pub fn ablation_table(ablation: &Ablation) -> String {
         let light = d.light.map_or_else(|| "–".to_owned(), crate::report::percent);
         let _ = writeln!(
             out,
-            "{:<34} {:>8.2} s {light:>18} {:>10} {:>10} {:>10} {:>10}",
+            "{:<30} {:>8.1} s {light:>14} {:>9} {:>9} {:>9} {:>9} {:>9}",
             d.effect,
-            d.seconds_saved,
+            d.cpu_saved_s,
             number(d.raw_dn),
+            percent(d.picture),
             percent(d.instances),
             percent(d.distance),
             number(d.direction_px)

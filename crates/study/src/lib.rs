@@ -29,8 +29,11 @@ pub use report::{plot, table};
 pub use study::{Request, Study, study};
 pub use way::{Accelerator, WayToRender};
 
-/// A clock that only goes forward.
+/// Clocks that only go forward.
 pub trait Clock: Sync {
     /// Seconds since any moment.
     fn seconds(&self) -> f64;
+
+    /// Processor time of all threads of this process since any moment, s; `None` where the machine does not tell it.
+    fn processor_seconds(&self) -> Option<f64>;
 }

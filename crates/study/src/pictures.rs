@@ -3,7 +3,7 @@
 use crate::measured::{Measured, Role};
 use crate::study::{Request, Study};
 use crate::way::WayToRender;
-use etendue::{Error, Job, Observer, RenderOptions, display_png};
+use etendue::{Error, Job, Observer, RenderOptions, display_jpeg};
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
 
@@ -11,6 +11,8 @@ use etendue_core::quantity::Display;
 const GAIN: f32 = 4.0;
 /// What part of a study's time one picture may take.
 const PICTURE_PART: f64 = 0.03;
+/// Of the JPEG.
+pub(crate) const QUALITY: u8 = 92;
 /// Samples of a picture, at most.
 const MOST_SPP: f64 = 64.0;
 
@@ -19,8 +21,8 @@ const MOST_SPP: f64 = 64.0;
 pub struct Comparison {
     /// The name of its file.
     pub file: String,
-    /// Exact form, approximation, and four times their difference on grey, side by side, PNG.
-    pub png: Vec<u8>,
+    /// Exact form, approximation, and four times their difference on grey, side by side, JPEG.
+    pub jpeg: Vec<u8>,
 }
 
 /// The pictures of what a study's approximations do, each with as many samples as there is time for, by the same random numbers as the exact
@@ -41,8 +43,8 @@ pub fn pictures(study: &Study, request: &Request, observer: &dyn Observer) -> Re
     let mut compared = Vec::new();
     for way in study.ways.iter().filter(|way| is_shown(way)) {
         let Some(own) = picture(&way.way)? else { continue };
-        let file = format!("{}.png", file_stem(&way.way));
-        compared.push(Comparison { file, png: display_png(&side_by_side(&reference, &own))? });
+        let file = format!("{}.jpg", file_stem(&way.way));
+        compared.push(Comparison { file, jpeg: display_jpeg(&side_by_side(&reference, &own), QUALITY)? });
     }
     Ok(compared)
 }

@@ -45,6 +45,10 @@ impl Clock for Stopwatch {
     fn seconds(&self) -> f64 {
         self.0.elapsed().as_secs_f64()
     }
+
+    fn processor_seconds(&self) -> Option<f64> {
+        machine::processor_seconds()
+    }
 }
 
 /// What a study prints and writes: names of files below its folder with their bytes.
@@ -107,7 +111,7 @@ fn studied(request: &Request, folder: &Path) -> Result<Findings, Error> {
         let job = job_file(recommendation, (&request.job, &found.camera), folder)?;
         files.push((format!("{}.toml", recommendation.target.name), job.into_bytes()));
     }
-    files.extend(compared.into_iter().map(|compared| (format!("pictures/{}", compared.file), compared.png)));
+    files.extend(compared.into_iter().map(|compared| (format!("pictures/{}", compared.file), compared.jpeg)));
     Ok(Findings { text, json, files })
 }
 
@@ -119,7 +123,7 @@ fn ablated(request: &Request) -> Result<Findings, Error> {
         ("ablation.json".to_owned(), json.clone().into_bytes()),
         ("ablation.txt".to_owned(), text.clone().into_bytes()),
     ];
-    let picture = |dropped: Dropped| Some((format!("pictures/without-{}.png", dropped.id), dropped.png?));
+    let picture = |dropped: Dropped| Some((format!("pictures/without-{}.jpg", dropped.id), dropped.jpeg?));
     files.extend(found.dropped.into_iter().filter_map(picture));
     Ok(Findings { text, json, files })
 }
