@@ -116,7 +116,8 @@ fn the_stated_variance_of_joined_passes_is_their_scatter() {
         |plane: &dyn Fn(usize, usize) -> f64| pixels().map(|(x, y)| plane(x, y)).sum::<f64>() / (WIDTH * HEIGHT) as f64;
     let planes = cube.mean.planes();
     let mean = sum(&|x, y| f64::from(planes[2].at(x, y)));
-    let scatter = sum(&|x, y| (f64::from(planes[2].at(x, y)) - mean).powi(2));
+    let off = |x, y| f64::from(planes[2].at(x, y)) - mean;
+    let scatter = sum(&|x, y| off(x, y) * off(x, y));
     let told = sum(&|x, y| f64::from(cube.variance.planes()[2].at(x, y)));
     // Of n pixels the scatter is known to √(2/n), the told to less; four of it.
     assert!((scatter / told - 1.0).abs() < 4.0 * (2.0_f64 / (WIDTH * HEIGHT) as f64).sqrt(), "{scatter} for {told}");
