@@ -140,6 +140,28 @@ fn a_timed_run_keeps_its_time_and_its_passes_give_its_bytes() {
     assert_same(&contents(&out), &rendered(job, &options), "the passes that were told");
 }
 
+/// The same job, killed twice.
+#[test]
+fn a_timed_run_that_was_killed_takes_the_time_that_was_left() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = place.path().join("out");
+    let (job, output) = ("scenes/cornell/cornell.toml", text(&out));
+    let size = ["--set", "cameras.front.sensor.width_px=32", "--set", "cameras.front.sensor.height_px=32"];
+    let arguments = ["render", job, "-o", &output, "--time", "10", "--progressive"].into_iter().chain(size);
+    let mut arguments: Vec<String> = arguments.map(str::to_owned).collect();
+    kill_after_a_pass(&arguments, &out);
+    arguments.push("--resume".to_owned());
+    kill_after_a_pass(&arguments, &out);
+    let begin = std::time::Instant::now();
+    let run = etendue(&arguments).ok();
+    let took_s = begin.elapsed().as_secs_f64();
+    let (seconds, options) = told(&run);
+    // How long a loaded machine takes is the other test's matter.
+    assert!(seconds > 9.0 && took_s < seconds + 5.0, "{took_s} s for {seconds} s");
+    let options: Vec<&str> = options.iter().map(String::as_str).chain(size).collect();
+    assert_same(&contents(&out), &rendered(job, &options), "the passes that were told");
+}
+
 #[test]
 fn what_cannot_be_done_is_refused() {
     let refused = |options: &[&str], phrases: &[&str]| {

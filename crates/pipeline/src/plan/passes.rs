@@ -195,7 +195,7 @@ mod tests {
             (72, 4, vec![8.0, 8.0, 16.0, 40.0]),
             (100, 4, vec![8.0, 8.0, 16.0, 32.0, 36.0]),
             (4, 4, vec![4.0]),
-            (3, 1, vec![3.0]),
+            (3, 1, vec![2.0, 1.0]),
         ] {
             let passes = Passes::doubling(spp, replicates);
             assert_eq!(numbers(&passes), told, "{spp}");

@@ -26,6 +26,8 @@ pub mod motion;
 mod near_precipitation;
 pub mod noise_reached;
 pub mod observer;
+#[cfg(test)]
+mod pass_tests;
 pub mod pupil_depth;
 pub mod rays;
 pub mod spectrum_spread;

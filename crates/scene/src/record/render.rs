@@ -3,7 +3,7 @@
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
 use crate::reader::{Rule, among, choice, either, flag, keyed, list, number, record, variant, vector, whole};
-use crate::record::samples;
+use crate::record::samples::SampleKeys;
 
 /// The largest seed: TOML holds no larger whole number.
 pub const MAX_SEED: u64 = i64::MAX.cast_unsigned();
@@ -214,6 +214,29 @@ impl Render {
         }
     }
 
+    /// The limit of noise, where it decides the samples: the command line's "spp" or "passes" supersede that of a file.
+    #[must_use]
+    pub fn threshold_in_force(&self) -> Option<&Placed<f64>> {
+        self.noise_threshold.as_ref().filter(|_| self.sample_keys().has_threshold_in_force())
+    }
+
+    /// The passes, where they are stated and count.
+    #[must_use]
+    pub fn passes_in_force(&self) -> Option<&[Placed<f64>]> {
+        self.sample_keys().has_passes_in_force().then_some(&self.passes[..])
+    }
+
+    fn sample_keys(&self) -> SampleKeys {
+        SampleKeys {
+            spp: self.spp.clone(),
+            passes: self.passes.clone(),
+            replicates: self.replicates.clone(),
+            noise_threshold: self.noise_threshold.clone(),
+            min_spp: self.min_spp.clone(),
+            max_spp: self.max_spp.clone(),
+        }
+    }
+
     /// The keys that only paths need, as far as they are said, and where.
     fn of_paths(&self) -> impl Iterator<Item = (&'static str, &Place)> {
         let keys = [
@@ -232,16 +255,16 @@ impl Render {
     /// What this record says, and `base` where it is silent.
     #[must_use]
     pub fn over(&self, base: &Self) -> Self {
-        let (mut a, mut b) = (self.clone(), base.clone());
-        samples::choose(&mut a, &mut b);
+        let (a, b) = (self.clone(), base.clone());
+        let samples = self.sample_keys().over(base.sample_keys());
         Self {
             place: a.place,
-            spp: a.spp.or(b.spp),
-            passes: if a.passes.is_empty() { b.passes } else { a.passes },
-            replicates: a.replicates.or(b.replicates),
-            noise_threshold: a.noise_threshold.or(b.noise_threshold),
-            min_spp: a.min_spp.or(b.min_spp),
-            max_spp: a.max_spp.or(b.max_spp),
+            spp: samples.spp,
+            passes: samples.passes,
+            replicates: samples.replicates,
+            noise_threshold: samples.noise_threshold,
+            min_spp: samples.min_spp,
+            max_spp: samples.max_spp,
             integrator: a.integrator.or(b.integrator),
             max_bounces: a.max_bounces.or(b.max_bounces),
             caustics: a.caustics.or(b.caustics),
@@ -286,7 +309,7 @@ pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone
 
 /// Checks a record into which the job's has been merged. The default route is through the lens.
 pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
-    samples::check(render, faults);
+    render.sample_keys().check(faults);
     if render.route.as_ref().is_some_and(|r| r.value == Route::Pupil) {
         return;
     }

@@ -5,7 +5,17 @@
 
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::record::Render;
+
+/// What a record says of samples.
+#[derive(Clone, Debug)]
+pub(super) struct SampleKeys {
+    pub(super) spp: Option<Placed<u64>>,
+    pub(super) passes: Vec<Placed<f64>>,
+    pub(super) replicates: Option<Placed<u64>>,
+    pub(super) noise_threshold: Option<Placed<f64>>,
+    pub(super) min_spp: Option<Placed<u64>>,
+    pub(super) max_spp: Option<Placed<u64>>,
+}
 
 /// What decides the samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,91 +38,95 @@ impl Choice {
     }
 
     /// Where a record says it.
-    fn place(self, render: &Render) -> Option<&Place> {
+    fn place(self, keys: &SampleKeys) -> Option<&Place> {
         match self {
-            Self::Noise => render.noise_threshold.as_ref().map(|limit| &limit.place),
-            Self::Passes => render.passes.first().map(|pass| &pass.place),
-            Self::Spp => render.spp.as_ref().map(|spp| &spp.place),
+            Self::Noise => keys.noise_threshold.as_ref().map(|limit| &limit.place),
+            Self::Passes => keys.passes.first().map(|pass| &pass.place),
+            Self::Spp => keys.spp.as_ref().map(|spp| &spp.place),
         }
     }
 
-    fn is_of_command_line(self, render: &Render) -> bool {
-        self.place(render).is_some_and(Place::is_command_line)
+    fn is_of_command_line(self, keys: &SampleKeys) -> bool {
+        self.place(keys).is_some_and(Place::is_command_line)
     }
 
     /// Takes it out of a record.
-    fn remove(self, render: &mut Render) {
+    fn remove(self, keys: &mut SampleKeys) {
         match self {
-            Self::Noise => (render.noise_threshold, render.min_spp, render.max_spp) = (None, None, None),
-            Self::Passes => render.passes.clear(),
-            Self::Spp => render.spp = None,
+            Self::Noise => (keys.noise_threshold, keys.min_spp, keys.max_spp) = (None, None, None),
+            Self::Passes => keys.passes.clear(),
+            Self::Spp => keys.spp = None,
         }
     }
 
     /// Which of them counts in a record.
-    fn in_force(render: &Render) -> Option<Self> {
-        let stated = Self::ALL.into_iter().filter(|choice| choice.place(render).is_some());
-        let by_command_line = stated.clone().find(|choice| choice.is_of_command_line(render));
+    fn in_force(keys: &SampleKeys) -> Option<Self> {
+        let stated = Self::ALL.into_iter().filter(|choice| choice.place(keys).is_some());
+        let by_command_line = stated.clone().find(|choice| choice.is_of_command_line(keys));
         by_command_line.or_else(|| stated.clone().next())
     }
 }
 
-impl Render {
-    /// The limit of noise, where it decides the samples: the command line's "spp" or "passes" supersede that of a file.
-    #[must_use]
-    pub fn threshold_in_force(&self) -> Option<&Placed<f64>> {
-        self.noise_threshold.as_ref().filter(|_| Choice::in_force(self) == Some(Choice::Noise))
+impl SampleKeys {
+    /// Whether noise decides the samples: the command line's "spp" or "passes" supersede the limit of a file.
+    pub(super) fn has_threshold_in_force(&self) -> bool {
+        Choice::in_force(self) == Some(Choice::Noise)
     }
 
-    /// The passes, where they are stated and count.
-    #[must_use]
-    pub fn passes_in_force(&self) -> Option<&[Placed<f64>]> {
-        (Choice::in_force(self) == Some(Choice::Passes)).then_some(&self.passes[..])
+    /// Whether the passes that are stated count.
+    pub(super) fn has_passes_in_force(&self) -> bool {
+        Choice::in_force(self) == Some(Choice::Passes)
     }
-}
 
-/// Leaves a camera's record and the job's without what the other's choice stands in the place of.
-pub(super) fn choose(own: &mut Render, base: &mut Render) {
-    let is_stated = |choice: Choice, render: &Render| choice.place(render).is_some();
-    if let Some(choice) = Choice::ALL.into_iter().find(|choice| is_stated(*choice, own)) {
-        for other in Choice::ALL.into_iter().filter(|other| *other != choice) {
-            if !other.is_of_command_line(base) {
-                other.remove(base);
+    /// What a camera's record says, and the job's where it is silent.
+    pub(super) fn over(self, base: Self) -> Self {
+        let (mut own, mut base) = (self, base);
+        if let Some(choice) = Choice::ALL.into_iter().find(|choice| choice.place(&own).is_some()) {
+            for other in Choice::ALL.into_iter().filter(|other| *other != choice) {
+                if !other.is_of_command_line(&base) {
+                    other.remove(&mut base);
+                }
             }
         }
-    }
-    if Choice::Noise.is_of_command_line(base) {
-        own.noise_threshold = None;
-    }
-    if Choice::Passes.is_of_command_line(base) {
-        own.passes.clear();
-        // Those of the passes.
-        if base.replicates.as_ref().is_some_and(|given| given.place.is_command_line()) {
-            own.replicates = None;
+        if Choice::Noise.is_of_command_line(&base) {
+            own.noise_threshold = None;
+        }
+        if Choice::Passes.is_of_command_line(&base) {
+            own.passes.clear();
+            // Those of the passes.
+            if base.replicates.as_ref().is_some_and(|given| given.place.is_command_line()) {
+                own.replicates = None;
+            }
+        }
+        Self {
+            spp: own.spp.or(base.spp),
+            passes: if own.passes.is_empty() { base.passes } else { own.passes },
+            replicates: own.replicates.or(base.replicates),
+            noise_threshold: own.noise_threshold.or(base.noise_threshold),
+            min_spp: own.min_spp.or(base.min_spp),
+            max_spp: own.max_spp.or(base.max_spp),
         }
     }
-}
 
-/// Checks a record into which the job's has been merged.
-pub(super) fn check(render: &Render, faults: &mut Faults) {
-    if let Some(choice) = Choice::in_force(render) {
-        Choice::ALL
-            .into_iter()
-            .filter(|other| *other != choice)
-            .for_each(|other| refuse(other, choice, render, faults));
-    }
-    let keys = [("min_spp", &render.min_spp), ("max_spp", &render.max_spp)];
-    let keys = keys.into_iter().filter(|_| render.threshold_in_force().is_none());
-    for (key, value) in keys.filter_map(|(key, value)| Some((key, value.as_ref()?))) {
-        let problem = format!("\"{key}\" has no effect without \"noise_threshold\"");
-        let cause = Choice::in_force(render).and_then(|choice| choice.place(render));
-        faults.add_idle((key, &value.place), cause, problem, "add it, or remove the key");
+    /// Checks a record into which the job's has been merged.
+    pub(super) fn check(&self, faults: &mut Faults) {
+        if let Some(choice) = Choice::in_force(self) {
+            let others = Choice::ALL.into_iter().filter(|other| *other != choice);
+            others.for_each(|other| refuse(other, choice, self, faults));
+        }
+        let keys = [("min_spp", &self.min_spp), ("max_spp", &self.max_spp)];
+        let keys = keys.into_iter().filter(|_| !self.has_threshold_in_force());
+        for (key, value) in keys.filter_map(|(key, value)| Some((key, value.as_ref()?))) {
+            let problem = format!("\"{key}\" has no effect without \"noise_threshold\"");
+            let cause = Choice::in_force(self).and_then(|choice| choice.place(self));
+            faults.add_idle((key, &value.place), cause, problem, "add it, or remove the key");
+        }
     }
 }
 
 /// Refuses a choice beside the one that counts.
-fn refuse(other: Choice, choice: Choice, render: &Render, faults: &mut Faults) {
-    let Some(place) = other.place(render) else { return };
+fn refuse(other: Choice, choice: Choice, keys: &SampleKeys, faults: &mut Faults) {
+    let Some(place) = other.place(keys) else { return };
     let problem = match (other, choice) {
         (Choice::Spp, Choice::Passes) | (Choice::Passes, Choice::Spp) => {
             "\"spp\" and \"passes\" exclude each other: the samples of a pixel are the sum of its passes"
@@ -124,5 +138,5 @@ fn refuse(other: Choice, choice: Choice, render: &Render, faults: &mut Faults) {
             "\"spp\" and \"noise_threshold\" exclude each other: so many samples everywhere, or as many as a pixel needs"
         }
     };
-    faults.add_idle((other.key(), place), choice.place(render), problem.into(), "remove one of them");
+    faults.add_idle((other.key(), place), choice.place(keys), problem.into(), "remove one of them");
 }

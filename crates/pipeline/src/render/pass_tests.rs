@@ -1,0 +1,124 @@
+//! Films of several passes: what joins them, against each pass by itself.
+
+use super::block::Blocks;
+use super::exposure::{FilmExposure, Shot};
+use super::film::Film;
+use super::gather::Layout;
+use super::light::{RaySource, RenderJob, Sampling};
+use super::observer::Unobserved;
+use super::spectrum_spread::SpectrumSpread;
+use super::tile::Shard;
+use crate::plan::{Pass, PassAt, Passes};
+use etendue_core::random::Draw;
+use etendue_core::{Bands, CameraPath, CameraPose, FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
+use glam::{DMat3, DVec2, DVec3};
+use std::sync::LazyLock;
+
+const WIDTH: usize = 24;
+const HEIGHT: usize = 16;
+
+static PATH: LazyLock<CameraPath> =
+    LazyLock::new(|| CameraPath::still(CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY }));
+
+struct Ahead;
+
+impl RaySource for Ahead {
+    fn ray(&self, _: DVec2, _: DVec2, _: f64) -> Option<PupilRay> {
+        Some(PupilRay { origin_m: DVec3::ZERO, direction: DVec3::Z, weight_sr: 0.25 })
+    }
+}
+
+fn pixels() -> impl Iterator<Item = (usize, usize)> {
+    (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)))
+}
+
+/// Light that differs from sample to sample, of mean 1.
+struct Uneven;
+
+impl RadianceField<4> for Uneven {
+    fn radiance(&self, asked: &FieldRay, _: &Wavelengths<4>) -> Spectral<4> {
+        // Far digits of a stratified number are not stratified.
+        Spectral::splat(2.0 * (f64::from(asked.stream.one(Draw::Pupil, 0)) * 9973.0).fract() as f32)
+    }
+}
+
+fn pass_of(pass: PassAt, before: Option<&Film>) -> Film {
+    let sampling = Sampling {
+        pass,
+        replicates: 4,
+        seed: 3,
+        camera: 0,
+        shot: Shot::default(),
+        low_nm: 400.0,
+        high_nm: 700.0,
+        spread: SpectrumSpread::EachReplicate,
+    };
+    let job = RenderJob {
+        source: &Ahead,
+        exposure: FilmExposure::still(&PATH),
+        width: WIDTH as u32,
+        height: HEIGHT as u32,
+        aperture_px: 1.0,
+        layout: Layout { bands: Bands::covering(400.0, 700.0, 50.0), folded: false, watched: false },
+        mosaic: None,
+        sampling,
+        tolerance: None,
+        blocks: Blocks::SINGLE,
+        tile_px: 16,
+        shard: Shard::WHOLE,
+    };
+    job.gather::<4>(&Uneven, before, &Unobserved).expect("not cancelled")
+}
+
+fn passes() -> Passes {
+    Passes::new(vec![Pass::whole(8), Pass { samples: 4, part: 64 }, Pass::whole(16)])
+}
+
+#[test]
+fn passes_join_to_the_mean_of_all_samples_and_its_variance() {
+    let passes = passes();
+    let alone: Vec<Film> = (0..3).map(|number| pass_of(passes.at(number), None)).collect();
+    let mut joined = pass_of(passes.at(0), None);
+    for number in 1..3 {
+        joined = pass_of(passes.at(number), Some(&joined));
+    }
+    let cube = |film: &Film| film.cube.clone().expect("a cube");
+    let mut parts = 0;
+    for pixel in pixels() {
+        let weights: Vec<f64> = alone.iter().map(|film| f64::from(film.samples.at(pixel.0, pixel.1))).collect();
+        let total: f64 = weights.iter().sum();
+        let mean_of = |film: &Film| f64::from(cube(film).mean.planes()[2].at(pixel.0, pixel.1));
+        let mean: f64 = alone.iter().zip(&weights).map(|(film, n)| n * mean_of(film)).sum();
+        let variance = alone.iter().zip(&weights);
+        let variance: f64 =
+            variance.map(|(film, n)| n * n * f64::from(cube(film).variance.planes()[2].at(pixel.0, pixel.1))).sum();
+        let film = cube(&joined);
+        let found = f64::from(film.variance.planes()[2].at(pixel.0, pixel.1));
+        // Two roundings to f32.
+        assert!((mean_of(&joined) / (mean / total) - 1.0).abs() < 3e-7, "{pixel:?}");
+        assert!((found / (variance / (total * total)) - 1.0).abs() < 3e-7, "{pixel:?}");
+        assert_eq!(f64::from(joined.samples.at(pixel.0, pixel.1)), total);
+        parts += usize::from(total == 28.0);
+    }
+    // A quarter of 24 × 16 pixels, evenly spread.
+    assert!(parts.abs_diff(96) <= 6, "{parts}");
+}
+
+#[test]
+fn the_stated_variance_of_joined_passes_is_their_scatter() {
+    let passes = Passes::new(vec![Pass::whole(8), Pass::whole(8), Pass::whole(16)]);
+    let mut joined = pass_of(passes.at(0), None);
+    for number in 1..3 {
+        joined = pass_of(passes.at(number), Some(&joined));
+    }
+    let cube = joined.cube.expect("a cube");
+    let sum =
+        |plane: &dyn Fn(usize, usize) -> f64| pixels().map(|(x, y)| plane(x, y)).sum::<f64>() / (WIDTH * HEIGHT) as f64;
+    let planes = cube.mean.planes();
+    let mean = sum(&|x, y| f64::from(planes[2].at(x, y)));
+    let off = |x, y| f64::from(planes[2].at(x, y)) - mean;
+    let scatter = sum(&|x, y| off(x, y) * off(x, y));
+    let told = sum(&|x, y| f64::from(cube.variance.planes()[2].at(x, y)));
+    // Of n pixels the scatter is known to √(2/n), the told to less; four of it.
+    assert!((scatter / told - 1.0).abs() < 4.0 * (2.0_f64 / (WIDTH * HEIGHT) as f64).sqrt(), "{scatter} for {told}");
+}
