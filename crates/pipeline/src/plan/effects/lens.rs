@@ -103,7 +103,8 @@ fn defocus(camera: &CameraPlan) -> PlannedEffect {
 /// The pinhole of the same image size and brightness on the axis: π τ L/(4 N²) for π τ L/(1 + 4 N²).
 fn pinhole(camera: &CameraPlan) -> Vec<String> {
     let lens = &camera.body.lens;
-    let f_number = (lens.working_f_number().powi(2) + 0.25).sqrt();
+    let working = lens.working_f_number();
+    let f_number = (working * working + 0.25).sqrt();
     let keys = [
         ("lens.type", "pinhole".to_owned()),
         ("lens.focal_length_mm", format!("{:?}", lens.principal_distance_mm())),
