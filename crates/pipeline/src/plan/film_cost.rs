@@ -305,9 +305,9 @@ mod tests {
         // Tabulated at 2 wavelengths and at 4, and a first look at one.
         let ratio = ghosts(wide, 60.0) / ghosts(narrow, 60.0);
         assert!((1.85..2.0).contains(&ratio), "{ratio}");
-        // Of beams laid down alone 1000 by 270.
+        // Of beams laid down alone 1000 by 270; rays that tabulate them are as many.
         let ratio = ghosts(wide, 60.0) / ghosts(wide, 5.0);
-        assert!((2.5..1000.0 / 270.0).contains(&ratio), "the sun in the picture: {ratio}");
+        assert!((1.5..1000.0 / 270.0).contains(&ratio), "the sun in the picture: {ratio}");
         assert_eq!(cost(GAUSS, "effects = { ghosts = false }", wide, "")[2], 0.0);
     }
 

@@ -12,9 +12,9 @@ use etendue_tracer::integrator::Level;
 pub(crate) const PATH_CPU_S: f64 = 3e-6;
 /// The same of at most two bounces, with direct light alone, and without its shadows: shares of a whole path, by street.toml with max_bounces 6 and 2
 /// and the integrators direct and flat (docs/plan.md).
-pub(crate) const TWO_BOUNCES_CPU_S: f64 = 0.78 * PATH_CPU_S;
-pub(crate) const DIRECT_PATH_CPU_S: f64 = 0.60 * PATH_CPU_S;
-pub(crate) const FLAT_PATH_CPU_S: f64 = 0.50 * PATH_CPU_S;
+pub(crate) const TWO_BOUNCES_CPU_S: f64 = 0.74 * PATH_CPU_S;
+pub(crate) const DIRECT_PATH_CPU_S: f64 = 0.50 * PATH_CPU_S;
+pub(crate) const FLAT_PATH_CPU_S: f64 = 0.34 * PATH_CPU_S;
 
 /// What a frame of a camera is foretold to take.
 #[derive(Clone, Debug, PartialEq)]
