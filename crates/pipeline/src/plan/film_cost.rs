@@ -6,7 +6,7 @@
 //! `etendue render --threads 1` by `/usr/bin/time`, shares of its parts by
 //! `perf record -e cpu-clock`; other programs were at work, so a tenth either way).
 
-use super::frame_cost::PATH_CPU_S;
+use super::path_cost::PATH_CPU_S;
 use crate::camera::defocus::{margin_px, whole_margin_px};
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
 use crate::render::weather_layers;

@@ -8,6 +8,7 @@ mod film_cost;
 pub(crate) mod fingerprint;
 mod frame_cost;
 mod mount;
+mod path_cost;
 mod precipitation;
 mod products;
 pub mod remark;

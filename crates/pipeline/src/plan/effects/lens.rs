@@ -3,8 +3,8 @@
 use super::key_changes::{of_camera, without};
 use super::lens_errors::{blur_px, distortion_px, lateral_colour_px, vignetting_percent};
 use super::planned_effect::{EffectGroup, PlannedEffect, where_there};
-use crate::plan::frame_cost::{FrameCost, path_cpu_s};
-use crate::plan::{CameraPlan, Plan, Route};
+use crate::plan::path_cost::path_cpu_s;
+use crate::plan::{CameraPlan, FrameCost, Plan, Route};
 use etendue_core::EffectStatus;
 use etendue_optics::effects::Effect;
 use etendue_optics::front::{Front, Optic};
