@@ -28,7 +28,7 @@ name = "front"
 position_m = [0, 0, 1.4]
 look_at_m = [6, 0, 0.9]
 lens = { type = "thin", focal_length_mm = 6, f_number = 2, focus_distance_m = 5 }
-sensor = { width_px = 64, height_px = 48, pixel_pitch_um = 100, exposure_s = 1e-5, cfa = "rggb", quantum_efficiency = { camera = "nikon-d5100", peak = 0.5 }, full_well_e = 50_000, read_noise_e = 4, gain_dn_per_e = 0.05, black_level_dn = 64, bits = 12 }
+sensor = { width_px = 64, height_px = 48, pixel_pitch_um = 100, exposure_s = 1e-5, cfa = "rggb", quantum_efficiency = { camera = "nikon-d5100", peak = 0.5 }, full_well_e = 50_000, read_noise_e = 4, dark_current_e_s = 5, gain_dn_per_e = 0.05, black_level_dn = 64, bits = 12 }
 [render]
 spp = 32
 max_bounces = 6
@@ -78,6 +78,27 @@ fn a_study_tells_times_and_errors_and_writes_jobs() {
         assert!(plan.contains(&format!("{spp} samples a pixel")), "{name}: {spp} in {plan}");
     }
     assert!(etendue(["tradeoff", &job, "-o", &out, "--time", "10"]).status == 2, "there is a study already");
+}
+
+#[test]
+fn effects_are_left_out_one_after_the_other() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let (job, out) = (job(place.path()), text(&place.path().join("out")));
+    let told = etendue(["tradeoff", &job, "-o", &out, "--time", "10", "--ablate", "--json"]).ok().out;
+    let found: serde_json::Value = serde_json::from_str(&told).expect("JSON");
+    let dropped = found["dropped"].as_array().expect("a list");
+    let of = |name: &str| dropped.iter().find(|d| d["effect"] == name).unwrap_or_else(|| panic!("{name} in {told}"));
+    // A white floor lights a white ball from below: without it a large part of the picture is darker, and no ray goes elsewhere.
+    let indirect = of("indirect light");
+    let light = indirect["light"]["value"].as_f64().expect("known");
+    assert!((0.02..1.0).contains(&light) && light > 3.0 * indirect["light"]["uncertainty"].as_f64().expect("known"));
+    assert_eq!((&indirect["instances"], &indirect["direction_px"]), (&0.0.into(), &0.0.into()));
+    let read = of("read noise");
+    assert_eq!(read["light"]["value"], 0.0);
+    // 4 e⁻ at 0.05 DN/e⁻ are 0.2 DN: a part of the numbers is rounded otherwise.
+    assert!((0.05..1.0).contains(&read["raw_dn"].as_f64().expect("known")), "{read}");
+    let files = contents(Path::new(&out));
+    assert!(files.contains_key("ablation.txt") && !files.contains_key("tradeoff.json"));
 }
 
 #[test]

@@ -209,7 +209,7 @@ impl SettingsReport {
             min_spp: s.adaptive.map(|limit| limit.min_spp),
             noise_threshold: s.adaptive.map(|limit| limit.threshold),
             replicates: s.replicates,
-            pixels_sharing_paths: s.blocks.len_px() as u32,
+            pixels_sharing_paths: s.blocks.len_px(),
             wavelengths_per_path: s.wavelengths,
             route: match s.route {
                 Route::Lens => "lens",

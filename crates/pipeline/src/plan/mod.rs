@@ -9,6 +9,7 @@ pub(crate) mod fingerprint;
 mod frame_cost;
 mod mount;
 mod passes;
+mod path_cost;
 mod precipitation;
 mod products;
 pub mod remark;

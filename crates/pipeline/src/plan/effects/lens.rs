@@ -3,8 +3,8 @@
 use super::key_changes::{of_camera, without};
 use super::lens_errors::{blur_px, distortion_px, lateral_colour_px, vignetting_percent};
 use super::planned_effect::{EffectGroup, PlannedEffect, where_there};
-use crate::plan::frame_cost::{FrameCost, path_cpu_s};
-use crate::plan::{CameraPlan, Plan, Route};
+use crate::plan::path_cost::path_cpu_s;
+use crate::plan::{CameraPlan, FrameCost, Plan, Route};
 use etendue_core::EffectStatus;
 use etendue_optics::effects::Effect;
 use etendue_optics::front::{Front, Optic};
@@ -103,7 +103,8 @@ fn defocus(camera: &CameraPlan) -> PlannedEffect {
 /// The pinhole of the same image size and brightness on the axis: π τ L/(4 N²) for π τ L/(1 + 4 N²).
 fn pinhole(camera: &CameraPlan) -> Vec<String> {
     let lens = &camera.body.lens;
-    let f_number = (lens.working_f_number().powi(2) + 0.25).sqrt();
+    let working = lens.working_f_number();
+    let f_number = (working * working + 0.25).sqrt();
     let keys = [
         ("lens.type", "pinhole".to_owned()),
         ("lens.focal_length_mm", format!("{:?}", lens.principal_distance_mm())),

@@ -49,6 +49,9 @@ mod tests {
     use super::*;
     use crate::plan::effects::tests::plan_of;
 
+    /// The corner of 120 × 80 px of 6 µm.
+    const CORNER_MM: DVec2 = DVec2::new(0.36, 0.24);
+
     fn body(lens: &str) -> CameraBody {
         plan_of(lens, "", "", "").cameras[0].body.clone()
     }
@@ -56,9 +59,8 @@ mod tests {
     #[test]
     fn a_corner_of_a_pinhole_is_darker_by_the_fourth_power_of_a_cosine() {
         let body = body("lens = { type = \"pinhole\", focal_length_mm = 1, f_number = 8 }");
-        // 120 × 80 px of 6 µm: half a diagonal of 0.4327 mm.
-        let tangent_squared = 0.36_f64.powi(2) + 0.24_f64.powi(2);
-        let expected = 100.0 * (1.0 - (1.0 + tangent_squared).powi(-2));
+        let tangent_squared = CORNER_MM.length_squared();
+        let expected = 100.0 * (1.0 - 1.0 / ((1.0 + tangent_squared) * (1.0 + tangent_squared)));
         let found = vignetting_percent(&body).expect("light on the axis");
         assert!((found - expected).abs() < 1e-9, "{found} for {expected}");
     }
@@ -67,9 +69,9 @@ mod tests {
     fn a_distortion_shifts_the_corner_by_its_cube() {
         let lens = "lens = { type = \"pinhole\", focal_length_mm = 1, f_number = 8, distortion = { direction = \
                     \"observed_to_ideal\", radius_unit = \"focal_lengths\", k1 = 0.1 } }";
-        let radius_mm = f64::hypot(0.36, 0.24);
+        let radius_mm = CORNER_MM.length();
         let found = distortion_px(&body(lens)).expect("it has one");
-        assert!((found - 0.1 * radius_mm.powi(3) / 0.006).abs() < 1e-9, "{found}");
+        assert!((found - 0.1 * radius_mm * CORNER_MM.length_squared() / 0.006).abs() < 1e-9, "{found}");
         assert_eq!(distortion_px(&body("lens = { type = \"pinhole\", focal_length_mm = 1, f_number = 8 }")), None);
     }
 
@@ -79,7 +81,7 @@ mod tests {
                     700], magnification = [1.001, 1.0] } }";
         let found = lateral_colour_px(&body(lens), (400.0, 700.0)).expect("it has one");
         // Sizes are over that at 587.56 nm, which is 1.000 37.
-        let expected = 1e-3 / (1.001 - 1e-3 * (587.56 - 400.0) / 300.0) * f64::hypot(0.36, 0.24) / 0.006;
+        let expected = 1e-3 / (1.001 - 1e-3 * (587.56 - 400.0) / 300.0) * CORNER_MM.length() / 0.006;
         assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
     }
 }

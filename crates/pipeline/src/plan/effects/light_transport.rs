@@ -2,8 +2,8 @@
 
 use super::key_changes::of_camera;
 use super::planned_effect::{EffectGroup, PlannedEffect, where_there};
-use crate::plan::frame_cost::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, FrameCost, TWO_BOUNCES_CPU_S, path_cpu_s};
-use crate::plan::{CameraPlan, Plan, Settings};
+use crate::plan::path_cost::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, TWO_BOUNCES_CPU_S, path_cpu_s};
+use crate::plan::{CameraPlan, FrameCost, Plan, Settings};
 use crate::render::block::Blocks;
 use etendue_core::EffectStatus;
 use etendue_tracer::integrator::Level;

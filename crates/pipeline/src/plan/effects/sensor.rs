@@ -5,6 +5,7 @@ use super::planned_effect::{EffectGroup, PlannedEffect};
 use crate::plan::{CameraPlan, TimeDependence};
 use etendue_core::{EffectStatus, Shutter};
 use etendue_sensor::Sensor;
+use glam::DVec3;
 
 const GROUP: EffectGroup = EffectGroup::Sensor;
 
@@ -95,7 +96,7 @@ fn photo_response(camera: &CameraPlan, sensor: &Sensor, effect: PlannedEffect) -
         ("sensor.non_uniformity.prnu_row", p.row),
         ("sensor.non_uniformity.prnu_column", p.column),
     ];
-    let percent = 100.0 * f64::hypot(f64::hypot(p.white, p.row), p.column);
+    let percent = 100.0 * DVec3::new(p.white, p.row, p.column).length();
     let effect = effect.described_by("sensor.non_uniformity.prnu").dropped_by(zeroed(camera, keys));
     effect.erring("missing spread of responses", percent, "%")
 }
@@ -107,7 +108,7 @@ fn offsets(camera: &CameraPlan, sensor: &Sensor, effect: PlannedEffect) -> Plann
         ("sensor.non_uniformity.dsnu_row_e", p.row_e),
         ("sensor.non_uniformity.dsnu_column_e", p.column_e),
     ];
-    let sigma_e = f64::hypot(f64::hypot(p.white_e, p.row_e), p.column_e);
+    let sigma_e = DVec3::new(p.white_e, p.row_e, p.column_e).length();
     let effect = effect.described_by("sensor.non_uniformity.dsnu_e").dropped_by(zeroed(camera, keys));
     effect.erring("missing spread of offsets", sigma_e, "e⁻")
 }
