@@ -241,7 +241,7 @@ impl Job {
     /// The same for programs.
     #[must_use]
     pub fn report(&self) -> PlanReport {
-        PlanReport::of(self)
+        PlanReport::of(&self.request.job, &self.plan)
     }
 
     /// Everything that can cost or change a frame, by cameras: whether it is modelled, what it takes, and by which changes of keys

@@ -1,7 +1,6 @@
 //! A camera of a plan.
 
 use super::effect::EffectReport;
-use crate::job::Integrator;
 use etendue_core::Shutter;
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::{CameraPlan, FrameCost, Route, TimeDependence};
@@ -63,8 +62,8 @@ pub struct LightsReport {
 /// How the light of a camera is found.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct SettingsReport {
-    /// The integrator.
-    pub integrator: Integrator,
+    /// "flat", "direct", "path".
+    pub integrator: &'static str,
     /// Surfaces that a path meets at most.
     pub max_bounces: u32,
     /// Whether caustics of lamps are followed.
@@ -199,9 +198,9 @@ impl SettingsReport {
         let s = &camera.settings;
         Self {
             integrator: match s.level {
-                Level::Flat => Integrator::Flat,
-                Level::Direct => Integrator::Direct,
-                Level::Path => Integrator::Path,
+                Level::Flat => "flat",
+                Level::Direct => "direct",
+                Level::Path => "path",
             },
             max_bounces: s.max_bounces,
             caustics: s.caustics && s.level == Level::Path,

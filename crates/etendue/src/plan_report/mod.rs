@@ -5,8 +5,8 @@ mod effect;
 mod remark;
 mod scene;
 
-use crate::job::Job;
-use std::path::PathBuf;
+use etendue_pipeline::Plan;
+use std::path::{Path, PathBuf};
 
 pub use camera::{CameraReport, CostReport, FilmPart, LensSummary, LightsReport, SettingsReport};
 pub use effect::{EffectReport, IfDroppedReport, Need};
@@ -35,11 +35,11 @@ pub struct PlanReport {
 }
 
 impl PlanReport {
-    pub(crate) fn of(job: &Job) -> Self {
-        let plan = job.plan();
+    /// Of the plan of a job file.
+    pub(crate) fn of(job: &Path, plan: &Plan) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION"),
-            job: job.request().job.clone(),
+            job: job.to_owned(),
             hash: plan.hash_text(),
             scene: SceneReport::of(plan),
             cameras: plan.cameras.iter().map(|camera| CameraReport::of(plan, camera)).collect(),

@@ -2,7 +2,7 @@
 //!
 //! Each effect says whether it is required (modelled, always run), guarded (run where a cheap test asks for it) or skipped (absent at no
 //! cost), and why; what it takes; and what leaving it out would bring: by which keys, how much time, and, where there is a closed form, which
-//! error. Times are those of [`crate::plan::film_cost`] and of the street's paths; what was never measured is not known, and not guessed. Parts of
+//! error. Times are those of `plan/film_cost.rs` and of the street's paths; what was never measured is not known, and not guessed. Parts of
 //! others are in the list, too (bounces beyond the second are indirect light): times do not add up to the frame's.
 //!
 //! Sensor effects come from the sensor's own list, those on the irradiance from that of the optics, so that none can be forgotten; a test

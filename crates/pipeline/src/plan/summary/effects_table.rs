@@ -1,5 +1,6 @@
 //! What each effect of a camera takes, and what dropping it would bring: a table of those that have a figure, lists of the others.
 
+use super::words::seconds;
 use crate::plan::effects::{EffectGroup, IfDropped, PlannedEffect};
 use crate::plan::{CameraPlan, FrameCost, Plan};
 use etendue_core::EffectStatus;
@@ -44,7 +45,7 @@ fn has_figures(effect: &PlannedEffect, frame_s: f64) -> bool {
 
 fn row(effect: &PlannedEffect, frame_s: f64, f: &mut Formatter<'_>) -> fmt::Result {
     let unknown = || "–".to_owned();
-    let cpu = effect.cpu_s.map_or_else(unknown, super::seconds);
+    let cpu = effect.cpu_s.map_or_else(unknown, seconds);
     let share = effect.cpu_s.filter(|_| frame_s > 0.0);
     let share = share.map_or_else(unknown, |s| format!("{:.0} %", 100.0 * s / frame_s));
     let memory = effect.memory_bytes.map_or_else(unknown, |bytes| format!("{:.1}", bytes / 1e6));
@@ -58,7 +59,7 @@ fn row(effect: &PlannedEffect, frame_s: f64, f: &mut Formatter<'_>) -> fmt::Resu
 fn dropped(group: EffectGroup, dropped: &IfDropped) -> Vec<String> {
     let saved = match (&dropped.set, dropped.cpu_saved_s) {
         (None, _) => Some("no key".to_owned()),
-        (Some(_), Some(s)) => Some(format!("saves {} s", super::seconds(s))),
+        (Some(_), Some(s)) => Some(format!("saves {} s", seconds(s))),
         (Some(_), None) => None,
     };
     let is_unknown = dropped.errors.is_empty() && dropped.set.is_some() && group != EffectGroup::Output;

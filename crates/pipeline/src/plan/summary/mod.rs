@@ -28,7 +28,7 @@ use etendue_tracer::accel::TreeQuality;
 use etendue_tracer::geometry::Shape;
 use etendue_tracer::integrator::Level;
 use std::fmt::{self, Display, Formatter};
-use words::{count, figure, line, list};
+use words::{count, figure, line, list, seconds};
 
 /// Displays a plan for people.
 #[derive(Clone, Copy, Debug)]
@@ -355,9 +355,4 @@ fn cost_beside(shares: &[Share], whole_s: f64, f: &mut Formatter<'_>) -> fmt::Re
         return Ok(());
     }
     line(f, "", format!("on the film: {}; about {} CPU seconds in all", list.join(", "), seconds(whole_s)))
-}
-
-/// Seconds in words: to a tenth below ten.
-fn seconds(s: f64) -> String {
-    if s < 10.0 { format!("{s:.1}") } else { format!("{s:.0}") }
 }

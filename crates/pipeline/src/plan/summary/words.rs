@@ -25,3 +25,8 @@ pub(super) fn line(f: &mut Formatter<'_>, name: &str, text: impl Display) -> fmt
 pub(super) fn figure(x: f64) -> f64 {
     (x * 1e4).round() / 1e4
 }
+
+/// Seconds in words: to a tenth below ten.
+pub(super) fn seconds(s: f64) -> String {
+    if s < 10.0 { format!("{s:.1}") } else { format!("{s:.0}") }
+}
