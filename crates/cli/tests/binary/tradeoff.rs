@@ -62,10 +62,11 @@ fn a_study_tells_times_and_errors_and_writes_jobs() {
     let ways = study["ways"].as_array().expect("ways");
     assert_eq!((&ways[0]["way"]["integrator"], &ways[0]["way"]["max_bounces"]), (&"path".into(), &6.into()));
     let of = |integrator: &str| ways.iter().find(|w| w["way"]["integrator"] == integrator).expect("looked at");
-    // A white floor and ball without shadows or light from each other: some per cent of the light, far beyond doubt.
+    // A white floor and ball without shadows or light from each other: about 8 % of the light, most of it in the two or three of twelve tiles about the
+    // ball (all tiles are looked at, so that it is the same every time).
     let bias = &of("flat")["bias"]["squares"]["relative"];
     let (value, uncertainty) = (bias["value"].as_f64().expect("known"), bias["uncertainty"].as_f64().expect("known"));
-    assert!(value > 1e-4 && value > 5.0 * uncertainty, "{bias}");
+    assert!(value > 1e-4 && value > 2.0 * uncertainty, "{bias}");
     // Its standing in for all bounces is a small part of that, and there are no caustics to lose.
     let caustics = ways.iter().find(|w| w["way"]["caustics"] == false && w["way"]["max_bounces"] == 64);
     assert_eq!(caustics.expect("looked at")["bias"]["squares"]["relative"]["value"], 0.0);
