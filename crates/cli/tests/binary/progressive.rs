@@ -2,6 +2,7 @@
 
 use crate::support::{Ran, assert_same, contents, etendue, rendered, root, small, tests, text};
 use etendue_io::exr::{Samples, read_exr};
+use etendue_io::picture::read_picture;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,6 +15,12 @@ fn moving() -> String {
 
 fn render(job: &str, folder: &Path, options: &[&str]) -> Ran {
     etendue(["render", job, "-o", &text(folder)].into_iter().chain(options.iter().copied()))
+}
+
+/// Columns and rows of a picture that can be read.
+fn image_size(file: &Path) -> (u32, u32) {
+    let picture = read_picture(file).expect("a whole picture");
+    (picture.width as u32, picture.height as u32)
 }
 
 /// The floats of the channels of a picture, which an EXR's facts are no part of.
@@ -60,12 +67,16 @@ fn passes_are_the_same_in_shards_and_with_a_part_of_the_pixels() {
 
 /// A run that is killed as soon as its state holds a pass more than before, or that is done.
 fn kill_after_a_pass(arguments: &[String], output: &Path) {
-    let binary = env!("CARGO_BIN_EXE_etendue");
-    let mut command = Command::new(binary);
-    command.current_dir(root()).args(arguments).stdout(Stdio::null()).stderr(Stdio::null());
     let before = state(output);
+    kill_when(arguments, || state(output) != before);
+}
+
+/// A run that is killed at a moment, or that is done.
+fn kill_when(arguments: &[String], is_time: impl Fn() -> bool) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
+    command.current_dir(root()).args(arguments).stdout(Stdio::null()).stderr(Stdio::null());
     let mut child: Child = command.spawn().expect("the binary starts");
-    while child.try_wait().expect("a child").is_none() && state(output) == before {
+    while child.try_wait().expect("a child").is_none() && !is_time() {
         std::thread::sleep(Duration::from_millis(2));
     }
     // SIGKILL: nothing of the program runs after it.
@@ -104,8 +115,13 @@ fn a_killed_run_leaves_whole_pictures_and_a_state_that_is_not_lost_by_accident()
     let options = ["--spp", "4000", "--progressive"];
     let (job, output) = (small(), text(&out));
     let arguments = ["render", &job, "-o", &output].into_iter().chain(options).map(str::to_owned);
-    kill_after_a_pass(&arguments.collect::<Vec<_>>(), &out);
-    // The state is there before the pictures of its pass.
+    let picture = out.join("front/picture.0000.png");
+    kill_when(&arguments.collect::<Vec<_>>(), || picture.exists());
+    // The pictures of an early pass, and no side-car yet.
+    let radiance = read_exr(&out.join("front/radiance.exr")).expect("a whole file");
+    assert!(radiance.provenance().further["passes"].starts_with("[4, 4, 8,"), "{:?}", radiance.attributes);
+    assert!(image_size(&picture) == (radiance.width as u32, radiance.height as u32));
+    assert!(!out.join("front/camera.json").exists() && !state(&out).is_empty());
     render(&small(), &out, &options).refused(&[".progress", "--resume", "--overwrite"]);
     render(&small(), &out, &["--spp", "4004", "--progressive", "--resume"]).refused(&["another plan", "--overwrite"]);
     render(&small(), &out, &["--spp", "8", "--progressive", "--overwrite"]).ok();

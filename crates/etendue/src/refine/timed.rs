@@ -14,7 +14,7 @@ use crate::observer::{Message, Observer, Progress as Told, Unit};
 use crate::render_options::RenderOptions;
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::{CameraPlan, MAX_PASSES, PARTS, Pass, PassAt, Passes, TimeDependence};
+use etendue_pipeline::plan::{CameraPlan, MAX_PASSES, PARTS, Pass, PassAt, Passes};
 use etendue_pipeline::render::{Request, Shot, pass};
 use etendue_pipeline::tile::{Shard, Tile};
 use etendue_sensor::SensorState;
@@ -371,9 +371,8 @@ impl etendue_pipeline::Observer for Watched<'_> {
 
     fn tiles(&self, done: usize, total: usize) {
         let (place, films) = self.place;
-        let frame = None.filter(|_| self.camera.time == TimeDependence::None);
         let (done, total) = (place * total + done, films * total);
-        let told = Told { heading: &self.camera.name, frame, unit: Unit::Tiles, done, total };
+        let told = Told { heading: &self.camera.name, frame: None, unit: Unit::Tiles, done, total };
         self.watch.observer.progress(told);
     }
 
