@@ -23,6 +23,8 @@ pub struct RenderSettings {
     pub wavelengths: u32,
     /// Whether each ray through the lens, or its weight, depends on its wavelength, so that a path carries one.
     pub disperses: bool,
+    /// Whether noise decides how many samples a pixel gets.
+    pub is_adaptive: bool,
     /// The seed of all random numbers.
     pub seed: u64,
 }
@@ -50,6 +52,7 @@ impl Job {
             path_reuse_px: s.blocks.side_px(),
             wavelengths: s.wavelengths,
             disperses: through_lens && camera.body.disperses(),
+            is_adaptive: s.adaptive.is_some(),
             seed: s.seed,
         })
     }

@@ -11,6 +11,8 @@ use etendue_scene::{Description, stated_render_keys};
 pub struct StatedRender {
     /// Its keys, as dotted keys of the job: `render.spp`, `cameras.front.render.spp`.
     pub keys: Vec<String>,
+    /// Cameras of the job.
+    pub cameras: usize,
     /// The word of the key `accelerator` in force, the request's changes included.
     pub accelerator: &'static str,
 }
@@ -31,6 +33,7 @@ impl JobRequest {
             Some(Accelerator::Default) | None => "default",
             Some(Accelerator::Best) => "best",
         };
-        Ok(StatedRender { keys: stated_render_keys(&self.job, camera, &|path| files.read(path)), accelerator })
+        let cameras = description.cameras.len();
+        Ok(StatedRender { cameras, keys: stated_render_keys(&self.job, camera, &|path| files.read(path)), accelerator })
     }
 }

@@ -5,6 +5,7 @@ use crate::error::Estimate;
 use crate::pictures::{QUALITY, side_by_side};
 use crate::pilot::seed;
 use crate::study::Request;
+use crate::way::{SAMPLE_KEYS, is_of, without_keys};
 use etendue::EffectGroup;
 use etendue::{CameraResults, Error, Job, JobRequest, Observer, Progress, RenderOptions, Unit, display_jpeg};
 use etendue_core::Plane;
@@ -88,22 +89,30 @@ pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -
         match effect.if_dropped.as_ref().map(|dropped| dropped.set.clone()) {
             // What is written changes no frame.
             _ if effect.group == EffectGroup::Output => {}
+            Some(Some(set)) if set.iter().any(|change| is_of(change, &camera, &SAMPLE_KEYS)) => {
+                kept.push(Kept { effect: effect.name, reason: "every look has samples of its own".to_owned() });
+            }
             Some(Some(set)) => trials.push((effect.name, effect.id(), set)),
             Some(None) => kept.push(Kept { effect: effect.name, reason: "no key leaves it out".to_owned() }),
             None => {}
         }
     }
+    let mut own = without_keys(&request.job, &camera, &SAMPLE_KEYS);
+    if let Some(integrator) = own.integrator.take() {
+        // As a change among others, so that a trial's comes after it.
+        own.set.push(format!("cameras.{camera}.render.integrator={:?}", integrator.name()));
+    }
     let looks = Looks { request, camera: &camera, clock, observer, own_seed: settings.seed };
     let from_s = clock.seconds();
-    looks.look(&request.job, 1, 3)?;
+    looks.look(&own, 1, 3)?;
     let runs = f64::from(1 + MORE) * (trials.len() + 1) as f64;
     let spp = (request.budget_s / (runs * (clock.seconds() - from_s))).clamp(1.0, MOST_SPP) as u32;
-    let with = looks.pair(&request.job, spp)?;
+    let with = looks.pair(&own, spp)?;
     let mut dropped = Vec::new();
     let total = trials.len();
     for (done, (effect, id, set)) in trials.into_iter().enumerate() {
         observer.progress(Progress { heading: effect, frame: None, unit: Unit::Pilots, done, total });
-        let mut changed = request.job.clone();
+        let mut changed = own.clone();
         changed.set.extend(set.iter().cloned());
         match looks.pair(&changed, spp) {
             Ok(without) => dropped.push(compared((effect, id, set), (&with, &without), f64::from(settings.spp))?),
@@ -156,7 +165,7 @@ impl Pair {
     /// The whole frame with so many samples, s.
     fn seconds(&self, spp: f64) -> f64 {
         let slope = (self.many.seconds - self.few.seconds) / f64::from((MORE - 1) * self.spp);
-        self.few.seconds + slope.max(0.0) * (spp - f64::from(self.spp)).max(0.0)
+        (self.few.seconds + slope.max(0.0) * (spp - f64::from(self.spp))).max(0.0)
     }
 }
 

@@ -45,10 +45,14 @@ impl Estimate {
     /// The root of a mean square; 0 of one below 0, which differs from 0 by its uncertainty at most.
     #[must_use]
     pub fn root(self) -> Self {
+        if self.value.is_nan() {
+            return self;
+        }
         let value = self.value.max(0.0).sqrt();
         // d√x = dx/(2√x), and not more than √dx, which it is at 0.
-        let most = self.uncertainty.max(0.0).sqrt();
-        let uncertainty = if value > 0.0 { (self.uncertainty / (2.0 * value)).min(most) } else { most };
+        let most = self.uncertainty.sqrt();
+        let least = if value > 0.0 { self.uncertainty / (2.0 * value) } else { most };
+        let uncertainty = if least < most { least } else { most };
         Self { value, uncertainty }
     }
 

@@ -71,6 +71,8 @@ impl Target {
 pub struct Confirmation {
     /// Tiles it was tried on.
     pub tiles: u32,
+    /// Whether the study had not looked at them before; small pictures are looked at as a whole.
+    pub unseen: bool,
     /// Time found over time foretold.
     pub seconds: f64,
     /// Noise (root mean square, without bias) found over foretold.
@@ -129,7 +131,7 @@ pub(crate) fn recommend(ways: &[Measured], target: Target, frame: Frame) -> Opti
     let reaching = ways.iter().filter_map(|way| Some(point(way, samples_for(way, target, frame)?, frame)));
     let quickest = reaching.min_by(|a, b| a.seconds.value.total_cmp(&b.seconds.value));
     let best = || {
-        let most = (MOST_SPP as u32).next_multiple_of(frame.replicates);
+        let most = MOST_SPP as u32 / frame.replicates * frame.replicates;
         let all = ways.iter().map(|way| point(way, most, frame));
         all.min_by(|a, b| a.error.deciding().value.total_cmp(&b.error.deciding().value))
     };
@@ -164,7 +166,7 @@ mod tests {
     /// A way whose sample takes `sample_s`, of a variance and bias in the relative currency.
     fn way(integrator: Integrator, sample_s: f64, variance: f64, bias: f64) -> Measured {
         let exact = |value: f64| Estimate { value, uncertainty: 0.0 };
-        let law = PowerLaw { samples: 1.0, value: exact(variance), exponent: 1.0 };
+        let law = PowerLaw { samples: 1.0, value: exact(variance), exponent: exact(1.0) };
         Measured {
             way: WayToRender {
                 integrator,

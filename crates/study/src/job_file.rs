@@ -2,24 +2,9 @@
 
 use crate::front::Recommendation;
 use crate::report::{error_text, time_text};
-use etendue::{Error, JobRequest};
+use crate::way::{SAMPLE_KEYS, WAY_KEYS, is_of};
+use etendue::{Error, JobRequest, StatedRender};
 use std::path::{Component, Path, PathBuf};
-
-/// Keys of `[render]` that a recommendation says, or that have no place beside it.
-const SUPERSEDED: [&str; 12] = [
-    "spp",
-    "noise_threshold",
-    "min_spp",
-    "max_spp",
-    "passes",
-    "replicates",
-    "integrator",
-    "max_bounces",
-    "caustics",
-    "path_reuse_px",
-    "wavelengths_per_path",
-    "accelerator",
-];
 
 /// The text of a job file in `folder` that renders `camera` of a job as recommended.
 ///
@@ -30,8 +15,11 @@ pub fn job_file(
     (job, camera): (&JobRequest, &str),
     folder: &Path,
 ) -> Result<String, Error> {
-    let stated = job.stated_render(camera)?.keys;
-    let removed = stated.iter().filter(|key| SUPERSEDED.iter().any(|k| key.ends_with(&format!("render.{k}"))));
+    let StatedRender { keys: stated, cameras, .. } = job.stated_render(camera)?;
+    let superseded = [&SAMPLE_KEYS[..], &WAY_KEYS[..]].concat();
+    // What the job says for all cameras is left to the others.
+    let is_free = |key: &str| cameras == 1 || !key.starts_with("render.");
+    let removed = stated.iter().filter(|key| is_of(key, camera, &superseded) && is_free(key));
     let removed: Vec<_> = removed.map(|key| format!("{key:?}")).collect();
     let Recommendation { target, point, is_reached, .. } = recommendation;
     let keys = point.way.keys();
@@ -49,8 +37,9 @@ pub fn job_file(
         time_text(point.seconds.value),
         if *is_reached { "" } else { ", as near as samples come to what was wanted" },
     );
-    if !job.set.is_empty() {
-        text += &format!("# The study had changes that this file does not hold: --set {}.\n", job.set.join(" --set "));
+    let changes = changes(job, camera);
+    if !changes.is_empty() {
+        text += &format!("# The study had changes that this file does not hold: {}.\n", changes.join(" "));
     }
     text += &format!("format = 1\nbase = {:?}\n", path_from(folder, &job.job)?.to_string_lossy());
     if !removed.is_empty() {
@@ -58,6 +47,14 @@ pub fn job_file(
     }
     text += &format!("\n[[cameras]]\nname = {camera:?}\n\n[cameras.render]\n{}\n", render.join("\n"));
     Ok(text)
+}
+
+/// What of the command line's changes a job file does not hold.
+fn changes(job: &JobRequest, camera: &str) -> Vec<String> {
+    let held = [&SAMPLE_KEYS[..], &WAY_KEYS[..]].concat();
+    let set = job.set.iter().filter(|change| !is_of(change, camera, &held)).map(|change| format!("--set {change}"));
+    let quality = job.quality.map(|quality| format!("--quality {quality:?}").to_lowercase());
+    set.chain(quality).chain(job.seed.map(|seed| format!("--seed {seed}"))).collect()
 }
 
 /// A file as seen from a folder.

@@ -7,6 +7,7 @@
 //! No clock is read here: the caller gives one ([`Clock`]).
 
 mod ablation;
+mod budget;
 mod error;
 mod front;
 mod job_file;

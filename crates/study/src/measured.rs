@@ -14,8 +14,8 @@ pub struct PowerLaw {
     pub samples: f64,
     /// The mean square.
     pub value: Estimate,
-    /// The power: 1 of independent samples, more of stratified ones.
-    pub exponent: f64,
+    /// The power: 1 of independent samples, more of stratified ones; with its uncertainty.
+    pub exponent: Estimate,
 }
 
 /// Exponents that are believed: independent samples have 1, stratified ones of smooth light more; below 1 lies none, but for luck.
@@ -34,14 +34,21 @@ impl PowerLaw {
         let weight = SCATTER * SCATTER / (SCATTER * SCATTER + uncertainty * uncertainty);
         let exponent = 1.0 + weight * (found - 1.0);
         let known = exponent.is_finite() && at_many.value > 0.0;
-        let exponent = if known { exponent.clamp(EXPONENTS[0], EXPONENTS[1]) } else { 1.0 };
-        Self { samples: many, value: at_many, exponent }
+        let exponent = match known {
+            true => exponent.clamp(EXPONENTS[0], EXPONENTS[1]),
+            false => 1.0,
+        };
+        let uncertainty = SCATTER * if known { (1.0 - weight).sqrt() } else { 1.0 };
+        Self { samples: many, value: at_many, exponent: Estimate { value: exponent, uncertainty } }
     }
 
     /// The mean square of one replicate of so many samples.
     #[must_use]
     pub fn at(&self, samples: f64) -> Estimate {
-        self.value.times(pow(samples / self.samples, -self.exponent))
+        let ratio = samples / self.samples;
+        let mean = self.value.times(pow(ratio, -self.exponent.value));
+        let by_exponent = mean.value * ln(ratio).abs() * self.exponent.uncertainty;
+        Estimate { uncertainty: mean.uncertainty.hypot(by_exponent), ..mean }
     }
 }
 
@@ -85,7 +92,7 @@ pub struct Measured {
     pub variance: Currencies<PowerLaw>,
     /// Found against the next more exact way; `None` of the exact form itself.
     pub bias: Option<Bias>,
-    /// The mean square of everything that it leaves out of the exact form, 0 or more: what is found below 0 is chance.
+    /// The mean square of everything that it leaves out of the exact form, at most, and 0 or more: what is found below 0 is chance.
     pub bias_squares: Currencies<Estimate>,
 }
 
@@ -158,12 +165,12 @@ mod tests {
     fn a_law_goes_through_what_is_well_known_and_leans_to_1_else() {
         let known = |value: f64| Estimate { value, uncertainty: 1e-6 * value };
         let law = PowerLaw::through((2, known(8.0)), (8, known(1.0)));
-        assert!((law.exponent - 1.5).abs() < 1e-6 && (law.at(32.0).value - 0.125).abs() < 1e-6);
+        assert!((law.exponent.value - 1.5).abs() < 1e-6 && (law.at(32.0).value - 0.125).abs() < 1e-6);
         let vague = |value: f64| Estimate { value, uncertainty: value };
         let law = PowerLaw::through((2, vague(8.0)), (8, vague(1.0)));
-        assert!((law.exponent - 1.0).abs() < 0.03, "{law:?}");
+        assert!((law.exponent.value - 1.0).abs() < 0.03, "{law:?}");
         let none = PowerLaw::through((2, known(0.0)), (8, known(0.0)));
-        assert!(none.exponent == 1.0 && none.at(100.0).value == 0.0);
+        assert!(none.exponent.value == 1.0 && none.at(100.0).value == 0.0);
     }
 
     #[test]

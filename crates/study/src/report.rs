@@ -33,6 +33,9 @@ fn figure(e: Estimate) -> String {
     if e == Estimate::default() {
         return "0".to_owned();
     }
+    if e.uncertainty.is_nan() {
+        return format!("{:.3} ± ?", e.value);
+    }
     let size = if e.uncertainty > 0.0 { e.uncertainty } else { e.value.abs().max(1.0) * 1e-2 };
     let digits = (-log10(size)).ceil().clamp(0.0, 3.0) as usize;
     format!("{:.digits$} ± {:.digits$}", e.value, e.uncertainty)
@@ -157,12 +160,16 @@ fn recommended(recommendation: &Recommendation, out: &mut String) {
     let _ = match confirmation {
         Some(found) => writeln!(
             out,
-            "  tried on {} other tiles: {:.2} of the time foretold, {} of the noise",
+            "  tried on {} {} tiles: {:.2} of the time foretold, {} of the noise",
             found.tiles,
+            if found.unseen { "other" } else { "of the same" },
             found.seconds,
             figure(found.noise)
         ),
-        None => writeln!(out, "  not tried: that takes longer than this study may; give a larger --time"),
+        None => writeln!(
+            out,
+            "  not tried: it takes longer than this study may (give a larger --time), or tiles or replicates are too few"
+        ),
     };
 }
 

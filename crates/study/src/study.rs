@@ -1,15 +1,15 @@
 //! A study: which ways are looked at, in which order, and what is made of them.
 
 use crate::Clock;
+use crate::budget::within;
 use crate::error::{Currencies, Estimate};
 use crate::front::{Confirmation, Frame, FrontPoint, Recommendation, front, point, recommend, targets};
 use crate::measured::{Bias, Measured, Role, Times, bias, variance};
 use crate::pilot::{Pilot, Pilots, seed};
 use crate::pixels::Pixels;
-use crate::plan::PilotPlan;
 use crate::way::{Accelerator, EXACT_BOUNCES, WayToRender};
 use etendue::{
-    Error, Existing, Integrator, Job, JobRequest, LightSignal, Observer, Progress, RenderOptions, ShardSpec, Simd, Unit,
+    Error, Existing, Integrator, Job, JobRequest, LightSignal, Observer, Progress, RenderOptions, Simd, Unit,
 };
 use serde::Serialize;
 use std::path::Path;
@@ -25,6 +25,8 @@ const PILOTS_PART: f64 = 0.7;
 /// The part of the time that trying one recommendation may have, and the fewest tiles worth it.
 const TRIAL_PART: f64 = 0.1;
 const TRIAL_TILES: u32 = 16;
+/// Samples that are told of a job whose pixels get as many as their noise asks for.
+const EVEN_SPP: u32 = 64;
 /// By how much a choice without bias must be better to be taken.
 const WORTH: f64 = 0.9;
 
@@ -69,6 +71,11 @@ pub struct Study {
 /// # Errors
 /// Where the job has faults or no such camera, the observer cancels, or `scratch` cannot be written.
 pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dyn Observer) -> Result<Study, Error> {
+    if scratch.exists() {
+        let problem =
+            "is there already, and a study writes a frame there and removes it; move it away, or give another folder";
+        return Err(Error::input(format!("{}: {problem}", scratch.display())));
+    }
     let from_s = clock.seconds();
     let job = request.job.clone().open()?;
     let camera = match &request.camera {
@@ -77,7 +84,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     };
     let samples = f64::from(SEEDS * (FEW + MANY)) * WAYS;
     let budget = (PILOTS_PART * request.budget_s, samples);
-    let plan = PilotPlan::within(&job, &camera, budget, request.simd, (clock, observer))?;
+    let plan = within(&job, &camera, budget, request.simd, (clock, observer))?;
     let pilots = Pilots { camera: &camera, plan, simd: request.simd, clock, observer };
     let mut bench = Bench { request, pilots, job: &job, pixels: None, ways: Vec::new(), kept: Vec::new() };
     let stated = WayToRender::of(&job, &camera)?;
@@ -85,7 +92,8 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     let settings = job.render_settings(&camera)?;
     let rest_s = bench.rest_s(scratch)?;
     let frame = Frame { rest_s, replicates: settings.replicates };
-    bench.combine(settings.spp, frame)?;
+    let spp = if settings.is_adaptive { EVEN_SPP.next_multiple_of(frame.replicates) } else { settings.spp };
+    bench.combine(spp, frame)?;
     let Bench { pilots, ways, .. } = &bench;
     let has_sensor = ways[0].bias_squares.sensor.is_some();
     let mut recommendations: Vec<_> =
@@ -101,7 +109,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
         },
         share: pilots.plan.share(),
         rest_s,
-        as_stated: point(&ways[0], settings.spp, frame),
+        as_stated: point(&ways[0], spp, frame),
         front: front(ways, frame),
         recommendations,
         took_s: clock.seconds() - from_s,
@@ -114,6 +122,16 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
 fn share(job: &Job, camera: &str, pilot: &Pilot) -> Result<f64, Error> {
     let [width, height] = job.film_px(camera)?;
     Ok(pilot.pixels.len() as f64 / (f64::from(width) * f64::from(height)))
+}
+
+/// The most that two omissions come to together (Minkowski): both are light that is missing, so that they seldom cancel.
+fn in_series(a: &Estimate, b: &Estimate) -> Estimate {
+    let (first, second) = (a.value.max(0.0).sqrt(), b.value.max(0.0).sqrt());
+    if first * second == 0.0 {
+        return a.plus(*b);
+    }
+    let uncertainty = (a.uncertainty * (1.0 + second / first)).hypot(b.uncertainty * (1.0 + first / second));
+    Estimate { value: (first + second) * (first + second), uncertainty }
 }
 
 /// A study under way.
@@ -205,6 +223,10 @@ impl Bench<'_> {
             let noise = self.job.temporal_noise(self.pilots.camera)?;
             self.pixels = Some(Pixels::new(&many.pixels, &many.planes, noise.as_ref()));
         }
+        if self.kept.first().is_some_and(|(_, first)| first.pixels != many.pixels) {
+            // Pixels that share paths fall into other tiles where the filter's are large.
+            return Ok(None);
+        }
         let pixels = self.pixels.as_ref().expect("made above");
         let times = Times::of((FEW, &few), (MANY, &many), share(&job, self.pilots.camera, &many)?);
         let exact = against.and_then(|against| self.kept.iter().find(|(way, _)| *way == against));
@@ -216,29 +238,31 @@ impl Bench<'_> {
         Ok(Some(many))
     }
 
-    /// A bias, and that of what it is told against; all of it together.
+    /// A bias, and that of what it is told against; all of it together, at most.
     fn all_bias(&self, own: Option<&Bias>, none: &Currencies<Estimate>) -> Currencies<Estimate> {
         let Some(own) = own else { return none.clone() };
         let under = self.ways.iter().find(|measured| measured.way == own.against);
         let own = own.squares.map(|square| Estimate { value: square.value.max(0.0), ..*square });
         match under {
-            Some(under) => own.with(&under.bias_squares, |a, b| a.plus(*b)),
+            Some(under) => own.with(&under.bias_squares, in_series),
             None => own,
         }
     }
 
     /// What one frame of the job takes beside loading and light, s.
     fn rest_s(&self, scratch: &Path) -> Result<f64, Error> {
-        let mut request = JobRequest { spp: Some(1), noise: None, ..self.request.job.clone() };
-        request.camera = Some(self.pilots.camera.to_owned());
-        let job = request.open()?;
+        let request = self.ways[0].way.request(&self.request.job, self.pilots.camera);
+        let job = JobRequest { spp: Some(1), noise: None, ..request }.open()?;
         let options = RenderOptions { simd: self.request.simd, ..RenderOptions::default() };
         let clock = self.pilots.clock;
         let from_s = clock.seconds();
-        job.save(&options, (scratch, Existing::Refuse), &etendue::Unobserved)?;
+        let saved = job.save(&options, (scratch, Existing::Refuse), &etendue::Unobserved);
         let took_s = clock.seconds() - from_s;
-        std::fs::remove_dir_all(scratch)
-            .map_err(|error| Error::Run(format!("{}: cannot be removed: {error}", scratch.display())))?;
+        if scratch.exists() {
+            std::fs::remove_dir_all(scratch)
+                .map_err(|error| Error::Run(format!("{}: cannot be removed: {error}", scratch.display())))?;
+        }
+        saved?;
         Ok((took_s - self.ways[0].frame_s - self.ways[0].sample_s.value).max(0.0))
     }
 
@@ -275,15 +299,12 @@ impl Bench<'_> {
         let measured = self.ways.iter().find(|m| m.way == way).expect("recommended of these");
         let whole_s = measured.sample_s.value * f64::from(spp);
         let fewest = (whole_s / (TRIAL_PART * self.request.budget_s)).ceil() as u32;
-        let PilotPlan { tile_px, shard } = self.pilots.plan;
-        let [columns, rows] = self.job.tile_grid(self.pilots.camera, tile_px)?;
-        let count = (fewest.max(shard.count)..).find(|n| !n.is_multiple_of(2) || columns % 2 == 1).unwrap_or(1);
-        let tiles = columns * rows / count;
+        let [columns, rows] = self.job.tile_grid(self.pilots.camera, self.pilots.plan.tile_px)?;
+        let plan = self.pilots.plan.unseen(columns, fewest);
+        let tiles = columns * rows / plan.shard.count;
         if tiles < TRIAL_TILES || replicates < 2 {
             return Ok(None);
         }
-        let shard = ShardSpec { index: (shard.index + 1) % count, count };
-        let plan = PilotPlan { tile_px, shard };
         let Pilots { camera, simd, clock, observer, .. } = self.pilots;
         let pilots = Pilots { camera, plan, simd, clock, observer };
         let job = way.request(&self.request.job, camera).open()?;
@@ -296,13 +317,21 @@ impl Bench<'_> {
         }
         let seen = pixels.len();
         let pixels = Pixels::new(&pixels, &planes, self.job.temporal_noise(camera)?.as_ref());
-        let found = *pixels.variance(&planes).deciding();
-        let foretold = measured.variance.deciding().at(f64::from(spp / replicates));
+        let (found, laws) = (pixels.variance(&planes), &measured.variance);
+        let pair = match (found.sensor, laws.sensor) {
+            (Some(found), Some(law)) => (found, law),
+            _ => (found.relative, laws.relative),
+        };
+        let (found, foretold) = (pair.0, pair.1.at(f64::from(spp / replicates)));
+        if foretold.value <= 0.0 {
+            return Ok(None);
+        }
         let [width, height] = job.film_px(camera)?;
         let share = seen as f64 / (f64::from(width) * f64::from(height));
         let foretold_s = measured.frame_s * f64::from(replicates) + whole_s * share;
         let ratio = Estimate { value: found.value / foretold.value, uncertainty: found.uncertainty / foretold.value };
-        Ok(Some(Confirmation { tiles, seconds: took_s / foretold_s, noise: ratio.root() }))
+        let unseen = plan.shard.count > 1;
+        Ok(Some(Confirmation { tiles, unseen, seconds: took_s / foretold_s, noise: ratio.root() }))
     }
 }
 

@@ -79,9 +79,9 @@ impl WayToRender {
         keys
     }
 
-    /// The job rendered so.
+    /// The job rendered so, with samples that the caller says.
     pub(crate) fn request(&self, job: &JobRequest, camera: &str) -> JobRequest {
-        let mut request = job.clone();
+        let mut request = without_keys(job, camera, &[&SAMPLE_KEYS[..], &WAY_KEYS[..]].concat());
         request.integrator = Some(self.integrator);
         let keys = self.keys().into_iter().filter(|(key, _)| *key != "integrator");
         request.set.extend(keys.map(|(key, value)| format!("cameras.{camera}.render.{key}={value}")));
@@ -125,6 +125,27 @@ impl WayToRender {
             }
         }
     }
+}
+
+/// Keys of `[render]` that say a way.
+pub(crate) const WAY_KEYS: [&str; 6] =
+    ["integrator", "max_bounces", "caustics", "path_reuse_px", "wavelengths_per_path", "accelerator"];
+/// Keys of `[render]` that say how many samples there are.
+pub(crate) const SAMPLE_KEYS: [&str; 6] = ["spp", "noise_threshold", "min_spp", "max_spp", "passes", "replicates"];
+
+/// Whether a change, `key=value`, is of one of these keys of `[render]`, of all cameras or of this one.
+pub(crate) fn is_of(change: &str, camera: &str, keys: &[&str]) -> bool {
+    let key = change.split('=').next().unwrap_or_default().trim();
+    let own = format!("cameras.{camera}.render.");
+    let key = key.strip_prefix("render.").or_else(|| key.strip_prefix(&own));
+    key.is_some_and(|key| keys.contains(&key))
+}
+
+/// A job without its changes of some keys of `[render]`.
+pub(crate) fn without_keys(job: &JobRequest, camera: &str, keys: &[&str]) -> JobRequest {
+    let mut job = job.clone();
+    job.set.retain(|change| !is_of(change, camera, keys));
+    job
 }
 
 /// Bounces of the exact form: Russian roulette has ended nearly every path before, and a job that asks for more keeps its own.

@@ -32,6 +32,11 @@ pub struct Tradeoff {
     pub json: bool,
 }
 
+/// What is written, beside pictures.
+const STUDY_FILES: [&str; 6] =
+    ["tradeoff.json", "tradeoff.txt", "tradeoff.svg", "draft.toml", "standard.toml", "reference.toml"];
+const ABLATION_FILES: [&str; 2] = ["ablation.json", "ablation.txt"];
+
 /// Seconds of a study.
 fn seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse().ok().filter(|s: &f64| (10.0..=1e6).contains(s));
@@ -84,13 +89,19 @@ impl Tradeoff {
         Ok(())
     }
 
-    /// An older study is not replaced unasked; told before a new one takes its time.
+    /// Nothing is replaced unasked, nor the job that is studied; told before a study takes its time.
     fn refuse_to_replace(&self) -> Result<(), Error> {
         let (folder, existing) = self.output.folder();
-        let report = folder.join(if self.ablate { "ablation.json" } else { "tradeoff.json" });
-        if existing == Existing::Refuse && report.exists() {
-            let problem = "is there already; give another folder, or --overwrite";
-            return Err(Error::input(format!("{}: {problem}", report.display())));
+        let names: &[&str] = if self.ablate { &ABLATION_FILES } else { &STUDY_FILES };
+        for path in names.iter().map(|name| folder.join(name)).filter(|path| path.exists()) {
+            if existing == Existing::Refuse {
+                let problem = "is there already; give another folder, or --overwrite";
+                return Err(Error::input(format!("{}: {problem}", path.display())));
+            }
+            if path.canonicalize().ok() == self.job.job.canonicalize().ok() {
+                let problem = "is the job that is studied, and would be replaced; give another folder";
+                return Err(Error::input(format!("{}: {problem}", path.display())));
+            }
         }
         Ok(())
     }

@@ -14,6 +14,9 @@ const LAST_FRACTION: f64 = 0.12;
 /// Part of the whole time that is not worth a pass.
 const IDLE_FRACTION: f64 = 0.01;
 
+/// Samples that a job's passes may have together.
+const MOST_SPP: u32 = 1 << 20;
+
 /// How fast samples are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rate {
@@ -47,7 +50,11 @@ impl Pace {
         let is_last = self.total_s - elapsed_s <= LAST_FRACTION * self.total_s;
         let aim_s = if is_last { room_s } else { MAX_FRACTION * room_s };
         let least_s = rate.sample_s * f64::from(self.least);
-        let times = (aim_s / least_s).min(f64::from(done_spp / self.least)).floor();
+        let allowed = MOST_SPP.saturating_sub(done_spp) / self.least;
+        if allowed == 0 {
+            return None;
+        }
+        let times = (aim_s / least_s).min(f64::from(done_spp / self.least)).min(f64::from(allowed)).floor();
         if times >= 1.0 {
             return Some(Pass::whole(self.least * times as u32));
         }

@@ -82,7 +82,10 @@ pub(crate) fn light(
         let at = with_next.at(passes.list().len());
         let Some(measured) = run.round(at, !passes.list().is_empty())? else { break };
         (rate, passes) = (measured, with_next);
+        let from_s = run.watch.elapsed_s();
         run.keep(&passes, progress)?;
+        // The next round is kept as well.
+        rate.beside_s += run.watch.elapsed_s() - from_s;
     }
     run.tell(&passes);
     let plan = Arc::new(run.plan.with_passes(&passes, replicates));
