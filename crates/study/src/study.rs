@@ -96,8 +96,9 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     bench.combine(spp, frame)?;
     let Bench { pilots, ways, .. } = &bench;
     let has_sensor = ways[0].bias_squares.sensor.is_some();
+    let eligible = bench.eligible(spp, frame);
     let mut recommendations: Vec<_> =
-        targets(has_sensor).into_iter().filter_map(|target| recommend(ways, target, frame)).collect();
+        targets(has_sensor).into_iter().filter_map(|target| recommend(&eligible, target, frame)).collect();
     for recommendation in &mut recommendations {
         recommendation.confirmation = bench.tried(recommendation)?;
     }
@@ -110,7 +111,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
         share: pilots.plan.share(),
         rest_s,
         as_stated: point(&ways[0], spp, frame),
-        front: front(ways, frame),
+        front: front(&eligible, frame),
         recommendations,
         took_s: clock.seconds() - from_s,
         ways: bench.ways,
@@ -281,7 +282,7 @@ impl Bench<'_> {
         let has_sensor = self.ways[0].bias_squares.sensor.is_some();
         let called: Vec<_> = targets(has_sensor)
             .into_iter()
-            .filter_map(|target| recommend(&self.ways, target, frame))
+            .filter_map(|target| recommend(&self.eligible(spp, frame), target, frame))
             .map(|recommendation| recommendation.point.way)
             .collect();
         for way in called {
@@ -291,6 +292,18 @@ impl Bench<'_> {
             self.choose(joined, way, base)?;
         }
         Ok(())
+    }
+
+    /// Ways that may be recommended: of the choices made from the job's own way those that gain in pixels and in patches.
+    fn eligible(&self, spp: u32, frame: Frame) -> Vec<Measured> {
+        let stated = self.ways[0].way;
+        let is_of_own = |m: &Measured| {
+            m.role == Role::Choice
+                && (m.way.integrator, m.way.max_bounces, m.way.caustics)
+                    == (stated.integrator, stated.max_bounces, stated.caustics)
+        };
+        let gains = |m: &&Measured| !is_of_own(m) || cost(m, &self.ways[0], spp, frame) < 1.0;
+        self.ways.iter().filter(gains).cloned().collect()
     }
 
     /// Tries a recommendation on tiles that the study has not seen.
