@@ -18,7 +18,7 @@ pub fn table() -> Table {
     let flat = flat::world(flat::mesh(&view));
     let mut table =
         Table::new("Trees", NOTE, &["world", "triangles", "build, ms", "µs a triangle", "view, ms", "spread"]);
-    for (name, world) in [("street", &plan.world), ("street as one mesh", &flat)] {
+    for (name, world) in [("street", &*plan.world), ("street as one mesh", &flat)] {
         table.row(row(name, world));
     }
     table

@@ -117,7 +117,7 @@ pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -
         match looks.pair(&changed, spp) {
             Ok(without) => dropped.push(compared((effect, id, set), (&with, &without), f64::from(settings.spp))?),
             Err(Error::Input(reason)) => {
-                kept.push(Kept { effect, reason: Error::Input(reason).to_string().trim().to_owned() })
+                kept.push(Kept { effect, reason: Error::Input(reason).to_string().trim().to_owned() });
             }
             Err(other) => return Err(other),
         }
@@ -234,7 +234,7 @@ fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
     for value in values {
         (sum, count) = (sum + value * value, count + 1.0);
     }
-    if count > 0.0 { (sum / count as f64).sqrt() } else { 0.0 }
+    if count > 0.0 { (sum / count).sqrt() } else { 0.0 }
 }
 
 /// The root of the mean product of two independent differences, each over the light about it: free of the noise of either.

@@ -39,7 +39,7 @@ impl Estimate {
     /// The sum with one that errs independently.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
-        Self { value: self.value + other.value, uncertainty: self.uncertainty.hypot(other.uncertainty) }
+        Self { value: self.value + other.value, uncertainty: joined(self.uncertainty, other.uncertainty) }
     }
 
     /// The root of a mean square; 0 of one below 0, which differs from 0 by its uncertainty at most.
@@ -61,6 +61,11 @@ impl Estimate {
     pub fn exceeds(&self, uncertainties: f64) -> bool {
         self.value > uncertainties * self.uncertainty
     }
+}
+
+/// The standard uncertainty of a sum whose parts, with these, err independently.
+pub(crate) fn joined(a: f64, b: f64) -> f64 {
+    (a * a + b * b).sqrt()
 }
 
 /// One number in each currency, all of them mean squares over the pixels.

@@ -1,6 +1,6 @@
 //! What pilots tell of one way to render: how noisy a sample is, how long it takes, how far its mean lies from the exact one.
 
-use crate::error::{Currencies, Estimate};
+use crate::error::{Currencies, Estimate, joined};
 use crate::pilot::Pilot;
 use crate::pixels::Pixels;
 use crate::way::WayToRender;
@@ -28,7 +28,7 @@ impl PowerLaw {
         let span = ln(many / few);
         let found = ln(at_few.value / at_many.value) / span;
         let of = |e: Estimate| e.uncertainty / e.value;
-        let uncertainty = of(at_few).hypot(of(at_many)) / span;
+        let uncertainty = joined(of(at_few), of(at_many)) / span;
         // By how much exponents of scenes differ from 1.
         const SCATTER: f64 = 0.15;
         let weight = SCATTER * SCATTER / (SCATTER * SCATTER + uncertainty * uncertainty);
@@ -48,7 +48,7 @@ impl PowerLaw {
         let ratio = samples / self.samples;
         let mean = self.value.times(pow(ratio, -self.exponent.value));
         let by_exponent = mean.value * ln(ratio).abs() * self.exponent.uncertainty;
-        Estimate { uncertainty: mean.uncertainty.hypot(by_exponent), ..mean }
+        Estimate { uncertainty: joined(mean.uncertainty, by_exponent), ..mean }
     }
 }
 
@@ -111,7 +111,7 @@ impl Times {
         let slope_s = ((long_s - short_s) / step).max(1e-12);
         let frame_s = (short_s - slope_s * f64::from(few)).clamp(0.0, short_s);
         let spread = |seconds: &[f64]| quickest(seconds) - seconds.iter().copied().fold(f64::INFINITY, f64::min);
-        let uncertainty = spread(&at_few.seconds).hypot(spread(&at_many.seconds)) / step;
+        let uncertainty = joined(spread(&at_few.seconds), spread(&at_many.seconds)) / step;
         Self { frame_s, sample_s: Estimate { value: slope_s, uncertainty }.times(1.0 / share) }
     }
 }

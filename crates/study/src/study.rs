@@ -2,7 +2,7 @@
 
 use crate::Clock;
 use crate::budget::within;
-use crate::error::{Currencies, Estimate};
+use crate::error::{Currencies, Estimate, joined};
 use crate::front::{Confirmation, Frame, FrontPoint, Recommendation, front, point, recommend, targets};
 use crate::measured::{Bias, Measured, Role, Times, bias, variance};
 use crate::pilot::{Pilot, Pilots, seed};
@@ -131,7 +131,7 @@ fn in_series(a: &Estimate, b: &Estimate) -> Estimate {
     if first * second == 0.0 {
         return a.plus(*b);
     }
-    let uncertainty = (a.uncertainty * (1.0 + second / first)).hypot(b.uncertainty * (1.0 + first / second));
+    let uncertainty = joined(a.uncertainty * (1.0 + second / first), b.uncertainty * (1.0 + first / second));
     Estimate { value: (first + second) * (first + second), uncertainty }
 }
 
@@ -200,9 +200,9 @@ impl Bench<'_> {
     /// Looks at a choice that changes no mean of the way `from`, whose bias it has.
     fn choose(&mut self, way: WayToRender, from: WayToRender, against: Option<WayToRender>) -> Result<(), Error> {
         if self.look_at(way, Role::Choice, against)?.is_some() {
-            let bias = self.ways.iter().find(|m| m.way == from).map(|m| m.bias_squares.clone());
+            let bias = self.ways.iter().find(|m| m.way == from).map(|m| m.bias_squares);
             let chosen = self.ways.last_mut().expect("just looked at");
-            chosen.bias_squares = bias.unwrap_or_else(|| chosen.bias_squares.clone());
+            chosen.bias_squares = bias.unwrap_or(chosen.bias_squares);
         }
         Ok(())
     }
@@ -241,7 +241,7 @@ impl Bench<'_> {
 
     /// A bias, and that of what it is told against; all of it together, at most.
     fn all_bias(&self, own: Option<&Bias>, none: &Currencies<Estimate>) -> Currencies<Estimate> {
-        let Some(own) = own else { return none.clone() };
+        let Some(own) = own else { return *none };
         let under = self.ways.iter().find(|measured| measured.way == own.against);
         let own = own.squares.map(|square| Estimate { value: square.value.max(0.0), ..*square });
         match under {
