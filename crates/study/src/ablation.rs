@@ -44,7 +44,7 @@ pub struct Dropped {
     pub distance: Option<f64>,
     /// Root mean square change of the direction of a pixel's ray, in pixels of the middle of the picture.
     pub direction_px: Option<f64>,
-    /// Its picture beside that with the effect, as of [`crate::pictures`]; `None` where there is no picture of the same size.
+    /// Its picture beside that with the effect, as of [`crate::pictures()`]; `None` where there is no picture of the same size.
     #[serde(skip)]
     pub jpeg: Option<Vec<u8>>,
 }

@@ -1,8 +1,8 @@
 //! What each choice of rendering costs in time and in error, for a job of one's own.
 //!
 //! A study renders parts of a job's frame again and again, with few samples and in many ways ([`WayToRender`]); tells of each how long a sample takes and how noisy it is
-//! ([`pilot`]), and how far its mean lies from that of the exact form ([`error`]: bias and variance apart); foretells from these the time and error of any
-//! number of samples; and names the ways that no other beats ([`front`]), with three settings of them for drafts, standard pictures and references.
+//! (pilots), and how far its mean lies from that of the exact form (bias and variance apart); foretells from these the time and error of any
+//! number of samples; and names the ways that no other beats (the front), with three settings of them for drafts, standard pictures and references.
 //!
 //! No clock is read here: the caller gives one ([`Clock`]).
 
