@@ -37,7 +37,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "metrology",
         ],
     ),
-    ("study", &["core", "etendue"]),
+    ("study", &["core", "stats", "etendue"]),
     ("cli", &["etendue", "optics", "scene", "study"]),
     ("testkit", &["core", "stats"]),
     ("scenes", &["core"]),

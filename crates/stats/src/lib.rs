@@ -5,6 +5,7 @@
 //! | [`special`] | Γ, erf, incomplete Γ and B |
 //! | [`normal`], [`student`], [`chi_square`] | distribution functions, p-values, critical values |
 //! | [`family`] | many tests at once (Šidák) |
+//! | [`median`] | the middle of numbers |
 //! | [`moments`] | mean and variance of a stream of numbers (Welford) |
 //! | [`replicates`] | mean and honest variance of randomised quasi-Monte Carlo |
 //! | [`planes`] | do two estimated pictures differ? |
@@ -16,6 +17,7 @@
 pub mod chi_square;
 pub mod error;
 pub mod family;
+pub mod median;
 pub mod moments;
 pub mod normal;
 pub mod planes;
@@ -24,6 +26,7 @@ pub mod special;
 pub mod student;
 
 pub use error::ErrorSummary;
+pub use median::upper_median;
 pub use moments::Moments;
 pub use planes::{EstimatedPlane, PlaneTest, Verdict};
 pub use replicates::ReplicateEstimate;

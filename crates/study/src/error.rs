@@ -1,5 +1,6 @@
 //! Errors in the currencies of a study, with what is known of them.
 
+use etendue_core::maths::f64::hypot;
 use serde::Serialize;
 
 /// A number with its standard uncertainty.
@@ -23,13 +24,6 @@ impl Estimate {
         Self { value, uncertainty: (squares * n / (n - 1.0)).sqrt() / count as f64 }
     }
 
-    /// The same of numbers that err independently.
-    #[must_use]
-    pub fn of(values: &[f64]) -> Self {
-        let groups: Vec<_> = values.iter().map(|v| (*v, 1)).collect();
-        Self::of_groups(&groups)
-    }
-
     /// Times a number that is known.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
@@ -39,7 +33,7 @@ impl Estimate {
     /// The sum with one that errs independently.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
-        Self { value: self.value + other.value, uncertainty: joined(self.uncertainty, other.uncertainty) }
+        Self { value: self.value + other.value, uncertainty: hypot(self.uncertainty, other.uncertainty) }
     }
 
     /// The root of a mean square; 0 of one below 0, which differs from 0 by its uncertainty at most.
@@ -61,11 +55,6 @@ impl Estimate {
     pub fn exceeds(&self, uncertainties: f64) -> bool {
         self.value > uncertainties * self.uncertainty
     }
-}
-
-/// The standard uncertainty of a sum whose parts, with these, err independently.
-pub(crate) fn joined(a: f64, b: f64) -> f64 {
-    (a * a + b * b).sqrt()
 }
 
 /// One number in each currency, all of them mean squares over the pixels.
@@ -107,7 +96,7 @@ mod tests {
     #[test]
     fn groups_that_err_alike_tell_a_larger_uncertainty() {
         let values = [1.0, 1.1, 3.0, 2.9, 5.0, 5.1, 7.0, 6.9];
-        let single = Estimate::of(&values);
+        let single = Estimate::of_groups(&values.map(|v| (v, 1)));
         let pairs: Vec<_> = values.chunks(2).map(|pair| (pair.iter().sum(), 2)).collect();
         let grouped = Estimate::of_groups(&pairs);
         assert!((single.value - 4.0).abs() < 1e-12 && (grouped.value - single.value).abs() < 1e-12);

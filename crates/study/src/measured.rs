@@ -1,11 +1,13 @@
 //! What pilots tell of one way to render: how noisy a sample is, how long it takes, how far its mean lies from the exact one.
 
-use crate::error::{Currencies, Estimate, joined};
+use crate::error::{Currencies, Estimate};
 use crate::pilot::Pilot;
 use crate::pixels::Pixels;
 use crate::way::WayToRender;
-use etendue_core::maths::f64::{ln, pow};
+use etendue_core::maths::f64::{hypot, ln, pow};
+use etendue_stats::{Moments, upper_median};
 use serde::Serialize;
+use std::f64::consts::FRAC_PI_2;
 
 /// A mean square that falls with a power of the samples of a replicate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -28,7 +30,7 @@ impl PowerLaw {
         let span = ln(many / few);
         let found = ln(at_few.value / at_many.value) / span;
         let of = |e: Estimate| e.uncertainty / e.value;
-        let uncertainty = joined(of(at_few), of(at_many)) / span;
+        let uncertainty = hypot(of(at_few), of(at_many)) / span;
         // By how much exponents of scenes differ from 1.
         const SCATTER: f64 = 0.15;
         let weight = SCATTER * SCATTER / (SCATTER * SCATTER + uncertainty * uncertainty);
@@ -48,7 +50,7 @@ impl PowerLaw {
         let ratio = samples / self.samples;
         let mean = self.value.times(pow(ratio, -self.exponent.value));
         let by_exponent = mean.value * ln(ratio).abs() * self.exponent.uncertainty;
-        Estimate { uncertainty: joined(mean.uncertainty, by_exponent), ..mean }
+        Estimate { uncertainty: hypot(mean.uncertainty, by_exponent), ..mean }
     }
 }
 
@@ -106,22 +108,19 @@ pub(crate) struct Times {
 impl Times {
     /// By pilots of few and of many samples of a share of the frame's tiles.
     pub(crate) fn of((few, at_few): (u32, &Pilot), (many, at_many): (u32, &Pilot), share: f64) -> Self {
-        let (short_s, long_s) = (quickest(&at_few.seconds), quickest(&at_many.seconds));
+        let median = |seconds: &[f64]| upper_median(seconds.iter().copied()).unwrap_or(f64::NAN);
+        let (short_s, long_s) = (median(&at_few.seconds), median(&at_many.seconds));
         let step = f64::from(many - few);
         let slope_s = ((long_s - short_s) / step).max(1e-12);
         let frame_s = (short_s - slope_s * f64::from(few)).clamp(0.0, short_s);
-        let spread = |seconds: &[f64]| quickest(seconds) - seconds.iter().copied().fold(f64::INFINITY, f64::min);
-        let uncertainty = joined(spread(&at_few.seconds), spread(&at_many.seconds)) / step;
+        // Of a median of n normal numbers: √(π/2) of the deviation of their mean.
+        let spread = |seconds: &[f64]| {
+            let variance = Moments::of(seconds.iter().copied()).variance().unwrap_or(f64::NAN);
+            (FRAC_PI_2 * variance / seconds.len() as f64).sqrt()
+        };
+        let uncertainty = hypot(spread(&at_few.seconds), spread(&at_many.seconds)) / step;
         Self { frame_s, sample_s: Estimate { value: slope_s, uncertainty }.times(1.0 / share) }
     }
-}
-
-/// The mean of the two shortest times: what else a machine does only ever adds to them.
-fn quickest(seconds: &[f64]) -> f64 {
-    let mut sorted = seconds.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let kept = &sorted[..sorted.len().min(2)];
-    kept.iter().sum::<f64>() / kept.len() as f64
 }
 
 /// Variances by pilots of few and of many samples.

@@ -2,6 +2,7 @@
 
 use crate::error::{Currencies, Estimate};
 use etendue::{SampledPixel, TemporalNoise};
+use etendue_stats::Moments;
 use std::collections::BTreeMap;
 
 /// Side of a cell, px.
@@ -57,12 +58,12 @@ impl Pixels {
 
     /// The variance of one plane by the scatter of independent ones, two or more.
     pub(crate) fn variance(&self, planes: Planes<'_>) -> Currencies<Estimate> {
-        self.currencies(planes, |moments| moments.variance())
+        self.currencies(planes, variance)
     }
 
     /// The square of the mean over independent planes, freed of the part that their scatter has in it.
     pub(crate) fn squared_mean(&self, planes: Planes<'_>) -> Currencies<Estimate> {
-        self.currencies(planes, |moments| moments.mean * moments.mean - moments.variance() / moments.count)
+        self.currencies(planes, |moments| moments.mean() * moments.mean() - variance(moments) / moments.count() as f64)
     }
 
     fn currencies(&self, planes: Planes<'_>, of: impl Fn(&Moments) -> f64) -> Currencies<Estimate> {
@@ -98,28 +99,9 @@ fn add(group: &mut (f64, usize), sum: f64, count: usize) {
     *group = (group.0 + sum, group.1 + count);
 }
 
-/// Mean and scatter of a few numbers.
-struct Moments {
-    count: f64,
-    mean: f64,
-    squares: f64,
-}
-
-impl Moments {
-    fn of(values: impl Iterator<Item = f64>) -> Self {
-        let mut moments = Self { count: 0.0, mean: 0.0, squares: 0.0 };
-        for value in values {
-            moments.count += 1.0;
-            let step = value - moments.mean;
-            moments.mean += step / moments.count;
-            moments.squares += step * (value - moments.mean);
-        }
-        moments
-    }
-
-    fn variance(&self) -> f64 {
-        self.squares / (self.count - 1.0)
-    }
+/// The scatter of two numbers or more; not a number of fewer.
+fn variance(moments: &Moments) -> f64 {
+    moments.variance().unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Which tiles a study looks at, so that it takes the time that it may take.
 
 use etendue::ShardSpec;
+use etendue_core::maths::integer::greatest_common_divisor;
 
 /// Side of the study's tiles, px, where no pixels share more.
 pub(crate) const TILE_PX: u32 = 16;
@@ -18,11 +19,6 @@ impl PilotPlan {
         let count = spread(columns * rows / tiles.max(1), columns);
         Self { tile_px: TILE_PX, shard: ShardSpec { index: count / 2, count } }
     }
-
-    /// The part of all tiles that it takes, about.
-    pub(crate) fn share(&self) -> f64 {
-        1.0 / f64::from(self.shard.count)
-    }
 }
 
 impl PilotPlan {
@@ -39,10 +35,6 @@ impl PilotPlan {
 fn spread(count: u32, columns: u32) -> u32 {
     let apart = |a: u32, b: u32| greatest_common_divisor(a, b) == 1;
     (1..=count.max(1)).rev().find(|n| apart(*n, columns)).unwrap_or(1)
-}
-
-fn greatest_common_divisor(a: u32, b: u32) -> u32 {
-    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }
 
 #[cfg(test)]

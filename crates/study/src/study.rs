@@ -2,7 +2,7 @@
 
 use crate::Clock;
 use crate::budget::within;
-use crate::error::{Currencies, Estimate, joined};
+use crate::error::{Currencies, Estimate};
 use crate::front::{Confirmation, Frame, FrontPoint, Recommendation, front, point, recommend, targets};
 use crate::measured::{Bias, Measured, Role, Times, bias, variance};
 use crate::pilot::{Pilot, Pilots, seed};
@@ -11,6 +11,7 @@ use crate::way::{Accelerator, EXACT_BOUNCES, WayToRender};
 use etendue::{
     Error, Existing, Integrator, Job, JobRequest, LightSignal, Observer, Progress, RenderOptions, Simd, Unit,
 };
+use etendue_core::maths::f64::hypot;
 use serde::Serialize;
 use std::path::Path;
 
@@ -50,7 +51,7 @@ pub struct Study {
     pub camera: String,
     /// What its signal is: `electrons`, `irradiance` or `radiance`.
     pub signal: &'static str,
-    /// What part of the frame's tiles was looked at.
+    /// What part of the frame's pixels was looked at.
     pub share: f64,
     /// What a frame takes beside loading and light, s: sensor, processing, ground truth, files.
     pub rest_s: f64,
@@ -94,7 +95,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     let frame = Frame { rest_s, replicates: settings.replicates };
     let spp = if settings.is_adaptive { EVEN_SPP.next_multiple_of(frame.replicates) } else { settings.spp };
     bench.combine(spp, frame)?;
-    let Bench { pilots, ways, .. } = &bench;
+    let ways = &bench.ways;
     let has_sensor = ways[0].bias_squares.sensor.is_some();
     let eligible = bench.eligible(spp, frame);
     let mut recommendations: Vec<_> =
@@ -108,7 +109,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
             LightSignal::Irradiance => "irradiance",
             LightSignal::Radiance => "radiance",
         },
-        share: pilots.plan.share(),
+        share: share(&job, &camera, bench.kept.first().map_or(0, |(_, pilot)| pilot.pixels.len()))?,
         rest_s,
         as_stated: point(&ways[0], spp, frame),
         front: front(&eligible, frame),
@@ -119,10 +120,10 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     })
 }
 
-/// The part of a frame's pixels that a pilot has.
-fn share(job: &Job, camera: &str, pilot: &Pilot) -> Result<f64, Error> {
+/// The part of a frame that so many of its pixels are.
+fn share(job: &Job, camera: &str, pixels: usize) -> Result<f64, Error> {
     let [width, height] = job.film_px(camera)?;
-    Ok(pilot.pixels.len() as f64 / (f64::from(width) * f64::from(height)))
+    Ok(pixels as f64 / (f64::from(width) * f64::from(height)))
 }
 
 /// The most that two omissions come to together (Minkowski): both are light that is missing, so that they seldom cancel.
@@ -131,7 +132,7 @@ fn in_series(a: &Estimate, b: &Estimate) -> Estimate {
     if first * second == 0.0 {
         return a.plus(*b);
     }
-    let uncertainty = joined(a.uncertainty * (1.0 + second / first), b.uncertainty * (1.0 + first / second));
+    let uncertainty = hypot(a.uncertainty * (1.0 + second / first), b.uncertainty * (1.0 + first / second));
     Estimate { value: (first + second) * (first + second), uncertainty }
 }
 
@@ -229,7 +230,7 @@ impl Bench<'_> {
             return Ok(None);
         }
         let pixels = self.pixels.as_ref().expect("made above");
-        let times = Times::of((FEW, &few), (MANY, &many), share(&job, self.pilots.camera, &many)?);
+        let times = Times::of((FEW, &few), (MANY, &many), share(&job, self.pilots.camera, many.pixels.len())?);
         let exact = against.and_then(|against| self.kept.iter().find(|(way, _)| *way == against));
         let bias = exact.map(|(against, exact)| Bias { against: *against, squares: bias(pixels, &many, exact) });
         let variance = variance(pixels, (FEW, &few), (MANY, &many));
@@ -339,9 +340,7 @@ impl Bench<'_> {
         if foretold.value <= 0.0 {
             return Ok(None);
         }
-        let [width, height] = job.film_px(camera)?;
-        let share = seen as f64 / (f64::from(width) * f64::from(height));
-        let foretold_s = measured.frame_s * f64::from(replicates) + whole_s * share;
+        let foretold_s = measured.frame_s * f64::from(replicates) + whole_s * share(&job, camera, seen)?;
         let ratio = Estimate { value: found.value / foretold.value, uncertainty: found.uncertainty / foretold.value };
         let unseen = plan.shard.count > 1;
         Ok(Some(Confirmation { tiles, unseen, seconds: took_s / foretold_s, noise: ratio.root() }))

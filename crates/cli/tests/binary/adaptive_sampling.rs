@@ -1,61 +1,21 @@
 //! Samples that noise decides: by the command line and the job, with what is told and stored of them.
 
-use crate::support::{assert_same, contents, etendue, rendered, text};
+use crate::support::{BALL, assert_same, contents, etendue, rendered, text};
 use etendue_io::exr::{ExrFile, Samples, read_exr};
 use std::path::Path;
 
-/// A sphere on a floor under an even sky, before a colour camera; one wall beside it glows.
-const JOB: &str = r#"format = 1
-[scene]
-[scene.environment]
-type = "uniform"
-luminance_cd_m2 = 30
-illuminant = "D65"
-[[scene.materials]]
-name = "grey"
-type = "diffuse"
-reflectance = 0.5
+/// A wall beside the ball that glows.
+const WALL: &str = r#"
 [[scene.materials]]
 name = "light"
 type = "emitter"
 emission = { luminance_cd_m2 = 3000, illuminant = "A" }
-[[scene.objects]]
-name = "floor"
-shape = { type = "quad", size_m = [30, 30] }
-material = "grey"
-[[scene.objects]]
-name = "ball"
-shape = { type = "sphere", radius_m = 1 }
-position_m = [6, 0, 1]
-material = "grey"
 [[scene.objects]]
 name = "wall"
 shape = { type = "quad", size_m = [1, 1] }
 position_m = [6, 3, 1]
 rotation_deg = [0, 90, 0]
 material = "light"
-[[cameras]]
-name = "front"
-position_m = [0, 0, 1.4]
-look_at_m = [6, 0, 0.9]
-[cameras.lens]
-type = "thin"
-focal_length_mm = 6
-f_number = 2
-focus_distance_m = 5
-[cameras.sensor]
-width_px = 40
-height_px = 28
-pixel_pitch_um = 150
-exposure_s = 2e-6
-cfa = "rggb"
-quantum_efficiency = { camera = "nikon-d5100", peak = 0.5 }
-full_well_e = 50_000
-read_noise_e = 4
-dark_current_e_s = 5
-gain_dn_per_e = 0.05
-black_level_dn = 64
-bits = 12
 [render]
 max_bounces = 4
 seed = 5
@@ -66,7 +26,8 @@ ground_truth = false
 
 fn job(folder: &Path, render: &str) -> String {
     let path = folder.join("job.toml");
-    std::fs::write(&path, JOB.replace("[render]\n", &format!("[render]\n{render}"))).expect("written");
+    std::fs::write(&path, format!("{BALL}{}", WALL.replace("[render]\n", &format!("[render]\n{render}"))))
+        .expect("written");
     text(&path)
 }
 

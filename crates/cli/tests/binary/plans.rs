@@ -9,7 +9,8 @@ fn jobs() -> Vec<(String, String)> {
     let files = within(root().join("scenes")).filter(|p| p.is_dir()).flat_map(within);
     let is_job = |file: &PathBuf| {
         file.extension().is_some_and(|e| e == "toml")
-            && std::fs::read_to_string(file).is_ok_and(|text| text.contains("[[cameras]]"))
+            && std::fs::read_to_string(file)
+                .is_ok_and(|text| ["[[cameras]]", "[render]"].iter().any(|table| text.contains(table)))
     };
     let named = |file: PathBuf| {
         let name = file.file_stem().expect("a name").to_str().expect("UTF-8").to_owned();

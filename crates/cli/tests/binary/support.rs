@@ -19,6 +19,50 @@ pub(crate) fn small() -> String {
     text(&tests().join("jobs/small/small.toml"))
 }
 
+/// A ball on a floor under an even sky, before a small colour camera: a job to which its rendering is added.
+pub(crate) const BALL: &str = r#"format = 1
+[scene]
+[scene.environment]
+type = "uniform"
+luminance_cd_m2 = 30
+illuminant = "D65"
+[[scene.materials]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.5
+[[scene.objects]]
+name = "floor"
+shape = { type = "quad", size_m = [30, 30] }
+material = "grey"
+[[scene.objects]]
+name = "ball"
+shape = { type = "sphere", radius_m = 1 }
+position_m = [6, 0, 1]
+material = "grey"
+[[cameras]]
+name = "front"
+position_m = [0, 0, 1.4]
+look_at_m = [6, 0, 0.9]
+[cameras.lens]
+type = "thin"
+focal_length_mm = 6
+f_number = 2
+focus_distance_m = 5
+[cameras.sensor]
+width_px = 40
+height_px = 28
+pixel_pitch_um = 150
+exposure_s = 2e-6
+cfa = "rggb"
+quantum_efficiency = { camera = "nikon-d5100", peak = 0.5 }
+full_well_e = 50_000
+read_noise_e = 4
+dark_current_e_s = 5
+gain_dn_per_e = 0.05
+black_level_dn = 64
+bits = 12
+"#;
+
 /// Whether stored results shall be written anew.
 pub(crate) fn bless() -> bool {
     std::env::var_os("ETENDUE_BLESS").is_some_and(|value| value == "1")

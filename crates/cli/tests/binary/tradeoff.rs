@@ -1,44 +1,24 @@
 //! Time against error: what a study writes, that its job files are jobs, and what it refuses.
 
-use crate::support::{contents, etendue, text};
+use crate::support::{BALL, contents, etendue, text};
 use std::path::Path;
 
-/// A grey floor under an even sky with a ball on it, before a small colour camera.
-const JOB: &str = r#"format = 1
-[scene]
-[scene.environment]
-type = "uniform"
-luminance_cd_m2 = 30
-illuminant = "D65"
-[[scene.materials]]
-name = "grey"
-type = "diffuse"
-reflectance = 0.8
-[[scene.objects]]
-name = "floor"
-shape = { type = "quad", size_m = [30, 30] }
-material = "grey"
-[[scene.objects]]
-name = "ball"
-shape = { type = "sphere", radius_m = 1 }
-position_m = [6, 0, 1]
-material = "grey"
-[[cameras]]
-name = "front"
-position_m = [0, 0, 1.4]
-look_at_m = [6, 0, 0.9]
-lens = { type = "thin", focal_length_mm = 6, f_number = 2, focus_distance_m = 5 }
-sensor = { width_px = 64, height_px = 48, pixel_pitch_um = 100, exposure_s = 1e-5, cfa = "rggb", quantum_efficiency = { camera = "nikon-d5100", peak = 0.5 }, full_well_e = 50_000, read_noise_e = 4, dark_current_e_s = 5, gain_dn_per_e = 0.05, black_level_dn = 64, bits = 12 }
-[render]
-spp = 32
-max_bounces = 6
-[output]
-ground_truth = false
-"#;
+/// What the job says beside its scene and camera.
+const RENDER: &str = "[render]\nspp = 32\nmax_bounces = 6\n[output]\nground_truth = false\n";
 
 fn job(folder: &Path) -> String {
     let job = folder.join("job.toml");
-    std::fs::write(&job, JOB).expect("a file");
+    // A white floor and ball, in 64 × 48 px.
+    let changes = [
+        ("reflectance = 0.5", "reflectance = 0.8"),
+        ("width_px = 40", "width_px = 64"),
+        ("height_px = 28", "height_px = 48"),
+    ];
+    let changes = changes
+        .into_iter()
+        .chain([("pixel_pitch_um = 150", "pixel_pitch_um = 100"), ("exposure_s = 2e-6", "exposure_s = 1e-5")]);
+    let scene = changes.fold(BALL.to_owned(), |text, (from, to)| text.replace(from, to));
+    std::fs::write(&job, scene + RENDER).expect("a file");
     text(&job)
 }
 

@@ -26,3 +26,4 @@ mod kernel;
 
 pub mod f32;
 pub mod f64;
+pub mod integer;

@@ -12,6 +12,7 @@ use crate::display;
 use crate::error::Error;
 use crate::observer::{Message, Observer, Progress as Told, Unit};
 use crate::render_options::RenderOptions;
+use etendue_core::maths::integer::least_common_multiple;
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, MAX_PASSES, PARTS, Pass, PassAt, Passes};
@@ -382,12 +383,4 @@ impl etendue_pipeline::Observer for Watched<'_> {
     fn cancelled(&self) -> bool {
         self.watch.observer.cancelled() || self.watch.is_over()
     }
-}
-
-fn least_common_multiple(a: u32, b: u32) -> u32 {
-    let (mut x, mut y) = (a, b);
-    while y > 0 {
-        (x, y) = (y, x % y);
-    }
-    a / x * b
 }

@@ -28,6 +28,7 @@ mod tests;
 
 use crate::Image;
 use edges::{edges, known};
+use etendue_stats::upper_median;
 use sums::Sums;
 
 pub use error::DepthError;
@@ -69,8 +70,5 @@ pub fn measure_depth(estimate: &Image, truth: &Image, settings: &DepthSettings) 
 fn median_ratio(estimate: &Image, truth: &Image, edges: &[bool]) -> Option<f64> {
     let pairs = estimate.samples().iter().zip(truth.samples()).zip(edges);
     let pairs = pairs.map(|((a, b), edge)| (f64::from(*a), f64::from(*b), *edge));
-    let mut ratios: Vec<f64> =
-        pairs.filter(|(a, b, edge)| !edge && known(*a) && known(*b)).map(|(a, b, _)| b / a).collect();
-    ratios.sort_by(f64::total_cmp);
-    ratios.get(ratios.len() / 2).copied()
+    upper_median(pairs.filter(|(a, b, edge)| !edge && known(*a) && known(*b)).map(|(a, b, _)| b / a))
 }

@@ -4,6 +4,7 @@ use super::knots::{Knots, Sample};
 use super::profile::Profile;
 use super::{Edge, SfrError, SfrSettings};
 use crate::Image;
+use etendue_stats::upper_median;
 
 /// Rounds of the refinement at most, and the move that ends it, px.
 const ROUNDS: usize = 30;
@@ -97,7 +98,7 @@ fn regular(
     let zone = |s: &Sample| ZONES_PX.iter().filter(|far| s.distance.abs() > **far).count();
     let limit = |z: usize| {
         let within = samples.iter().zip(&apart).filter(|(s, _)| zone(s) == z);
-        (OUTLIER_SIGMAS * 1.4826 * median(within.map(|(_, r)| *r).collect())).max(least)
+        (OUTLIER_SIGMAS * 1.4826 * upper_median(within.map(|(_, r)| *r)).unwrap_or(0.0)).max(least)
     };
     let limits: Vec<f64> = (0..=ZONES_PX.len()).map(limit).collect();
     let defects: Vec<&Sample> =
@@ -117,13 +118,7 @@ fn apart_from_neighbours(samples: &[Sample], residuals: &[f64]) -> Vec<f64> {
     let mut apart = vec![0.0; samples.len()];
     for (place, i) in order.iter().enumerate() {
         let near = &order[place.saturating_sub(NEIGHBOURS)..(place + NEIGHBOURS + 1).min(order.len())];
-        apart[*i] = (residuals[*i] - median(near.iter().map(|k| residuals[*k]).collect())).abs();
+        apart[*i] = (residuals[*i] - upper_median(near.iter().map(|k| residuals[*k])).unwrap_or(0.0)).abs();
     }
     apart
-}
-
-/// The upper median; 0 of nothing.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }

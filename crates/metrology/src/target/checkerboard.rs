@@ -11,6 +11,7 @@ use super::lattice::{self, Places};
 use super::neighbours::Neighbours;
 use super::{Grid, LEAST, chess, crossing, saddle};
 use crate::Image;
+use etendue_stats::upper_median;
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -120,7 +121,7 @@ fn refine(image: &Image, places: &Places, points: &[DVec2]) -> Vec<Option<Corner
         placed.par_iter().map(find).collect::<Vec<_>>()
     };
     let wide = found(WINDOW);
-    let typical = median(wide.iter().flatten().map(|c| c.uncertainty_px));
+    let typical = upper_median(wide.iter().flatten().map(|c| c.uncertainty_px)).unwrap_or(0.0);
     let stands_out = |c: &Option<Corner>, factor: f64| {
         c.is_none_or(|c| c.uncertainty_px > factor * (OUTSTANDING * typical).max(GOOD_PX))
     };
@@ -130,12 +131,6 @@ fn refine(image: &Image, places: &Places, points: &[DVec2]) -> Vec<Option<Corner
         refined[*i] = if stands_out(&wide, 1.0) { narrow() } else { wide };
     }
     refined
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 fn corner(image: &Image, places: &Places, points: &[DVec2], place: [i32; 2], i: usize, window: f64) -> Option<Corner> {

@@ -159,20 +159,14 @@ impl<S: RaySource> RenderJob<'_, S> {
 mod tests {
     use super::*;
     use crate::plan::{AdaptiveSampling, PassAt};
-    use crate::render::Shot;
-    use crate::render::exposure::FilmExposure;
     use crate::render::film::Film;
     use crate::render::light::{RenderJob, Sampling};
     use crate::render::observer::Unobserved;
     use crate::render::spectrum_spread::SpectrumSpread;
-    use crate::render::tile::Shard;
+    use crate::render::test_job::{sampling, still_job};
     use etendue_core::random::Draw;
-    use etendue_core::{CameraPath, CameraPose, FieldRay, PupilRay, Spectral, Wavelengths};
-    use glam::{DMat3, DVec2, DVec3};
-
-    static PATH: std::sync::LazyLock<CameraPath> = std::sync::LazyLock::new(|| {
-        CameraPath::still(CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY })
-    });
+    use etendue_core::{FieldRay, PupilRay, Spectral, Wavelengths};
+    use glam::{DVec2, DVec3};
 
     /// Rays that leave the columns of the film at their own x.
     struct Columns;
@@ -205,29 +199,11 @@ mod tests {
 
     fn film(field: &impl RadianceField<1>, factor: f64, tile_px: u32) -> Film {
         let tolerance = Tolerance::new(AdaptiveSampling { threshold: factor, min_spp: 16 }, None);
-        let job = RenderJob {
-            source: &Columns,
-            exposure: FilmExposure::still(&PATH),
-            width: 64,
-            height: ROWS as u32,
-            aperture_px: 1.0,
-            layout: Layout { bands: None, folded: false, watched: true },
-            mosaic: None,
-            sampling: Sampling {
-                pass: PassAt::only(4096),
-                replicates: 8,
-                seed: 11,
-                camera: 0,
-                shot: Shot::default(),
-                low_nm: 500.0,
-                high_nm: 501.0,
-                spread: SpectrumSpread::Drawn,
-            },
-            tolerance: Some(tolerance),
-            blocks: Blocks::SINGLE,
-            tile_px,
-            shard: Shard::WHOLE,
-        };
+        let layout = Layout { bands: None, folded: false, watched: true };
+        let spread = SpectrumSpread::Drawn;
+        let sampling = Sampling { seed: 11, low_nm: 500.0, high_nm: 501.0, spread, ..sampling(PassAt::only(4096), 8) };
+        let job = still_job(&Columns, [64, ROWS as u32], layout, sampling);
+        let job = RenderJob { tolerance: Some(tolerance), tile_px, ..job };
         job.gather::<1>(field, None, &Unobserved).expect("not cancelled")
     }
 

@@ -4,6 +4,7 @@
 //! `stride`-th of a square. Blocks lie on a grid of the whole frame, whatever the tiles.
 
 use crate::render::tile::Tile;
+use etendue_core::maths::integer::least_common_multiple;
 use etendue_core::random::Pixel;
 
 /// How a frame falls into blocks.
@@ -89,14 +90,6 @@ fn spread(rank: u32, side: u32) -> (u32, u32) {
         (half, rest) = (half / 2, rest >> 2);
     }
     (x, y)
-}
-
-fn least_common_multiple(a: u32, b: u32) -> u32 {
-    let (mut x, mut y) = (a, b);
-    while y > 0 {
-        (x, y) = (y, x % y);
-    }
-    a / x * b
 }
 
 #[cfg(test)]

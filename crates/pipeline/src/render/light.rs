@@ -267,10 +267,10 @@ impl<S: RaySource> RenderJob<'_, S> {
 mod tests {
     use super::*;
     use crate::render::observer::Unobserved;
+    use crate::render::test_job::{sampling, still_job};
     use etendue_core::Bands;
     use etendue_core::field::ConstantField;
-    use etendue_core::{CameraPath, CameraPose};
-    use glam::{DMat3, DVec3};
+    use glam::DVec3;
 
     struct Half;
 
@@ -281,35 +281,9 @@ mod tests {
         }
     }
 
-    static PATH: std::sync::LazyLock<CameraPath> = std::sync::LazyLock::new(|| {
-        CameraPath::still(CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY })
-    });
-
     fn exposure(tile_px: u32, shard: Shard) -> RenderJob<'static, Half> {
-        let bands = Bands::covering(400.0, 700.0, 50.0);
-        RenderJob {
-            source: &Half,
-            exposure: FilmExposure::still(&PATH),
-            width: 9,
-            height: 5,
-            aperture_px: 1.0,
-            layout: Layout { bands, folded: false, watched: false },
-            mosaic: None,
-            sampling: Sampling {
-                pass: PassAt::only(64),
-                replicates: 2,
-                seed: 3,
-                camera: 0,
-                shot: Shot::default(),
-                low_nm: 400.0,
-                high_nm: 700.0,
-                spread: SpectrumSpread::EachReplicate,
-            },
-            tolerance: None,
-            blocks: Blocks::SINGLE,
-            tile_px,
-            shard,
-        }
+        let layout = Layout { bands: Bands::covering(400.0, 700.0, 50.0), folded: false, watched: false };
+        RenderJob { tile_px, shard, ..still_job(&Half, [9, 5], layout, sampling(PassAt::only(64), 2)) }
     }
 
     fn film(tile_px: u32, shard: Shard) -> Film {

@@ -32,6 +32,8 @@ pub mod pupil_depth;
 pub mod rays;
 pub mod spectrum_spread;
 #[cfg(test)]
+mod test_job;
+#[cfg(test)]
 mod test_scenes;
 pub mod tile;
 mod tolerance;

@@ -1,24 +1,17 @@
 //! Films of several passes: what joins them, against each pass by itself.
 
-use super::block::Blocks;
-use super::exposure::{FilmExposure, Shot};
 use super::film::Film;
 use super::gather::Layout;
-use super::light::{RaySource, RenderJob, Sampling};
+use super::light::RaySource;
 use super::observer::Unobserved;
-use super::spectrum_spread::SpectrumSpread;
-use super::tile::Shard;
+use super::test_job::{sampling, still_job};
 use crate::plan::{Pass, PassAt, Passes};
 use etendue_core::random::Draw;
-use etendue_core::{Bands, CameraPath, CameraPose, FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
-use glam::{DMat3, DVec2, DVec3};
-use std::sync::LazyLock;
+use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
+use glam::{DVec2, DVec3};
 
 const WIDTH: usize = 24;
 const HEIGHT: usize = 16;
-
-static PATH: LazyLock<CameraPath> =
-    LazyLock::new(|| CameraPath::still(CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY }));
 
 struct Ahead;
 
@@ -43,30 +36,8 @@ impl RadianceField<4> for Uneven {
 }
 
 fn pass_of(pass: PassAt, before: Option<&Film>) -> Film {
-    let sampling = Sampling {
-        pass,
-        replicates: 4,
-        seed: 3,
-        camera: 0,
-        shot: Shot::default(),
-        low_nm: 400.0,
-        high_nm: 700.0,
-        spread: SpectrumSpread::EachReplicate,
-    };
-    let job = RenderJob {
-        source: &Ahead,
-        exposure: FilmExposure::still(&PATH),
-        width: WIDTH as u32,
-        height: HEIGHT as u32,
-        aperture_px: 1.0,
-        layout: Layout { bands: Bands::covering(400.0, 700.0, 50.0), folded: false, watched: false },
-        mosaic: None,
-        sampling,
-        tolerance: None,
-        blocks: Blocks::SINGLE,
-        tile_px: 16,
-        shard: Shard::WHOLE,
-    };
+    let layout = Layout { bands: Bands::covering(400.0, 700.0, 50.0), folded: false, watched: false };
+    let job = still_job(&Ahead, [WIDTH as u32, HEIGHT as u32], layout, sampling(pass, 4));
     job.gather::<4>(&Uneven, before, &Unobserved).expect("not cancelled")
 }
 

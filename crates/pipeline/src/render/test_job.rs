@@ -1,0 +1,52 @@
+//! A job of a camera that stands still, for tests of what gathers its light.
+
+use super::block::Blocks;
+use super::exposure::{FilmExposure, Shot};
+use super::gather::Layout;
+use super::light::{RenderJob, Sampling};
+use super::spectrum_spread::SpectrumSpread;
+use super::tile::Shard;
+use crate::plan::PassAt;
+use etendue_core::{CameraPath, CameraPose};
+use glam::{DMat3, DVec3};
+use std::sync::LazyLock;
+
+static PATH: LazyLock<CameraPath> =
+    LazyLock::new(|| CameraPath::still(CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY }));
+
+/// One pass of wavelengths from 400 to 700 nm, of camera 0.
+pub(super) fn sampling(pass: PassAt, replicates: u32) -> Sampling {
+    Sampling {
+        pass,
+        replicates,
+        seed: 3,
+        camera: 0,
+        shot: Shot::default(),
+        low_nm: 400.0,
+        high_nm: 700.0,
+        spread: SpectrumSpread::EachReplicate,
+    }
+}
+
+/// Every pixel by itself with as many samples, all tiles, of 16 px.
+pub(super) fn still_job<S>(
+    source: &S,
+    [width, height]: [u32; 2],
+    layout: Layout,
+    sampling: Sampling,
+) -> RenderJob<'_, S> {
+    RenderJob {
+        source,
+        exposure: FilmExposure::still(&PATH),
+        width,
+        height,
+        aperture_px: 1.0,
+        layout,
+        mosaic: None,
+        sampling,
+        tolerance: None,
+        blocks: Blocks::SINGLE,
+        tile_px: 16,
+        shard: Shard::WHOLE,
+    }
+}
