@@ -31,6 +31,10 @@ validate *cameras:
 faults:
     ETENDUE_BLESS=1 cargo test -p etendue-cli --test binary faults::
 
+# Variance by the density of wavelengths, by sensor and light: writes docs/wavelengths.md
+wavelengths:
+    ETENDUE_BLESS=1 cargo test -p etendue-tests --test physics wavelength_density
+
 # Render the pictures of docs/pictures.md anew (names: some of them)
 gallery *names:
     docs/pictures/gallery {{names}}

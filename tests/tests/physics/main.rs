@@ -34,4 +34,5 @@ mod spectral_routes;
 mod time;
 mod vertex_animation;
 mod views;
+mod wavelength_density;
 mod wheel;

@@ -3,7 +3,7 @@
 use super::effect::EffectReport;
 use etendue_core::Shutter;
 use etendue_pipeline::Plan;
-use etendue_pipeline::plan::{CameraPlan, FrameCost, Route, TimeDependence};
+use etendue_pipeline::plan::{CameraPlan, FrameCost, Route, SpectralGain, TimeDependence};
 use etendue_pipeline::render::light_counts;
 use etendue_tracer::integrator::Level;
 
@@ -80,6 +80,10 @@ pub struct SettingsReport {
     pub pixels_sharing_paths: u32,
     /// Wavelengths a path.
     pub wavelengths_per_path: u32,
+    /// The density by which they are drawn: "uniform", "response", "response_and_source".
+    pub wavelength_density: &'static str,
+    /// What the spectra of the light's sources in it save, or would; null where no electrons are summed or no source gives any.
+    pub spectral_gain: Option<SpectralGainReport>,
     /// "lens" or "pupil".
     pub route: &'static str,
     /// Shortest and longest wavelength, nm.
@@ -92,6 +96,18 @@ pub struct SettingsReport {
     pub sums_electrons: bool,
     /// The seed of all random numbers.
     pub seed: u64,
+}
+
+/// Mean squares of a sample's electrons, their wavelengths drawn by the response alone, over those with the sources' spectra: the ratio of the
+/// variances of pixels whose samples differ much.
+#[derive(Clone, Copy, Debug, serde::Serialize)]
+pub struct SpectralGainReport {
+    /// In the mean over pixels, sources and surfaces.
+    pub mean: f64,
+    /// The least.
+    pub least: f64,
+    /// The greatest.
+    pub most: f64,
 }
 
 /// A lens.
@@ -210,6 +226,8 @@ impl SettingsReport {
             replicates: s.replicates,
             pixels_sharing_paths: s.blocks.len_px(),
             wavelengths_per_path: s.wavelengths,
+            wavelength_density: s.wavelength_sampling.word(),
+            spectral_gain: camera.spectral_gain.map(SpectralGainReport::of),
             route: match s.route {
                 Route::Lens => "lens",
                 Route::Pupil(_) => "pupil",
@@ -220,6 +238,12 @@ impl SettingsReport {
             sums_electrons: s.folded,
             seed: s.seed,
         }
+    }
+}
+
+impl SpectralGainReport {
+    fn of(SpectralGain { mean, least, most }: SpectralGain) -> Self {
+        Self { mean, least, most }
     }
 }
 

@@ -260,6 +260,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
             "correlated_block_px": settings.blocks.len_px(),
             "max_bounces": settings.max_bounces,
             "wavelengths_per_path": settings.wavelengths,
+            "wavelength_density": settings.wavelength_sampling.word(),
             "range_nm": [settings.range_nm.0, settings.range_nm.1],
             "band_width_nm": settings.bands.map(etendue_core::Bands::width_nm),
             "route": if settings.route == Route::Lens { "lens" } else { "pupil" },

@@ -44,6 +44,7 @@ mod tests;
 mod timing;
 mod vertex_animation;
 mod video;
+mod wavelengths;
 mod weather;
 mod world;
 
@@ -52,7 +53,7 @@ pub use choices::{Choices, Quality, Refinement};
 use crate::plan::fingerprint::{fingerprint, with_passes};
 use crate::plan::remark::grouped;
 use crate::plan::shared_light;
-use crate::plan::{CameraBody, CameraPasses, CameraPlan, LightOwner, Plan, TimeDependence};
+use crate::plan::{CameraBody, CameraPasses, CameraPlan, LightOwner, Plan, SourceSpectra, TimeDependence};
 use camera_path::{camera_path, mount};
 use context::Context;
 use etendue_core::{CameraPath, TimeInterval};
@@ -61,6 +62,7 @@ use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
 use etendue_tracer::accel::World;
 use etendue_tracer::geometry::{Mesh, VertexAnimation};
+use etendue_tracer::lights::spectral_fluxes;
 use etendue_tracer::media::Medium;
 use frames::Frames;
 use material::MaterialTableBuilder;
@@ -121,6 +123,8 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     annotations::resolve(description, &mut cameras, context);
     let air_moves = precipitation.is_some() || media.iter().any(Medium::moves);
     timing::depend(&mut cameras, &world, (&sources, is_modulated), air_moves, context);
+    let source_spectra = SourceSpectra::of(spectral_fluxes(&world, &material_table, &sources));
+    wavelengths::choose(&mut cameras, &source_spectra, description, context);
     shared_light::share(&mut cameras);
     air::layers(description, &mut cameras, (!media.is_empty(), precipitation.is_some()), context);
     air::remark(&cameras, &media, context);
@@ -143,6 +147,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         world: Arc::new(world),
         material_table: Arc::new(material_table),
         sources,
+        source_spectra,
         media,
         precipitation,
         sky,
@@ -197,8 +202,22 @@ fn camera_plan(
     let light = LightOwner { camera: name.clone(), index };
     let time = TimeDependence::None;
     let mount = mount(&setup.pose);
-    let camera =
-        CameraPlan { name, index, light, path, mount, timing, time, body, settings, passes, depth_of_field, products };
+    let spectral_gain = None;
+    let camera = CameraPlan {
+        name,
+        index,
+        light,
+        path,
+        mount,
+        timing,
+        time,
+        body,
+        settings,
+        spectral_gain,
+        passes,
+        depth_of_field,
+        products,
+    };
     video::check(&setup.output, &camera, context);
     Some(camera)
 }

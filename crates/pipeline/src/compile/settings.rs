@@ -7,7 +7,7 @@ use crate::camera::defocus::{margin_px, whole_margin_px};
 use crate::camera::photograph::front_on_picture;
 use crate::camera::raw_colour::RawColour;
 use crate::camera::rectified::RectifiedCamera;
-use crate::plan::{CameraBody, Passes, Products, RawFormat, Route, Settings};
+use crate::plan::{CameraBody, Passes, Products, RawFormat, Route, Settings, WavelengthSampling};
 use crate::render::adaptive::cell_px;
 use crate::render::block::Blocks;
 use crate::render::film::Film;
@@ -207,6 +207,8 @@ pub(super) fn settings(
         // Of paths only.
         caustics: level != Level::Path || render.caustics.as_ref().is_none_or(|c| c.value),
         wavelengths: wavelengths(render, body, &route, context)?,
+        // Decided where all light is known.
+        wavelength_sampling: WavelengthSampling::Uniform,
         route,
         range_nm,
         bands,

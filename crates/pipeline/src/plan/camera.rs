@@ -7,6 +7,7 @@ use super::products::Products;
 use super::row_exposure::RowExposure;
 use super::settings::{Route, Settings};
 use super::timing::{TimeDependence, Timing};
+use super::wavelength_sampling::SpectralGain;
 use etendue_core::{CameraPath, CameraPose};
 use etendue_optics::{DepthOfField, Effects, Front, FrontRay, Lens};
 use etendue_projection::Raster;
@@ -35,6 +36,9 @@ pub struct CameraPlan {
     pub body: CameraBody,
     /// How its light is found.
     pub settings: Settings,
+    /// What the spectra of the light's sources in the density of wavelengths are foretold to save; `None` where no electrons are summed or
+    /// no source gives any.
+    pub spectral_gain: Option<SpectralGain>,
     /// The passes that its samples come in; `None`: all in one.
     pub passes: Option<Passes>,
     /// How things out of focus are blurred at the pupil; none through the lens, whose rays do it.
@@ -145,6 +149,13 @@ impl CameraPlan {
     #[must_use]
     pub fn owns_light(&self) -> bool {
         self.light.index == self.index
+    }
+
+    /// The sensor whose electrons its light is summed into, or watched for their noise.
+    #[must_use]
+    pub fn summing_sensor(&self) -> Option<&Sensor> {
+        let Settings { folded, adaptive, route, .. } = &self.settings;
+        self.body.sensor.as_ref().filter(|_| *folded || adaptive.is_some() && *route == Route::Lens)
     }
 
     /// Columns and rows of the film: of the picture with its margin, or of the stored radiance.

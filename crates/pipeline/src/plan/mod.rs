@@ -16,9 +16,11 @@ pub mod remark;
 mod row_exposure;
 mod settings;
 pub(crate) mod shared_light;
+mod source_spectra;
 pub mod summary;
 mod timing;
 mod warnings;
+mod wavelength_sampling;
 
 use crate::plan::remark::Remark;
 use etendue_tracer::accel::World;
@@ -39,7 +41,9 @@ pub use precipitation::Precipitation;
 pub use products::{Products, RawFormat};
 pub use row_exposure::{CaptureTiming, RowExposure, RowSkipping};
 pub use settings::{AdaptiveSampling, Route, Settings};
+pub use source_spectra::SourceSpectra;
 pub use timing::{Jitter, TimeDependence, Timing};
+pub use wavelength_sampling::{SpectralGain, WavelengthSampling};
 
 /// What a rendering does, for all cameras of a job.
 #[derive(Clone, Debug)]
@@ -50,6 +54,8 @@ pub struct Plan {
     pub material_table: Arc<MaterialTable>,
     /// What shines but is no surface.
     pub sources: Sources,
+    /// The spectra of all light.
+    pub source_spectra: SourceSpectra,
     /// What scatters light between surfaces.
     pub media: Vec<Medium>,
     /// Rain or snow, whose medium is one of these.

@@ -1,5 +1,6 @@
 //! How the light of a camera is found.
 
+use super::wavelength_sampling::WavelengthSampling;
 use crate::render::block::Blocks;
 use etendue_core::Bands;
 use etendue_optics::PupilProjection;
@@ -41,6 +42,8 @@ pub struct Settings {
     pub caustics: bool,
     /// Wavelengths a path: 1, 4 or 8.
     pub wavelengths: u32,
+    /// The density by which they are drawn; evenly where no electrons are summed.
+    pub wavelength_sampling: WavelengthSampling,
     /// The way to the sensor plane.
     pub route: Route,
     /// Shortest and longest wavelength sampled, nm.

@@ -8,6 +8,7 @@ use crate::render::light::{Cancelled, RaySource, RenderJob, Sampling};
 use crate::render::mosaic::Mosaic;
 use crate::render::near_precipitation::{near, seen_region};
 use crate::render::observer::Observer;
+use crate::render::pixel_density::PixelDensity;
 use crate::render::spectrum_spread::SpectrumSpread;
 use crate::render::tile::Shard;
 use crate::render::tolerance::Tolerance;
@@ -138,9 +139,8 @@ fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, Cancell
         .with_media(&media)
         .with_near(near.as_ref());
     let settings = &camera.settings;
-    let sensor = camera.body.sensor.as_ref().filter(|_| settings.folded || watches_electrons(settings));
-    let mosaic =
-        sensor.map(|sensor| Mosaic::of(sensor, settings.range_nm, settings.bands.is_some()).beyond(margin_px(camera)));
+    let density = pixel_density(plan, camera);
+    let mosaic = camera.summing_sensor().map(|sensor| Mosaic::of(sensor, &density).beyond(margin_px(camera)));
     let job = render_job((camera, rows), request, source, mosaic.as_ref());
     let job = RenderJob { sampling: Sampling { pass, ..job.sampling }, ..job };
     match settings.wavelengths {
@@ -148,6 +148,12 @@ fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, Cancell
         8 => job.gather::<8>(&tracer, before, observer),
         _ => job.gather::<4>(&tracer, before, observer),
     }
+}
+
+/// How the wavelengths of a camera's pixels are drawn.
+fn pixel_density<'a>(plan: &'a Plan, camera: &CameraPlan) -> PixelDensity<'a> {
+    let Settings { wavelength_sampling: sampling, range_nm, bands, .. } = camera.settings;
+    PixelDensity { sampling, sources: &plan.source_spectra, range_nm, keeps_bands: bands.is_some() }
 }
 
 /// Up to which distances drops or flakes are modelled one by one for the first picture of a camera; `None` where none fall.
@@ -166,17 +172,12 @@ pub fn change_over(plan: &Plan, camera: &CameraPlan) -> Option<ChangeOver> {
     of.map(|(.., change_over)| change_over)
 }
 
-/// Whether electrons are made of the samples only to know their noise.
-fn watches_electrons(settings: &Settings) -> bool {
-    settings.adaptive.is_some() && settings.route == Route::Lens
-}
-
 /// The tolerance of a camera whose samples noise decides.
 #[must_use]
 pub fn tolerance(camera: &CameraPlan) -> Option<Tolerance> {
     let settings = &camera.settings;
     let limit = settings.adaptive?;
-    let sensor = camera.body.sensor.as_ref().filter(|_| watches_electrons(settings));
+    let sensor = camera.body.sensor.as_ref().filter(|_| settings.route == Route::Lens);
     let noise = sensor.map(|sensor| match light_stays(camera, sensor) {
         true => sensor.temporal_noise(),
         false => sensor.temporal_noise().never_white(),

@@ -17,6 +17,7 @@ pub mod boxes;
 mod camera_light;
 pub mod exposure;
 pub mod film;
+pub mod foretold_gain;
 pub mod frame_view;
 pub mod gather;
 pub mod light;
@@ -28,6 +29,7 @@ pub mod noise_reached;
 pub mod observer;
 #[cfg(test)]
 mod pass_tests;
+pub mod pixel_density;
 pub mod pupil_depth;
 pub mod rays;
 pub mod spectrum_spread;

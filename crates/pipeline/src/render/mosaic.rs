@@ -2,22 +2,14 @@
 //!
 //! Responsivities are those of a second of exposure, so that cameras that differ in exposure alone fold the same.
 //!
-//! A pixel that folds its responsivity R(λ) into electrons draws its wavelengths with a density that is a mixture of
-//! R(λ) and of the uniform density: electrons are then an estimate with little spectral noise, and where a spectral cube
-//! is kept beside them, every band still gets its share.
+//! A pixel that folds its responsivity into electrons draws its wavelengths by it ([`PixelDensity`]): electrons are then an estimate with
+//! little spectral noise, and where a spectral cube is kept beside them, every band still gets its share.
 
+use crate::render::pixel_density::PixelDensity;
 use etendue_core::WavelengthDensity;
 use etendue_core::random::Pixel;
 use etendue_sensor::Sensor;
 use etendue_spectra::Spectrum;
-
-/// Width of the density's steps, nm, at most.
-const STEP_NM: f64 = 5.0;
-/// Share of the uniform density where only electrons are summed: it guards against a step whose mean is far below its
-/// peak.
-const UNIFORM_SHARE: f64 = 0.05;
-/// The same where spectral bands are kept too.
-pub(crate) const UNIFORM_SHARE_WITH_BANDS: f64 = 0.5;
 
 /// One pixel of the tile.
 #[derive(Clone, Debug)]
@@ -38,17 +30,14 @@ pub struct Mosaic {
 }
 
 impl Mosaic {
-    /// The tile of a sensor; wavelengths are drawn from `range_nm`, and `keeps_bands` says whether a cube is kept.
+    /// The tile of a sensor whose pixels' wavelengths are drawn by these densities.
     #[must_use]
-    pub fn of(sensor: &Sensor, range_nm: (f64, f64), keeps_bands: bool) -> Self {
+    pub fn of(sensor: &Sensor, density: &PixelDensity<'_>) -> Self {
         let cfa = &sensor.parameters().cfa;
-        let rates = sensor.rate_responsivities();
-        let uniform_share = if keeps_bands { UNIFORM_SHARE_WITH_BANDS } else { UNIFORM_SHARE };
-        let site = |channel: &usize| {
-            let responsivity = rates[*channel].clone();
-            Site { density: density(&responsivity, range_nm, uniform_share), responsivity }
-        };
-        Self { columns: cfa.width(), margin_px: [0, 0], sites: cfa.channels().iter().map(site).collect() }
+        let channel = |responsivity: Spectrum| Site { density: density.of(&responsivity), responsivity };
+        let channels: Vec<Site> = sensor.rate_responsivities().into_iter().map(channel).collect();
+        let sites = cfa.channels().iter().map(|channel| channels[*channel].clone()).collect();
+        Self { columns: cfa.width(), margin_px: [0, 0], sites }
     }
 
     /// The same for a film that begins `margin_px` columns and rows before the sensor.
@@ -80,48 +69,19 @@ impl Mosaic {
     }
 }
 
-fn density(responsivity: &Spectrum, (low_nm, high_nm): (f64, f64), uniform_share: f64) -> WavelengthDensity {
-    let steps = ((high_nm - low_nm) / STEP_NM).ceil().max(1.0);
-    let edge = |i: f64| low_nm + (high_nm - low_nm) * i / steps;
-    let means: Vec<f64> =
-        (0..steps as usize).map(|i| responsivity.band_mean(edge(i as f64), edge(i as f64 + 1.0))).collect();
-    let mean = means.iter().sum::<f64>() / steps;
-    let weight = |m: &f64| match mean > 0.0 {
-        true => (uniform_share + (1.0 - uniform_share) * m / mean) as f32,
-        false => 1.0,
-    };
-    let weights: Vec<_> = means.iter().map(weight).collect();
-    WavelengthDensity::new(&weights, low_nm as f32, high_nm as f32).expect("weights are positive and finite")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn wavelengths_are_asked_where_a_pixel_responds_and_a_little_everywhere() {
-        let green = Spectrum::from_fn(|nm| if (500.0..=600.0).contains(&nm) { 2.0 } else { 0.0 });
-        let density = density(&green, (400.0, 700.0), 0.25);
-        let (inside, outside) = (300.0 * density.pdf(550.0), 300.0 * density.pdf(430.0));
-        // A third of the range holds three quarters of the density beside a quarter spread evenly.
-        assert!((inside - (0.25 + 0.75 * 3.0)).abs() < 0.05 && (outside - 0.25).abs() < 0.01, "{inside} {outside}");
-    }
-
-    #[test]
     fn a_margin_moves_the_tile() {
         let site = || Site {
             responsivity: Spectrum::constant(1.0),
-            density: density(&Spectrum::constant(1.0), (400.0, 700.0), 0.5),
+            density: WavelengthDensity::new(&[1.0], 400.0, 700.0).expect("a weight"),
         };
         let mosaic =
             Mosaic { columns: 2, margin_px: [0, 0], sites: vec![site(), site(), site(), site()] }.beyond([3, 2]);
         let places = |x: u32, y: u32| mosaic.place(Pixel { x, y });
         assert_eq!([places(3, 2), places(4, 2), places(3, 3), places(0, 0), places(1, 1)], [0, 1, 2, 1, 2]);
-    }
-
-    #[test]
-    fn a_pixel_that_responds_to_nothing_draws_uniformly() {
-        let density = density(&Spectrum::constant(0.0), (400.0, 700.0), 0.05);
-        assert!((300.0 * density.pdf(490.0) - 1.0).abs() < 1e-5);
     }
 }

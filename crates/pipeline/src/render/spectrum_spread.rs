@@ -9,7 +9,7 @@
 //! wavelengths of all replicates are spread together, which leaves less noise.
 
 use crate::plan::{CameraPlan, Settings};
-use crate::render::mosaic::UNIFORM_SHARE_WITH_BANDS;
+use crate::render::pixel_density::UNIFORM_SHARE_WITH_BANDS;
 use etendue_core::Bands;
 use etendue_core::random::{Draw, GoldenSequence, PathStream, PixelAddress, ShiftedLattice};
 

@@ -49,6 +49,9 @@ record! {
         optional path_reuse_px: Placed<u64> = among(&[1, 2, 4, 8]);
         /// Wavelengths that a path carries. Default: 4.
         optional wavelengths_per_path: Placed<u64> = among(&[1, 4, 8]);
+        /// The density by which the wavelengths of pixels that sum electrons are drawn: their noise depends on it, their mean does not.
+        /// Default: "auto".
+        optional wavelength_density: Placed<WavelengthDensity> = choice();
         /// Through the lens (exact), or as seen from the centre of the entrance pupil (fast, reusable). Default: "lens".
         optional route: Placed<Route> = choice();
         /// Width of the spectral bands, nm, 1 … 100; the range is a whole number of bands. Default: 5.
@@ -174,6 +177,20 @@ choice! {
 }
 
 choice! {
+    /// The density by which the wavelengths of pixels that sum electrons are drawn.
+    pub enum WavelengthDensity {
+        /// By the response, and by the light's spectrum with it where that is foretold to lessen the variance and no bands are kept.
+        "auto" => Auto,
+        /// Evenly over the range.
+        "uniform" => Uniform,
+        /// By the pixel's response.
+        "response" => Response,
+        /// By the pixel's response times the spectra of the scene's sources of light.
+        "response_and_source" => ResponseAndSource,
+    }
+}
+
+choice! {
     /// What pixels sum.
     pub enum Accumulate {
         /// What the outputs need.
@@ -202,6 +219,7 @@ impl Render {
             caustics: None,
             path_reuse_px: None,
             wavelengths_per_path: None,
+            wavelength_density: None,
             route: None,
             band_width_nm: None,
             wavelength_range_nm: None,
@@ -270,6 +288,7 @@ impl Render {
             caustics: a.caustics.or(b.caustics),
             path_reuse_px: a.path_reuse_px.or(b.path_reuse_px),
             wavelengths_per_path: a.wavelengths_per_path.or(b.wavelengths_per_path),
+            wavelength_density: a.wavelength_density.or(b.wavelength_density),
             route: a.route.or(b.route),
             band_width_nm: a.band_width_nm.or(b.band_width_nm),
             wavelength_range_nm: a.wavelength_range_nm.or(b.wavelength_range_nm),

@@ -4,6 +4,7 @@ use super::blas::Blas;
 use super::build::TreeQuality;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, MeshId, Shape, uniform_scale};
+use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 /// Why a world is refused.
@@ -134,14 +135,7 @@ impl WorldBuilder {
             }
             Shape::Mesh(id) => {
                 let mesh = Some(&self.meshes[id.0 as usize]).filter(|mesh| mesh.animation().is_none())?;
-                let of_it = |primitive: &u32| {
-                    instance.materials.get(usize::from(mesh.slots()[*primitive as usize])) == Some(&material)
-                };
-                let area = |primitive| {
-                    let [a, b, c] = mesh.corners(primitive).map(glam::Vec3::as_dvec3);
-                    0.5 * (to_world * (b - a)).cross(to_world * (c - a)).length()
-                };
-                Some((0..mesh.triangles().len() as u32).filter(of_it).map(area).sum())
+                Some(mesh_area_m2(mesh, instance, material, &to_world))
             }
         }
     }
@@ -159,6 +153,17 @@ impl WorldBuilder {
         let trees = self.meshes.par_iter().map(tree).collect();
         Ok(World { meshes: self.meshes, trees, instances: self.instances, tree_quality: self.tree_quality })
     }
+}
+
+/// Area of one side of the triangles of a mesh that have a material on an instance, m² in the world.
+fn mesh_area_m2(mesh: &Mesh, instance: &Instance, material: MaterialId, to_world: &DMat3) -> f64 {
+    let of_it =
+        |primitive: &u32| instance.materials.get(usize::from(mesh.slots()[*primitive as usize])) == Some(&material);
+    let area = |primitive| {
+        let [a, b, c] = mesh.corners(primitive).map(glam::Vec3::as_dvec3);
+        0.5 * (*to_world * (b - a)).cross(*to_world * (c - a)).length()
+    };
+    (0..mesh.triangles().len() as u32).filter(of_it).map(area).sum()
 }
 
 fn check(index: usize, instance: &Instance, meshes: &[Mesh]) -> Result<(), WorldError> {
@@ -222,5 +227,48 @@ impl World {
     #[must_use]
     pub fn instances(&self) -> &[Instance] {
         &self.instances
+    }
+
+    /// Area of one side of an instance's surfaces of a material at the time 0, m²; of a stretched sphere that of one whose squared
+    /// radius is the mean of its squared half axes.
+    #[must_use]
+    pub fn area_at_start_m2(&self, instance: &Instance, material: MaterialId) -> f64 {
+        let to_world = instance.to_world.at(0.0).matrix3;
+        match instance.shape {
+            Shape::Mesh(id) => mesh_area_m2(self.mesh(id), instance, material, &to_world),
+            Shape::Sphere { .. } if instance.materials.first() != Some(&material) => 0.0,
+            Shape::Sphere { radius_m } => {
+                let squares: f64 =
+                    [to_world.x_axis, to_world.y_axis, to_world.z_axis].map(DVec3::length_squared).iter().sum();
+                4.0 * core::f64::consts::PI * radius_m * radius_m * squares / 3.0
+            }
+        }
+    }
+
+    /// Radius of a ball about all instances at the time 0, m; 0 where there are none.
+    #[must_use]
+    pub fn radius_at_start_m(&self) -> f64 {
+        let ends = self.instances.iter().flat_map(|instance| self.corners_at_start_m(instance));
+        let bounds = ends.fold(None, |found: Option<(DVec3, DVec3)>, at| match found {
+            None => Some((at, at)),
+            Some((low, high)) => Some((low.min(at), high.max(at))),
+        });
+        bounds.map_or(0.0, |(low, high)| 0.5 * (high - low).length())
+    }
+
+    /// Corners of the box about an instance's shape in its own frame, in the world at the time 0.
+    fn corners_at_start_m(&self, instance: &Instance) -> [DVec3; 8] {
+        let (low, high) = match instance.shape {
+            Shape::Sphere { radius_m } => (DVec3::splat(-radius_m), DVec3::splat(radius_m)),
+            Shape::Mesh(id) => self
+                .mesh(id)
+                .bounds()
+                .map_or((DVec3::ZERO, DVec3::ZERO), |(low, high)| (low.as_dvec3(), high.as_dvec3())),
+        };
+        let to_world = instance.to_world.at(0.0);
+        core::array::from_fn(|i| {
+            let pick = |bit: usize, axis: usize| if i >> bit & 1 == 0 { low[axis] } else { high[axis] };
+            to_world.transform_point3(DVec3::new(pick(0, 0), pick(1, 1), pick(2, 2)))
+        })
     }
 }

@@ -11,7 +11,7 @@ use etendue_core::distribution::Distribution2;
 use etendue_core::maths::f32::{acos, atan2, sin_cos};
 use etendue_core::{Spectral, Wavelengths, maths};
 use etendue_spectra::{Spectrum, upsample};
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use super::sky::SkyEnvironment;
 use super::{BRIGHTEST, LightSample};
@@ -220,6 +220,17 @@ impl ImageEnvironment {
     }
 
     /// Irradiance of a surface under the mean of the surroundings, W·m⁻²·nm⁻¹, over a range of wavelengths.
+    /// Spectral irradiance of a surface under the mean colour of all directions, W·m⁻²·nm⁻¹.
+    pub(super) fn irradiance(&self) -> Spectrum {
+        let rows = self.texels.chunks(self.width).enumerate();
+        let row = |(y, texels): (usize, &[[f32; 3]])| {
+            let sum = texels.iter().fold(DVec3::ZERO, |sum, texel| sum + Vec3::from(*texel).as_dvec3());
+            sum * (solid_angle(y, self.height) / self.width as f64)
+        };
+        let mean = rows.map(row).fold(DVec3::ZERO, |sum, row| sum + row);
+        upsample::emission_spectrum((mean * f64::from(self.scale)).as_vec3().to_array()).scaled(f64::from(PI))
+    }
+
     pub(super) fn mean_irradiance(&self, low_nm: f64, high_nm: f64) -> f64 {
         let white = upsample::emission_spectrum([1.0; 3]);
         core::f64::consts::PI * self.mean_luminance * white.band_mean(low_nm, high_nm)

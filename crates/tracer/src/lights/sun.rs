@@ -112,6 +112,16 @@ impl Sun {
         core::f64::consts::PI * self.sin2 * mean
     }
 
+    /// Spectral irradiance of a surface that faces it, W·m⁻²·nm⁻¹.
+    #[must_use]
+    pub fn irradiance(&self) -> Spectrum {
+        let mean = match self.limb {
+            Some(_) => self.radiance.product(&Spectrum::from_fn(model::limb_mean)),
+            None => self.radiance.clone(),
+        };
+        mean.scaled(core::f64::consts::PI * self.sin2)
+    }
+
     /// Whether any of the disc is above the horizon of a surface of this unit normal.
     pub(super) fn rises_over(&self, normal: Vec3) -> bool {
         // Room for the rounding of both vectors.

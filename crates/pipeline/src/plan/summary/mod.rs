@@ -10,6 +10,7 @@ mod processing;
 mod shared_light;
 mod spectrum;
 mod time;
+mod wavelengths;
 mod words;
 
 use crate::plan::film_cost::Share;
@@ -183,8 +184,11 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let samples = samples(camera);
     let alone =
         if s.wavelengths == 1 && camera.body.disperses() { ", as the lens treats each differently" } else { "" };
-    let wavelengths = count(s.wavelengths as usize, "wavelength");
-    line(f, "sampling", format!("{samples}, seed {}, {wavelengths} a path{alone}", s.seed))?;
+    let carried = count(s.wavelengths as usize, "wavelength");
+    line(f, "sampling", format!("{samples}, seed {}, {carried} a path{alone}", s.seed))?;
+    if let Some(text) = wavelengths::wavelengths(camera) {
+        line(f, "wavelengths", text)?;
+    }
     line(f, "paths", level(s))?;
     if s.blocks != Blocks::SINGLE {
         line(f, "shared", format!("tails of the paths of {} pixels, whose errors are alike", s.blocks.len_px()))?;

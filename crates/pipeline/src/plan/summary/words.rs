@@ -26,6 +26,15 @@ pub(super) fn figure(x: f64) -> f64 {
     (x * 1e4).round() / 1e4
 }
 
+/// A ratio: three digits, none after the point from 100 on.
+pub(super) fn ratio(x: f64) -> String {
+    match x {
+        x if x < 10.0 => format!("{x:.2}"),
+        x if x < 100.0 => format!("{x:.1}"),
+        x => format!("{x:.0}"),
+    }
+}
+
 /// Seconds in words: to a tenth below ten.
 pub(super) fn seconds(s: f64) -> String {
     if s < 10.0 { format!("{s:.1}") } else { format!("{s:.0}") }

@@ -1,0 +1,119 @@
+//! The spectra of the sources of a scene's light, those of one shape taken together.
+
+use etendue_spectra::Spectrum;
+
+/// Cosine of the angle between two spectra, as vectors of their values, from which on they count as one.
+const SAME_SHAPE: f64 = 0.9995;
+/// Groups at most; what comes after joins the one that is most alike.
+const MAX_GROUPS: usize = 16;
+/// Sources below this part of what a pixel gets of all are left out.
+const LEAST_SHARE: f64 = 1e-6;
+
+/// Spectral fluxes of groups of sources, W·nm⁻¹.
+#[derive(Clone, Debug, Default)]
+pub struct SourceSpectra {
+    fluxes: Vec<Spectrum>,
+}
+
+/// What a pixel gets of a group of sources.
+#[derive(Clone, Debug)]
+pub(crate) struct LitResponse {
+    /// Part of the draws that the group is worth; those of all groups are 1 together.
+    pub(crate) weight: f64,
+    /// Responsivity times spectrum.
+    pub(crate) product: Spectrum,
+    /// Its integral.
+    pub(crate) integral: f64,
+}
+
+impl SourceSpectra {
+    /// Of the fluxes of all sources, W·nm⁻¹.
+    #[must_use]
+    pub fn of(fluxes: Vec<Spectrum>) -> Self {
+        let mut groups: Vec<Spectrum> = Vec::new();
+        for flux in fluxes.into_iter().filter(|flux| flux.max_value() > 0.0) {
+            let alike = |group: &Spectrum| cosine(group, &flux);
+            let nearest = (0..groups.len()).max_by(|a, b| alike(&groups[*a]).total_cmp(&alike(&groups[*b])));
+            match nearest.filter(|i| groups.len() == MAX_GROUPS || alike(&groups[*i]) >= SAME_SHAPE) {
+                Some(i) => groups[i] = sum(&groups[i], &flux),
+                None => groups.push(flux),
+            }
+        }
+        Self { fluxes: groups }
+    }
+
+    /// Whether nothing shines.
+    #[must_use]
+    pub fn is_dark(&self) -> bool {
+        self.fluxes.is_empty()
+    }
+
+    /// What a pixel of a responsivity gets of each group over a range, nm.
+    ///
+    /// The draws are shared by the roots of what the groups give. A pixel that a group lights alone has, where spectra do not
+    /// overlap, a mean square of 1/w in units of the squared mean, w being the group's share of the draws; if pixels are lit by one group each, so many by
+    /// each as it gives light (c), the sum of c/w is least for w ∝ √c.
+    pub(crate) fn lit(&self, responsivity: &Spectrum, (low_nm, high_nm): (f64, f64)) -> Vec<LitResponse> {
+        let given = |flux: &Spectrum| {
+            let product = responsivity.product(flux);
+            let integral = product.integral(low_nm, high_nm);
+            LitResponse { weight: integral.max(0.0).sqrt(), product, integral }
+        };
+        let mut lit: Vec<LitResponse> = self.fluxes.iter().map(given).collect();
+        let all: f64 = lit.iter().map(|group| group.integral).sum();
+        lit.retain(|group| group.integral > LEAST_SHARE * all);
+        let total: f64 = lit.iter().map(|group| group.weight).sum();
+        lit.iter_mut().for_each(|group| group.weight /= total);
+        lit
+    }
+}
+
+fn sum(a: &Spectrum, b: &Spectrum) -> Spectrum {
+    Spectrum::from_fn(|nm| f64::from(a.at(nm as f32)) + f64::from(b.at(nm as f32)))
+}
+
+fn cosine(a: &Spectrum, b: &Spectrum) -> f64 {
+    let dot = |a: &Spectrum, b: &Spectrum| -> f64 {
+        a.nodes().iter().zip(b.nodes()).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
+    };
+    let (a, b) = (&unit(a), &unit(b));
+    dot(a, b) / (dot(a, a) * dot(b, b)).sqrt()
+}
+
+/// With the greatest value 1, so that no square leaves the range of numbers.
+fn unit(spectrum: &Spectrum) -> Spectrum {
+    spectrum.scaled(1.0 / f64::from(spectrum.max_value()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(nm: f64, height: f64) -> Spectrum {
+        Spectrum::from_fn(|at| if (at - nm).abs() < 5.0 { height } else { 0.0 })
+    }
+
+    #[test]
+    fn sources_of_one_shape_are_one_group_and_share_draws_by_the_root_of_what_they_give() {
+        let fluxes = vec![line(500.0, 1.0), line(600.0, 16.0), Spectrum::constant(0.0), line(500.0, 3.0)];
+        let spectra = SourceSpectra::of(fluxes);
+        let lit = spectra.lit(&Spectrum::constant(2.0), (400.0, 700.0));
+        let weights: Vec<f64> = lit.iter().map(|group| group.weight).collect();
+        // 4 and 16 parts of light: a third and two thirds of the draws.
+        assert_eq!(weights.len(), 2);
+        assert!((weights[0] - 1.0 / 3.0).abs() < 1e-9 && (weights[1] - 2.0 / 3.0).abs() < 1e-9, "{weights:?}");
+        let blind = spectra.lit(&line(450.0, 1.0), (400.0, 700.0));
+        assert!(blind.is_empty() && !spectra.is_dark() && SourceSpectra::default().is_dark());
+    }
+
+    #[test]
+    fn many_shapes_join_the_most_alike() {
+        let fluxes: Vec<_> = (0..60).map(|i| line(400.0 + 5.0 * f64::from(i), 1e-30)).collect();
+        let spectra = SourceSpectra::of(fluxes);
+        assert_eq!(spectra.fluxes.len(), MAX_GROUPS);
+        let lit = spectra.lit(&Spectrum::constant(1.0), (300.0, 1100.0));
+        // Nothing of 60 lines of 9 nm is lost.
+        let sum: f64 = lit.iter().map(|group| group.integral).sum();
+        assert!((sum / (60.0 * 9.0 * 1e-30) - 1.0).abs() < 1e-5, "{sum}");
+    }
+}

@@ -1,0 +1,173 @@
+//! The density by which a pixel that sums electrons draws its wavelengths.
+//!
+//! - [`WavelengthSampling::Response`]: p₀ = u U + (1 − u) R/∫R, the responsivity R in steps of 5 nm and the uniform density U; u is 5 % where
+//!   only electrons are summed, 50 % where a spectral cube is kept too.
+//! - [`WavelengthSampling::ResponseAndSource`]: the part that follows R is shared, ε of it as before and 1 − ε to
+//!   Σ w_k R S_k/∫R S_k in steps of 1 nm, over the groups k of the light's sources ([`SourceSpectra::lit`]); where only electrons are summed, ε
+//!   of the uniform part stays.
+//!
+//! p ≥ ε p₀ everywhere, so that for any light f = R L the mean square of a sample, ∫f²/p, is at most 1/ε of that by the response alone:
+//! what reflects the light, and how, need not be known. A pixel lit by the group k alone has ∫f²/p ≤ 1/((1 − ε) w_k) times the squared mean (surfaces
+//! that reflect evenly; twice 1 − u of it where bands are kept).
+
+use crate::plan::{SourceSpectra, WavelengthSampling};
+use etendue_core::WavelengthDensity;
+use etendue_spectra::Spectrum;
+
+/// Width of the response's steps, nm, at most.
+const STEP_NM: f64 = 5.0;
+/// Steps of the source's spectrum in one of the response's: the grid of spectra.
+const FINE_STEPS: usize = 5;
+/// Share of the uniform density where only electrons are summed: it guards against a step whose mean is far below its
+/// peak.
+const UNIFORM_SHARE: f64 = 0.05;
+/// The same where spectral bands are kept too.
+pub(crate) const UNIFORM_SHARE_WITH_BANDS: f64 = 0.5;
+/// ε: share of the density by the response alone where the source's spectrum is in the density.
+pub(crate) const DEFENSIVE_SHARE: f64 = 0.2;
+
+/// How the wavelengths of a camera's pixels are drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct PixelDensity<'a> {
+    /// By what.
+    pub sampling: WavelengthSampling,
+    /// The light's sources.
+    pub sources: &'a SourceSpectra,
+    /// Shortest and longest wavelength, nm.
+    pub range_nm: (f64, f64),
+    /// Whether a spectral cube is kept beside electrons.
+    pub keeps_bands: bool,
+}
+
+impl PixelDensity<'_> {
+    /// The density for a pixel of a responsivity. One that gets nothing from any source draws by its response; one that responds to nothing,
+    /// evenly.
+    #[must_use]
+    pub fn of(&self, responsivity: &Spectrum) -> WavelengthDensity {
+        let weights = match self.sampling {
+            WavelengthSampling::Uniform => vec![1.0],
+            WavelengthSampling::Response => self.by_response(responsivity),
+            WavelengthSampling::ResponseAndSource => {
+                self.by_source(responsivity).unwrap_or_else(|| self.by_response(responsivity))
+            }
+        };
+        let weights: Vec<f32> = weights.iter().map(|weight| *weight as f32).collect();
+        let (low_nm, high_nm) = self.range_nm;
+        WavelengthDensity::new(&weights, low_nm as f32, high_nm as f32).expect("weights are positive and finite")
+    }
+
+    fn uniform_share(&self) -> f64 {
+        if self.keeps_bands { UNIFORM_SHARE_WITH_BANDS } else { UNIFORM_SHARE }
+    }
+
+    /// Steps of the response.
+    fn steps(&self) -> usize {
+        ((self.range_nm.1 - self.range_nm.0) / STEP_NM).ceil().max(1.0) as usize
+    }
+
+    /// Weights of the response's steps, 1 in the mean.
+    fn by_response(&self, responsivity: &Spectrum) -> Vec<f64> {
+        let uniform_share = self.uniform_share();
+        match Means::of(responsivity, self.range_nm, self.steps()) {
+            Some(Means { steps, mean }) => {
+                steps.iter().map(|m| uniform_share + (1.0 - uniform_share) * m / mean).collect()
+            }
+            None => vec![1.0; self.steps()],
+        }
+    }
+
+    /// Weights of the fine steps, 1 in the mean; `None` where no source gives the pixel anything.
+    fn by_source(&self, responsivity: &Spectrum) -> Option<Vec<f64>> {
+        let lit = self.sources.lit(responsivity, self.range_nm);
+        let response = Means::of(responsivity, self.range_nm, self.steps()).filter(|_| !lit.is_empty())?;
+        let uniform = self.uniform_share() * if self.keeps_bands { 1.0 } else { DEFENSIVE_SHARE };
+        let by_response = (1.0 - self.uniform_share()) * DEFENSIVE_SHARE;
+        let by_source = 1.0 - uniform - by_response;
+        let count = FINE_STEPS * self.steps();
+        let mut weights: Vec<f64> =
+            (0..count).map(|i| uniform + by_response * response.steps[i / FINE_STEPS] / response.mean).collect();
+        for group in &lit {
+            let light = Means::of(&group.product, self.range_nm, count)?;
+            let add = |(weight, m): (&mut f64, f64)| *weight += by_source * group.weight * m / light.mean;
+            weights.iter_mut().zip(light.steps).for_each(add);
+        }
+        Some(weights)
+    }
+}
+
+/// Means of a spectrum over equal steps of a range, and over all of it.
+struct Means {
+    steps: Vec<f64>,
+    mean: f64,
+}
+
+impl Means {
+    /// `None` where the spectrum is nothing there.
+    fn of(spectrum: &Spectrum, (low_nm, high_nm): (f64, f64), count: usize) -> Option<Self> {
+        let count_f = count as f64;
+        let edge = |i: f64| low_nm + (high_nm - low_nm) * i / count_f;
+        let steps: Vec<f64> = (0..count).map(|i| spectrum.band_mean(edge(i as f64), edge(i as f64 + 1.0))).collect();
+        let mean = steps.iter().sum::<f64>() / count_f;
+        (mean > 0.0).then_some(Self { steps, mean })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RANGE_NM: (f64, f64) = (400.0, 700.0);
+
+    fn between(low_nm: f64, high_nm: f64) -> Spectrum {
+        Spectrum::from_fn(|nm| if (low_nm..=high_nm).contains(&nm) { 2.0 } else { 0.0 })
+    }
+
+    fn of(
+        sampling: WavelengthSampling,
+        keeps_bands: bool,
+        sources: &[Spectrum],
+        response: &Spectrum,
+    ) -> WavelengthDensity {
+        let sources = &SourceSpectra::of(sources.to_vec());
+        PixelDensity { sampling, sources, range_nm: RANGE_NM, keeps_bands }.of(response)
+    }
+
+    #[test]
+    fn wavelengths_are_asked_where_a_pixel_responds_and_a_little_everywhere() {
+        let density = of(WavelengthSampling::Response, true, &[], &between(500.0, 600.0));
+        let (inside, outside) = (300.0 * density.pdf(550.0), 300.0 * density.pdf(430.0));
+        // A third of the range holds half of the density beside a half spread evenly.
+        assert!((inside - (0.5 + 0.5 * 3.0)).abs() < 0.05 && (outside - 0.5).abs() < 0.01, "{inside} {outside}");
+    }
+
+    #[test]
+    fn a_pixel_that_responds_to_nothing_draws_uniformly() {
+        for sampling in
+            [WavelengthSampling::Uniform, WavelengthSampling::Response, WavelengthSampling::ResponseAndSource]
+        {
+            let density = of(sampling, false, &[between(500.0, 600.0)], &Spectrum::constant(0.0));
+            assert!((300.0 * density.pdf(490.0) - 1.0).abs() < 1e-5);
+        }
+    }
+
+    /// The bound that the module's words derive.
+    #[test]
+    fn the_density_with_the_source_is_nowhere_below_its_share_of_the_one_without() {
+        let lamp = [between(589.0, 590.0), between(430.0, 470.0).scaled(1e-3)];
+        for (keeps_bands, response) in [(false, between(420.0, 610.0)), (true, Spectrum::constant(0.3))] {
+            let [with, without] = [WavelengthSampling::ResponseAndSource, WavelengthSampling::Response]
+                .map(|sampling| of(sampling, keeps_bands, &lamp, &response));
+            let mut sum = 0.0;
+            for i in 0..3000 {
+                let nm = 400.05 + 0.1 * i as f32;
+                // Shares are rounded to 2⁻²⁴; of a step of 1 nm with a share of 3e-5 that is 1e-3.
+                assert!(with.pdf(nm) >= 0.997 * DEFENSIVE_SHARE as f32 * without.pdf(nm), "{nm}");
+                sum += 0.1 * f64::from(with.pdf(nm));
+            }
+            assert!((sum - 1.0).abs() < 1e-3, "{sum}");
+            // Most of the draws go where the lamp's line is.
+            let line: f32 = (0..30).map(|i| 0.1 * with.pdf(588.05 + 0.1 * i as f32)).sum();
+            assert!(line > if keeps_bands { 0.3 } else { 0.6 }, "{line}");
+        }
+    }
+}
