@@ -40,10 +40,19 @@ pub struct SpectralGain {
 const WORTHWHILE: f64 = 1.02;
 
 impl SpectralGain {
-    /// Whether it pays: samples are worth more in the mean, and by more than they may lose anywhere.
+    /// Whether it pays: samples are worth more in the mean, and nowhere lose more than the square of that.
+    ///
+    /// On the street at night with low-pressure sodium lamps beside head lamps of LEDs, 1.5 in the mean and 0.6 at the least, the
+    /// median variance fell to a half, and that of blue pixels, which the head lamps light, did not rise.
     #[must_use]
     pub fn pays(&self) -> bool {
-        self.mean >= WORTHWHILE && self.mean * self.least >= 1.0
+        self.is_felt() && self.mean * self.mean * self.least >= 1.0
+    }
+
+    /// Whether samples are worth more in the mean, whatever they may lose somewhere.
+    #[must_use]
+    pub fn is_felt(&self) -> bool {
+        self.mean >= WORTHWHILE
     }
 }
 
@@ -54,7 +63,7 @@ mod tests {
     #[test]
     fn a_gain_pays_where_it_is_felt_and_outweighs_the_worst_loss() {
         let gain = |mean, least| SpectralGain { mean, least, most: 10.0 };
-        assert!(gain(1.05, 0.98).pays() && gain(2.0, 0.6).pays());
-        assert!(!gain(1.01, 1.0).pays() && !gain(1.05, 0.9).pays());
+        assert!(gain(1.05, 0.95).pays() && gain(1.5, 0.6).pays());
+        assert!(!gain(1.01, 1.0).pays() && !gain(1.1, 0.8).pays());
     }
 }

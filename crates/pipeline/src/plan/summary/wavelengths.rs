@@ -18,11 +18,12 @@ pub(super) fn wavelengths(camera: &CameraPlan) -> Option<String> {
         }
         (WavelengthSampling::Response, Some(gain)) => {
             let why = match (gain.pays(), camera.settings.bands) {
-                (false, _) => ", too little",
-                (true, Some(_)) => ", but bands are kept, too",
-                (true, None) => "; left out as asked",
+                (false, _) if gain.is_felt() => "which may cost more than it saves",
+                (false, _) => "too little",
+                (true, Some(_)) => "but bands are kept, too",
+                (true, None) => "but it is left out as asked",
             };
-            format!("by the pixel's response; the light's spectrum {} with it{why}", saves(gain))
+            format!("by the pixel's response; the light's spectrum would divide {}, {why}", saves(gain))
         }
     })
 }
