@@ -11,10 +11,7 @@ pub(super) fn wavelengths(camera: &CameraPlan) -> Option<String> {
         (WavelengthSampling::Uniform, _) => "evenly over the range, as asked".to_owned(),
         (_, None) => "by the pixel's response".to_owned(),
         (WavelengthSampling::ResponseAndSource, Some(gain)) => {
-            format!(
-                "by the pixel's response and the light's spectrum, which {} than by the response alone",
-                saves(gain)
-            )
+            format!("by the pixel's response and the light's spectrum, which divides {}", saves(gain))
         }
         (WavelengthSampling::Response, Some(gain)) => {
             let why = match (gain.pays(), camera.settings.bands) {
@@ -31,10 +28,5 @@ pub(super) fn wavelengths(camera: &CameraPlan) -> Option<String> {
 /// What it does to the variance of pixels whose samples differ much.
 fn saves(gain: &SpectralGain) -> String {
     let SpectralGain { mean, least, most } = gain;
-    format!(
-        "makes the variance of a noisy pixel {} times smaller ({} to {})",
-        ratio(*mean),
-        ratio(*least),
-        ratio(*most)
-    )
+    format!("the variance of noisy pixels by {} ({} to {})", ratio(*mean), ratio(*least), ratio(*most))
 }
