@@ -90,6 +90,7 @@ mod tests {
     use crate::geometry::{Instance, Shape};
     use crate::lights::Profile;
     use crate::materials::{Material, Surface};
+    use etendue_core::Motion;
     use glam::{DAffine3, DMat3, DVec3};
 
     /// Closed forms: a sphere of radius r sends 4 π² r² L, a lamp of intensity I 4 π I, a sky of radiance L through a ball
@@ -103,7 +104,7 @@ mod tests {
         let mut builder = WorldBuilder::new();
         builder.add_instance(Instance {
             shape: Shape::Sphere { radius_m: 0.5 },
-            to_world: DAffine3::from_scale(DVec3::splat(2.0)).into(),
+            to_world: Motion::still(DAffine3::from_scale(DVec3::splat(2.0))),
             materials: vec![MaterialId(0)],
             instance_id: 1,
             semantic_id: 0,
