@@ -23,7 +23,7 @@ impl<const N: usize> RadianceField<N> for PathTracer<'_> {
         }
         match self.effects {
             SceneEffects::Matt => self.radiance_shared::<N, Matt>(rays, wavelengths, radiance),
-            // Between surfaces no path shares anything.
+            // With media no path shares anything.
             SceneEffects::Clear | SceneEffects::Every => self.radiance_shared::<N, Clear>(rays, wavelengths, radiance),
         }
     }

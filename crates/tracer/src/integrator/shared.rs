@@ -21,7 +21,7 @@ use etendue_core::random::Draw;
 use etendue_core::{FieldRay, Ray, Spectral, TimeInterval, Wavelengths};
 use glam::Vec3;
 
-use super::effects::Effects;
+use super::effects::{Effects, SceneEffects};
 use super::path::{Intersection, MAX_MET, Path, PathStep, Vertex};
 use super::{Level, PathTracer};
 use crate::materials::Bsdf;
@@ -86,7 +86,10 @@ impl PathTracer<'_> {
     pub(super) fn shares(&self) -> bool {
         let settings = &self.settings;
         // Between surfaces no path sees what another has found there.
-        self.media.is_none() && settings.level == Level::Path && settings.max_bounces > 1 && settings.roulette_start > 1
+        self.effects != SceneEffects::Every
+            && settings.level == Level::Path
+            && settings.max_bounces > 1
+            && settings.roulette_start > 1
     }
 }
 

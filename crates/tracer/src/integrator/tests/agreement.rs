@@ -136,7 +136,8 @@ fn code_made_for_a_scene_gives_the_same_bits() {
     };
     let matt = by(SceneEffects::Matt);
     assert_eq!(by(SceneEffects::Clear), matt);
-    assert_eq!(by(SceneEffects::Every), matt);
+    // Where there may be media, no path shares anything.
+    assert_eq!(by(SceneEffects::Every)[..64], matt[..64]);
 }
 
 #[test]
