@@ -2,6 +2,7 @@
 
 mod builder;
 mod compiler;
+mod large_picture;
 mod metal;
 mod number;
 mod picture;
@@ -9,6 +10,7 @@ mod road;
 mod share;
 mod slot;
 mod surface;
+mod texels;
 mod texture;
 
 pub(super) use builder::MaterialTableBuilder;

@@ -43,9 +43,20 @@ fn instances(plan: &Plan) -> PlannedEffect {
 fn textures(plan: &Plan) -> PlannedEffect {
     let textures = plan.material_table.textures();
     let text = format!("{} pictures, looked up where the surface that is met has one", textures.len());
+    let tiled: Vec<_> = textures.iter().filter_map(|texture| texture.tiles()).collect();
+    let held: usize = textures.iter().map(|texture| texture.texel_bytes()).sum();
+    let limit = tiled.first().map_or(0, |(_, memory)| memory.limit_bytes());
+    let kept: u64 = tiled.iter().map(|(bytes, _)| bytes).sum();
+    let text = match tiled.len() {
+        0 => text,
+        count => {
+            let [kept, limit] = [kept, limit].map(|bytes| bytes.div_ceil(1_000_000));
+            format!("{text}; {count} of them on the disk ({kept} MB), of which tiles of up to {limit} MB are in memory")
+        }
+    };
     let status = where_needed(!textures.is_empty(), text, "no surface has one");
-    let bytes: usize = textures.iter().map(|texture| texture.texel_bytes()).sum();
-    PlannedEffect::new(GROUP, "textures", status).described_by("scene.textures").holding(bytes as f64)
+    let bytes = held as f64 + limit.min(kept) as f64;
+    PlannedEffect::new(GROUP, "textures", status).described_by("scene.textures").holding(bytes)
 }
 
 fn normal_maps(plan: &Plan) -> PlannedEffect {
