@@ -64,7 +64,8 @@ pub fn complete_assets(
 fn large_pictures(assets: &mut Assets, requests: &[AssetRequest], memory: &TextureMemory) -> Vec<Option<PictureHead>> {
     // A picture whose head cannot be read is read as a small one, which tells why.
     let is_texture = |request: &&AssetRequest| request.kind == AssetKind::Texture;
-    let heads: Vec<_> = requests.iter().map(|request| Some(request).filter(is_texture).and_then(|r| head(&r.path))).collect();
+    let heads: Vec<_> =
+        requests.iter().map(|request| Some(request).filter(is_texture).and_then(|r| head(&r.path))).collect();
     let bytes: Vec<u64> = heads.iter().map(|head| head.map_or(0, pyramid_bytes)).collect();
     let large = memory.large(&bytes);
     if large.contains(&true) {

@@ -53,7 +53,8 @@ mod tests {
         let large = |limit_bytes, bytes: &[u64]| TextureMemory { limit_bytes, cache: None }.large(bytes);
         assert_eq!(large(100, &[40, 60]), [false, false]);
         assert_eq!(large(100, &[40, 61]), [false, true]);
-        assert_eq!(large(100, &[30, 100, 10, 11]), [false, true, false, true]);
+        assert_eq!(large(100, &[29, 100, 10, 11]), [false, true, false, false]);
+        assert_eq!(large(100, &[30, 100, 10, 11]), [true, true, false, false], "51 of 50");
         assert_eq!(large(1, &[30, 100]), [true, true]);
         assert_eq!(large(1, &[]), [false; 0]);
         assert_eq!(pyramid_bytes((8192, 8192, PixelFormat::Rgb8)), 7 << 26);

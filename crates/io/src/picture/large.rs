@@ -207,16 +207,23 @@ mod tests {
             DynamicImage::ImageLuma8(ImageBuffer::from_fn(w, h, |x, y| image::Luma([byte(x, y, 0)]))),
             DynamicImage::ImageLumaA8(ImageBuffer::from_fn(w, h, |x, y| image::LumaA([byte(x, y, 0), byte(x, y, 1)]))),
             DynamicImage::ImageRgb8(ImageBuffer::from_fn(w, h, |x, y| image::Rgb([0, 1, 2].map(|i| byte(x, y, i))))),
-            DynamicImage::ImageRgba8(ImageBuffer::from_fn(w, h, |x, y| image::Rgba([0, 1, 2, 3].map(|i| byte(x, y, i))))),
+            DynamicImage::ImageRgba8(ImageBuffer::from_fn(w, h, |x, y| {
+                image::Rgba([0, 1, 2, 3].map(|i| byte(x, y, i)))
+            })),
             DynamicImage::ImageLuma16(ImageBuffer::from_fn(w, h, |x, y| image::Luma([u16::from(byte(x, y, 0)) * 257]))),
-            DynamicImage::ImageRgb16(ImageBuffer::from_fn(w, h, |x, y| image::Rgb([0, 1, 2].map(|i| byte(x, y, i).into())))),
+            DynamicImage::ImageRgb16(ImageBuffer::from_fn(w, h, |x, y| {
+                image::Rgb([0, 1, 2].map(|i| byte(x, y, i).into()))
+            })),
         ];
         for picture in pictures {
             let file = place.path().join("t.png");
             picture.save_with_format(&file, ImageFormat::Png).expect("writable");
             let (whole, strips) = (read_picture(&file).expect("readable"), rows(&file).expect("readable"));
             assert_eq!(head(&file), Some((w, h, format(&whole.pixels))));
-            assert_eq!(strips.len() > 1, picture.color().bits_per_pixel() / u16::from(picture.color().channel_count()) == 8);
+            assert_eq!(
+                strips.len() > 1,
+                picture.color().bits_per_pixel() / u16::from(picture.color().channel_count()) == 8
+            );
             assert!(joined(&strips) == whole.pixels, "{:?}", picture.color());
         }
         let file = place.path().join("t.jpg");

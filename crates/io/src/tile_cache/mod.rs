@@ -186,7 +186,10 @@ mod tests {
         let found = cache.find(&KEY, &LENGTHS).expect("head and length are right");
         assert_eq!(read(&*found, 0), Ok(block(0)));
         let told = read(&*found, 2).expect_err("one bit is another");
-        assert!(told.ends_with(".tiles: block 2 is damaged; the file was removed: run again, and it is made anew"), "{told}");
+        assert!(
+            told.ends_with(".tiles: block 2 is damaged; the file was removed: run again, and it is made anew"),
+            "{told}"
+        );
         assert!(!file.exists());
     }
 

@@ -17,6 +17,7 @@ mod row_exposure;
 mod settings;
 pub(crate) mod shared_light;
 pub mod summary;
+mod texture_use;
 mod timing;
 mod warnings;
 

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use super::mtl::{SlotMaterial, SlotReflectance};
 use super::{
     AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, ImageAsset, LargeImage,
-    MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset, TexelStore, TrajectoryAsset,
+    MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset,
+    TexelStore, TrajectoryAsset,
 };
 use crate::place::Place;
 use crate::record::is_numbered;
@@ -121,7 +122,8 @@ fn textures_of<'a>(
 ) -> impl Iterator<Item = AssetRequest> + 'a {
     let requests = move || named.iter().filter(move |request| request.kind == AssetKind::Mesh && request.path == file);
     let is_seen = move |slot: &&SlotMaterial| requests().any(|request| !request.covered.has(&slot.name));
-    mesh.slot_materials.iter().filter(is_seen).filter_map(picture).map(move |path| {
+    let shown = mesh.slot_materials.iter().zip(mesh.shown_slots()).filter_map(|(slot, shown)| shown.then_some(slot));
+    shown.filter(is_seen).filter_map(picture).map(move |path| {
         let (path, place) = (path.to_owned(), Place::file_head(file));
         AssetRequest { path, kind: AssetKind::Texture, place, covered: Covered::All }
     })

@@ -59,7 +59,8 @@ pub(super) fn held(image: &LargeImage, reading: Reading, sampling: Sampling) -> 
         }
         Ok(())
     })?;
-    let texels = all.ok_or_else(|| TextureError::Size { width: image.width, height: image.height, found: 0 }.to_string())?;
+    let texels =
+        all.ok_or_else(|| TextureError::Size { width: image.width, height: image.height, found: 0 }.to_string())?;
     ImageTexture::new(image.width, image.height, texels, sampling).map_err(|error| error.to_string())
 }
 

@@ -16,3 +16,4 @@ mod texture;
 pub(super) use builder::MaterialTableBuilder;
 pub(super) use metal::complex_index;
 pub(super) use share::share;
+pub(super) use slot::has_picture;

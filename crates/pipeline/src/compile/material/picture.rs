@@ -89,7 +89,9 @@ impl Pictures {
             Err(Refusal::Store(error)) => {
                 let texture = held(image, reading, sampling);
                 let megabytes = texture.as_ref().map_or(0, |texture| texture.texel_bytes().div_ceil(1_000_000));
-                let problem = format!("{megabytes} MB are held in memory, above its limit, because {error}; give a --cache folder");
+                let problem = format!(
+                    "{megabytes} MB are held in memory, above its limit, because {error}; give a --cache folder"
+                );
                 context.warn_on(file.display(), problem);
                 texture
             }

@@ -86,7 +86,9 @@ mod tests {
             (PixelFormat::Rgba32F, ImagePixels::Rgba32F(vec![[7.0; 4]])),
         ];
         for (format, pixels) in pictures {
-            for (encoded, alpha, scale) in [(true, false, 1.0), (false, false, 1.0), (true, true, 1.0), (true, false, 2.0)] {
+            for (encoded, alpha, scale) in
+                [(true, false, 1.0), (false, false, 1.0), (true, true, 1.0), (true, false, 2.0)]
+            {
                 let reading = Reading { encoded, alpha, scale };
                 let found = reading.texels(&pixels).map(|texels| match texels {
                     Texels::Srgb8(_) => TexelEncoding::Srgb8,

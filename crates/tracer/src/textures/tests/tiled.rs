@@ -23,7 +23,10 @@ impl Blocks for Kept {
 
 impl BlockWriter for Kept {
     fn write(&mut self, block: usize, bytes: &[u8]) -> Result<(), String> {
-        assert!(std::mem::replace(&mut self.blocks[block], bytes.to_vec()).is_empty(), "block {block} is written twice");
+        assert!(
+            std::mem::replace(&mut self.blocks[block], bytes.to_vec()).is_empty(),
+            "block {block} is written twice"
+        );
         Ok(())
     }
 }
@@ -141,7 +144,8 @@ fn values_do_not_depend_on_who_reads_and_tiles_that_are_there_are_not_read_again
 fn what_is_no_picture_is_refused_as_in_memory() {
     let mut nowhere = Kept { blocks: vec![Vec::new(); 3], ..Kept::default() };
     let writer = || PyramidWriter::new(2, 2, TexelEncoding::Float).expect("a picture");
-    let push = |writer: &mut PyramidWriter, texels: Vec<[f32; 3]>, out: &mut Kept| writer.push(&Texels::Float(texels), out);
+    let push =
+        |writer: &mut PyramidWriter, texels: Vec<[f32; 3]>, out: &mut Kept| writer.push(&Texels::Float(texels), out);
     let size = |found| TiledError::Texture(TextureError::Size { width: 2, height: 2, found });
     let mut short = writer();
     push(&mut short, vec![[0.0; 3]; 2], &mut nowhere).expect("a row");
@@ -153,5 +157,8 @@ fn what_is_no_picture_is_refused_as_in_memory() {
     let infinite = vec![[0.0; 3], [0.0; 3], [0.0; 3], [0.0, f32::INFINITY, 0.0]];
     let refused = push(&mut writer(), infinite, &mut nowhere);
     assert_eq!(refused, Err(TextureError::NonFinite { texel: 3 }.into()));
-    assert_eq!(PyramidWriter::new(0, 2, TexelEncoding::Float).err(), Some(TextureError::Size { width: 0, height: 2, found: 0 }));
+    assert_eq!(
+        PyramidWriter::new(0, 2, TexelEncoding::Float).err(),
+        Some(TextureError::Size { width: 0, height: 2, found: 0 })
+    );
 }

@@ -196,9 +196,8 @@ impl Halving {
             return None;
         }
         let (window, first) = (&self.window, self.first);
-        let texel = |columns: &Vec<(usize, f32)>| {
-            Share { columns, rows: &self.shares }.mean(|i, j| window[j - first][i])
-        };
+        let texel =
+            |columns: &Vec<(usize, f32)>| Share { columns, rows: &self.shares }.mean(|i, j| window[j - first][i]);
         let coarse = self.columns.iter().map(texel).collect();
         self.next += 1;
         if self.next < self.coarse {
