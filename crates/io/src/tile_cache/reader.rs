@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use etendue_core::blocks::{BlockKey, Blocks};
 
-use super::{HEAD_BYTES, checksum, head, offsets};
+use super::checksum;
+use super::head::{HEAD_BYTES, head, offsets};
 
 /// A file of blocks, open: removing or replacing it under its name changes nothing here.
 #[derive(Debug)]

@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use etendue_core::blocks::{BlockKey, BlockWriter, Fill};
 
-use super::{checksum, head, offsets};
+use super::checksum;
+use super::head::{head, offsets};
 
 /// Numbers the files that this process writes.
 static NUMBER: AtomicU64 = AtomicU64::new(0);
