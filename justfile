@@ -15,6 +15,10 @@ ci:
 bench:
     cargo run --release -p etendue-benches
 
+# Instructions of the whole tracer over those of one without optional effects, on a diffuse scene (needs valgrind)
+instructions:
+    benches/instructions/count
+
 # Regenerate the scenes that ship with the project
 scenes:
     cargo run --release -p etendue-scenes -- scenes

@@ -13,6 +13,18 @@ pub mod precipitation;
 pub mod render_space;
 pub mod textures;
 
+/// Whether the program has the effects that a closed box of diffuse triangles does not need. The feature `minimal` makes a tracer without
+/// them, which refuses by a panic what it cannot show: it serves to count what they cost where they are not used.
+pub(crate) const ALL_EFFECTS: bool = !cfg!(feature = "minimal");
+
+/// Panics in a tracer without optional effects: what follows is one.
+#[inline(always)]
+pub(crate) fn is_optional() {
+    if !ALL_EFFECTS {
+        unreachable!("a tracer of the feature `minimal` shows closed boxes of diffuse triangles alone");
+    }
+}
+
 /// A material's place in the tracer's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MaterialId(pub u32);

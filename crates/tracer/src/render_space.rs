@@ -17,6 +17,7 @@ pub use truth::Truth;
 use crate::accel::tlas::Tlas;
 use crate::accel::{Simd, Visits, World};
 use crate::geometry::{Footprint, Hit, InstanceTransform, MeshId, MeshPose, Placement, Shape, SurfacePoint};
+use crate::is_optional;
 use etendue_core::{Ray, TimeInterval};
 use glam::{DVec3, Vec2, Vec3};
 use std::borrow::Cow;
@@ -99,6 +100,21 @@ impl<'w> RenderSpace<'w> {
     /// The point of the surface that `ray` met at `hit`.
     #[must_use]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let instance = &self.world.instances()[hit.instance as usize];
+        if let (Shape::Mesh(id), Some(placed)) = (instance.shape, self.placed(hit.instance).still())
+            && let mesh = self.world.mesh(id)
+            && mesh.animation().is_none()
+        {
+            return point::of_mesh(&MeshPose::still(mesh), instance, placed, ray, hit);
+        }
+        is_optional();
+        self.surface_of_other(ray, hit)
+    }
+
+    /// The same of what moves, and of spheres.
+    #[cold]
+    #[inline(never)]
+    fn surface_of_other(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let instance = &self.world.instances()[hit.instance as usize];
         let placed = &*self.placed_at(hit.instance, ray.time_s);
         match instance.shape {

@@ -19,6 +19,7 @@ use super::visits::{Counting, Visits};
 use super::walk::{Leaves, walk};
 use super::world::World;
 use crate::geometry::{Hit, Instance, MeshId, Placement, Shape, sphere};
+use crate::is_optional;
 use core::cell::Cell;
 use etendue_core::{Ray, TimeInterval};
 use glam::Vec3;
@@ -200,6 +201,7 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
             merged.tree.closest(self.l, &local, merged.names(), &mut self.best, limit);
             return false;
         }
+        is_optional();
         let placed = &self.top.placed[instance as usize];
         match &self.top.targets[instance as usize] {
             Target::Mesh(tree) => {
@@ -269,6 +271,7 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
             let local = LocalRay::new(self.ray.origin, self.ray.direction);
             return merged.tree.occluded(self.l, &local, *limit);
         }
+        is_optional();
         let instance = instance as usize;
         let placed = &self.top.placed[instance];
         match &self.top.targets[instance] {

@@ -13,8 +13,10 @@
 
 mod caustic;
 mod cone;
+mod effects;
 mod level;
 mod medium;
+mod met_light;
 mod mis;
 mod path;
 mod path_tracer;

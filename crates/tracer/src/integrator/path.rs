@@ -3,18 +3,20 @@
 //! Where a surface is not there (opacity), or light goes straight through it (a thin pane), the path goes on as if it had
 //! met nothing: no scattering event, and light that it then meets is weighed as seen from where it was last scattered.
 
+use core::marker::PhantomData;
 use etendue_core::random::Draw;
 use etendue_core::{FieldRay, Ray, Spectral, TimeInterval, Wavelengths};
 use glam::Vec3;
 
 use super::caustic::History;
 use super::cone::Cone;
+use super::effects::Effects;
 use super::medium::Medium;
 use super::{Level, PathTracer};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
-use crate::lights::{LightHit, LightSample, LightSampleContext, ReceiverGloss};
-use crate::materials::{Bsdf, BsdfSample, Event, ShadingFrame};
+use crate::lights::{LightSample, LightSampleContext, ReceiverGloss};
+use crate::materials::{Bsdf, BsdfSample, BsdfValue, Event, ShadingFrame};
 use crate::media::Phase;
 use crate::precipitation::NearHit;
 use crate::textures::Lookup;
@@ -25,7 +27,7 @@ pub(super) const MAX_MET: u32 = 8192;
 
 /// A path on its way.
 #[derive(Clone)]
-pub(super) struct Path<'a, const N: usize> {
+pub(super) struct Path<'a, const N: usize, E> {
     pub(super) tracer: &'a PathTracer<'a>,
     pub(super) wavelengths: &'a Wavelengths<N>,
     /// What the camera asked: its random address, and when lights are looked at.
@@ -53,6 +55,7 @@ pub(super) struct Path<'a, const N: usize> {
     /// What radiance along the ray counts at the camera.
     pub(super) throughput: Spectral<N>,
     pub(super) radiance: Spectral<N>,
+    pub(super) effects: PhantomData<E>,
 }
 
 /// A surface that the path has met.
@@ -87,7 +90,7 @@ pub(super) enum PathStep {
     Ends,
 }
 
-impl<'a, const N: usize> Path<'a, N> {
+impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     pub(super) fn new(tracer: &'a PathTracer<'a>, asked: &'a FieldRay, wavelengths: &'a Wavelengths<N>) -> Self {
         Self {
             tracer,
@@ -107,6 +110,7 @@ impl<'a, const N: usize> Path<'a, N> {
             prior: 1.0,
             throughput: Spectral::ONE,
             radiance: Spectral::ZERO,
+            effects: PhantomData,
         }
     }
 
@@ -138,6 +142,7 @@ impl<'a, const N: usize> Path<'a, N> {
         match self.meet() {
             Intersection::Nothing => PathStep::Ends,
             Intersection::Passed => PathStep::Goes,
+            Intersection::Medium(..) | Intersection::Particle(_) if !E::MEDIA => PathStep::Ends,
             Intersection::Medium(..) if self.is_spent() => PathStep::Ends,
             Intersection::Medium(position, phase) => self.scatter_in_medium(position, phase),
             Intersection::Particle(_) if self.tracer.settings.only_airlight => PathStep::Ends,
@@ -156,7 +161,8 @@ impl<'a, const N: usize> Path<'a, N> {
     #[inline(always)]
     pub(super) fn meet(&mut self) -> Intersection<'a> {
         let hit = self.tracer.view.closest(&self.ray);
-        if self.tracer.media.is_some()
+        if E::MEDIA
+            && self.tracer.media.is_some()
             && let Some(met) = self.travel_to(hit.as_ref().map_or(f32::INFINITY, |hit| hit.t))
         {
             return met;
@@ -168,7 +174,9 @@ impl<'a, const N: usize> Path<'a, N> {
         let point = self.tracer.view.surface(&self.ray, &hit);
         self.cone.travel(hit.t);
         self.travelled_m += hit.t;
-        self.throughput = self.medium.attenuate(self.throughput, hit.t, self.wavelengths);
+        if E::SURFACES {
+            self.throughput = self.medium.attenuate(self.throughput, hit.t, self.wavelengths);
+        }
         let lookup = self.lookup(&point, self.cone, self.ray.direction);
         if !self.sees_only_air() {
             self.add_emission(&point, &lookup);
@@ -184,7 +192,7 @@ impl<'a, const N: usize> Path<'a, N> {
     #[inline(always)]
     pub(super) fn lookup(&self, point: &SurfacePoint, cone: Cone, direction: Vec3) -> Lookup {
         let at = Lookup { local: point.local, local_normal: point.local_normal, ..Lookup::point(point.uv) };
-        if !self.tracer.material_table.needs_footprint(point.material) {
+        if !(E::SURFACES && self.tracer.material_table.needs_footprint(point.material)) {
             return at;
         }
         let at = Lookup { origin: self.tracer.view.local_origin(point.instance), ..at };
@@ -200,45 +208,11 @@ impl<'a, const N: usize> Path<'a, N> {
         }
     }
 
-    /// Light from beyond the scene, along the ray.
-    fn gather_distant(&mut self) {
-        let strategies = self.tracer.settings.strategies;
-        for light in self.tracer.lights.distant(self.ray.direction, self.receiver.as_ref(), self.wavelengths) {
-            if (light.surrounds || self.follows(self.history.is_caustic())) && !self.sees_only_air() {
-                self.radiance += self.throughput * light.radiance * strategies.met(self.scattered, light.pdf);
-            }
-        }
-    }
-
-    /// Light that the surface met emits against the ray.
-    fn add_emission(&mut self, point: &SurfacePoint, lookup: &Lookup) {
-        let Some(emitted) = self.emitted(point, lookup) else { return };
-        if !self.follows(self.history.is_caustic()) {
-            return;
-        }
-        let (direction, distance_m) = (self.ray.direction, self.travelled_m);
-        let met = |receiver| LightHit { receiver, point, direction, distance_m };
-        let drawn = self.receiver.as_ref().map_or(0.0, |receiver| self.tracer.lights.light_pdf(&met(receiver)));
-        let weight = self.tracer.settings.strategies.met(self.scattered, drawn);
-        self.radiance += self.throughput * emitted * weight;
-    }
-
-    /// Radiance of a surface against the ray: by its material, or as the opening of a lamp; `None` where its side does not shine.
-    #[inline(always)]
-    fn emitted(&self, point: &SurfacePoint, lookup: &Lookup) -> Option<Spectral<N>> {
-        let material_table = self.tracer.material_table;
-        match material_table.emission(point.material) {
-            None => self.tracer.lights.of_opening(point, self.ray.direction, (self.wavelengths, self.lit())),
-            Some(emission) => emission
-                .leaves(point.geometric_normal, -self.ray.direction)
-                .then(|| material_table.radiance(point.material, emission, lookup, (self.wavelengths, self.lit()))),
-        }
-    }
-
     /// Whether the surface is not there for this path.
     fn is_passed(&self, point: &SurfacePoint, lookup: &Lookup) -> bool {
         let material_table = self.tracer.material_table;
-        material_table.lets_pass(point.material)
+        E::SURFACES
+            && material_table.lets_pass(point.material)
             && self.asked.stream.one(Draw::Opacity, self.met) >= material_table.opacity(point.material, lookup)
     }
 
@@ -249,7 +223,7 @@ impl<'a, const N: usize> Path<'a, N> {
 
     /// Beyond the last scattering event light may still come straight through.
     pub(super) fn only_pass(&mut self, point: SurfacePoint, lookup: &Lookup) -> PathStep {
-        if !self.tracer.material_table.lets_pass(point.material) {
+        if !(E::SURFACES && self.tracer.material_table.lets_pass(point.material)) {
             return PathStep::Ends;
         }
         let vertex = self.vertex(point, lookup);
@@ -266,14 +240,15 @@ impl<'a, const N: usize> Path<'a, N> {
             return PathStep::Ends;
         }
         // Light from behind counts where the surface lets it through.
-        let normal = if vertex.bsdf.transmits() { Vec3::ZERO } else { vertex.frame.normal() };
-        let gloss = if vertex.bsdf.transmits() { None } else { self.gloss(vertex) };
+        let transmits = E::SURFACES && vertex.bsdf.transmits();
+        let normal = if transmits { Vec3::ZERO } else { vertex.frame.normal() };
+        let gloss = if !E::SURFACES || transmits { None } else { self.gloss(vertex) };
         let receiver =
             LightSampleContext { position: vertex.point.position, normal, gloss, time_s: vertex.point.time_s };
         self.sample_direct(vertex, &receiver);
         match self.sample(vertex) {
             None => PathStep::Ends,
-            Some(sample) if sample.event == Event::Null => self.go_through(vertex, &sample),
+            Some(sample) if E::SURFACES && sample.event == Event::Null => self.go_through(vertex, &sample),
             Some(sample) => self.go_on(vertex, &sample, &receiver),
         }
     }
@@ -288,13 +263,18 @@ impl<'a, const N: usize> Path<'a, N> {
     #[inline(always)]
     pub(super) fn vertex(&self, point: SurfacePoint, lookup: &Lookup) -> Vertex<'a, N> {
         let material_table = self.tracer.material_table;
-        let material = if material_table.is_mix(point.material) {
+        let material = if E::SURFACES && material_table.is_mix(point.material) {
             material_table.resolve(point.material, lookup, self.asked.stream.one(Draw::Mix, self.met))
         } else {
             point.material
         };
         let frame = self.frame(material, &point, lookup, self.ray.direction);
-        Vertex { bsdf: material_table.bsdf(material, lookup, frame.front, self.wavelengths), point, frame, material }
+        let bsdf = if E::SURFACES {
+            material_table.bsdf(material, lookup, frame.front, self.wavelengths)
+        } else {
+            material_table.matt_bsdf(material, self.wavelengths)
+        };
+        Vertex { bsdf, point, frame, material }
     }
 
     /// The shading frame of a material at a point that a ray of unit `direction` has met.
@@ -307,7 +287,7 @@ impl<'a, const N: usize> Path<'a, N> {
         direction: Vec3,
     ) -> ShadingFrame {
         let material_table = self.tracer.material_table;
-        let normal = if material_table.needs_tangents(material) {
+        let normal = if E::SURFACES && material_table.needs_tangents(material) {
             material_table.shading_normal(material, lookup, point, self.tracer.view.tangents(point))
         } else {
             point.shading_normal
@@ -318,7 +298,7 @@ impl<'a, const N: usize> Path<'a, N> {
     /// Next-event estimation: light of one drawn light, as far as it comes through.
     fn sample_direct(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) {
         let lights = self.tracer.lights;
-        if !lights.can_be_drawn() || vertex.bsdf.is_delta() {
+        if !lights.can_be_drawn() || (E::SURFACES && vertex.bsdf.is_delta()) {
             return;
         }
         let choice = if lights.are_many() { self.asked.stream.one(Draw::LightChoice, self.met) } else { 0.0 };
@@ -329,7 +309,7 @@ impl<'a, const N: usize> Path<'a, N> {
             return;
         };
         let Some(wi) = vertex.frame.inward(light.direction) else { return };
-        let value = vertex.bsdf.evaluate(vertex.frame.wo, wi);
+        let value = self.evaluate(vertex, wi);
         if !(light.surrounds || self.follows(self.history.would_be_caustic(value.pdf))) {
             return;
         }
@@ -350,9 +330,18 @@ impl<'a, const N: usize> Path<'a, N> {
         if only { 1.0 / light.pdf } else { settings.strategies.drawn(light.pdf, scattered) / light.pdf }
     }
 
-    /// Whether light of a lamp counts, given whether it is part of a caustic.
+    /// Value and density of light that arrives at a surface from `wi`.
+    #[inline(always)]
+    pub(super) fn evaluate(&self, vertex: &Vertex<'_, N>, wi: Vec3) -> BsdfValue<N> {
+        match &vertex.bsdf {
+            Bsdf::Diffuse(bsdf) if !E::SURFACES => bsdf.evaluate_above(wi),
+            bsdf => bsdf.evaluate(vertex.frame.wo, wi),
+        }
+    }
+
+    /// Whether light of a lamp counts, given whether it is part of a caustic: matt surfaces alone make none.
     pub(super) fn follows(&self, is_caustic: bool) -> bool {
-        self.tracer.settings.caustics || !is_caustic
+        !E::SURFACES || self.tracer.settings.caustics || !is_caustic
     }
 
     /// Unit direction of the ray.
@@ -373,14 +362,21 @@ impl<'a, const N: usize> Path<'a, N> {
     /// Draws where the path goes; `None` where the light would be absorbed.
     #[inline(always)]
     fn sample(&self, vertex: &Vertex<'_, N>) -> Option<BsdfSample<N>> {
-        let choice = if vertex.bsdf.has_parts() { self.asked.stream.one(Draw::BsdfChoice, self.met) } else { 0.0 };
+        let choice = if E::SURFACES && vertex.bsdf.has_parts() {
+            self.asked.stream.one(Draw::BsdfChoice, self.met)
+        } else {
+            0.0
+        };
         let u = self.asked.stream.two(Draw::BsdfDirection, self.met);
-        vertex.bsdf.sample(vertex.frame.wo, choice, u)
+        match &vertex.bsdf {
+            Bsdf::Diffuse(bsdf) if !E::SURFACES => bsdf.sample_above(u),
+            bsdf => bsdf.sample(vertex.frame.wo, choice, u),
+        }
     }
 
     /// What light crosses that arrives at a surface from `wi`.
     fn medium_towards(&self, vertex: &Vertex<'a, N>, wi: Vec3) -> Medium<'a> {
-        if wi.z < 0.0 {
+        if E::SURFACES && wi.z < 0.0 {
             let table = self.tracer.material_table;
             Medium::beyond(
                 vertex.frame.front,
@@ -403,7 +399,7 @@ impl<'a, const N: usize> Path<'a, N> {
     fn go_on(&mut self, vertex: &Vertex<'a, N>, sample: &BsdfSample<N>, receiver: &LightSampleContext) -> PathStep {
         let Some(direction) = vertex.frame.outward(sample.wi) else { return PathStep::Ends };
         self.throughput *= sample.weight;
-        self.scattered = (sample.event == Event::Scatter).then_some(sample.pdf);
+        self.scattered = (!E::SURFACES || sample.event == Event::Scatter).then_some(sample.pdf);
         self.receiver = self.scattered.map(|_| *receiver);
         self.history.scatter(self.scattered);
         if let Some(pdf) = self.scattered {

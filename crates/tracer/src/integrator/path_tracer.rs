@@ -1,5 +1,6 @@
 //! What a path tracer asks: a view, its materials and its lights.
 
+use super::effects::SceneEffects;
 use super::level::Level;
 use super::medium::Medium;
 use super::settings::PathSettings;
@@ -25,6 +26,8 @@ pub struct PathTracer<'a> {
     pub(super) near: Option<&'a Near<'a>>,
     /// Whether any light goes up and down.
     pub(super) is_modulated: bool,
+    /// The code that is made for the scene.
+    pub(super) effects: SceneEffects,
 }
 
 impl<'a> PathTracer<'a> {
@@ -40,19 +43,34 @@ impl<'a> PathTracer<'a> {
         let solid = Surroundings::of(view, material_table).solid;
         let medium = solid.map_or_else(Medium::default, |id| Medium::inside(material_table.absorption(id)));
         let is_modulated = material_table.is_modulated() || lights.are_modulated();
-        Self { view, material_table, lights, settings, medium, media: None, near: None, is_modulated }
+        let effects = SceneEffects::Every;
+        let tracer =
+            Self { view, material_table, lights, settings, medium, media: None, near: None, is_modulated, effects };
+        tracer.with_effects()
     }
 
     /// The same with what scatters light between surfaces, of the same view.
     #[must_use]
     pub fn with_media(self, media: &'a Media<'a>) -> Self {
-        Self { media: Some(media).filter(|media| !media.is_empty()), ..self }
+        Self { media: Some(media).filter(|media| !media.is_empty()), ..self }.with_effects()
     }
 
     /// The same with drops or flakes about the camera, of the same view and media.
     #[must_use]
     pub fn with_near(self, near: Option<&'a Near<'a>>) -> Self {
-        Self { near, ..self }
+        Self { near, ..self }.with_effects()
+    }
+
+    /// The same by the code that is made for what it may meet.
+    fn with_effects(self) -> Self {
+        let has_media = self.media.is_some() || self.near.is_some() || self.settings.only_airlight;
+        let is_matt = self.material_table.is_matt() && !self.medium.is_solid();
+        let effects = match (has_media, is_matt) {
+            (true, _) => SceneEffects::Every,
+            (false, false) => SceneEffects::Clear,
+            (false, true) => SceneEffects::Matt,
+        };
+        Self { effects, ..self }
     }
 
     /// How paths are followed.

@@ -10,6 +10,7 @@ use etendue_core::random::Draw;
 use glam::Vec3;
 
 use super::Level;
+use super::effects::Effects;
 use super::path::{Intersection, Path, PathStep};
 use crate::lights::LightSampleContext;
 use crate::media::{Media, Phase};
@@ -18,7 +19,7 @@ use crate::precipitation::{Near, NearHit};
 /// Random numbers of a drop.
 const NUMBERS: u32 = 16;
 
-impl<'a, const N: usize> Path<'a, N> {
+impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// Follows the ray through media and precipitation to `end`; `None` where it gets there.
     pub(super) fn travel_to(&mut self, end: f32) -> Option<Intersection<'a>> {
         let hit =

@@ -4,11 +4,12 @@ use etendue_core::Spectral;
 use etendue_core::random::Draw;
 use glam::Vec3;
 
+use super::effects::Effects;
 use super::path::{Intersection, Path, PathStep};
 use crate::lights::LightSampleContext;
 use crate::media::{Following, Media, Phase};
 
-impl<'a, const N: usize> Path<'a, N> {
+impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// How media are followed by a path, given whether it has been scattered by more than smooth surfaces.
     pub(super) fn following(&self, matt: bool) -> Following {
         if matt && !self.tracer.settings.caustics { Following::WithoutPeak } else { Following::Exact }
@@ -17,7 +18,7 @@ impl<'a, const N: usize> Path<'a, N> {
     /// Whether what the ray meets does not count, as no medium has scattered it yet.
     #[inline(always)]
     pub(super) fn sees_only_air(&self) -> bool {
-        self.tracer.settings.only_airlight && self.bounces == 0
+        E::MEDIA && self.tracer.settings.only_airlight && self.bounces == 0
     }
 
     /// Whether lamps without an opening are asked along the ray, rather than where the path is scattered: as far as the camera sees it straight

@@ -4,12 +4,13 @@ use etendue_core::{Ray, Spectral};
 use glam::Vec3;
 
 use super::Level;
+use super::effects::Effects;
 use super::medium::Medium;
 use super::path::{MAX_MET, Path, Vertex};
 use crate::lights::LightSample;
 use crate::media::Following;
 
-impl<const N: usize> Path<'_, N> {
+impl<const N: usize, E: Effects> Path<'_, N, E> {
     /// The share of a drawn light that reaches the vertex through a `medium`; `None` where something opaque stands
     /// between.
     pub(super) fn share(
@@ -22,7 +23,7 @@ impl<const N: usize> Path<'_, N> {
         let share = self.share_along(ray, light, (medium, following))?;
         // As for a path that meets nothing, the way to infinity takes nothing.
         let way_m = light.target.map_or(0.0, |target| target.distance(vertex.point.position));
-        Some(medium.attenuate(share, way_m, self.wavelengths))
+        Some(if E::SURFACES { medium.attenuate(share, way_m, self.wavelengths) } else { share })
     }
 
     /// The share of a drawn light that comes through along a ray towards it, but for what a solid absorbs in which the ray begins.
@@ -34,7 +35,7 @@ impl<const N: usize> Path<'_, N> {
     ) -> Option<Spectral<N>> {
         let share = if self.tracer.settings.level == Level::Flat {
             Spectral::ONE
-        } else if self.tracer.material_table.has_passages() {
+        } else if E::SURFACES && self.tracer.material_table.has_passages() {
             self.share_through(ray, light)?
         } else if self.tracer.view.occluded(&ray) {
             return None;
@@ -42,7 +43,7 @@ impl<const N: usize> Path<'_, N> {
             Spectral::ONE
         };
         match self.tracer.media {
-            Some(media) if !medium.is_solid() => Some(
+            Some(media) if E::MEDIA && !medium.is_solid() => Some(
                 share * media.transmittance((&ray, following), (&self.asked.stream, 2 * self.met), self.wavelengths),
             ),
             _ => Some(share),

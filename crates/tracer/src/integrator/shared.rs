@@ -21,6 +21,7 @@ use etendue_core::random::Draw;
 use etendue_core::{FieldRay, Ray, Spectral, TimeInterval, Wavelengths};
 use glam::Vec3;
 
+use super::effects::{Effects, SceneEffects};
 use super::path::{Intersection, MAX_MET, Path, PathStep, Vertex};
 use super::{Level, PathTracer};
 use crate::materials::Bsdf;
@@ -32,8 +33,8 @@ const PARTS: usize = 4;
 const UNBENT: f32 = 2e-4;
 
 /// A path up to its second surface.
-struct Opening<'a, const N: usize> {
-    path: Path<'a, N>,
+struct Opening<'a, const N: usize, E: Effects> {
+    path: Path<'a, N, E>,
     first: Option<First<'a, N>>,
     /// The second surface, where what lies behind it may be shared.
     second: Option<Vertex<'a, N>>,
@@ -63,13 +64,13 @@ impl<const N: usize> Claim<N> {
 
 impl PathTracer<'_> {
     /// Radiance along rays whose paths share their tails.
-    pub(super) fn radiance_shared<const N: usize>(
+    pub(super) fn radiance_shared<const N: usize, E: Effects>(
         &self,
         rays: &[FieldRay],
         wavelengths: &Wavelengths<N>,
         radiance: &mut Vec<Spectral<N>>,
     ) {
-        let paths = rays.iter().map(|asked| Path::new(self, asked, wavelengths));
+        let paths = rays.iter().map(|asked| Path::<N, E>::new(self, asked, wavelengths));
         let openings: Vec<_> = paths.map(Opening::of).collect();
         radiance.extend(openings.iter().map(|opening| opening.path.radiance));
         let shared = &mut radiance[..];
@@ -85,7 +86,10 @@ impl PathTracer<'_> {
     pub(super) fn shares(&self) -> bool {
         let settings = &self.settings;
         // Between surfaces no path sees what another has found there.
-        self.media.is_none() && settings.level == Level::Path && settings.max_bounces > 1 && settings.roulette_start > 1
+        self.effects != SceneEffects::Every
+            && settings.level == Level::Path
+            && settings.max_bounces > 1
+            && settings.roulette_start > 1
     }
 }
 
@@ -123,8 +127,8 @@ fn parts(of: usize) -> usize {
 }
 
 /// Follows one path on, and gives what it finds to all that see its second surface.
-fn share_tail<'a, const N: usize>(
-    openings: &[Opening<'a, N>],
+fn share_tail<'a, const N: usize, E: Effects>(
+    openings: &[Opening<'a, N, E>],
     owner: usize,
     second: &Vertex<'a, N>,
     share: f32,
@@ -147,9 +151,9 @@ fn share_tail<'a, const N: usize>(
     }
 }
 
-impl<'a, const N: usize> Opening<'a, N> {
+impl<'a, const N: usize, E: Effects> Opening<'a, N, E> {
     /// Follows a path to the end, or to a second surface whose light may be shared.
-    fn of(mut path: Path<'a, N>) -> Self {
+    fn of(mut path: Path<'a, N, E>) -> Self {
         let mut first: Option<First<'a, N>> = None;
         while path.met < MAX_MET {
             let onward = match path.meet() {
@@ -199,7 +203,7 @@ impl<'a, const N: usize> Opening<'a, N> {
         }
         let per_area = second.frame.true_cos(-direction) / between.length_squared();
         let wi = first.vertex.frame.inward(direction)?;
-        let value = first.vertex.bsdf.evaluate(first.vertex.frame.wo, wi);
+        let value = self.path.evaluate(&first.vertex, wi);
         let weight = first.throughput * value.value_cos * per_area;
         let claim = Claim { index, weight, density: value.pdf * per_area }.if_sound()?;
         self.sees(first, second, direction).then_some(claim)
@@ -221,17 +225,22 @@ impl<'a, const N: usize> Opening<'a, N> {
 
 impl<const N: usize> First<'_, N> {
     /// Whether light that the surface `second`, just met, throws on this one may be shared.
-    fn leads_to(&self, path: &Path<'_, N>, second: &Vertex<'_, N>) -> bool {
+    fn leads_to<E: Effects>(&self, path: &Path<'_, N, E>, second: &Vertex<'_, N>) -> bool {
         let straight = path.met == self.met + 1 && path.bounces == 1 && path.scattered.is_some();
         straight && matches!(second.bsdf, Bsdf::Diffuse(_)) && second.frame.wo.z >= UNBENT
     }
 }
 
 /// Whether a surface that a path has just met is the first to scatter it, in air.
-fn may_be_first<const N: usize>(path: &Path<'_, N>, vertex: &Vertex<'_, N>) -> bool {
-    let scatters = !vertex.bsdf.is_delta() && !matches!(vertex.bsdf, Bsdf::Absorber);
+fn may_be_first<const N: usize, E: Effects>(path: &Path<'_, N, E>, vertex: &Vertex<'_, N>) -> bool {
+    let scatters = !matches!(vertex.bsdf, Bsdf::Absorber);
+    path.bounces == 0 && scatters && (!E::SURFACES || is_open(path, vertex))
+}
+
+/// Whether a surface scatters by a finite density, in air and into air.
+fn is_open<const N: usize, E: Effects>(path: &Path<'_, N, E>, vertex: &Vertex<'_, N>) -> bool {
     let in_air = path.medium.is_clear() && path.tracer.material_table.solid(vertex.material).is_none();
-    path.bounces == 0 && scatters && in_air
+    in_air && !vertex.bsdf.is_delta()
 }
 
 #[cfg(test)]

@@ -24,6 +24,7 @@ use super::LightSampleContext;
 use super::lamp::LampIrradiance;
 use super::sun::Sun;
 use super::tree::{LightBounds, LightTree, MATT_SHARE, Start, TreeQuery};
+use crate::ALL_EFFECTS;
 
 /// Least share of the draws of lights in the scene beside those at infinity, and the other way round.
 const FLOOR: f32 = 0.05;
@@ -47,17 +48,20 @@ pub(super) struct Choice {
     suns: Vec<(Sun, f32)>,
     /// Irradiance of the surroundings if they are drawn, W·m⁻²·nm⁻¹.
     environment: f32,
+    /// Whether suns or surroundings can be drawn.
+    has_distant: bool,
 }
 
 impl Choice {
     /// A choice among lights in the scene, suns, and surroundings of a mean irradiance (0 where they are not drawn).
     pub(super) fn new(local: &[LightBounds], suns: Vec<(Sun, f32)>, environment: f32) -> Self {
-        Self { tree: LightTree::new(local), suns, environment }
+        let has_distant = environment > 0.0 || suns.iter().any(|(_, e)| *e > 0.0);
+        Self { tree: LightTree::new(local), suns, environment, has_distant }
     }
 
     /// Whether any light can be drawn.
     pub(super) fn is_possible(&self) -> bool {
-        self.tree.is_some() || self.has_distant()
+        self.tree.is_some() || self.has_distant
     }
 
     /// Whether there is more than one light to choose from.
@@ -66,21 +70,17 @@ impl Choice {
         near + self.suns.len() + usize::from(self.environment > 0.0) > 1
     }
 
-    fn has_distant(&self) -> bool {
-        self.environment > 0.0 || self.suns.iter().any(|(_, e)| *e > 0.0)
-    }
-
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver.
     pub(super) fn pick<F: Fn(u32) -> LampIrradiance>(
         &self,
         question: &TreeQuery<'_, F>,
         u: f64,
     ) -> Option<(Chosen, f32)> {
-        let near = self.near(question);
-        let local = self.local_share(question, near.as_ref());
-        let (share, chosen) = match &near {
-            Some((tree, start)) if u < f64::from(local) => {
-                let (light, probability) = tree.pick(question, start, u / f64::from(local))?;
+        let start = self.start(question);
+        let local = self.local_share(question, &start);
+        let (share, chosen) = match &self.tree {
+            Some(tree) if u < f64::from(local) => {
+                let (light, probability) = tree.pick(question, &start, u / f64::from(local))?;
                 (local, (Chosen::Local(light), probability))
             }
             _ => {
@@ -129,27 +129,30 @@ impl Choice {
 
     /// The probability by which [`Choice::pick`] gives a light.
     pub(super) fn probability<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, light: Chosen) -> f32 {
-        let near = self.near(question);
-        let local = self.local_share(question, near.as_ref());
-        match (light, &near) {
+        let start = self.start(question);
+        let local = self.local_share(question, &start);
+        match (light, &self.tree) {
             (Chosen::Local(_), None) => 0.0,
-            (Chosen::Local(i), Some((tree, start))) => local * tree.probability(question, start, i),
+            (Chosen::Local(i), Some(tree)) => local * tree.probability(question, &start, i),
             _ => (1.0 - local) * self.share_of_distant(light, question.receiver),
         }
     }
 
-    /// The tree, and where the receiver starts in it.
+    /// Where the receiver starts in the tree: large, so that it is made where it stays.
     #[inline(always)]
-    fn near<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Option<(&LightTree, Start)> {
-        self.tree.as_ref().map(|tree| (tree, tree.start(question)))
+    fn start<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Start {
+        match &self.tree {
+            Some(tree) => tree.start(question),
+            None => Start::Only,
+        }
     }
 
-    fn local_share<F: Fn(u32) -> LampIrradiance>(
-        &self,
-        question: &TreeQuery<'_, F>,
-        near: Option<&(&LightTree, Start)>,
-    ) -> f32 {
-        let Some((tree, start)) = near else { return 0.0 };
+    #[inline(always)]
+    fn local_share<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f32 {
+        let Some(tree) = &self.tree else { return 0.0 };
+        if !(ALL_EFFECTS && self.has_distant) {
+            return 1.0;
+        }
         let distant = self.distant_irradiance(question.receiver);
         if distant <= 0.0 {
             return 1.0;

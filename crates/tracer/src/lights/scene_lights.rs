@@ -16,6 +16,7 @@ use super::tree::TreeQuery;
 use crate::geometry::SurfacePoint;
 use crate::materials::MaterialTable;
 use crate::render_space::RenderSpace;
+use crate::{ALL_EFFECTS, is_optional};
 use etendue_core::{Spectral, TimeInterval, Wavelengths};
 use glam::{Vec2, Vec3};
 
@@ -111,7 +112,30 @@ impl Lights {
         let fine = f64::from(choice) + f64::from(u.x) * DIGIT;
         let (chosen, probability) = self.choice.pick(&self.question(receiver), fine)?;
         let from = receiver.position;
-        let sample = match chosen {
+        let sample = if let Chosen::Local(i) = chosen
+            && let Light::Triangle(t) = &self.lights[i]
+        {
+            t.glowing(material_table).towards(&t.sample(from, u)?, from, spread_rad, asked)?
+        } else {
+            is_optional();
+            self.sample_of_other(chosen, receiver, u, spread_rad, (material_table, asked))?
+        };
+        let pdf = sample.pdf * probability;
+        (pdf > 0.0).then_some(LightSample { pdf, ..sample })
+    }
+
+    /// The same of a light that is no triangle, without the choice's probability.
+    #[inline(never)]
+    fn sample_of_other<const N: usize>(
+        &self,
+        chosen: Chosen,
+        receiver: &LightSampleContext,
+        u: Vec2,
+        spread_rad: f32,
+        (material_table, asked): (&MaterialTable, (&Wavelengths<N>, &TimeInterval)),
+    ) -> Option<LightSample<N>> {
+        let from = receiver.position;
+        match chosen {
             Chosen::Local(i) => match &self.lights[i] {
                 Light::Triangle(t) => t.glowing(material_table).towards(&t.sample(from, u)?, from, spread_rad, asked),
                 Light::Sphere(s) => s.glowing(material_table).towards(&s.sample(from, u)?, from, spread_rad, asked),
@@ -122,9 +146,7 @@ impl Lights {
             },
             Chosen::Sun(i) => Some(self.suns[i].sample(u, asked.0)),
             Chosen::Environment => self.environment.as_ref()?.sample(u, asked.0),
-        }?;
-        let pdf = sample.pdf * probability;
-        (pdf > 0.0).then_some(LightSample { pdf, ..sample })
+        }
     }
 
     pub(super) fn question<'a>(
@@ -147,6 +169,7 @@ impl Lights {
         let Some(i) = self.primitives.light(met.point.instance, met.point.primitive) else { return 0.0 };
         let pdf = match &self.lights[i] {
             Light::Triangle(light) => light.pdf(met),
+            _ if !ALL_EFFECTS => unreachable!("triangles alone glow"),
             Light::Sphere(light) => light.pdf(met),
             Light::Opening(light) => light.pdf(met),
             Light::Moving(light) => light.pdf(met),
@@ -165,7 +188,8 @@ impl Lights {
         direction: Vec3,
         asked: (&Wavelengths<N>, &TimeInterval),
     ) -> Option<Spectral<N>> {
-        let light = self.has_openings.then(|| self.primitives.light(point.instance, point.primitive))??;
+        let light =
+            (ALL_EFFECTS && self.has_openings).then(|| self.primitives.light(point.instance, point.primitive))??;
         match &self.lights[light] {
             Light::Opening(opening) => opening.met(point, direction, asked),
             Light::Carried(lamp) => lamp.met(point, direction, asked),
@@ -184,11 +208,14 @@ impl Lights {
         let drawn = move |light: Chosen| {
             receiver.map_or(0.0, |receiver| self.choice.probability(&self.question(receiver), light))
         };
-        let suns = self.suns.iter().enumerate().filter(move |(_, sun)| sun.covers(direction)).map(move |(i, sun)| {
-            let pdf = sun.pdf() * drawn(Chosen::Sun(i));
-            DistantLight { radiance: sun.radiance_from(direction, wavelengths), pdf, surrounds: false }
-        });
-        let environment = self.environment.iter().map(move |environment| {
+        let suns =
+            self.suns.iter().filter(|_| ALL_EFFECTS).enumerate().filter(move |(_, sun)| sun.covers(direction)).map(
+                move |(i, sun)| {
+                    let pdf = sun.pdf() * drawn(Chosen::Sun(i));
+                    DistantLight { radiance: sun.radiance_from(direction, wavelengths), pdf, surrounds: false }
+                },
+            );
+        let environment = self.environment.iter().filter(|_| ALL_EFFECTS).map(move |environment| {
             let (radiance, pdf) = environment.seen(direction, receiver.is_some(), wavelengths);
             let pdf = if pdf > 0.0 { pdf * drawn(Chosen::Environment) } else { 0.0 };
             DistantLight { radiance, pdf, surrounds: true }

@@ -49,6 +49,25 @@ pub struct DiffuseBsdf<const N: usize> {
     pub reflectance: Spectral<N>,
 }
 
+impl<const N: usize> DiffuseBsdf<N> {
+    /// Value and density of light from `wi`; zero from behind.
+    #[inline(always)]
+    pub(crate) fn evaluate_above(&self, wi: Vec3) -> BsdfValue<N> {
+        if wi.z <= 0.0 {
+            return BsdfValue::ZERO;
+        }
+        BsdfValue { value_cos: self.reflectance * (wi.z * FRAC_1_PI), pdf: cosine_hemisphere_pdf(wi.z) }
+    }
+
+    /// A direction for light to come from; `None` where rounding leaves it in the surface.
+    #[inline(always)]
+    pub(crate) fn sample_above(&self, u: Vec2) -> Option<BsdfSample<N>> {
+        let wi = cosine_hemisphere(u);
+        let pdf = cosine_hemisphere_pdf(wi.z);
+        (pdf > 0.0).then_some(BsdfSample { wi, weight: self.reflectance, pdf, event: Event::Scatter })
+    }
+}
+
 impl<const N: usize> BsdfModel<N> for DiffuseBsdf<N> {
     #[inline]
     fn flags(&self) -> BsdfFlags {
@@ -56,7 +75,7 @@ impl<const N: usize> BsdfModel<N> for DiffuseBsdf<N> {
     }
 
     fn evaluate(&self, _wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        BsdfValue { value_cos: self.reflectance * (wi.z * FRAC_1_PI), pdf: cosine_hemisphere_pdf(wi.z) }
+        self.evaluate_above(wi)
     }
 
     fn gloss(&self, _: Vec3) -> Gloss {
@@ -64,8 +83,6 @@ impl<const N: usize> BsdfModel<N> for DiffuseBsdf<N> {
     }
 
     fn sample(&self, _wo: Vec3, _choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
-        let wi = cosine_hemisphere(u);
-        let pdf = cosine_hemisphere_pdf(wi.z);
-        (pdf > 0.0).then_some(BsdfSample { wi, weight: self.reflectance, pdf, event: Event::Scatter })
+        self.sample_above(u)
     }
 }

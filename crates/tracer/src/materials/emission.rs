@@ -11,6 +11,7 @@ use etendue_spectra::{Spectrum, upsample};
 use glam::Vec3;
 
 use super::modulation::Modulation;
+use crate::ALL_EFFECTS;
 use crate::textures::{ImageTexture, Lookup, TextureId};
 
 /// Which sides of a surface glow.
@@ -52,10 +53,12 @@ impl Emission {
         let radiance = self.radiance.sample(wavelengths);
         let radiance = match self.factor {
             None => radiance,
+            Some(_) if !ALL_EFFECTS => unreachable!("no textures"),
             Some(id) => radiance * upsample::reflectance(textures[id.0 as usize].sample(lookup), wavelengths),
         };
         match &self.modulation {
             None => radiance,
+            Some(_) if !ALL_EFFECTS => unreachable!("nothing changes over time"),
             Some(modulation) => radiance * modulation.mean(lookup.uv, *lit),
         }
     }

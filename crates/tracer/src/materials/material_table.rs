@@ -10,7 +10,7 @@ use super::flags::{MaterialFlags, flags};
 use super::material::Material;
 use super::model::Passage;
 use super::shading_point::ShadingPoint;
-use super::{Bsdf, Surface, check, mix};
+use super::{Bsdf, DiffuseBsdf, Reflectance, Surface, check, mix};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::textures::{ImageTexture, Lookup};
@@ -182,6 +182,14 @@ impl MaterialTable {
         }
     }
 
+    /// Whether all surfaces absorb, or are diffuse with one spectrum each, and are wholly there and flat.
+    pub(crate) fn is_matt(&self) -> bool {
+        self.materials.iter().all(|material| {
+            let surface = matches!(material.surface, Surface::Absorber | Surface::Diffuse(Reflectance::Spectrum(_)));
+            surface && material.opacity.is_none() && material.normal_map.is_none() && material.textures().is_empty()
+        })
+    }
+
     /// Whether a material is a mix, so that [`MaterialTable::resolve`] needs a number.
     #[must_use]
     pub fn is_mix(&self, id: MaterialId) -> bool {
@@ -225,6 +233,17 @@ impl MaterialTable {
         wavelengths: &Wavelengths<N>,
     ) -> Bsdf<'_, N> {
         self.materials[id.0 as usize].surface.resolve(&self.point(lookup, front, wavelengths))
+    }
+
+    /// The same where [`MaterialTable::is_matt`].
+    #[inline(always)]
+    pub(crate) fn matt_bsdf<const N: usize>(&self, id: MaterialId, wavelengths: &Wavelengths<N>) -> Bsdf<'_, N> {
+        match &self.materials[id.0 as usize].surface {
+            Surface::Diffuse(Reflectance::Spectrum(spectrum)) => {
+                Bsdf::Diffuse(DiffuseBsdf { reflectance: spectrum.sample(wavelengths) })
+            }
+            _ => Bsdf::Absorber,
+        }
     }
 
     fn point<'p, const N: usize>(

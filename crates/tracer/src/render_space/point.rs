@@ -10,6 +10,7 @@ use crate::geometry::{Instance, MeshPose, SurfacePoint, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec2, Vec3};
 
+#[inline(always)]
 pub(super) fn of_mesh(
     mesh: &MeshPose<'_>,
     instance: &Instance,

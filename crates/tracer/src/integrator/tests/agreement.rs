@@ -1,6 +1,7 @@
 //! The path tracer against itself: ways of finding light, roulette, wavelengths, repetition.
 
 use super::*;
+use crate::integrator::effects::SceneEffects;
 use crate::lights::Lights;
 
 /// A floor and a block under lights of every kind.
@@ -116,4 +117,58 @@ fn paths_of_one_four_and_eight_wavelengths_agree_where_nothing_disperses() {
     let eight = tracer.radiance(&asked, &Wavelengths::<8>::uniform(400.0, 700.0, 0.3));
     // Every spectrum of this scene is constant.
     assert!(one > 0.0 && four.0.iter().chain(&eight.0).all(|v| (v - one).abs() <= 1e-6 * one), "{one} {four:?}");
+}
+
+/// One scene by the code of every row that has what it needs: matt surfaces, sun, sky and lamps; alone and sharing tails.
+#[test]
+fn code_made_for_a_scene_gives_the_same_bits() {
+    let ready = mixed(matt(0.8));
+    let view = ready.world.render_space(DVec3::ZERO);
+    let lights = ready.lights(&view);
+    let tracer = PathTracer::new(&view, &ready.material_table, &lights, PathSettings::default());
+    assert_eq!(tracer.effects, SceneEffects::Matt);
+    let by = |effects| {
+        let tracer = PathTracer { effects, ..tracer };
+        let alone = (0..64).map(|replicate| replicate_bits(&tracer, replicate));
+        let bits: Vec<[u32; 4]> = alone.chain(group_bits(&tracer)).collect();
+        assert!(bits.iter().flatten().any(|b| *b != 0), "light is seen");
+        bits
+    };
+    let matt = by(SceneEffects::Matt);
+    assert_eq!(by(SceneEffects::Clear), matt);
+    // Where there may be media, no path shares anything.
+    assert_eq!(by(SceneEffects::Every)[..64], matt[..64]);
+}
+
+#[test]
+fn a_scene_takes_the_code_that_has_what_it_needs() {
+    let effects = |surface: Surface, settings| {
+        let ready = mixed(surface);
+        let view = ready.world.render_space(DVec3::ZERO);
+        let lights = ready.lights(&view);
+        PathTracer::new(&view, &ready.material_table, &lights, settings).effects
+    };
+    let path = PathSettings::default();
+    assert_eq!(effects(matt(0.8), path), SceneEffects::Matt);
+    assert_eq!(effects(Surface::Absorber, path), SceneEffects::Matt);
+    assert_eq!(effects(aluminium(0.4), path), SceneEffects::Clear);
+    assert_eq!(effects(matt(0.8), PathSettings { only_airlight: true, ..path }), SceneEffects::Every);
+}
+
+fn asked(replicate: u32) -> FieldRay {
+    let frame = FrameAddress { seed: 5, ..FrameAddress::default() };
+    let address = PixelAddress { frame, pixel: Pixel { x: 3, y: 4 }, replicate };
+    let ray = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);
+    FieldRay { ray, stream: PathStream::new(&address, 0), lit: TimeInterval::default() }
+}
+
+fn replicate_bits(tracer: &PathTracer<'_>, replicate: u32) -> [u32; 4] {
+    tracer.radiance(&asked(replicate), &WAVELENGTHS).0.map(f32::to_bits)
+}
+
+fn group_bits(tracer: &PathTracer<'_>) -> Vec<[u32; 4]> {
+    let rays: Vec<_> = (0..16).map(asked).collect();
+    let mut radiance = Vec::new();
+    tracer.radiance_of_group(&rays, &WAVELENGTHS, &mut radiance);
+    radiance.iter().map(|spectral| spectral.0.map(f32::to_bits)).collect()
 }

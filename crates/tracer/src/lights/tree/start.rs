@@ -12,7 +12,7 @@ use crate::lights::lamp::LampIrradiance;
     reason = "lives on the stack for one draw; a box would cost an allocation at each vertex"
 )]
 pub(in crate::lights) enum Start {
-    /// The one light that there is.
+    /// The one light that there is, or none.
     Only,
     /// The root's children, by their weights.
     Root([f32; LANES]),
