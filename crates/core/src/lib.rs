@@ -15,6 +15,7 @@
 //! | sensor | x right, y down as the erect picture is seen, origin at the principal point | mm, f64 |
 //! | raster | x right, y down, the top-left corner is (0, 0), pixel centres at + 0.5 | px, f64 |
 
+pub mod blocks;
 mod camera_path;
 pub mod distribution;
 mod effect_status;

@@ -127,10 +127,16 @@ fn deliver_films(
         let films = if i + 1 == group.len() { films.take() } else { films.clone() };
         let results =
             CameraResults::of_films(plan, camera, films.unwrap_or_default(), (state.clone(), since), options)?;
+        check_textures(plan)?;
         after.push(results.state_after().map_or_else(SensorState::default, |(after, _)| after.clone()));
         take(results)?;
     }
     Ok(after)
+}
+
+/// Refuses light, once gathered, for which a tile of a texture could not be read.
+pub(crate) fn check_textures(plan: &Plan) -> Result<(), Error> {
+    plan.material_table.texture_failure().map_or(Ok(()), |failure| Err(Error::run(failure)))
 }
 
 /// Refuses a film that holds what is no finite number.

@@ -1,5 +1,6 @@
 //! The films of a run, one after the other, and how far the whole run is.
 
+use crate::delivery::check_textures;
 use crate::display;
 use crate::error::Error;
 use crate::observer::{FramePlace, Message, Observer, Progress, Unit};
@@ -78,6 +79,7 @@ impl<'a> Exposures<'a> {
         let request = Request { shot, simd: self.simd, shard: self.shard };
         let film = pass(self.plan, camera, request, (number, before), &tiles);
         self.done += tile_count(camera, self.shard);
+        check_textures(self.plan)?;
         film.map_err(|cancelled| Error::Run(cancelled.to_string()))
     }
 
@@ -137,6 +139,6 @@ impl etendue_pipeline::Observer for Tiles<'_> {
     }
 
     fn cancelled(&self) -> bool {
-        self.run.observer.cancelled()
+        self.run.observer.cancelled() || self.run.plan.material_table.texture_failure().is_some()
     }
 }

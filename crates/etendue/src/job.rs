@@ -11,7 +11,7 @@ use crate::render_options::RenderOptions;
 use crate::results::{CameraResults, DoneFrames, Results, Sequence, file_names};
 use crate::rig;
 use crate::shard_spec::ShardSpec;
-use etendue_io::{Existing, OutputFolder, complete_assets};
+use etendue_io::{Existing, OutputFolder, TextureMemory, complete_assets};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::effects::PlannedEffect;
 use etendue_pipeline::plan::{CameraPlan, Passes};
@@ -88,6 +88,10 @@ pub struct JobRequest {
     pub camera: Option<String>,
     /// The seed of all random numbers, at most 2⁶³ − 1; `None`: the job's, or 0.
     pub seed: Option<u64>,
+    /// How much memory textures may take, and where those are kept that take more. It belongs to the machine and not to the plan: files that state a
+    /// request leave it out.
+    #[serde(skip)]
+    pub textures: TextureMemory,
 }
 
 impl JobRequest {
@@ -104,6 +108,7 @@ impl JobRequest {
             quality: None,
             camera: None,
             seed: None,
+            textures: TextureMemory::default(),
         }
     }
 
@@ -123,7 +128,8 @@ impl JobRequest {
         self.check()?;
         let description = Description::load(&self.job, &|path| files.read(path), &self.overrides());
         let description = description.map_err(|faults| Error::inputs(faults.list()))?;
-        let assets = complete_assets(files.assets().clone(), &description.assets()).map_err(Error::inputs)?;
+        let assets = complete_assets(files.assets().clone(), &description.assets(), &self.textures);
+        let assets = assets.map_err(Error::inputs)?;
         let plan = compile(&description, &assets, &self.choices()).map_err(Error::inputs)?;
         let plan = Arc::new(self.narrowed(plan)?);
         Ok(Job { request: self, plan })
@@ -131,6 +137,9 @@ impl JobRequest {
 
     /// Refuses what excludes one another, and a time that cannot be kept.
     fn check(&self) -> Result<(), Error> {
+        if self.textures.limit_bytes == 0 {
+            return Err(Error::input("--texture-memory 0: textures need some memory; give 1 MB or more"));
+        }
         let Some(time_s) = self.time_s else { return Ok(()) };
         if !(time_s.is_finite() && time_s >= timed::MIN_TIME_S) {
             return Err(Error::input(format!(

@@ -1,5 +1,6 @@
 //! The light of some of a camera's pixels, sampled otherwise than the job says: what a study of time and error is made of.
 
+use crate::delivery::{check_finite, check_textures};
 use crate::error::Error;
 use crate::job::Job;
 use crate::observer::Observer;
@@ -99,7 +100,8 @@ impl Job {
         let request = Request { shot: Shot::default(), simd, shard: sampling.shard.shard()? };
         let film = light(self.plan(), &camera, request, &Silent(observer));
         let film = film.map_err(|cancelled| Error::Run(cancelled.to_string()))?;
-        crate::delivery::check_finite(&camera, &film)?;
+        check_textures(self.plan())?;
+        check_finite(&camera, &film)?;
         let (width, height) = camera.film_size();
         let tiles = tiles(width, height, camera.settings.tile_px, request.shard);
         Ok(SampledLight::of(&camera, &film, &tiles))

@@ -1,30 +1,39 @@
 //! Everything that a description names.
 
-use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset};
+use std::sync::Arc;
+
+use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset, TexelStore};
 
 use crate::Error;
 use crate::calibration::{ImportedCamera, read_calibration};
 use crate::mesh::{read_mesh, read_mesh_frame};
 use crate::photometry::read_photometry;
-use crate::picture::read_picture;
+use crate::picture::{PictureHead, head, large_picture, read_picture};
 use crate::prescription::read_prescription;
 use crate::spectrum::read_spectrum_of;
 use crate::table::{read_complex_index, read_numbers, read_retro_table};
+use crate::texture_memory::{TextureMemory, pyramid_bytes};
+use crate::tile_cache::TileCache;
 use crate::trajectory::read_trajectory;
 
-/// Reads every file of `named` (as a description names them), and those that its meshes name in turn.
+/// Reads every file of `named` (as a description names them), and those that its meshes name in turn; all pictures whole.
 ///
 /// # Errors
 /// All faults of all files, each with the place that names the file.
 pub fn load_assets(named: &[AssetRequest]) -> Result<Assets, Vec<Error>> {
-    complete_assets(Assets::default(), named)
+    complete_assets(Assets::default(), named, &TextureMemory { limit_bytes: u64::MAX, cache: None })
 }
 
-/// The same where some assets are there already, such as those a program made.
+/// The same where some assets are there already, such as those a program made. Pictures of textures that need more than `memory` are not
+/// decoded but become [large](Assets::large_images).
 ///
 /// # Errors
 /// All faults of all files, each with the place that names the file.
-pub fn complete_assets(mut assets: Assets, named: &[AssetRequest]) -> Result<Assets, Vec<Error>> {
+pub fn complete_assets(
+    mut assets: Assets,
+    named: &[AssetRequest],
+    memory: &TextureMemory,
+) -> Result<Assets, Vec<Error>> {
     let mut errors = Vec::new();
     let mut tried: Vec<AssetRequest> = Vec::new();
     loop {
@@ -33,8 +42,16 @@ pub fn complete_assets(mut assets: Assets, named: &[AssetRequest]) -> Result<Ass
         if requests.is_empty() {
             break;
         }
-        for request in requests {
-            if let Err(error) = load(&mut assets, &request) {
+        // Which textures are large is known once all are: meshes name more of them.
+        let (textures, others): (Vec<_>, Vec<_>) = requests.into_iter().partition(|r| r.kind == AssetKind::Texture);
+        let now = if others.is_empty() { textures } else { others };
+        let large = large_pictures(&mut assets, &now, memory);
+        for (request, large) in now.into_iter().zip(large) {
+            let loaded = match large {
+                Some(head) => load_large(&mut assets, &request, head),
+                None => load(&mut assets, &request),
+            };
+            if let Err(error) = loaded {
                 errors.push(error.named_at(request.place.to_string()));
             }
             tried.push(request);
@@ -43,12 +60,34 @@ pub fn complete_assets(mut assets: Assets, named: &[AssetRequest]) -> Result<Ass
     if errors.is_empty() { Ok(assets) } else { Err(errors) }
 }
 
+/// The heads of those of `requests` that are textures too large to be held; where there are any, the assets get a place for their texels.
+fn large_pictures(assets: &mut Assets, requests: &[AssetRequest], memory: &TextureMemory) -> Vec<Option<PictureHead>> {
+    // A picture whose head cannot be read is read as a small one, which tells why.
+    let is_texture = |request: &&AssetRequest| request.kind == AssetKind::Texture;
+    let heads: Vec<_> =
+        requests.iter().map(|request| Some(request).filter(is_texture).and_then(|r| head(&r.path))).collect();
+    let bytes: Vec<u64> = heads.iter().map(|head| head.map_or(0, pyramid_bytes)).collect();
+    let large = memory.large(&bytes);
+    if large.contains(&true) {
+        let held: u64 = bytes.iter().zip(&large).filter(|(_, is_large)| !**is_large).map(|(bytes, _)| bytes).sum();
+        let blocks = Arc::new(TileCache::new(memory.cache.as_deref()));
+        assets.texel_store = Some(TexelStore { blocks, memory_bytes: memory.limit_bytes - held });
+    }
+    heads.into_iter().zip(large).map(|(head, is_large)| head.filter(|_| is_large)).collect()
+}
+
+fn load_large(assets: &mut Assets, request: &AssetRequest, head: PictureHead) -> Result<(), Error> {
+    let picture = large_picture(&request.path, head)?;
+    assets.large_images.insert(request.path.clone(), picture);
+    Ok(())
+}
+
 fn load(assets: &mut Assets, request: &AssetRequest) -> Result<(), Error> {
     let (path, key) = (&request.path, request.path.clone());
     match &request.kind {
         AssetKind::Mesh => drop(assets.meshes.insert(key, read_mesh(path)?)),
         AssetKind::MeshFrame => drop(assets.mesh_frames.insert(key, read_mesh_frame(path)?)),
-        AssetKind::Image => drop(assets.images.insert(key, read_picture(path)?)),
+        AssetKind::Image | AssetKind::Texture => drop(assets.images.insert(key, read_picture(path)?)),
         AssetKind::Spectrum(values) => drop(assets.spectra.insert(key, read_spectrum_of(path, *values)?)),
         AssetKind::Photometry => drop(assets.photometry.insert(key, read_photometry(path)?)),
         AssetKind::ComplexIndex => drop(assets.indices.insert(key, read_complex_index(path)?)),

@@ -9,6 +9,7 @@
 //! | in | lens prescriptions: Zemax, CODE V | [`prescription`] |
 //! | in | calibrated cameras: OpenCV, ROS, Kalibr, COLMAP, OCamCalib | [`calibration`] |
 //! | in | spectra, refractive indices, coefficients of retro-reflection | [`spectrum`], [`mod@table`] |
+//! | out and in | tiles of textures that are too large for the memory | [`tile_cache`] |
 //! | in | everything a description names, with all errors at once | [`assets`] |
 //! | out and in | spectral EXR (layout of Fichet, Pacanowski and Wilkie 2021) | [`exr`] |
 //! | out | ground-truth EXR, planes as EXR, raw, depth and display PNG, raw TIFF and DNG, side-car JSON | [`exr`], [`png`], [`mod@tiff`], [`sidecar`] |
@@ -18,7 +19,7 @@
 //! | look | two results, channel beside channel | [`compare`] |
 //! | look | what is in a file, with a picture of it | [`inspect`] |
 //!
-//! Encoders are pure: the same values give the same bytes, on any number of threads, without clock time. Bytes reach
+//! Encoders are pure: the same values give the same bytes, on any number of threads, without clock time. Results reach
 //! the disk through an [`OutputFolder`] alone, which refuses to overwrite, writes under temporary names and renames
 //! when everything is complete.
 //!
@@ -48,7 +49,9 @@ pub mod sidecar;
 mod source;
 pub mod spectrum;
 pub mod table;
+mod texture_memory;
 pub mod tiff;
+pub mod tile_cache;
 pub mod trajectory;
 mod unpacked;
 pub mod y4m;
@@ -58,3 +61,4 @@ pub use error::Error;
 pub use output::{Existing, OutputFolder};
 pub use provenance::Provenance;
 pub use source::read_regular;
+pub use texture_memory::TextureMemory;

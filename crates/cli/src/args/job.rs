@@ -1,9 +1,10 @@
 //! The job of `render` and `plan`.
 
 use super::choice::{Word, choice};
+use super::run::whole;
 use crate::output::print_message;
 use clap::Args;
-use etendue::{Error, Integrator, Job, JobRequest, Quality};
+use etendue::{Error, Integrator, Job, JobRequest, Quality, TextureMemory};
 use std::path::PathBuf;
 
 const INTEGRATORS: [Word<Integrator>; 3] = [
@@ -46,6 +47,13 @@ pub struct JobArgs {
     /// The seed of all random numbers [default: the job's, or 0]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// Memory of textures. Where they need more, the large ones are kept in tiles on the disk and read where they are looked up. The result
+    /// does not depend on it
+    #[arg(long, value_name = "MB", value_parser = whole(1, 1 << 20), default_value = "512")]
+    pub texture_memory: u32,
+    /// The folder of these tiles, which another run finds again [default: etendue in $XDG_CACHE_HOME, else in ~/.cache]
+    #[arg(long, value_name = "DIR")]
+    pub cache: Option<PathBuf>,
 }
 
 impl From<&JobArgs> for JobRequest {
@@ -61,6 +69,7 @@ impl From<&JobArgs> for JobRequest {
             quality: a.quality,
             camera: a.camera.clone(),
             seed: a.seed,
+            textures: TextureMemory { limit_bytes: u64::from(a.texture_memory) * 1_000_000, cache: a.cache.clone() },
         }
     }
 }

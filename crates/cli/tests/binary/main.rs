@@ -38,6 +38,7 @@ mod sequences;
 mod shared_light;
 mod shared_paths;
 mod support;
+mod textures;
 mod tradeoff;
 mod truths;
 mod vertex_animation;

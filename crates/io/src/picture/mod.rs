@@ -12,12 +12,14 @@
 //! description that names the file. Numbers that are not finite are refused with their pixel.
 
 mod floats;
+mod large;
 mod raster;
 
 use std::path::Path;
 
 use etendue_scene::asset::ImageAsset;
 
+pub(crate) use large::{PictureHead, head, large_picture};
 pub(crate) use raster::decode_raster;
 
 use crate::exr::decode_exr;

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::frames::Frames;
-use super::material::MaterialTableBuilder;
+use super::material::{MaterialTableBuilder, has_picture};
 use super::object_motion::placements;
 use super::open_lamp::OpenLamp;
 use super::{opening, shape, vertex_animation};
@@ -264,16 +264,28 @@ fn slot_materials(
         check_slot(slot, mesh, asset, context);
     }
     let named = |slot: &str| object.materials.iter().find(|(name, _)| name.value == slot).map(|(_, m)| m);
+    let shown = asset.shown_slots();
     asset
         .slot_materials
         .iter()
-        .map(|slot| match named(&slot.name) {
+        .zip(shown)
+        .map(|(slot, is_shown)| match named(&slot.name) {
             Some(material) => material_table.named(&material.value),
             None => {
-                material_table.of_slot(&mesh.file().value, &known(slot, mesh, asset, context), &object.place, context)
+                let slot = match is_shown || !has_picture(slot) {
+                    true => known(slot, mesh, asset, context),
+                    false => Cow::Owned(unseen(slot)),
+                };
+                material_table.of_slot(&mesh.file().value, &slot, &object.place, context)
             }
         })
         .collect()
+}
+
+/// In the place of a material of a picture that no triangle has, and that is not read: black.
+fn unseen(slot: &SlotMaterial) -> SlotMaterial {
+    let reflectance = SlotReflectance::LinearSrgb([0.0; 3]);
+    SlotMaterial { name: slot.name.clone(), surface: Some(SlotSurface::Diffuse { reflectance }) }
 }
 
 /// A slot, or grey in its place where the library that would say what it is does not exist.

@@ -18,6 +18,7 @@ mod settings;
 pub(crate) mod shared_light;
 mod source_spectra;
 pub mod summary;
+mod texture_use;
 mod timing;
 mod warnings;
 mod wavelength_sampling;

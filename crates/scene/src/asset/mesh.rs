@@ -32,6 +32,20 @@ pub struct MeshAsset {
     pub hash: [u8; 32],
 }
 
+impl MeshAsset {
+    /// Whether each slot has a triangle; where no triangle says its slot, all count as having one.
+    #[must_use]
+    pub fn shown_slots(&self) -> Vec<bool> {
+        let mut shown = vec![self.slots.is_empty(); self.slot_materials.len()];
+        for slot in &self.slots {
+            if let Some(shown) = shown.get_mut(usize::from(*slot)) {
+                *shown = true;
+            }
+        }
+        shown
+    }
+}
+
 /// A picture; its first row is the top one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImageAsset {

@@ -2,6 +2,7 @@
 
 mod calibration;
 pub(crate) mod file_list;
+mod large_image;
 mod mesh;
 mod mesh_frame;
 mod mtl;
@@ -14,6 +15,7 @@ mod table;
 mod trajectory;
 
 pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
+pub use large_image::{LargeImage, PixelFormat, PixelRows, TakeRows, TexelStore};
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mesh_frame::{MeshFrameAsset, MeshFramePart};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};

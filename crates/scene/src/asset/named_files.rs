@@ -27,7 +27,7 @@ pub(crate) fn requests<'d>(
         frames.for_each(|file| files.add(AssetKind::MeshFrame, &file));
     }
     let textures = scene.textures.iter().filter(|t| !unused.textures.contains(&t.name.value));
-    textures.for_each(|t| files.add(AssetKind::Image, &t.file));
+    textures.for_each(|t| files.add(AssetKind::Texture, &t.file));
     let materials = scene.materials.iter().filter(|m| !unused.materials.contains(&m.name.value));
     materials.for_each(|m| m.name_files(&mut files));
     let frames = scene.frames.iter().filter(|f| !unused.frames.contains(&f.name.value));

@@ -58,6 +58,8 @@ pub enum AssetKind {
     MeshFrame,
     /// [`super::ImageAsset`].
     Image,
+    /// [`super::ImageAsset`] that is laid over surfaces, or [`super::LargeImage`].
+    Texture,
     /// [`super::SpectrumAsset`] of such values.
     Spectrum(Values),
     /// [`super::PhotometryAsset`].

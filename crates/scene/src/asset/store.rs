@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::mtl::{SlotMaterial, SlotReflectance};
 use super::{
-    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, ImageAsset, MeshAsset,
-    MeshFrameAsset, NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset, TrajectoryAsset,
+    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, ImageAsset, LargeImage,
+    MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset,
+    TexelStore, TrajectoryAsset,
 };
 use crate::place::Place;
 use crate::record::is_numbered;
@@ -22,6 +23,10 @@ pub struct Assets {
     pub mesh_frames: BTreeMap<PathBuf, MeshFrameAsset>,
     /// Pictures by path.
     pub images: BTreeMap<PathBuf, ImageAsset>,
+    /// Pictures of textures that are too large to be held, by path.
+    pub large_images: BTreeMap<PathBuf, LargeImage>,
+    /// Where the texels of large pictures are kept; `None` where there are none.
+    pub texel_store: Option<TexelStore>,
     /// Spectra by path.
     pub spectra: BTreeMap<PathBuf, SpectrumAsset>,
     /// Measured lamps by path.
@@ -60,6 +65,8 @@ impl Assets {
             meshes,
             mesh_frames,
             images,
+            large_images,
+            texel_store: _,
             spectra,
             photometry,
             indices,
@@ -72,9 +79,12 @@ impl Assets {
         let is_it = |file: &Path| file == path || is_numbered(path, file);
         let meshes: Vec<&MeshAsset> = meshes.iter().filter(|(file, _)| is_it(file)).map(|(_, mesh)| mesh).collect();
         let pictures = meshes.iter().flat_map(|mesh| mesh.slot_materials.iter().filter_map(picture));
+        let image = |path: &Path| {
+            images.get(path).map(|asset| asset.hash).or_else(|| large_images.get(path).map(|asset| asset.hash))
+        };
         let mut hashes: Vec<[u8; 32]> = meshes.iter().map(|asset| asset.hash).collect();
         hashes.extend(mesh_frames.iter().filter(|(file, _)| is_it(file)).map(|(_, asset)| asset.hash));
-        hashes.extend(pictures.chain([path]).filter_map(|path| images.get(path)).map(|asset| asset.hash));
+        hashes.extend(pictures.chain([path]).filter_map(image));
         hashes.extend(spectra.get(path).map(|asset| asset.hash));
         hashes.extend(photometry.get(path).map(|asset| asset.hash));
         hashes.extend(indices.get(path).map(|asset| asset.hash));
@@ -91,6 +101,7 @@ impl Assets {
             AssetKind::Mesh => self.meshes.contains_key(path),
             AssetKind::MeshFrame => self.mesh_frames.contains_key(path),
             AssetKind::Image => self.images.contains_key(path),
+            AssetKind::Texture => self.images.contains_key(path) || self.large_images.contains_key(path),
             AssetKind::Spectrum(_) => self.spectra.contains_key(path),
             AssetKind::Photometry => self.photometry.contains_key(path),
             AssetKind::ComplexIndex => self.indices.contains_key(path),
@@ -111,9 +122,10 @@ fn textures_of<'a>(
 ) -> impl Iterator<Item = AssetRequest> + 'a {
     let requests = move || named.iter().filter(move |request| request.kind == AssetKind::Mesh && request.path == file);
     let is_seen = move |slot: &&SlotMaterial| requests().any(|request| !request.covered.has(&slot.name));
-    mesh.slot_materials.iter().filter(is_seen).filter_map(picture).map(move |path| {
+    let shown = mesh.slot_materials.iter().zip(mesh.shown_slots()).filter_map(|(slot, shown)| shown.then_some(slot));
+    shown.filter(is_seen).filter_map(picture).map(move |path| {
         let (path, place) = (path.to_owned(), Place::file_head(file));
-        AssetRequest { path, kind: AssetKind::Image, place, covered: Covered::All }
+        AssetRequest { path, kind: AssetKind::Texture, place, covered: Covered::All }
     })
 }
 
@@ -141,7 +153,7 @@ mod tests {
             AssetKind::MeshFrame => {
                 drop(assets.mesh_frames.insert(file, MeshFrameAsset { hash, ..Default::default() }));
             }
-            AssetKind::Image => drop(assets.images.insert(file, image(hash))),
+            AssetKind::Image | AssetKind::Texture => drop(assets.images.insert(file, image(hash))),
             AssetKind::Spectrum(_) => drop(assets.spectra.insert(file, SpectrumAsset { hash, ..Default::default() })),
             AssetKind::Photometry => drop(assets.photometry.insert(file, lamp(hash))),
             AssetKind::ComplexIndex => {
@@ -217,6 +229,7 @@ mod tests {
             AssetKind::Mesh,
             AssetKind::MeshFrame,
             AssetKind::Image,
+            AssetKind::Texture,
             AssetKind::Spectrum(Values::Share),
             AssetKind::Photometry,
             AssetKind::ComplexIndex,

@@ -69,7 +69,7 @@ fn assets_are_listed_once_relative_to_the_job() {
     let expected = [
         (Path::new("sub/lamps/road.ies"), AssetKind::Photometry),
         (Path::new("sub/meshes/car.obj"), AssetKind::Mesh),
-        (Path::new("sub/textures/asphalt.png"), AssetKind::Image),
+        (Path::new("sub/textures/asphalt.png"), AssetKind::Texture),
     ];
     assert_eq!(found, expected);
 }

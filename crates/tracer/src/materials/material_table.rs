@@ -50,6 +50,12 @@ impl MaterialTable {
         &self.textures
     }
 
+    /// Why a tile of a texture could not be read while light was gathered, if one could not: the light is not to be used then.
+    #[must_use]
+    pub fn texture_failure(&self) -> Option<&str> {
+        self.textures.iter().find_map(|texture| texture.tiles().and_then(|(_, memory)| memory.failure()))
+    }
+
     /// Whether the strength of any surface's light changes over time.
     #[must_use]
     pub fn is_modulated(&self) -> bool {

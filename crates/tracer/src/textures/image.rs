@@ -9,10 +9,14 @@
 use etendue_core::maths::f32::log2;
 use glam::{Vec2, Vec3};
 
-use super::mipmap::{Level, pyramid, weighted_pyramid};
+use super::error::{TextureError, TiledError};
+use super::mipmap::{Level, Resolution, pyramid, weighted_pyramid};
 use super::projection::{Place, Projection};
-use super::texels::{Store, Texel, Texels};
+use super::texels::{Store, Texel, TexelEncoding, Texels};
+use super::tiled::{TileMemory, TiledLevel, levels};
 use super::{Channel, Lookup, Wrap};
+use etendue_core::blocks::Blocks;
+use std::sync::Arc;
 
 /// Most readings along a long footprint.
 const MAX_PROBES: f32 = 8.0;
@@ -42,6 +46,20 @@ pub struct Sampling {
     pub projection: Projection,
 }
 
+impl Sampling {
+    fn check(&self) -> Result<(), TextureError> {
+        if !(self.scale.is_finite() && self.offset.is_finite()) {
+            return Err(TextureError::Placement);
+        }
+        if self.projection.is_legal() { Ok(()) } else { Err(TextureError::Projection) }
+    }
+
+    /// Texels of a picture a unit of coordinates, along u and v.
+    fn density(&self, width: u32, height: u32) -> Vec2 {
+        (Vec2::new(width as f32, height as f32) * self.scale).abs()
+    }
+}
+
 impl Default for Sampling {
     fn default() -> Self {
         Self {
@@ -54,43 +72,24 @@ impl Default for Sampling {
     }
 }
 
-/// Why a texture is refused.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum TextureError {
-    /// The texels do not fill the picture.
-    #[error("a picture of {width} × {height} needs as many texels, but {found} were given; check its size")]
-    Size {
-        /// Columns.
-        width: u32,
-        /// Rows.
-        height: u32,
-        /// Texels given.
-        found: usize,
-    },
-    /// A texel is not a finite number.
-    #[error("texel {texel} of the picture is not a finite number; correct the file")]
-    NonFinite {
-        /// The texel, counted by rows from the top.
-        texel: usize,
-    },
-    /// The size or sharpness of a projection from three sides is out of range.
-    #[error("a picture laid on from three sides needs a size above 0 m and a sharpness of 1 to 64; correct them")]
-    Projection,
-    /// Scale or offset are not finite numbers.
-    #[error("the texture's scale and offset must be finite numbers; correct them")]
-    Placement,
-}
-
 /// A picture over a surface. Its `Debug` text leaves out the texels.
 #[derive(Clone)]
 pub struct ImageTexture {
-    levels: Vec<Level<Vec3>>,
-    /// The alpha channel's; empty where there is none.
+    colours: Colours,
+    /// The alpha channel's resolutions; empty where there is none.
     alpha: Vec<Level<f32>>,
     sampling: Sampling,
     ranges: [(f32, f32); 3],
     /// Texels a unit of coordinates, along u and v.
     density: Vec2,
+}
+
+/// All resolutions of the colours, the finest first.
+#[derive(Clone)]
+enum Colours {
+    Held(Vec<Level<Vec3>>),
+    /// With the mean of the picture.
+    Tiled(Vec<TiledLevel>, Vec3),
 }
 
 impl core::fmt::Debug for ImageTexture {
@@ -114,18 +113,33 @@ impl ImageTexture {
     /// Where the texels do not fill the picture, one is not finite, or the placement is not legal.
     pub fn new(width: u32, height: u32, texels: Texels, sampling: Sampling) -> Result<Self, TextureError> {
         check_size(width, height, texels.len())?;
-        if !(sampling.scale.is_finite() && sampling.offset.is_finite()) {
-            return Err(TextureError::Placement);
-        }
-        if !sampling.projection.is_legal() {
-            return Err(TextureError::Projection);
-        }
+        sampling.check()?;
         let count = texels.len();
         let store = Store::new(texels);
         let ranges = ranges(&store, count)?;
-        let levels = halvings(Level::new(width, height, store), &sampling);
-        let density = (Vec2::new(width as f32, height as f32) * sampling.scale).abs();
-        Ok(Self { levels, alpha: vec![], sampling, ranges, density })
+        let colours = Colours::Held(halvings(Level::new(width, height, store), &sampling));
+        let density = sampling.density(width, height);
+        Ok(Self { colours, alpha: vec![], sampling, ranges, density })
+    }
+
+    /// A picture of `width` × `height` texels whose tiles a [`PyramidWriter`](super::PyramidWriter) made; they are read into `memory` where they
+    /// are looked up.
+    ///
+    /// # Errors
+    /// As [`ImageTexture::new`], or where the tiles cannot be read.
+    pub fn tiled(
+        (width, height): (u32, u32),
+        encoding: TexelEncoding,
+        (blocks, memory): (Arc<dyn Blocks>, &Arc<TileMemory>),
+        sampling: Sampling,
+    ) -> Result<Self, TiledError> {
+        sampling.check()?;
+        let (mut levels, statistics) = levels((width, height), encoding, blocks, memory).map_err(TiledError::Tiles)?;
+        if sampling.filter == Filter::Bilinear {
+            levels.truncate(1);
+        }
+        let (colours, ranges) = (Colours::Tiled(levels, statistics.mean), statistics.ranges);
+        Ok(Self { colours, alpha: vec![], sampling, ranges, density: sampling.density(width, height) })
     }
 
     /// The same with an alpha channel, 0 (nothing there) to 255. Colours are filtered by it, so that what cannot be seen
@@ -141,11 +155,14 @@ impl ImageTexture {
         sampling: Sampling,
     ) -> Result<Self, TextureError> {
         check_size(width, height, alpha.len())?;
-        let mut texture = Self::new(width, height, texels, Sampling { filter: Filter::Bilinear, ..sampling })?;
-        texture.sampling = sampling;
-        texture.alpha = halvings(Level::new(width, height, Store::of_bytes(alpha)), &sampling);
-        texture.levels = weighted_pyramid(texture.levels.swap_remove(0), &texture.alpha);
-        Ok(texture)
+        check_size(width, height, texels.len())?;
+        sampling.check()?;
+        let count = texels.len();
+        let store = Store::new(texels);
+        let ranges = ranges(&store, count)?;
+        let alpha = halvings(Level::new(width, height, Store::of_bytes(alpha)), &sampling);
+        let colours = Colours::Held(weighted_pyramid(Level::new(width, height, store), &alpha));
+        Ok(Self { colours, alpha, sampling, ranges, density: sampling.density(width, height) })
     }
 
     /// Whether the picture has an alpha channel.
@@ -163,7 +180,11 @@ impl ImageTexture {
     /// The filtered value, linear sRGB.
     #[must_use]
     pub fn sample(&self, lookup: &Lookup) -> [f32; 3] {
-        self.sampling.projection.read(lookup, self.sampling.wrap, |place| self.filtered(&self.levels, place)).to_array()
+        let value = |place: &Place| match &self.colours {
+            Colours::Held(levels) => self.filtered(levels, place),
+            Colours::Tiled(levels, _) => self.filtered_in_tiles(levels, place),
+        };
+        self.sampling.projection.read(lookup, self.sampling.wrap, value).to_array()
     }
 
     /// The filtered value of one channel, linear.
@@ -178,7 +199,13 @@ impl ImageTexture {
         channel.of(self.sample(lookup))
     }
 
-    fn filtered<T: Texel>(&self, levels: &[Level<T>], place: &Place) -> T {
+    /// Not a part of the code about pictures in memory.
+    #[inline(never)]
+    fn filtered_in_tiles(&self, levels: &[TiledLevel], place: &Place) -> Vec3 {
+        self.filtered(levels, place)
+    }
+
+    fn filtered<T: Texel>(&self, levels: &[impl Resolution<T>], place: &Place) -> T {
         let placed = place.uv * self.sampling.scale + self.sampling.offset;
         // Coordinates so far out that they overflow have no place in the picture: its corner stands for them.
         let uv = if placed.is_finite() { placed } else { Vec2::ZERO };
@@ -196,7 +223,7 @@ impl ImageTexture {
     }
 
     /// The value at picture coordinates, over a round footprint of a width in texels.
-    fn trilinear<T: Texel>(&self, levels: &[Level<T>], uv: Vec2, texels: f32) -> T {
+    fn trilinear<T: Texel>(&self, levels: &[impl Resolution<T>], uv: Vec2, texels: f32) -> T {
         let wrap = self.sampling.wrap;
         let (s, t) = (wrap[0].fold(uv.x), 1.0 - wrap[1].fold(uv.y));
         let last = levels.len() - 1;
@@ -212,7 +239,10 @@ impl ImageTexture {
     /// Mean of the whole picture, linear.
     #[must_use]
     pub fn mean(&self) -> Vec3 {
-        let base = &self.levels[0];
+        let base = match &self.colours {
+            Colours::Held(levels) => &levels[0],
+            Colours::Tiled(_, mean) => return *mean,
+        };
         let texels = (0..base.height as usize).flat_map(|y| (0..base.width as usize).map(move |x| (x, y)));
         let sum: glam::DVec3 = texels.map(|(x, y)| base.texel(x, y).as_dvec3()).sum();
         (sum / (f64::from(base.width) * f64::from(base.height))).as_vec3()
@@ -238,13 +268,29 @@ impl ImageTexture {
     /// Columns and rows of the picture.
     #[must_use]
     pub fn size(&self) -> (u32, u32) {
-        (self.levels[0].width, self.levels[0].height)
+        match &self.colours {
+            Colours::Held(levels) => (levels[0].width, levels[0].height),
+            Colours::Tiled(levels, _) => levels[0].size(),
+        }
     }
 
-    /// Memory of the texels of all resolutions, bytes.
+    /// Memory of the texels of all resolutions, bytes; none of a picture whose tiles are read where they are looked up.
     #[must_use]
     pub fn texel_bytes(&self) -> usize {
-        self.levels.iter().map(Level::bytes).sum::<usize>() + self.alpha.iter().map(Level::bytes).sum::<usize>()
+        let colours = match &self.colours {
+            Colours::Held(levels) => levels.iter().map(Level::bytes).sum::<usize>(),
+            Colours::Tiled(..) => 0,
+        };
+        colours + self.alpha.iter().map(Level::bytes).sum::<usize>()
+    }
+
+    /// Of a picture whose tiles are read where they are looked up: their bytes, and the memory into which they are read.
+    #[must_use]
+    pub fn tiles(&self) -> Option<(u64, &Arc<TileMemory>)> {
+        match &self.colours {
+            Colours::Held(_) => None,
+            Colours::Tiled(levels, _) => Some((levels.iter().map(TiledLevel::bytes).sum(), levels[0].memory())),
+        }
     }
 }
 

@@ -6,7 +6,13 @@ use super::texels::{Store, Texel};
 use super::wrap::Wrap;
 use glam::Vec3;
 
-/// One resolution of a picture.
+/// One resolution of a picture, wherever its texels are.
+pub(super) trait Resolution<T> {
+    /// Bilinear interpolation at `s` (to the right) and `t` (downwards), both folded into [0, 1].
+    fn bilinear(&self, s: f32, t: f32, wrap: [Wrap; 2]) -> T;
+}
+
+/// One resolution of a picture in memory.
 #[derive(Clone, Debug)]
 pub(super) struct Level<T: Texel> {
     pub(super) width: u32,
@@ -28,15 +34,6 @@ impl<T: Texel> Level<T> {
         self.store.get(y * self.width as usize + x)
     }
 
-    /// Bilinear interpolation at `s` (to the right) and `t` (downwards), both folded into [0, 1].
-    pub(super) fn bilinear(&self, s: f32, t: f32, wrap: [Wrap; 2]) -> T {
-        let (x0, x1, fx) = neighbours(s, self.width, wrap[0]);
-        let (y0, y1, fy) = neighbours(t, self.height, wrap[1]);
-        let top = self.texel(x0, y0).towards(self.texel(x1, y0), fx);
-        let bottom = self.texel(x0, y1).towards(self.texel(x1, y1), fx);
-        top.towards(bottom, fy)
-    }
-
     /// Half as wide and as high (at least 1); every texel the mean of the area it covers, so that the mean is kept for
     /// odd sizes too.
     fn halved(&self) -> Self {
@@ -56,22 +53,32 @@ impl<T: Texel> Level<T> {
     }
 }
 
+impl<T: Texel> Resolution<T> for Level<T> {
+    fn bilinear(&self, s: f32, t: f32, wrap: [Wrap; 2]) -> T {
+        let (x0, x1, fx) = neighbours(s, self.width, wrap[0]);
+        let (y0, y1, fy) = neighbours(t, self.height, wrap[1]);
+        let top = self.texel(x0, y0).towards(self.texel(x1, y0), fx);
+        let bottom = self.texel(x0, y1).towards(self.texel(x1, y1), fx);
+        top.towards(bottom, fy)
+    }
+}
+
 /// The columns and rows that a coarse texel covers, with their shares of it.
 #[derive(Clone, Copy)]
-struct Share<'a> {
-    columns: &'a [(usize, f32)],
-    rows: &'a [(usize, f32)],
+pub(super) struct Share<'a> {
+    pub(super) columns: &'a [(usize, f32)],
+    pub(super) rows: &'a [(usize, f32)],
 }
 
 impl Share<'_> {
-    fn mean<V: Texel>(self, value: impl Fn(usize, usize) -> V) -> V {
+    pub(super) fn mean<V: Texel>(self, value: impl Fn(usize, usize) -> V) -> V {
         let row = |j: usize| self.columns.iter().fold(V::NOTHING, |sum, (i, wx)| sum + value(*i, j) * *wx);
         self.rows.iter().fold(V::NOTHING, |sum, (j, wy)| sum + row(*j) * *wy)
     }
 }
 
 /// The texels on both sides of a coordinate in [0, 1], and the weight of the second.
-fn neighbours(x: f32, count: u32, wrap: Wrap) -> (usize, usize, f32) {
+pub(super) fn neighbours(x: f32, count: u32, wrap: Wrap) -> (usize, usize, f32) {
     let x = x * count as f32 - 0.5;
     let low = x.floor();
     let i = low as i32;
@@ -79,7 +86,7 @@ fn neighbours(x: f32, count: u32, wrap: Wrap) -> (usize, usize, f32) {
 }
 
 /// The fine texels that coarse texel `j` covers along one axis, with their shares of it.
-fn overlaps(j: u32, coarse: u32, fine: u32) -> impl Iterator<Item = (usize, f32)> {
+pub(super) fn overlaps(j: u32, coarse: u32, fine: u32) -> impl Iterator<Item = (usize, f32)> {
     let ratio = f64::from(fine) / f64::from(coarse);
     let (low, high) = (f64::from(j) * ratio, f64::from(j + 1) * ratio);
     let last = (high.ceil() as usize).min(fine as usize);

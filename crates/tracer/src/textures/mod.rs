@@ -8,18 +8,22 @@
 //!   shape's own frame, and where it is longer one way, that side with its direction.
 
 mod channel;
+mod error;
 mod image;
 mod mipmap;
 mod projection;
 #[cfg(test)]
 mod tests;
 mod texels;
+mod tiled;
 mod wrap;
 
 pub use channel::Channel;
-pub use image::{Filter, ImageTexture, Sampling, TextureError};
+pub use error::{TextureError, TiledError};
+pub use image::{Filter, ImageTexture, Sampling};
 pub use projection::Projection;
-pub use texels::Texels;
+pub use texels::{TexelEncoding, Texels};
+pub use tiled::{PyramidWriter, TileMemory};
 pub use wrap::Wrap;
 
 use glam::{DVec3, Vec2, Vec3};

@@ -15,7 +15,41 @@ pub enum Texels {
     Float(Vec<[f32; 3]>),
 }
 
+/// What the texels of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TexelEncoding {
+    /// [`Texels::Srgb8`].
+    Srgb8,
+    /// [`Texels::Linear8`].
+    Linear8,
+    /// [`Texels::Float`].
+    Float,
+}
+
+impl TexelEncoding {
+    /// The linear values of bytes; `None` of texels that are no bytes.
+    pub(super) fn table(self) -> Option<Box<[f32; 256]>> {
+        match self {
+            Self::Srgb8 => Some(table(colour::decode_byte)),
+            Self::Linear8 => Some(table(|i| f32::from(i) / 255.0)),
+            Self::Float => None,
+        }
+    }
+}
+
 impl Texels {
+    /// Adds more of the same kind at the end.
+    ///
+    /// # Panics
+    /// Where they are of another kind.
+    pub fn append(&mut self, more: Self) {
+        match (self, more) {
+            (Self::Srgb8(all), Self::Srgb8(more)) | (Self::Linear8(all), Self::Linear8(more)) => all.extend(more),
+            (Self::Float(all), Self::Float(more)) => all.extend(more),
+            _ => panic!("texels of two kinds in one picture"),
+        }
+    }
+
     pub(super) fn len(&self) -> usize {
         match self {
             Self::Srgb8(t) | Self::Linear8(t) => t.len(),

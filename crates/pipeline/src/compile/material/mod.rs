@@ -2,6 +2,7 @@
 
 mod builder;
 mod compiler;
+mod large_picture;
 mod metal;
 mod number;
 mod picture;
@@ -9,8 +10,10 @@ mod road;
 mod share;
 mod slot;
 mod surface;
+mod texels;
 mod texture;
 
 pub(super) use builder::MaterialTableBuilder;
 pub(super) use metal::complex_index;
 pub(super) use share::share;
+pub(super) use slot::has_picture;

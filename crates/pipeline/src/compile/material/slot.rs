@@ -40,6 +40,6 @@ pub(super) fn surface(
 }
 
 /// Whether a slot's file gives it a picture.
-pub(super) fn has_picture(slot: &SlotMaterial) -> bool {
+pub(in super::super) fn has_picture(slot: &SlotMaterial) -> bool {
     slot.surface.as_ref().is_some_and(|surface| matches!(surface.reflectance(), SlotReflectance::Image(_)))
 }

@@ -1,7 +1,7 @@
 //! Textures that the scene defines, for what they are used.
 
 use super::compiler::MaterialCompiler;
-use super::picture::Reading;
+use super::texels::Reading;
 use etendue_scene::Placed;
 use etendue_scene::record::Texture;
 use etendue_scene::record::texture::{self, Encoding, Mapping};

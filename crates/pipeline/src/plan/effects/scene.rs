@@ -1,6 +1,7 @@
 //! What there is to see, and what shines.
 
 use super::planned_effect::{EffectGroup, PlannedEffect, where_there};
+use crate::plan::texture_use::TextureUse;
 use crate::plan::{CameraPlan, Plan, TimeDependence};
 use crate::render::light_counts;
 use etendue_core::EffectStatus;
@@ -41,11 +42,13 @@ fn instances(plan: &Plan) -> PlannedEffect {
 }
 
 fn textures(plan: &Plan) -> PlannedEffect {
-    let textures = plan.material_table.textures();
-    let text = format!("{} pictures, looked up where the surface that is met has one", textures.len());
-    let status = where_needed(!textures.is_empty(), text, "no surface has one");
-    let bytes: usize = textures.iter().map(|texture| texture.texel_bytes()).sum();
-    PlannedEffect::new(GROUP, "textures", status).described_by("scene.textures").holding(bytes as f64)
+    let count = plan.material_table.textures().len();
+    let text = format!("{count} pictures, looked up where the surface that is met has one");
+    let memory = TextureUse::of(&plan.material_table);
+    let text = memory.tiles().map_or(text.clone(), |tiles| format!("{text}; {tiles}"));
+    let status = where_needed(count > 0, text, "no surface has one");
+    let bytes = memory.memory_bytes() as f64;
+    PlannedEffect::new(GROUP, "textures", status).described_by("scene.textures").holding(bytes)
 }
 
 fn normal_maps(plan: &Plan) -> PlannedEffect {

@@ -16,6 +16,7 @@ mod words;
 use crate::plan::film_cost::Share;
 use crate::plan::frame_cost::FrameCost;
 use crate::plan::remark::grouped;
+use crate::plan::texture_use::TextureUse;
 use crate::plan::{AdaptiveSampling, CameraPlan, Passes, Plan, Products, RawFormat, Route, Settings, SkyFacts};
 use crate::render::block::Blocks;
 use crate::render::light_counts;
@@ -77,6 +78,9 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     line(f, "geometry", format!("{instances}, {triangles}, {spheres}{trees}"))?;
     let textures = count(plan.material_table.textures().len(), "texture");
     line(f, "materials", format!("{}, {textures}", plan.materials.len()))?;
+    if let Some(tiles) = TextureUse::of(&plan.material_table).tiles() {
+        line(f, "textures", tiles)?;
+    }
     if let Some(sky) = &plan.sky {
         line(f, "sky", self::sky(sky))?;
     }

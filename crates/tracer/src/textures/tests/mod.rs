@@ -2,6 +2,7 @@
 
 mod alpha;
 mod grazing;
+mod tiled;
 
 use super::*;
 

@@ -1,0 +1,252 @@
+//! Textures that need more memory than they may take: kept in tiles on the disk, the same bytes of every result.
+
+use crate::support::{assert_same, etendue, rendered, text};
+use etendue_core::Plane;
+use etendue_core::quantity::Display;
+use etendue_io::photograph::Encoding;
+use etendue_io::png::encode_display;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Three pictures on three quads, near and far: as colours by coordinates, as colours from three sides, as a roughness.
+const JOB: &str = r#"format = 1
+[render]
+spp = 4
+[scene]
+environment = { type = "uniform", luminance_cd_m2 = 100, illuminant = "D65" }
+textures = [
+  { name = "a", file = "a.png", encoding = "srgb" },
+  { name = "b", file = "b.png", encoding = "linear", mapping = "triplanar", size_m = 3 },
+  { name = "c", file = "c.png", encoding = "data", wrap = "mirror", uv_scale = [3, 2] },
+]
+materials = [
+  { name = "a", type = "diffuse", reflectance = { texture = "a" } },
+  { name = "b", type = "diffuse", reflectance = { texture = "b" } },
+  { name = "c", type = "conductor", metal = "Au", alpha = { texture = "c", channel = "g", scale = 0.6 } },
+]
+[[scene.objects]]
+name = "near"
+shape = { type = "quad", size_m = [4, 8] }
+position_m = [1, 0, 0]
+material = "a"
+[[scene.objects]]
+name = "middle"
+shape = { type = "quad", size_m = [4, 8] }
+position_m = [5, 0, 0]
+material = "b"
+[[scene.objects]]
+name = "far"
+shape = { type = "quad", size_m = [40, 80] }
+position_m = [27, 0, 0]
+material = "c"
+[[cameras]]
+name = "front"
+position_m = [-1, 0, 1.5]
+look_at_m = [6, 0, 0]
+lens = { type = "pinhole", focal_length_mm = 6, f_number = 8 }
+sensor = { width_px = 48, height_px = 32, pixel_pitch_um = 150 }
+"#;
+
+/// A folder with the job, and pictures of 23 MB at all resolutions: 5.3 MB each of bytes, and 12.2 MB of the scaled numbers.
+struct Place {
+    folder: tempfile::TempDir,
+}
+
+impl Place {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        fs::write(folder.path().join("job.toml"), JOB).expect("written");
+        for (i, name) in (1..).zip(["a.png", "b.png", "c.png"]) {
+            fs::write(folder.path().join(name), picture(1000, 760, i)).expect("written");
+        }
+        Self { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn job(&self) -> String {
+        text(&self.path("job.toml"))
+    }
+
+    /// The files of tiles, in the order of their names.
+    fn tiles(&self) -> Vec<PathBuf> {
+        let entries = fs::read_dir(self.path("cache")).expect("a folder of tiles");
+        let mut files: Vec<_> = entries.map(|entry| entry.expect("readable").path()).collect();
+        files.sort();
+        files
+    }
+}
+
+/// A PNG.
+fn picture(width: usize, height: usize, i: usize) -> Vec<u8> {
+    let byte = |x: usize, y: usize, c: usize| (16 + (x * (3 + c) + y * (5 + i) + (x * y) / 64) % 200) as f32;
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let samples = places.map(|(x, y)| [0, 1, 2].map(|c| byte(x, y, c) / 255.0)).collect();
+    let picture = Plane::<Display>::from_samples(width, height, samples).expect("as many as it takes");
+    encode_display(&picture, &Encoding::Srgb).expect("encodable")
+}
+
+#[test]
+fn the_result_does_not_depend_on_the_memory_of_textures() {
+    let place = Place::new();
+    let (job, cache) = (place.job(), text(&place.path("cache")));
+    let held = rendered(&job, &["--cache", &cache]);
+    assert!(!place.path("cache").exists(), "what fits needs no folder");
+    let small = ["--texture-memory", "1", "--cache", &cache];
+    assert_same(&held, &rendered(&job, &small), "tiles that are made");
+    assert_eq!(place.tiles().len(), 3);
+    assert_same(&held, &rendered(&job, &[&small[..], &["--threads", "1"]].concat()), "tiles that are there");
+    // Of three of 5.3 MB, as their heads tell it, one fits into half of it.
+    let some = rendered(&job, &["--texture-memory", "11", "--cache", &cache]);
+    assert_same(&held, &some, "one picture in memory");
+    let plan = etendue(["plan", &job, "--texture-memory", "1", "--cache", &cache]).ok().out;
+    let told = "textures 3 in tiles on the disk, 23 MB; at most 1 MB of them in memory";
+    assert!(plan.split_whitespace().collect::<Vec<_>>().join(" ").contains(told), "{plan}");
+}
+
+#[test]
+fn damaged_tiles_are_made_anew() {
+    let place = Place::new();
+    let (job, cache) = (place.job(), text(&place.path("cache")));
+    let small = ["--texture-memory", "1", "--cache", &cache];
+    let held = rendered(&job, &[]);
+    rendered(&job, &small);
+    let files = place.tiles();
+    let [short, strange, damaged] = &files[..] else { panic!("{files:?}") };
+    let shorten = |file: &Path| fs::File::options().write(true).open(file).and_then(|file| file.set_len(70_000));
+    shorten(short).expect("shortened");
+    fs::write(strange, b"no tiles").expect("written");
+    assert_same(&held, &rendered(&job, &small), "files that are not whole");
+    // Of each tile the first byte: whichever is looked up first is not what was written.
+    let mut bytes = fs::read(damaged).expect("tiles");
+    let middle = bytes.len() / 3;
+    bytes[middle..].iter_mut().for_each(|byte| *byte ^= 1);
+    fs::write(damaged, bytes).expect("written");
+    let output = text(&place.path("out"));
+    let ran = etendue(["render", &job, "-o", &output].into_iter().chain(small));
+    assert_eq!(ran.status, 1, "{ran:?}");
+    ran.says(&["error: ", "is damaged; the file was removed: run again, and it is made anew"]);
+    assert!(!damaged.exists());
+    assert_same(&held, &rendered(&job, &small), "the next run");
+}
+
+#[test]
+fn without_a_folder_for_tiles_pictures_are_held_with_a_warning() {
+    let place = Place::new();
+    let job = place.job();
+    fs::write(place.path("file"), b"").expect("written");
+    let cache = text(&place.path("file/cache"));
+    let output = text(&place.path("out"));
+    let ran = etendue(["render", &job, "-o", &output, "--texture-memory", "1", "--cache", &cache]).ok();
+    ran.says(&[
+        "a.png",
+        "6 MB are held in memory, above its limit, because the cache folder ",
+        "file/cache cannot be written: ",
+    ]);
+    assert_same(&rendered(&job, &[]), &crate::support::contents(Path::new(&output)), "held after all");
+}
+
+#[test]
+fn a_broken_picture_is_refused_as_one_in_memory() {
+    let place = Place::new();
+    let (job, cache) = (place.job(), text(&place.path("cache")));
+    let whole = fs::read(place.path("b.png")).expect("a picture");
+    fs::write(place.path("b.png"), &whole[..whole.len() / 2]).expect("written");
+    let plan = |options: &[&str]| etendue(["plan", &job].iter().chain(options));
+    let words =
+        ["b.png: not a readable picture (", "it may be truncated or damaged: make or fetch it again", "scene.textures"];
+    plan(&[]).refused(&words);
+    plan(&["--texture-memory", "1", "--cache", &cache]).refused(&words);
+    assert!(
+        place.tiles().iter().all(|file| file.extension().is_some_and(|end| end == "tiles")),
+        "nothing half-written"
+    );
+    fs::remove_file(place.path("b.png")).expect("removed");
+    plan(&["--texture-memory", "1", "--cache", &cache]).refused(&["b.png: no such picture file; check the path"]);
+    plan(&["--texture-memory", "0"]).refused(&["--texture-memory", "from 1 to"]);
+}
+
+#[test]
+fn pictures_and_meshes_that_nothing_shows_are_not_read() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let job = r#"format = 1
+[scene]
+environment = { type = "uniform", luminance_cd_m2 = 100, illuminant = "D65" }
+textures = [{ name = "t", file = "lost.png", encoding = "srgb" }]
+materials = [{ name = "t", type = "diffuse", reflectance = { texture = "t" } }]
+meshes = [{ name = "m", file = "m.obj", up_axis = "z" }, { name = "n", file = "lost.obj", up_axis = "z" }]
+objects = [{ name = "o", mesh = "m" }]
+[[cameras]]
+name = "front"
+position_m = [-1, 0, 1]
+look_at_m = [1, 0, 0]
+lens = { type = "pinhole", focal_length_mm = 6, f_number = 8 }
+sensor = { width_px = 8, height_px = 8, pixel_pitch_um = 150 }
+"#;
+    let write = |name: &str, text: &str| fs::write(place.path().join(name), text).expect("written");
+    write("job.toml", job);
+    write("m.mtl", "newmtl seen\nKd 0.5 0.5 0.5\nnewmtl unseen\nmap_Kd lost.png\n");
+    let mesh = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl unseen\nusemtl seen\nf 1 2 3\n";
+    write("m.obj", mesh);
+    let job = text(&place.path().join("job.toml"));
+    rendered(&job, &["--spp", "1"]);
+    write("m.obj", &format!("{mesh}usemtl unseen\nf 3 2 1\n"));
+    etendue(["plan", &job]).refused(&["lost.png: no such picture file", "named at", "m.obj"]);
+}
+
+/// 2.4 GB of texels as the files have them, 5.6 GB at all resolutions. `cargo test --release -p etendue-cli --test binary -- --ignored
+/// large_textures`; takes 6 GB of the folder for temporary files and about two minutes.
+#[test]
+#[ignore = "a benchmark"]
+#[cfg(target_os = "linux")]
+fn large_textures_render_within_a_gibibyte() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let bytes = picture(8192, 8192, 1);
+    let mut job = JOB.split("textures = [").next().expect("a head").to_owned();
+    let mut objects = String::new();
+    for i in 0..12 {
+        // What follows the end of a PNG is not a part of it, and makes another file.
+        fs::write(folder.path().join(format!("{i}.png")), [&bytes[..], &[i]].concat()).expect("written");
+        objects += &format!(
+            "[[scene.textures]]\nname = \"t{i}\"\nfile = \"{i}.png\"\nencoding = \"srgb\"\n[[scene.materials]]\nname = \"m{i}\"\n\
+             type = \"diffuse\"\nreflectance = {{ texture = \"t{i}\" }}\n[[scene.objects]]\nname = \"o{i}\"\nmaterial = \"m{i}\"\n\
+             shape = {{ type = \"quad\", size_m = [4, 4] }}\nposition_m = [{}, {}, 0]\n",
+            3 + 4 * (i / 3),
+            4 * i32::from(i % 3) - 4,
+        );
+    }
+    job += &objects;
+    job += "[[cameras]]\nname = \"front\"\nposition_m = [-1, 0, 1.6]\nlook_at_m = [8, 0, 0]\nsensor = { width_px = 640, height_px = 400, \
+            pixel_pitch_um = 12 }\nlens = { type = \"pinhole\", focal_length_mm = 6, f_number = 2 }\n";
+    fs::write(folder.path().join("job.toml"), job).expect("written");
+    for run in ["made", "found"] {
+        let output = text(&folder.path().join(run));
+        let cache = text(&folder.path().join("cache"));
+        let mut child = Command::new(assert_cmd::cargo::cargo_bin("etendue"))
+            .args(["render", &text(&folder.path().join("job.toml")), "-o", &output, "--cache", &cache])
+            .stderr(Stdio::null())
+            .stdout(Stdio::null())
+            .spawn()
+            .expect("the binary starts");
+        let mut peak_kib = 0;
+        let status = loop {
+            peak_kib = peak_kib.max(peak(child.id()));
+            if let Some(status) = child.try_wait().expect("a child") {
+                break status;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        };
+        assert!(status.success() && peak_kib < 1 << 20, "{run}: {peak_kib} KiB");
+    }
+}
+
+/// Most memory that a process had resident so far, KiB; 0 once it is gone.
+#[cfg(target_os = "linux")]
+fn peak(process: u32) -> u64 {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.split_whitespace().next()?.parse().ok());
+    peak.unwrap_or(0)
+}

@@ -1,0 +1,266 @@
+//! Pictures that are not held: their sizes from their heads, their pixels row by row.
+//!
+//! PNG of 8 bits that is not interlaced is decoded a few rows at a time. Other pictures are decoded whole, handed over and dropped.
+
+use std::fs::File;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use etendue_scene::asset::{ImagePixels, LargeImage, PixelFormat, PixelRows, TakeRows};
+use image::{ColorType, ImageDecoder as _, ImageReader};
+
+use super::{EXR_MAGIC, decode_picture};
+use crate::source::read_bytes;
+use crate::{Error, hash};
+
+/// Pixels that are handed over at a time, about.
+const STRIP_PIXELS: usize = 1 << 17;
+
+/// Most bytes of a picture of bytes or words that its decoder unpacks, as that of small pictures does.
+const MAX_RASTER_BYTES: u64 = 512 << 20;
+
+/// Columns, rows and format.
+pub(crate) type PictureHead = (u32, u32, PixelFormat);
+
+/// Columns, rows and format of a picture, from its head; `None` where the head cannot be read, which reading the picture explains.
+pub(crate) fn head(file: &Path) -> Option<PictureHead> {
+    if !std::fs::metadata(file).ok()?.is_file() {
+        return None;
+    }
+    let mut magic = [0; EXR_MAGIC.len()];
+    std::io::Read::read_exact(&mut File::open(file).ok()?, &mut magic).ok()?;
+    let (width, height, format) = if magic == EXR_MAGIC { exr_head(file)? } else { raster_head(file)? };
+    (width > 0 && height > 0).then_some((width, height, format))
+}
+
+fn exr_head(file: &Path) -> Option<PictureHead> {
+    let meta = ::exr::meta::MetaData::read_from_file(file, false).ok()?;
+    let [header] = &meta.headers[..] else { return None };
+    let has_opacity = header.channels.list.iter().any(|channel| channel.name == *"A");
+    let format = if has_opacity { PixelFormat::Rgba32F } else { PixelFormat::Rgb32F };
+    Some((u32::try_from(header.layer_size.width()).ok()?, u32::try_from(header.layer_size.height()).ok()?, format))
+}
+
+fn raster_head(file: &Path) -> Option<PictureHead> {
+    let decoder = ImageReader::open(file).ok()?.with_guessed_format().ok()?.into_decoder().ok()?;
+    let (width, height) = decoder.dimensions();
+    let format = match decoder.color_type() {
+        ColorType::L8 => PixelFormat::Gray8,
+        ColorType::L16 => PixelFormat::Gray16,
+        ColorType::La8 | ColorType::Rgba8 => PixelFormat::Rgba8,
+        ColorType::Rgb8 => PixelFormat::Rgb8,
+        ColorType::La16 | ColorType::Rgba16 | ColorType::Rgba32F => PixelFormat::Rgba32F,
+        _ => PixelFormat::Rgb32F,
+    };
+    (decoder.total_bytes() <= MAX_RASTER_BYTES).then_some((width, height, format))
+}
+
+/// A picture whose head has been read.
+pub(crate) fn large_picture(file: &Path, (width, height, format): PictureHead) -> Result<LargeImage, Error> {
+    let hash = hash::of_bytes(&read_bytes(file, "picture")?);
+    let size = (width, height);
+    let rows = Arc::new(PictureFile { path: file.to_path_buf(), size, format, hash });
+    Ok(LargeImage { width, height, format, hash, rows })
+}
+
+/// A picture in its file.
+#[derive(Debug)]
+struct PictureFile {
+    path: PathBuf,
+    size: (u32, u32),
+    format: PixelFormat,
+    hash: hash::ContentHash,
+}
+
+impl PixelRows for PictureFile {
+    fn read(&self, take: TakeRows<'_>) -> Result<(), String> {
+        let bytes = read_bytes(&self.path, "picture").map_err(|error| error.to_string())?;
+        if hash::of_bytes(&bytes) != self.hash {
+            return Err(Error::new(&self.path, "the file was changed while it was read; run again").to_string());
+        }
+        if let Some(rows) = PngRows::new(&bytes, self.size) {
+            match rows.read(take) {
+                Ok(()) => return Ok(()),
+                Err(Stop::Taker(error)) => return Err(error),
+                // What is wrong is told as of any picture.
+                Err(Stop::Damaged) => {}
+            }
+        }
+        self.read_whole(bytes, take)
+    }
+}
+
+impl PictureFile {
+    fn read_whole(&self, bytes: Vec<u8>, take: TakeRows<'_>) -> Result<(), String> {
+        let picture = decode_picture(&self.path, &bytes).map_err(|error| error.to_string())?;
+        drop(bytes);
+        if (picture.width, picture.height, format(&picture.pixels)) != (self.size.0, self.size.1, self.format) {
+            return Err(Error::new(&self.path, "its head and its pixels do not agree; store it again").to_string());
+        }
+        take(&picture.pixels)
+    }
+}
+
+fn format(pixels: &ImagePixels) -> PixelFormat {
+    match pixels {
+        ImagePixels::Gray8(_) => PixelFormat::Gray8,
+        ImagePixels::Gray16(_) => PixelFormat::Gray16,
+        ImagePixels::Rgb8(_) => PixelFormat::Rgb8,
+        ImagePixels::Rgba8(_) => PixelFormat::Rgba8,
+        ImagePixels::Rgb32F(_) => PixelFormat::Rgb32F,
+        ImagePixels::Rgba32F(_) => PixelFormat::Rgba32F,
+    }
+}
+
+/// Why reading rows ended early.
+enum Stop {
+    Damaged,
+    Taker(String),
+}
+
+/// A PNG that can be decoded by rows.
+struct PngRows<'a> {
+    reader: png::Reader<Cursor<&'a [u8]>>,
+    colours: png::ColorType,
+    size: (u32, u32),
+}
+
+impl<'a> PngRows<'a> {
+    /// `None` of what is no such PNG.
+    fn new(bytes: &'a [u8], size: (u32, u32)) -> Option<Self> {
+        let mut decoder = png::Decoder::new(Cursor::new(bytes));
+        // As the decoder of small pictures does: palettes as colours, less than 8 bits as 8.
+        decoder.set_transformations(png::Transformations::EXPAND);
+        let reader = decoder.read_info().ok()?;
+        let (colours, bits) = reader.output_color_type();
+        let info = reader.info();
+        let is_plain = bits == png::BitDepth::Eight && !info.interlaced && info.animation_control.is_none();
+        let colours = Some(colours).filter(|colours| *colours != png::ColorType::Indexed)?;
+        (is_plain && (info.width, info.height) == size).then_some(Self { reader, colours, size })
+    }
+
+    fn read(mut self, take: TakeRows<'_>) -> Result<(), Stop> {
+        let (width, height) = (self.size.0 as usize, self.size.1 as usize);
+        let strip_rows = (STRIP_PIXELS / width).clamp(1, height);
+        let mut strip = Vec::with_capacity(strip_rows * width * self.colours.samples());
+        for y in 0..height {
+            let row = self.reader.next_row().ok().flatten().ok_or(Stop::Damaged)?;
+            strip.extend_from_slice(row.data());
+            if (y + 1) % strip_rows == 0 || y + 1 == height {
+                take(&pixels(self.colours, &strip)).map_err(Stop::Taker)?;
+                strip.clear();
+            }
+        }
+        self.reader.finish().map_err(|_| Stop::Damaged)
+    }
+}
+
+/// Samples of a byte as pixels; of grey with opacity as of colours.
+fn pixels(colours: png::ColorType, samples: &[u8]) -> ImagePixels {
+    match colours {
+        png::ColorType::Rgb => ImagePixels::Rgb8(samples.as_chunks().0.to_vec()),
+        png::ColorType::Rgba => ImagePixels::Rgba8(samples.as_chunks().0.to_vec()),
+        png::ColorType::GrayscaleAlpha => {
+            ImagePixels::Rgba8(samples.as_chunks().0.iter().map(|[g, a]| [*g, *g, *g, *a]).collect())
+        }
+        png::ColorType::Grayscale | png::ColorType::Indexed => ImagePixels::Gray8(samples.to_vec()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::read_picture;
+    use image::{DynamicImage, ImageBuffer, ImageFormat};
+
+    fn rows(file: &Path) -> Result<Vec<ImagePixels>, String> {
+        let large = large_picture(file, head(file).expect("a head")).map_err(|error| error.to_string())?;
+        let mut all = Vec::new();
+        large.rows.read(&mut |rows| {
+            all.push(rows.clone());
+            Ok(())
+        })?;
+        Ok(all)
+    }
+
+    /// Of all strips.
+    fn joined(strips: &[ImagePixels]) -> ImagePixels {
+        let mut all = strips[0].clone();
+        for strip in &strips[1..] {
+            match (&mut all, strip) {
+                (ImagePixels::Gray8(all), ImagePixels::Gray8(more)) => all.extend(more),
+                (ImagePixels::Rgb8(all), ImagePixels::Rgb8(more)) => all.extend(more),
+                (ImagePixels::Rgba8(all), ImagePixels::Rgba8(more)) => all.extend(more),
+                other => panic!("{other:?}"),
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn rows_are_those_of_the_picture_read_whole() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let byte = |x: u32, y: u32, i: u32| (x * 3 + y * 5 + i * 7 + x * y) as u8;
+        let (w, h) = (700, 431);
+        let pictures = [
+            DynamicImage::ImageLuma8(ImageBuffer::from_fn(w, h, |x, y| image::Luma([byte(x, y, 0)]))),
+            DynamicImage::ImageLumaA8(ImageBuffer::from_fn(w, h, |x, y| image::LumaA([byte(x, y, 0), byte(x, y, 1)]))),
+            DynamicImage::ImageRgb8(ImageBuffer::from_fn(w, h, |x, y| image::Rgb([0, 1, 2].map(|i| byte(x, y, i))))),
+            DynamicImage::ImageRgba8(ImageBuffer::from_fn(w, h, |x, y| {
+                image::Rgba([0, 1, 2, 3].map(|i| byte(x, y, i)))
+            })),
+            DynamicImage::ImageLuma16(ImageBuffer::from_fn(w, h, |x, y| image::Luma([u16::from(byte(x, y, 0)) * 257]))),
+            DynamicImage::ImageRgb16(ImageBuffer::from_fn(w, h, |x, y| {
+                image::Rgb([0, 1, 2].map(|i| byte(x, y, i).into()))
+            })),
+        ];
+        for picture in pictures {
+            let file = place.path().join("t.png");
+            picture.save_with_format(&file, ImageFormat::Png).expect("writable");
+            let (whole, strips) = (read_picture(&file).expect("readable"), rows(&file).expect("readable"));
+            assert_eq!(head(&file), Some((w, h, format(&whole.pixels))));
+            assert_eq!(
+                strips.len() > 1,
+                picture.color().bits_per_pixel() / u16::from(picture.color().channel_count()) == 8
+            );
+            assert!(joined(&strips) == whole.pixels, "{:?}", picture.color());
+        }
+        let file = place.path().join("t.jpg");
+        let grey = DynamicImage::ImageLuma8(ImageBuffer::from_fn(w, h, |x, y| image::Luma([byte(x, y, 0)])));
+        grey.save_with_format(&file, ImageFormat::Jpeg).expect("writable");
+        assert!(rows(&file).expect("readable") == [read_picture(&file).expect("readable").pixels]);
+    }
+
+    #[test]
+    fn a_damaged_picture_is_told_as_a_small_one_is() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let file = place.path().join("t.png");
+        let picture = DynamicImage::ImageRgb8(ImageBuffer::from_fn(300, 300, |x, y| image::Rgb([(x * y) as u8, 2, 3])));
+        picture.save_with_format(&file, ImageFormat::Png).expect("writable");
+        let whole = std::fs::read(&file).expect("file");
+        std::fs::write(&file, &whole[..whole.len() / 2]).expect("write");
+        let told = rows(&file).expect_err("half of it");
+        assert_eq!(told, read_picture(&file).expect_err("half of it").to_string());
+        assert!(told.contains("it may be truncated or damaged"), "{told}");
+        std::fs::write(&file, &whole).expect("write");
+        let large = large_picture(&file, head(&file).expect("a head")).expect("readable");
+        std::fs::write(&file, &whole[..whole.len() / 2]).expect("write");
+        let told = large.rows.read(&mut |_| Ok(())).expect_err("another file");
+        assert!(told.ends_with("t.png: the file was changed while it was read; run again"), "{told}");
+        std::fs::remove_file(&file).expect("remove");
+        let told = large.rows.read(&mut |_| Ok(())).expect_err("no file");
+        assert!(told.ends_with("t.png: no such picture file; check the path"), "{told}");
+    }
+
+    #[test]
+    fn exr_heads_are_read() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let file = place.path().join("t.exr");
+        for (channels, format) in [(&["R", "G", "B"][..], PixelFormat::Rgb32F), (&["Y", "A"], PixelFormat::Rgba32F)] {
+            std::fs::write(&file, crate::exr::tests_support::picture(3, 2, channels, 0.5)).expect("write");
+            assert_eq!(head(&file), Some((3, 2, format)));
+            assert_eq!(rows(&file).expect("readable"), [read_picture(&file).expect("readable").pixels]);
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! A folder of blocks on the disk, of which each file is named by the key of its blocks.
+//!
+//! | bytes | what |
+//! | --- | --- |
+//! | 8 | `ETDTILES` |
+//! | 4 | version of this layout |
+//! | 4 | number of blocks |
+//! | 32 | the key |
+//! | 8 | checksum of all of the above and of the checksums of the blocks |
+//! | 8 a block | checksum of each block |
+//! | the rest | the blocks, one after the other |
+//!
+//! Integers are little-endian. A file is written under a name of its own and renamed when it is complete, so that programs that run at the same
+//! time see whole files only; of two that write the same, one replaces the other's equal one. A file whose length or head is not right is
+//! removed and counts as none. A block is checked against its checksum whenever it is read.
+
+mod checksum;
+mod head;
+mod reader;
+mod writer;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use etendue_core::blocks::{BlockKey, BlockStore, Blocks, Fill};
+
+use reader::TileFile;
+
+/// A folder of blocks. It is made when the first blocks are written.
+#[derive(Clone, Debug)]
+pub struct TileCache {
+    folder: PathBuf,
+}
+
+impl TileCache {
+    /// Blocks in `folder`; `None` for that of the user: `etendue` in `$XDG_CACHE_HOME`, else in `~/.cache`, else in the system's folder for
+    /// temporary files.
+    #[must_use]
+    pub fn new(folder: Option<&Path>) -> Self {
+        Self { folder: folder.map_or_else(of_user, Path::to_path_buf) }
+    }
+
+    /// Where the blocks of a key are.
+    fn file(&self, key: &BlockKey) -> PathBuf {
+        self.folder.join(format!("{}.tiles", digits(key)))
+    }
+}
+
+impl BlockStore for TileCache {
+    fn find(&self, key: &BlockKey, lengths: &[u32]) -> Option<Arc<dyn Blocks>> {
+        let file = self.file(key);
+        match TileFile::open(&file, key, lengths) {
+            Ok(found) => found.map(|found| Arc::new(found) as Arc<dyn Blocks>),
+            Err(()) => {
+                // Whoever else removes it does what is wanted.
+                let _ = std::fs::remove_file(&file);
+                None
+            }
+        }
+    }
+
+    fn make(&self, key: &BlockKey, lengths: &[u32], fill: Fill<'_>) -> Result<Arc<dyn Blocks>, String> {
+        let cannot =
+            |cause: std::io::Error| format!("the cache folder {} cannot be written: {cause}", self.folder.display());
+        std::fs::create_dir_all(&self.folder).map_err(cannot)?;
+        let (file, checksums) = writer::write(&self.file(key), key, lengths, fill)?;
+        Ok(Arc::new(TileFile::of(self.file(key), file, lengths, checksums)))
+    }
+}
+
+/// The user's folder for what can be made again (XDG Base Directory Specification 0.8: relative paths count as none).
+fn of_user() -> PathBuf {
+    let absolute = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    let cache = absolute("XDG_CACHE_HOME").or_else(|| absolute("HOME").map(|home| home.join(".cache")));
+    cache.unwrap_or_else(std::env::temp_dir).join("etendue")
+}
+
+/// Hexadecimal digits of a key.
+fn digits(key: &BlockKey) -> String {
+    key.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::head::HEAD_BYTES;
+    use super::*;
+    use std::fs;
+
+    const KEY: BlockKey = [7; 32];
+    const LENGTHS: [u32; 3] = [5, 0, 3000];
+
+    fn block(i: usize) -> Vec<u8> {
+        (0..LENGTHS[i]).map(|j| (j * 7 + i as u32) as u8).collect()
+    }
+
+    fn fill(out: &mut dyn etendue_core::blocks::BlockWriter) -> Result<(), String> {
+        // In any order.
+        [2, 0, 1].into_iter().try_for_each(|i| out.write(i, &block(i)))
+    }
+
+    fn made(folder: &Path) -> (TileCache, PathBuf) {
+        let cache = TileCache::new(Some(folder));
+        cache.make(&KEY, &LENGTHS, &mut fill).expect("a folder that can be written");
+        let file = cache.file(&KEY);
+        (cache, file)
+    }
+
+    fn read(blocks: &dyn Blocks, i: usize) -> Result<Vec<u8>, String> {
+        let mut bytes = vec![0; LENGTHS[i] as usize];
+        blocks.read(i, &mut bytes).map(|()| bytes)
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let folder = place.path().join("a/b");
+        let cache = TileCache::new(Some(&folder));
+        assert!(cache.find(&KEY, &LENGTHS).is_none());
+        let fresh = cache.make(&KEY, &LENGTHS, &mut fill).expect("a folder that can be made");
+        let found = cache.find(&KEY, &LENGTHS).expect("just made");
+        for i in 0..3 {
+            assert_eq!((read(&*fresh, i), read(&*found, i)), (Ok(block(i)), Ok(block(i))));
+        }
+        assert_eq!(fs::read_dir(&folder).expect("folder").count(), 1, "nothing but the file");
+        assert!(cache.find(&[8; 32], &LENGTHS).is_none());
+    }
+
+    #[test]
+    fn a_file_that_is_not_whole_counts_as_none_and_is_removed() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let (cache, file) = made(place.path());
+        let whole = fs::read(&file).expect("file");
+        let flipped = |at: usize| {
+            let mut bytes = whole.clone();
+            bytes[at] ^= 1;
+            bytes
+        };
+        let longer = [&whole[..], &[0]].concat();
+        let head = [flipped(0), flipped(8), flipped(12), flipped(20), flipped(50), flipped(HEAD_BYTES + 3)];
+        for bytes in head.into_iter().chain([whole[..whole.len() - 1].to_vec(), whole[..20].to_vec(), vec![], longer]) {
+            fs::write(&file, bytes).expect("write");
+            assert!(cache.find(&KEY, &LENGTHS).is_none());
+            assert!(!file.exists());
+        }
+        fs::write(&file, &whole).expect("write");
+        assert!(cache.find(&KEY, &[5, 0, 2999]).is_none(), "other lengths");
+    }
+
+    #[test]
+    fn a_damaged_block_is_told_and_its_file_removed() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let (cache, file) = made(place.path());
+        let mut bytes = fs::read(&file).expect("file");
+        *bytes.last_mut().expect("bytes") ^= 1;
+        fs::write(&file, bytes).expect("write");
+        let found = cache.find(&KEY, &LENGTHS).expect("head and length are right");
+        assert_eq!(read(&*found, 0), Ok(block(0)));
+        let told = read(&*found, 2).expect_err("one bit is another");
+        assert!(
+            told.ends_with(".tiles: block 2 is damaged; the file was removed: run again, and it is made anew"),
+            "{told}"
+        );
+        assert!(!file.exists());
+    }
+
+    #[test]
+    fn nothing_is_left_of_what_fails() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let cache = TileCache::new(Some(place.path()));
+        let failed = cache.make(&KEY, &LENGTHS, &mut |out| {
+            out.write(0, &block(0))?;
+            Err("the picture ended".to_owned())
+        });
+        assert_eq!(failed.err().as_deref(), Some("the picture ended"));
+        assert_eq!(fs::read_dir(place.path()).expect("folder").count(), 0);
+        fs::write(place.path().join("file"), b"").expect("write");
+        let in_file = TileCache::new(Some(&place.path().join("file/folder")));
+        let told = in_file.make(&KEY, &LENGTHS, &mut fill).expect_err("a file is no folder");
+        assert!(told.starts_with("the cache folder ") && told.contains("file/folder cannot be written: "), "{told}");
+    }
+}

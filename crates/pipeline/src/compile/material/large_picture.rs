@@ -1,0 +1,111 @@
+//! Textures of pictures that are too large to be held: in tiles, which are made once for all runs.
+
+use super::texels::Reading;
+use etendue_core::blocks::{BlockKey, BlockWriter};
+use etendue_scene::asset::{LargeImage, TexelStore};
+use etendue_tracer::textures::{ImageTexture, PyramidWriter, Sampling, Texels, TextureError, TileMemory, TiledError};
+use sha2::{Digest as _, Sha256};
+use std::sync::Arc;
+
+/// Raised whenever the same picture gives other tiles.
+const TILES_REVISION: u32 = 1;
+
+/// Why a picture is not in tiles.
+#[derive(Debug, PartialEq)]
+pub(super) enum Refusal {
+    /// The picture or its layout is at fault.
+    Picture(String),
+    /// Its tiles cannot be kept.
+    Store(String),
+}
+
+/// A texture whose tiles are in the store, by now if they were not before.
+pub(super) fn tiled(
+    image: &LargeImage,
+    (reading, sampling): (Reading, Sampling),
+    (store, memory): (&TexelStore, &Arc<TileMemory>),
+) -> Result<ImageTexture, Refusal> {
+    let (size, encoding) = ((image.width, image.height), reading.encoding(image.format));
+    let (key, lengths) = (key(image, reading), PyramidWriter::lengths(size.0, size.1, encoding));
+    let texture = |blocks| ImageTexture::tiled(size, encoding, (blocks, memory), sampling);
+    match store.blocks.find(&key, &lengths).map(texture) {
+        Some(Ok(texture)) => return Ok(texture),
+        Some(Err(TiledError::Texture(error))) => return Err(Refusal::Picture(error.to_string())),
+        // What is there is damaged: it is made again.
+        Some(Err(TiledError::Tiles(_))) | None => {}
+    }
+    let mut faulty = None;
+    let made = store.blocks.make(&key, &lengths, &mut |out| {
+        fill(image, reading, out).map_err(|refusal| match refusal {
+            Refusal::Store(error) => error,
+            Refusal::Picture(error) => faulty.insert(error).clone(),
+        })
+    });
+    match (made, faulty) {
+        (_, Some(error)) => Err(Refusal::Picture(error)),
+        (Err(error), None) => Err(Refusal::Store(error)),
+        (Ok(blocks), None) => texture(blocks).map_err(refusal),
+    }
+}
+
+/// The picture in memory, of all its pixels.
+pub(super) fn held(image: &LargeImage, reading: Reading, sampling: Sampling) -> Result<ImageTexture, String> {
+    let mut all: Option<Texels> = None;
+    image.rows.read(&mut |rows| {
+        let texels = reading.texels(rows).ok_or_else(no_opacity)?;
+        match &mut all {
+            None => all = Some(texels),
+            Some(all) => all.append(texels),
+        }
+        Ok(())
+    })?;
+    let texels =
+        all.ok_or_else(|| TextureError::Size { width: image.width, height: image.height, found: 0 }.to_string())?;
+    ImageTexture::new(image.width, image.height, texels, sampling).map_err(|error| error.to_string())
+}
+
+/// Everything that decides the tiles.
+fn key(image: &LargeImage, Reading { encoded, alpha, scale }: Reading) -> BlockKey {
+    let mut hash = Sha256::new();
+    hash.update(b"etendue texels");
+    hash.update(TILES_REVISION.to_le_bytes());
+    hash.update(image.hash);
+    hash.update([u8::from(encoded), u8::from(alpha)]);
+    hash.update(scale.to_le_bytes());
+    hash.finalize().into()
+}
+
+/// Writes all tiles.
+fn fill(image: &LargeImage, reading: Reading, out: &mut dyn BlockWriter) -> Result<(), Refusal> {
+    let writer = PyramidWriter::new(image.width, image.height, reading.encoding(image.format));
+    let mut writer = writer.map_err(|error| Refusal::Picture(error.to_string()))?;
+    let mut refused = None;
+    let read = image.rows.read(&mut |rows| {
+        let texels = reading.texels(rows).ok_or_else(no_opacity)?;
+        let pushed = writer.push(&texels, out);
+        pushed.map_err(|error| refused.insert(refusal(error)).to_string())
+    });
+    match (read, refused) {
+        (_, Some(refused)) => Err(refused),
+        (Err(error), None) => Err(Refusal::Picture(error)),
+        (Ok(()), None) => writer.finish(out).map_err(refusal),
+    }
+}
+
+fn refusal(error: TiledError) -> Refusal {
+    match error {
+        TiledError::Texture(error) => Refusal::Picture(error.to_string()),
+        TiledError::Tiles(error) => Refusal::Store(error),
+    }
+}
+
+fn no_opacity() -> String {
+    "the picture has no opacity to read".to_owned()
+}
+
+impl std::fmt::Display for Refusal {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (Self::Picture(text) | Self::Store(text)) = self;
+        f.write_str(text)
+    }
+}

@@ -1,0 +1,74 @@
+//! Pictures that are too large to be held: what is known of them without their pixels, and how these are read.
+
+use etendue_core::blocks::BlockStore;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use super::ImagePixels;
+
+/// Which of [`ImagePixels`] a picture's are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PixelFormat {
+    /// One channel of 8 bits.
+    Gray8,
+    /// One channel of 16 bits.
+    Gray16,
+    /// Three channels of 8 bits.
+    Rgb8,
+    /// Four channels of 8 bits, the last of them opacity.
+    Rgba8,
+    /// Three floating-point channels.
+    Rgb32F,
+    /// Four floating-point channels, the last of them opacity.
+    Rgba32F,
+}
+
+impl PixelFormat {
+    /// Whether there is opacity.
+    #[must_use]
+    pub fn has_opacity(self) -> bool {
+        matches!(self, Self::Rgba8 | Self::Rgba32F)
+    }
+
+    /// Whether a channel is a byte.
+    #[must_use]
+    pub fn is_bytes(self) -> bool {
+        matches!(self, Self::Gray8 | Self::Rgb8 | Self::Rgba8)
+    }
+}
+
+/// Takes rows of a picture; its error ends the reading.
+pub type TakeRows<'a> = &'a mut dyn FnMut(&ImagePixels) -> Result<(), String>;
+
+/// Reads a picture's pixels as often as it is asked to.
+pub trait PixelRows: Debug + Send + Sync {
+    /// Hands all rows over from the top, whole rows at a time.
+    ///
+    /// # Errors
+    /// What is wrong with the file, in the words of reading a small picture; or the error of `take`.
+    fn read(&self, take: TakeRows<'_>) -> Result<(), String>;
+}
+
+/// A picture whose pixels stay in its file.
+#[derive(Clone, Debug)]
+pub struct LargeImage {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// What its pixels are.
+    pub format: PixelFormat,
+    /// SHA-256 of the file.
+    pub hash: [u8; 32],
+    /// Its pixels.
+    pub rows: Arc<dyn PixelRows>,
+}
+
+/// Where the texels of large pictures are kept, and how many of them in memory.
+#[derive(Clone, Debug)]
+pub struct TexelStore {
+    /// Keeps tiles of texels.
+    pub blocks: Arc<dyn BlockStore>,
+    /// Most bytes of tiles that are in memory at a time.
+    pub memory_bytes: u64,
+}
