@@ -3,6 +3,7 @@
 //! Small pictures, fixed seeds. A tolerance is either statistical (from the scatter of 16 replicates or more, Student's t,
 //! Šidák's correction, one wrong alarm in a thousand; see `etendue_testkit::judge`) or says where it comes from.
 
+mod adaptive_noise;
 mod caustics;
 mod charts;
 mod colour;

@@ -3,7 +3,7 @@
 //! - [`WavelengthSampling::Response`]: p₀ = u U + (1 − u) R/∫R, the responsivity R in steps of 5 nm and the uniform density U; u is 5 % where
 //!   only electrons are summed, 50 % where a spectral cube is kept too.
 //! - [`WavelengthSampling::ResponseAndSource`]: the part that follows R is shared, ε of it as before and 1 − ε to
-//!   Σ w_k R S_k/∫R S_k in steps of 1 nm, over the groups k of the light's sources ([`SourceSpectra::lit`]); where only electrons are summed, ε
+//!   Σ w_k R S_k/∫R S_k in steps of 1 nm, over the groups k of the light's sources (`SourceSpectra::lit`); where only electrons are summed, ε
 //!   of the uniform part stays.
 //!
 //! p ≥ ε p₀ everywhere, so that for any light f = R L the mean square of a sample, ∫f²/p, is at most 1/ε of that by the response alone:
