@@ -2,8 +2,10 @@
 
 mod job;
 mod probe;
+mod quad;
 mod shot;
 
 pub use job::Job;
 pub use probe::{FLAT, ONE_BAND, eye, flat_per_lux};
+pub use quad::quad;
 pub use shot::{Samples, Shot};

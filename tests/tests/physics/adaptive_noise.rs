@@ -5,7 +5,7 @@
 //! half of its variance over that of the pattern. Both are seen here without the sensor's own noise, which would hide them: in mean electrons of
 //! independent seeds.
 
-use etendue_tests::{Job, Shot};
+use etendue_tests::{Job, Shot, quad};
 
 const SIDE: usize = 16;
 const READ_NOISE_E: f64 = 4.0;
@@ -15,12 +15,6 @@ const PRNU: f64 = 0.01;
 
 /// A white wall in the light of a lamp and of the walls about it.
 fn wall(threshold: f64, seed: u64) -> Shot {
-    let quad = |name: &str, size: [f64; 2], at: [f64; 3], turn: [f64; 3], material: &str| {
-        format!(
-            "[[scene.objects]]\nname = \"{name}\"\nshape = {{ type = \"quad\", size_m = {size:?} }}\nmaterial = \"{material}\"\n\
-             position_m = {at:?}\nrotation_deg = {turn:?}\n"
-        )
-    };
     let room = [
         quad("wall", [4.0, 4.0], [2.0, 0.0, 1.0], [0.0, -90.0, 0.0], "white"),
         quad("floor", [4.0, 4.0], [0.0, 0.0, -1.0], [0.0, 0.0, 0.0], "white"),

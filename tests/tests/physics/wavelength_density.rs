@@ -5,7 +5,7 @@
 use etendue_pipeline::plan::{SpectralGain, WavelengthSampling};
 use etendue_stats::normal;
 use etendue_testkit::judge::SIGNIFICANCE;
-use etendue_tests::{Job, Shot};
+use etendue_tests::{Job, Shot, quad};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -114,21 +114,12 @@ fn job(place: Place, light: &str, sensor: &SensorKind, render: &str) -> Job {
 fn patch(i: usize, name: &str, rgb: [f64; 3]) -> String {
     let side = 1.6 / 3.0;
     let (y, z) = (side * (1.0 - (i % 3) as f64), 1.0 + side * (0.5 - (i / 3) as f64));
-    format!(
-        "[[scene.materials]]\nname = \"{name}\"\ntype = \"diffuse\"\nreflectance = {rgb:?}\n[[scene.objects]]\nname = \"{name}\"\n\
-         shape = {{ type = \"quad\", size_m = [{side}, {side}] }}\nmaterial = \"{name}\"\nposition_m = [2, {y}, {z}]\n\
-         rotation_deg = [0, -90, 0]\n"
-    )
+    let material = format!("[[scene.materials]]\nname = \"{name}\"\ntype = \"diffuse\"\nreflectance = {rgb:?}\n");
+    material + &quad(name, [side, side], [2.0, y, z], [0.0, -90.0, 0.0], name)
 }
 
 /// A room of 4 m by 3 m by 2 m about camera and wall, with a lamp in its ceiling.
 fn room(light: &str) -> String {
-    let quad = |name: &str, size: [f64; 2], at: [f64; 3], turn: [f64; 3], material: &str| {
-        format!(
-            "[[scene.objects]]\nname = \"{name}\"\nshape = {{ type = \"quad\", size_m = {size:?} }}\nmaterial = \"{material}\"\n\
-             position_m = {at:?}\nrotation_deg = {turn:?}\n"
-        )
-    };
     [
         "[[scene.materials]]\nname = \"wall\"\ntype = \"diffuse\"\nreflectance = 0.6\n".to_owned(),
         format!(
