@@ -1,5 +1,6 @@
 //! The street with a hundred thousand instances more: what grows with their number.
 
+use crate::child;
 use crate::clock::{clock_s, process_cpu_s};
 use crate::memory::peak_mb;
 use crate::scenes::{STREET, camera, text_of};
@@ -7,7 +8,6 @@ use crate::table::Table;
 use crate::threads::pool;
 use etendue_pipeline::render::light_counts;
 use std::fmt::Write as _;
-use std::process::Command;
 
 /// The argument that asks a child process for its times and memory.
 pub const CHILD: &str = "--instances-of-a-process";
@@ -32,17 +32,9 @@ pub fn table() -> Table {
     for (name, way) in
         [("street", "none"), ("and instances of eight objects", "instances"), ("and as many objects", "objects")]
     {
-        table.row(row(name, way));
+        table.row(child::row(name, &[CHILD, way]));
     }
     table
-}
-
-fn row(name: &str, way: &str) -> Vec<String> {
-    let program = std::env::current_exe().expect("this program has a file");
-    let output = Command::new(program).args([CHILD, way]).output().expect("this program can be run again");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let answer = String::from_utf8_lossy(&output.stdout);
-    std::iter::once(name.to_owned()).chain(answer.split_whitespace().map(str::to_owned)).collect()
 }
 
 /// Loads the street with what `way` adds; instances, clock and processor time of job and view, s, and megabytes at most.

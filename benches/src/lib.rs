@@ -1,6 +1,7 @@
 //! What the benchmarks are made of: scenes and rays, clocks, tables. The benchmarks beside other programs (peers/) use
 //! it too.
 
+pub mod child;
 pub mod clock;
 pub mod defocus;
 pub mod files;
@@ -23,6 +24,7 @@ pub mod scenes;
 pub mod sensor;
 pub mod table;
 pub mod terrain;
+pub mod textures;
 pub mod threads;
 pub mod trees;
 pub mod views;

@@ -17,6 +17,7 @@
 //! | `obj` | a million triangles from their OBJ file to the first ray, by stages |
 //! | `instances` | the street with 10⁵ instances more: time and memory until its light can be gathered |
 //! | `motion` | the street with fifty objects more, at rest and moving |
+//! | `textures` | peak memory and time of textures that are larger than the memory that they may take |
 //! | `memory` | peak memory of a scene, in a process of its own |
 //! | `frames` | raw and picture of a frame of two megapixels |
 //! | `sensor` | mean electrons to digital numbers: all noises, all effects, each alone; time and memory |
@@ -30,14 +31,14 @@
 use etendue_benches::table::Table;
 use etendue_benches::{
     defocus, files, frames, instances, lamps, lenses, machine, memory, motion, obj, paths, peer, rays, road, sensor,
-    trees, views,
+    textures, trees, views,
 };
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 16] = [
+const BENCHMARKS: [Benchmark; 17] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
@@ -50,6 +51,7 @@ const BENCHMARKS: [Benchmark; 16] = [
     ("obj", obj::table),
     ("instances", instances::table),
     ("motion", motion::table),
+    ("textures", textures::table),
     ("memory", memory::table),
     ("frames", frames::table),
     ("sensor", sensor::table),
@@ -69,6 +71,10 @@ fn main() -> ExitCode {
         }
         [flag, name] if flag == sensor::CHILD => {
             println!("{}", sensor::child(name));
+            ExitCode::SUCCESS
+        }
+        [flag, folder, limit_mb] if flag == textures::CHILD => {
+            println!("{}", textures::child(folder, limit_mb));
             ExitCode::SUCCESS
         }
         [flag, order @ ..] if flag == peer::FLAG => answer(peer::rendered(order)),

@@ -1,12 +1,12 @@
 //! Peak memory of a scene: loading, compiling and rendering its own picture, in a process of its own.
 
+use crate::child;
 use crate::scenes::{ALL, Scene, camera};
 use crate::table::Table;
 use crate::threads::pool;
 use etendue_pipeline::Unobserved;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::render::{Request, layout, light};
-use std::process::Command;
 
 /// The argument that makes this program a child that measures the scene named next.
 pub const CHILD: &str = "--peak-memory-of";
@@ -19,17 +19,8 @@ const NOTE: &str = "Most memory resident at any time (Linux), until the scene is
 pub fn table() -> Table {
     let head = ["scene", "compiled, MB", "rendered, MB", "film, MB"];
     let mut table = Table::new("Memory", NOTE, &head);
-    ALL.iter().for_each(|scene| table.row(row(scene)));
+    ALL.iter().for_each(|scene| table.row(child::row(scene.name, &[CHILD, scene.name])));
     table
-}
-
-fn row(scene: &Scene) -> Vec<String> {
-    let program = std::env::current_exe().expect("this program has a file");
-    let output = Command::new(program).args([CHILD, scene.name]).output().expect("this program can be run again");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let answer = String::from_utf8_lossy(&output.stdout);
-    let megabytes = answer.split_whitespace().map(str::to_owned);
-    std::iter::once(scene.name.to_owned()).chain(megabytes).collect()
 }
 
 /// Renders a scene; megabytes at most until it was compiled and until it was rendered, and those of the film.

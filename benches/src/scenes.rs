@@ -1,8 +1,9 @@
 //! The scenes that ship with the project, as plans.
 
-use etendue_io::load_assets;
+use etendue_io::{TextureMemory, complete_assets};
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::{Choices, Plan, compile};
+use etendue_scene::asset::Assets;
 use etendue_scene::{Description, Overrides};
 use std::path::{Path, PathBuf};
 
@@ -93,6 +94,11 @@ pub fn plan_of(job: &Path) -> Plan {
     compiled(job, &read, &Overrides::default())
 }
 
+/// The same with its textures within a memory.
+pub fn plan_within(job: &Path, memory: &TextureMemory) -> Plan {
+    compiled_within(job, &read, &Overrides::default(), memory)
+}
+
 /// The plan of a job given as text, which names no files. Panics where it cannot be used.
 pub fn plan_of_text(job: &str) -> Plan {
     compiled(Path::new("job.toml"), &|_| Ok(job.to_owned()), &Overrides::default())
@@ -103,8 +109,18 @@ fn read(path: &Path) -> Result<String, String> {
 }
 
 fn compiled(job: &Path, read: &dyn Fn(&Path) -> Result<String, String>, overrides: &Overrides) -> Plan {
+    compiled_within(job, read, overrides, &TextureMemory::default())
+}
+
+fn compiled_within(
+    job: &Path,
+    read: &dyn Fn(&Path) -> Result<String, String>,
+    overrides: &Overrides,
+    memory: &TextureMemory,
+) -> Plan {
     let description = Description::load(job, read, overrides).unwrap_or_else(|faults| panic!("{faults}"));
-    let assets = load_assets(&description.assets()).unwrap_or_else(|faults| panic!("{faults:?}"));
+    let assets =
+        complete_assets(Assets::default(), &description.assets(), memory).unwrap_or_else(|faults| panic!("{faults:?}"));
     compile(&description, &assets, &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 

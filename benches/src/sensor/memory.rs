@@ -2,19 +2,16 @@
 
 use super::sensors::kinds;
 use super::{PIXELS, expose, scene};
+use crate::child;
 use crate::threads::pool;
 use etendue_sensor::Sensor;
-use std::process::Command;
 
 /// The argument that makes this program a child that measures the sensor named next.
 pub const CHILD: &str = "--peak-memory-of-sensor";
 
 /// Bytes a pixel of the sensor of a name.
 pub(super) fn bytes_a_pixel(name: &str) -> String {
-    let program = std::env::current_exe().expect("this program has a file");
-    let output = Command::new(program).args([CHILD, name]).output().expect("this program can be run again");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8_lossy(&output.stdout).trim().to_owned()
+    child::answer(&[CHILD, name])
 }
 
 /// Takes a frame with the sensor of a name; bytes a pixel above the means.

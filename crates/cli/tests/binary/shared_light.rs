@@ -1,25 +1,12 @@
 //! Cameras of a job that see the same light: rendered once, and each as it is alone.
 
-use crate::support::{assert_same, contents, etendue, rendered, text};
+use crate::support::{BALL, assert_same, contents, etendue, rendered, text};
 use etendue_io::exr::{Samples, read_exr};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// A matt floor and a lamp before cameras that look at it from the same place.
-const SCENE: &str = r#"format = 1
-[scene]
-[scene.environment]
-type = "uniform"
-luminance_cd_m2 = 300
-illuminant = "D65"
-[[scene.materials]]
-name = "grey"
-type = "diffuse"
-reflectance = 0.5
-[[scene.objects]]
-name = "floor"
-shape = { type = "quad", size_m = [30, 30] }
-material = "grey"
+/// How the light of all cameras is sampled.
+const RENDER: &str = r#"
 [render]
 spp = 8
 replicates = 2
@@ -31,36 +18,15 @@ electrons = true
 variance = true
 "#;
 
+/// The scene of [`BALL`], and its camera.
+fn parts() -> (&'static str, &'static str) {
+    BALL.split_at(BALL.find("[[cameras]]").expect("a camera"))
+}
+
 /// A camera of the job: its name, what its tables say in place of `KEY = VALUE`, and what comes beside them.
 fn camera(name: &str, changes: &[(&str, &str)], further: &str) -> String {
-    let mut text = format!(
-        r#"
-[[cameras]]
-name = "{name}"
-position_m = [0, 0, 1.4]
-look_at_m = [6, 0, 0.9]
-[cameras.lens]
-type = "thin"
-focal_length_mm = 6
-f_number = 2
-focus_distance_m = 5
-[cameras.sensor]
-width_px = 24
-height_px = 16
-pixel_pitch_um = 100
-exposure_s = 1e-5
-cfa = "rggb"
-quantum_efficiency = {{ camera = "nikon-d5100", peak = 0.5 }}
-full_well_e = 50_000
-read_noise_e = 4
-dark_current_e_s = 5
-gain_dn_per_e = 0.05
-black_level_dn = 64
-bits = 12
-[cameras.isp]
-white_balance = "D65"
-{further}"#
-    );
+    let own = parts().1.replace("\"front\"", &format!("\"{name}\"")).replace("exposure_s = 2e-6", "exposure_s = 1e-5");
+    let mut text = format!("{own}[cameras.isp]\nwhite_balance = \"D65\"\n{further}");
     for (old, new) in changes {
         assert!(text.contains(old), "{old}");
         text = text.replace(old, new);
@@ -81,7 +47,7 @@ fn job(folder: &Path) -> String {
         camera("longer", &[("1e-5", "3e-5")], "[cameras.output]\nground_truth = false\n"),
     ];
     let path = folder.join("job.toml");
-    std::fs::write(&path, format!("{SCENE}{}", cameras.concat())).expect("written");
+    std::fs::write(&path, format!("{}{}{RENDER}", parts().0, cameras.concat())).expect("written");
     text(&path)
 }
 

@@ -7,7 +7,6 @@ use etendue_io::photograph::Encoding;
 use etendue_io::png::encode_display;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 
 /// Three pictures on three quads, near and far: as colours by coordinates, as colours from three sides, as a roughness.
 const JOB: &str = r#"format = 1
@@ -195,58 +194,4 @@ sensor = { width_px = 8, height_px = 8, pixel_pitch_um = 150 }
     rendered(&job, &["--spp", "1"]);
     write("m.obj", &format!("{mesh}usemtl unseen\nf 3 2 1\n"));
     etendue(["plan", &job]).refused(&["lost.png: no such picture file", "named at", "m.obj"]);
-}
-
-/// 2.4 GB of texels as the files have them, 5.6 GB at all resolutions. `cargo test --release -p etendue-cli --test binary -- --ignored
-/// large_textures`; takes 6 GB of the folder for temporary files and about two minutes.
-#[test]
-#[ignore = "a benchmark"]
-#[cfg(target_os = "linux")]
-fn large_textures_render_within_a_gibibyte() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let bytes = picture(8192, 8192, 1);
-    let mut job = JOB.split("textures = [").next().expect("a head").to_owned();
-    let mut objects = String::new();
-    for i in 0..12 {
-        // What follows the end of a PNG is not a part of it, and makes another file.
-        fs::write(folder.path().join(format!("{i}.png")), [&bytes[..], &[i]].concat()).expect("written");
-        objects += &format!(
-            "[[scene.textures]]\nname = \"t{i}\"\nfile = \"{i}.png\"\nencoding = \"srgb\"\n[[scene.materials]]\nname = \"m{i}\"\n\
-             type = \"diffuse\"\nreflectance = {{ texture = \"t{i}\" }}\n[[scene.objects]]\nname = \"o{i}\"\nmaterial = \"m{i}\"\n\
-             shape = {{ type = \"quad\", size_m = [4, 4] }}\nposition_m = [{}, {}, 0]\n",
-            3 + 4 * (i / 3),
-            4 * i32::from(i % 3) - 4,
-        );
-    }
-    job += &objects;
-    job += "[[cameras]]\nname = \"front\"\nposition_m = [-1, 0, 1.6]\nlook_at_m = [8, 0, 0]\nsensor = { width_px = 640, height_px = 400, \
-            pixel_pitch_um = 12 }\nlens = { type = \"pinhole\", focal_length_mm = 6, f_number = 2 }\n";
-    fs::write(folder.path().join("job.toml"), job).expect("written");
-    for run in ["made", "found"] {
-        let output = text(&folder.path().join(run));
-        let cache = text(&folder.path().join("cache"));
-        let mut child = Command::new(assert_cmd::cargo::cargo_bin("etendue"))
-            .args(["render", &text(&folder.path().join("job.toml")), "-o", &output, "--cache", &cache])
-            .stderr(Stdio::null())
-            .stdout(Stdio::null())
-            .spawn()
-            .expect("the binary starts");
-        let mut peak_kib = 0;
-        let status = loop {
-            peak_kib = peak_kib.max(peak(child.id()));
-            if let Some(status) = child.try_wait().expect("a child") {
-                break status;
-            }
-            std::thread::sleep(std::time::Duration::from_millis(5));
-        };
-        assert!(status.success() && peak_kib < 1 << 20, "{run}: {peak_kib} KiB");
-    }
-}
-
-/// Most memory that a process had resident so far, KiB; 0 once it is gone.
-#[cfg(target_os = "linux")]
-fn peak(process: u32) -> u64 {
-    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
-    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.split_whitespace().next()?.parse().ok());
-    peak.unwrap_or(0)
 }
