@@ -18,6 +18,7 @@ mod pixels;
 mod plan;
 mod report;
 mod study;
+mod trial;
 mod way;
 
 pub use ablation::{Ablation, Dropped, Kept, ablation, ablation_table};
