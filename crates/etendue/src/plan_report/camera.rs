@@ -142,6 +142,8 @@ pub struct CostReport {
     pub is_lower_bound: bool,
     /// Memory of the film, bytes.
     pub film_bytes: f64,
+    /// Its bands in a scratch file on the disk, bytes; 0 where they are in memory.
+    pub film_disk_bytes: f64,
 }
 
 /// A part of what is done on the film.
@@ -275,7 +277,8 @@ impl CostReport {
             film_parts: parts.collect(),
             cpu_s: cost.cpu_s(),
             is_lower_bound: cost.is_lower_bound,
-            film_bytes: cost.film_bytes,
+            film_bytes: cost.film.memory,
+            film_disk_bytes: cost.film.disk,
         }
     }
 }

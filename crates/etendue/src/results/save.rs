@@ -10,9 +10,10 @@ use super::writer::{Encoder, ResultWriter};
 use crate::error::Error;
 use crate::observer::Observer;
 use crate::rig;
+use etendue_core::quantity::Radiance;
 use etendue_io::exr::{
-    self, Layer, Lengths, encode_ground_truth, encode_layers, encode_plane, encode_radiance, encode_rays,
-    encode_spectral,
+    self, Layer, Lengths, SpectralBands, encode_ground_truth, layers_image, plane_image, radiance_image, rays_image,
+    spectral_image,
 };
 use etendue_io::{Existing, OutputFolder, png};
 use etendue_pipeline::rays::{RayTable, ray_table};
@@ -101,10 +102,10 @@ impl CameraResults {
         }
         let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
         let facts = self.provenance();
-        writer.write(Files::RAYS, encoded_rays(&self.rays(), &facts))?;
+        writer.exr(Files::RAYS, image_of_rays(&self.rays(), &facts))?;
         if let Some(twin) = &self.undistorted {
             let facts = metadata::undistorted_provenance(facts, twin);
-            writer.write(&Files::undistorted(Files::RAYS), encoded_rays(&ray_table(twin.body()), &facts))?;
+            writer.exr(&Files::undistorted(Files::RAYS), image_of_rays(&ray_table(twin.body()), &facts))?;
         }
         Ok(())
     }
@@ -126,7 +127,8 @@ impl CameraResults {
             let variance = products.variance.then_some(&radiance.variance);
             let facts = metadata::radiance_provenance(self.provenance(), camera);
             let lengths = self.depth.as_ref().map(|d| Lengths { distance: &d.distance, depth: &d.depth });
-            writer.write(&self.file(Files::RADIANCE), encode_radiance(&radiance.mean, variance, lengths, &facts))?;
+            let bands = SpectralBands::of_kept(&radiance.mean, variance);
+            writer.exr(&self.file(Files::RADIANCE), radiance_image(bands, lengths, &facts))?;
         }
         if products.irradiance {
             writer.irradiance(&self.file(Files::IRRADIANCE), light, products.variance, &self.provenance())?;
@@ -135,11 +137,11 @@ impl CameraResults {
             writer.ghosts(&self.file(Files::GHOSTS), light, &self.provenance())?;
         }
         if let Some(sampling) = &self.sampling {
-            writer.write(&self.file(Files::SAMPLING), encoded_sampling(sampling, &self.provenance()))?;
+            writer.exr(&self.file(Files::SAMPLING), sampling_image(sampling, &self.provenance()))?;
         }
         if let Some(mean) = light.electrons.as_ref().filter(|_| products.electrons) {
             let variance = light.electrons_variance.as_ref().filter(|_| products.variance);
-            writer.write(&self.file(Files::ELECTRONS), encode_plane(mean, variance, &self.provenance()))?;
+            writer.exr(&self.file(Files::ELECTRONS), plane_image(mean, variance, &self.provenance()))?;
         }
         Ok(())
     }
@@ -180,12 +182,10 @@ impl CameraResults {
         let shot = Shot { frame: self.frame_numbers().start, capture: 0 };
         let layers = weather_layers(&self.plan, camera, shot, self.simd);
         let facts = metadata::radiance_provenance(self.provenance(), camera);
-        writer.write(&self.file(Files::TRANSMITTANCE), encode_plane(&layers.transmittance, None, &facts))?;
-        writer.write(&self.file(Files::AIRLIGHT), encode_spectral(&layers.airlight, None, &facts))?;
-        layers
-            .cover
-            .iter()
-            .try_for_each(|cover| writer.write(&self.file(Files::COVER), encode_plane(cover, None, &facts)))
+        writer.exr(&self.file(Files::TRANSMITTANCE), plane_image(&layers.transmittance, None, &facts))?;
+        let airlight = SpectralBands::of(&layers.airlight, None);
+        writer.exr(&self.file(Files::AIRLIGHT), spectral_image::<Radiance>(airlight, &facts))?;
+        layers.cover.iter().try_for_each(|cover| writer.exr(&self.file(Files::COVER), plane_image(cover, None, &facts)))
     }
 
     /// Ground truth of the undistorted twin.
@@ -201,18 +201,18 @@ impl CameraResults {
     }
 }
 
-fn encoded_sampling(sampling: &SamplingPlanes, facts: &etendue_io::Provenance) -> Result<Vec<u8>, exr::EncodeError> {
+fn sampling_image<'a>(sampling: &'a SamplingPlanes, facts: &etendue_io::Provenance) -> exr::ExrImage<'a> {
     let SamplingPlanes { samples, monte_carlo, sensor } = sampling;
     let variances = [("monte_carlo_variance", monte_carlo), ("sensor_variance", sensor)];
     let variances =
         variances.into_iter().filter_map(|(name, plane)| Some((name, Layer::Float(plane.as_ref()?.samples()))));
     let layers: Vec<_> = [("samples", Layer::Uint(samples.samples()))].into_iter().chain(variances).collect();
     let layers: Vec<_> = layers.into_iter().map(|(name, layer)| (name.to_owned(), layer)).collect();
-    encode_layers(samples.width(), samples.height(), &layers, facts)
+    layers_image(samples.width(), samples.height(), &layers, facts)
 }
 
-fn encoded_rays(table: &RayTable, facts: &etendue_io::Provenance) -> Result<Vec<u8>, exr::EncodeError> {
-    encode_rays(&table.origin, &table.direction, &table.ray, table.path.as_ref(), facts)
+fn image_of_rays<'a>(table: &'a RayTable, facts: &etendue_io::Provenance) -> exr::ExrImage<'a> {
+    rays_image(&table.origin, &table.direction, &table.ray, table.path.as_ref(), facts)
 }
 
 fn planes(truth: &GroundTruth) -> exr::GroundTruth<'_> {

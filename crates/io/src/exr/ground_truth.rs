@@ -5,6 +5,7 @@
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Length, Vector};
 
+use super::channel::Channel;
 use super::encode::{EncodeError, ExrImage};
 use crate::Provenance;
 
@@ -39,7 +40,7 @@ pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> 
     let mut image = ExrImage::new(width, height, provenance);
     for (name, plane) in [("depth.Z", truth.depth), ("distance.Z", truth.distance)] {
         if let Some(plane) = plane {
-            image.float(name, plane.samples().to_vec());
+            image.float(name, plane.samples());
         }
     }
     let vectors = [
@@ -57,7 +58,7 @@ pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> 
         [("instance", truth.instance), ("semantic", truth.semantic), ("material", truth.material), ("ray", truth.ray)]
     {
         if let Some(plane) = plane {
-            image.uint(format!("{layer}.ID"), plane.samples().to_vec());
+            image.uint(format!("{layer}.ID"), plane.samples());
         }
     }
     image.state("quantity", "ground truth");
@@ -90,8 +91,8 @@ impl GroundTruth<'_> {
     }
 }
 
-pub(super) fn add_vector(image: &mut ExrImage, layer: &str, plane: &Plane<Vector>) {
+pub(super) fn add_vector<'a>(image: &mut ExrImage<'a>, layer: &str, plane: &'a Plane<Vector>) {
     for (axis, letter) in ["X", "Y", "Z"].into_iter().enumerate() {
-        image.float(format!("{layer}.{letter}"), plane.samples().iter().map(|v| v[axis]).collect());
+        image.add(format!("{layer}.{letter}"), Channel::Component(plane.samples(), axis));
     }
 }
