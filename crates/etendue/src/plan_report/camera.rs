@@ -144,6 +144,8 @@ pub struct CostReport {
     pub film_bytes: f64,
     /// Its bands in a scratch file on the disk, bytes; 0 where they are in memory.
     pub film_disk_bytes: f64,
+    /// For what these are read into memory all at once, which then counts as memory; `None` where they are not.
+    pub film_all_bands_for: Option<&'static str>,
 }
 
 /// A part of what is done on the film.
@@ -279,6 +281,7 @@ impl CostReport {
             is_lower_bound: cost.is_lower_bound,
             film_bytes: cost.film.memory,
             film_disk_bytes: cost.film.disk,
+            film_all_bands_for: cost.film.all_bands_for,
         }
     }
 }

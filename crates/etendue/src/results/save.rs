@@ -12,17 +12,20 @@ use crate::observer::Observer;
 use crate::rig;
 use etendue_core::quantity::Radiance;
 use etendue_io::exr::{
-    self, Layer, Lengths, SpectralBands, encode_ground_truth, layers_image, plane_image, radiance_image, rays_image,
-    spectral_image,
+    self, Layer, Lengths, SpectralBands, encode_ground_truth, ground_truth_image, layers_image, plane_image,
+    radiance_image, rays_image, spectral_image,
 };
 use etendue_io::{Existing, OutputFolder, png};
+use etendue_pipeline::Plan;
+use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::rays::{RayTable, ray_table};
 use etendue_pipeline::rectified::RectifiedCamera;
 use etendue_pipeline::render::Shot;
 use etendue_pipeline::sampling::SamplingPlanes;
-use etendue_pipeline::truth::{GroundTruth, ground_truth};
+use etendue_pipeline::truth::{GroundTruth, TruthRows, ground_truth};
 use etendue_pipeline::weather_layers::weather_layers;
 use serde_json::Value;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// The results of a job's cameras.
@@ -151,7 +154,14 @@ impl CameraResults {
         let camera = self.camera();
         let facts = self.provenance();
         let (products, undistorted) = (&camera.products, self.undistorted.as_ref());
-        let wanted = Wanted { products, camera: &camera.name, facts: &facts, undistorted, observer };
+        let wanted = Wanted {
+            products,
+            camera: &camera.name,
+            facts: &facts,
+            undistorted,
+            one_by_one: is_large(&self.plan, camera),
+            observer,
+        };
         write_frames(&camera.body, self.numbered_frames(), |frame| self.address(frame), wanted, writer)
     }
 
@@ -159,6 +169,9 @@ impl CameraResults {
         let products = &self.camera().products;
         if !products.ground_truth && products.depth_png_per_m.is_none() {
             return Ok(());
+        }
+        if is_large(&self.plan, self.camera()) {
+            return self.write_large_truth(writer);
         }
         let (truth, facts) = (self.ground_truth(), self.provenance());
         let mut files: Vec<(String, Encoder<'_>)> = Vec::new();
@@ -171,6 +184,19 @@ impl CameraResults {
             files.push((self.file(Files::DEPTH), Box::new(move || png::encode_depth16(depth, per_metre))));
         }
         writer.write_together(files)
+    }
+
+    /// The same of planes that are larger than films may be in memory: found when they are written, some rows at a time.
+    fn write_large_truth(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let camera = self.camera();
+        let rows = TruthRows::new(&self.plan, camera, self.frame_numbers().start, self.simd);
+        if camera.products.ground_truth {
+            writer.exr(&self.file(Files::GROUND_TRUTH), truth_image(&rows, &self.provenance()))?;
+        }
+        match camera.products.depth_png_per_m {
+            Some(per_metre) => writer.write(&self.file(Files::DEPTH), png::encode_depth16(&rows.depth(), per_metre)),
+            None => Ok(()),
+        }
     }
 
     /// What weather does to each pixel: found anew, with the samples of the light.
@@ -195,10 +221,33 @@ impl CameraResults {
             return Ok(());
         }
         let facts = metadata::undistorted_provenance(self.provenance(), twin);
-        let truth = ground_truth(&self.plan, &twin.plan(camera), self.frame_numbers().start, self.simd);
         let name = Files::undistorted(&self.file(Files::GROUND_TRUTH));
+        let twin = twin.plan(camera);
+        if is_large(&self.plan, &twin) {
+            let rows = TruthRows::new(&self.plan, &twin, self.frame_numbers().start, self.simd);
+            return writer.exr(&name, truth_image(&rows, &facts));
+        }
+        let truth = ground_truth(&self.plan, &twin, self.frame_numbers().start, self.simd);
         writer.write(&name, encode_ground_truth(&planes(&truth), &facts))
     }
+}
+
+/// Whether a picture is so large that its ground truth, about as much as all else that is made of it, would take more memory than the bands of a film may.
+fn is_large(plan: &Plan, camera: &CameraPlan) -> bool {
+    plan.film_limit.as_ref().is_some_and(|limit| TruthRows::bytes(camera) > limit.bytes as f64)
+}
+
+/// Rows of ground truth for a file.
+struct RowsOfFile<'a>(&'a TruthRows<'a>);
+
+impl exr::GroundTruthRows for RowsOfFile<'_> {
+    fn rows(&self, rows: Range<usize>, take: &mut dyn FnMut(&exr::GroundTruth<'_>)) {
+        take(&planes(&self.0.rows(rows)));
+    }
+}
+
+fn truth_image<'a>(rows: &'a TruthRows<'a>, facts: &etendue_io::Provenance) -> exr::ExrImage<'a> {
+    ground_truth_image(rows.size(), rows.has_gaps(), RowsOfFile(rows), facts)
 }
 
 fn sampling_image<'a>(sampling: &'a SamplingPlanes, facts: &etendue_io::Provenance) -> exr::ExrImage<'a> {

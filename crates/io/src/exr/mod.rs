@@ -37,7 +37,7 @@ mod spectral_read;
 pub(crate) mod tests_support;
 
 pub use encode::{EncodeError, ExrImage};
-pub use ground_truth::{GroundTruth, encode_ground_truth};
+pub use ground_truth::{GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_image};
 pub use layers::{Layer, encode_layers, layers_image};
 pub use motion::{MotionTruth, NeighbourTruth, VISIBILITY, encode_disparity, encode_motion};
 pub use name::{SpectralChannel, Stokes, channel_name, parse_channel_name};

@@ -19,7 +19,7 @@ use crate::camera::plane_cube::PlaneCube;
 use crate::camera::stored::Stored;
 use crate::plan::{CameraBody, CameraPlan, Products, Route};
 use crate::render::band_views::{OverWeight, PartOfBands};
-use crate::render::film::{Estimate, Film};
+use crate::render::film::{Estimate, Film, exposed};
 use crate::render::pupil_depth::PupilDepth;
 use crate::render::tiled_cube::TiledCube;
 use etendue_core::kept_cube::{BandReader, CubeOnDisk};
@@ -46,7 +46,7 @@ pub(crate) fn needs_all_bands(camera: &CameraPlan) -> Option<&'static str> {
 }
 
 /// Whether something that is delivered is made of the irradiance.
-fn needs_irradiance(camera: &CameraPlan) -> bool {
+pub(crate) fn needs_irradiance(camera: &CameraPlan) -> bool {
     let products = &camera.products;
     products.irradiance || products.ghosts || (!camera.settings.folded && needs_electrons(&camera.body, products))
 }
@@ -75,8 +75,9 @@ pub(super) fn seen(
     depth: Option<&PupilDepth>,
 ) -> Result<Light, LightError> {
     let (body, products) = (&camera.body, &camera.products);
-    let Film { weight, electron_rate, .. } = film;
-    let weight = Arc::new(weight);
+    // What is not named goes at once.
+    let (weight, electron_rate) = (Arc::new(film.weight), film.electron_rate);
+    drop((film.watched, film.samples, film.not_finite));
     let radiance = KeptEstimate {
         mean: over_weight(cube, cube.mean(), &weight, |weight| weight),
         variance: over_weight(cube, cube.variance(), &weight, |weight| weight * weight),
@@ -93,7 +94,7 @@ pub(super) fn seen(
             let radiance = products.radiance.then(|| of_picture(mean, variance));
             let variance = (products.irradiance && products.variance).then(|| kept(cube, cube.variance()));
             let film = (kept(cube, cube.mean()), variance);
-            let light = Light { radiance, ..folded(body, electron_rate) };
+            let light = Light { radiance, ..folded(camera, electron_rate) };
             match needs_irradiance(camera) {
                 true => with_irradiance(camera, behind_of(body, film, cube.store())?, light),
                 false => Ok(light),
@@ -202,12 +203,15 @@ fn with_irradiance(camera: &CameraPlan, behind: Behind, light: Light) -> Result<
     Ok(Light { irradiance: Some(irradiance), irradiance_variance: variance, ghosts, electrons, ..light })
 }
 
-/// The electrons that pixels summed directly.
-fn folded(body: &CameraBody, rate: Option<Estimate<ElectronRate>>) -> Light {
-    let exposure_s = body.sensor.as_ref().map(|sensor| sensor.parameters().exposure.exposure_s);
-    let exposed = rate.zip(exposure_s).map(|(rate, exposure_s)| rate.exposed(exposure_s));
-    let (electrons, electrons_variance) = exposed.map(|e| (e.mean, e.variance)).unzip();
-    Light { electrons, electrons_variance, ..Light::default() }
+/// The electrons that pixels summed directly, and their variance where it is delivered.
+fn folded(camera: &CameraPlan, rate: Option<Estimate<ElectronRate>>) -> Light {
+    let Some((sensor, Estimate { mean, variance })) = camera.body.sensor.as_ref().zip(rate) else {
+        return Light::default();
+    };
+    let exposure_s = sensor.parameters().exposure.exposure_s;
+    let products = &camera.products;
+    let of_variance = (products.electrons && products.variance).then(|| exposed(variance, exposure_s * exposure_s));
+    Light { electrons: Some(exposed(mean, exposure_s)), electrons_variance: of_variance, ..Light::default() }
 }
 
 /// Bands of a film as they are.

@@ -1,5 +1,6 @@
 //! Which films keep their bands in memory, and which on the disk.
 
+use crate::camera::disk_light::needs_all_bands;
 use crate::plan::{CameraPlan, Plan};
 use crate::render::film::Film;
 use crate::render::layout;
@@ -25,6 +26,8 @@ pub struct FilmBytes {
     pub memory: f64,
     /// In a scratch file; 0 where the bands are in memory.
     pub disk: f64,
+    /// For what bands on the disk are read into memory all at once, in words; these, and what is made of them, count as memory.
+    pub all_bands_for: Option<&'static str>,
 }
 
 impl Plan {
@@ -42,15 +45,17 @@ impl Plan {
     pub fn film_bytes(&self, camera: &CameraPlan) -> FilmBytes {
         let ((width, height), layout) = (camera.film_size(), layout(camera));
         let size = (width as usize, height as usize);
-        match (self.scratch(camera), layout.bands) {
-            (Some(_), Some(bands)) => {
-                let has_variance = has_variance(camera.settings.replicates, Shard::WHOLE);
-                FilmBytes {
-                    memory: Film::bytes_beside_cube(size.0, size.1, &layout),
-                    disk: TiledCube::bytes(f64::from(width) * f64::from(height), bands, has_variance),
-                }
-            }
-            _ => FilmBytes { memory: Film::bytes(size.0, size.1, &layout), disk: 0.0 },
+        let (Some(_), Some(bands)) = (self.scratch(camera), layout.bands) else {
+            return FilmBytes { memory: Film::bytes(size.0, size.1, &layout), disk: 0.0, all_bands_for: None };
+        };
+        let pixels = f64::from(width) * f64::from(height);
+        let all_bands_for = needs_all_bands(camera);
+        // Their means, and the irradiance that is made of them.
+        let loaded = if all_bands_for.is_some() { 2.0 * TiledCube::bytes(pixels, bands, false) } else { 0.0 };
+        FilmBytes {
+            memory: Film::bytes_beside_cube(size.0, size.1, &layout) + loaded,
+            disk: TiledCube::bytes(pixels, bands, has_variance(camera.settings.replicates, Shard::WHOLE)),
+            all_bands_for,
         }
     }
 }

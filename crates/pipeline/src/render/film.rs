@@ -31,12 +31,23 @@ impl Estimate<ElectronRate> {
     /// Electrons of an exposure, s, and the variance of their mean.
     #[must_use]
     pub fn exposed(&self, exposure_s: f64) -> Estimate<MeanElectrons> {
-        let scaled = |by: f64| move |value: f32| (f64::from(value) * by) as f32;
         Estimate {
-            mean: self.mean.map(scaled(exposure_s)),
-            variance: self.variance.map(scaled(exposure_s * exposure_s)),
+            mean: exposed(self.mean.clone(), exposure_s),
+            variance: exposed(self.variance.clone(), exposure_s * exposure_s),
         }
     }
+}
+
+/// Numbers of a second, in their own memory, by a factor of the exposure.
+pub(crate) fn exposed<Q, R>(plane: Plane<Q>, by: f64) -> Plane<R>
+where
+    Q: Quantity<Sample = f32>,
+    R: Quantity<Sample = f32>,
+{
+    let (width, height) = (plane.width(), plane.height());
+    let mut samples = plane.into_samples();
+    samples.iter_mut().for_each(|value| *value = (f64::from(*value) * by) as f32);
+    Plane::from_samples(width, height, samples).expect("the plane's own samples")
 }
 
 /// A spectral cube of means and their variances.
