@@ -1,6 +1,7 @@
 //! What the benchmarks are made of: scenes and rays, clocks, tables. The benchmarks beside other programs (peers/) use
 //! it too.
 
+pub mod adaptive;
 pub mod child;
 pub mod clock;
 pub mod defocus;

@@ -10,6 +10,7 @@
 //! | `lamps` | cost and error of a path under 10 to 10 000 lamps |
 //! | `road` | error of the road by night at 64 samples a pixel, dry and wet |
 //! | `lenses` | nanoseconds of a ray through each kind of lens |
+//! | `adaptive` | samples by the sensor's noise against as many everywhere: five scenes (some ten minutes) |
 //! | `defocus` | depth of field through the lens, physical and fast: error of a point's blur, time |
 //! | `ghosts` | milliseconds of a picture's layer of ghosts |
 //! | `views` | a fisheye and a panorama, through the lens and by six views |
@@ -31,20 +32,21 @@
 
 use etendue_benches::table::Table;
 use etendue_benches::{
-    defocus, files, films, frames, instances, lamps, lenses, machine, memory, motion, obj, paths, peer, rays, road,
-    sensor, textures, trees, views,
+    adaptive, defocus, files, films, frames, instances, lamps, lenses, machine, memory, motion, obj, paths, peer, rays,
+    road, sensor, textures, trees, views,
 };
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 18] = [
+const BENCHMARKS: [Benchmark; 19] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
     ("road", road::table),
     ("lenses", lenses::table),
+    ("adaptive", adaptive::table),
     ("defocus", defocus::table),
     ("ghosts", lenses::ghosts),
     ("views", views::table),
