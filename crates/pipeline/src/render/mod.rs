@@ -17,6 +17,8 @@ pub(crate) mod band_views;
 pub mod block;
 pub mod boxes;
 mod camera_light;
+#[cfg(test)]
+mod disk_tests;
 pub mod exposure;
 pub mod film;
 pub mod foretold_gain;

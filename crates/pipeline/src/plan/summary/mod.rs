@@ -355,11 +355,12 @@ fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result 
 /// Where a film is.
 fn film(bytes: FilmBytes) -> String {
     let memory = format!("{:.1} MB", bytes.memory / 1e6);
-    if bytes.disk > 0.0 {
-        format!("{memory} in memory, its bands {:.1} MB on the disk", bytes.disk / 1e6)
-    } else {
-        memory
+    if bytes.disk == 0.0 {
+        return memory;
     }
+    let read =
+        bytes.all_bands_for.map_or_else(String::new, |what| format!(", read into memory all at once for {what}"));
+    format!("{memory} in memory, its bands {:.1} MB on the disk{read}", bytes.disk / 1e6)
 }
 
 /// What takes time beside the paths, and the whole; nothing where it is little.
