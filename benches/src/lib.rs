@@ -6,6 +6,7 @@ pub mod child;
 pub mod clock;
 pub mod defocus;
 pub mod files;
+pub mod films;
 pub mod flat;
 pub mod frames;
 pub mod instances;

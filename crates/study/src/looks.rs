@@ -6,7 +6,7 @@ use crate::study::Request;
 use crate::way::{SAMPLE_KEYS, without_keys};
 use etendue::{CameraResults, Error, Job, JobRequest, Observer, RenderOptions};
 use etendue_core::quantity::{Display, Quantity, WatchedSignal};
-use etendue_core::{Plane, SpectralCube};
+use etendue_core::{KeptCube, Plane};
 
 /// Samples of the second look over those of the first.
 pub(crate) const MORE: u32 = 3;
@@ -99,25 +99,34 @@ impl Looks<'_> {
         let (raw, picture) = frame.map_or((None, None), |frame| {
             (Some(frame.raw.plane.samples().to_vec()), frame.picture.map(|developed| developed.display))
         });
-        Ok(Look { seconds, light: light(&results), raw, picture, results })
+        Ok(Look { seconds, light: light(&results)?, raw, picture, results })
     }
 }
 
-/// The signal of a camera's pixels, and what it is.
-fn light(results: &CameraResults) -> Option<(&'static str, Plane<WatchedSignal>)> {
+/// A signal, and what it is.
+type Signal = (&'static str, Plane<WatchedSignal>);
+
+/// The signal of a camera's pixels.
+///
+/// # Errors
+/// Where bands that are on the disk cannot be read.
+fn light(results: &CameraResults) -> Result<Option<Signal>, Error> {
     let light = results.light();
     if let Some(electrons) = &light.electrons {
-        return Some(("electrons", electrons.map(|e| e)));
+        return Ok(Some(("electrons", electrons.map(|e| e))));
     }
     let irradiance = light.irradiance.as_ref().map(|cube| ("irradiance", over_all_wavelengths(cube)));
-    irradiance.or_else(|| light.radiance.as_ref().map(|cube| ("radiance", over_all_wavelengths(&cube.mean))))
+    let radiance = || light.radiance.as_ref().map(|of| ("radiance", over_all_wavelengths(&of.mean)));
+    let signal = irradiance.or_else(radiance).map(|(name, signal)| Ok((name, signal.map_err(Error::Run)?)));
+    signal.transpose()
 }
 
-fn over_all_wavelengths<Q: Quantity<Sample = f32>>(cube: &SpectralCube<Q>) -> Plane<WatchedSignal> {
+fn over_all_wavelengths<Q: Quantity<Sample = f32>>(cube: &KeptCube<Q>) -> Result<Plane<WatchedSignal>, String> {
     let mut sum: Plane<WatchedSignal> = Plane::new(cube.width(), cube.height());
-    for plane in cube.planes() {
-        let width_nm = cube.bands().width_nm() as f32;
+    let width_nm = cube.bands().width_nm() as f32;
+    for band in 0..cube.bands().count() {
+        let plane = cube.plane(band)?;
         sum.samples_mut().iter_mut().zip(plane.samples()).for_each(|(sum, value)| *sum += width_nm * value);
     }
-    sum
+    Ok(sum)
 }
