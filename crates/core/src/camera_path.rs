@@ -78,6 +78,13 @@ impl CameraPath {
         }
     }
 
+    /// The greatest coordinate, m and without its sign, of the centre of the entrance pupil where it stands still or at any key.
+    #[must_use]
+    pub fn farthest_coordinate_m(&self) -> f64 {
+        let times_s = if self.is_still() { vec![0.0] } else { self.key_times_s() };
+        times_s.into_iter().map(|time_s| self.at(time_s).position_m.abs().max_element()).fold(0.0, f64::max)
+    }
+
     /// Whether it has one pose at all times.
     #[must_use]
     pub fn is_still(&self) -> bool {

@@ -5,6 +5,7 @@ use etendue_pipeline::truth::ground_truth;
 use etendue_scene::asset::{MeshAsset, SlotMaterial};
 use etendue_tests::Job;
 use etendue_tracer::accel::Simd;
+use glam::{DVec3, Vec3};
 
 const WIDTH: usize = 32;
 const HEIGHT: usize = 24;
@@ -61,6 +62,24 @@ fn depth_error(job: &Job, scale: f64) -> f64 {
     worst
 }
 
+/// The greatest distance, m, of the places on the floor that the ground truth tells from where they are.
+fn position_error_m(at_m: [f64; 3]) -> f64 {
+    let plan = floor(1.0, at_m, "").plan();
+    let truth = ground_truth(&plan, &plan.cameras[0], 0, Simd::Auto);
+    let low = truth.position_low.expect("a camera far away");
+    let mut worst: f64 = 0.0;
+    for row in 0..HEIGHT {
+        let depth_m = FOCAL_MM / ((row as f64 + 0.5 - 0.4) * PITCH_MM);
+        for column in 0..WIDTH {
+            let right_m = (column as f64 + 0.5 - 16.0) * PITCH_MM / FOCAL_MM * depth_m;
+            let expected = DVec3::from(at_m) + DVec3::new(depth_m, -right_m, 0.0);
+            let found = [&truth.position, &low].map(|plane| Vec3::from(plane.at(column, row)).as_dvec3());
+            worst = worst.max((found[0] + found[1]).distance(expected));
+        }
+    }
+    worst
+}
+
 const DEPTH: &str = "depth within 10⁻⁶ of itself down to cos θ = 0.01";
 
 fn places() -> Vec<Row> {
@@ -72,7 +91,16 @@ fn places() -> Vec<Row> {
         let error = depth_error(&floor(scale, [0.0; 3], ""), scale);
         Row::at_most(&format!("scene and camera scaled by {}", figure(scale)), DEPTH, error, 1e-6)
     });
-    moved.into_iter().chain(scaled).collect()
+    let placed = [1e4, 1e7].map(|m: f64| {
+        let extreme = format!("the same, moved by {} m: positions of ground truth, `P` + `P_low`", figure(m));
+        Row::at_most(
+            &extreme,
+            "exact to 1 mm (10⁻⁶ of the distance from the camera, 170 m)",
+            position_error_m([m, -m, 0.5 * m]),
+            1e-3,
+        )
+    });
+    moved.into_iter().chain(scaled).chain(placed).collect()
 }
 
 /// Edges of a micrometre beside edges of 10⁶ m: the near one from 20 µm, the far one behind it.

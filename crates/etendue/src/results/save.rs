@@ -270,6 +270,7 @@ fn planes(truth: &GroundTruth) -> exr::GroundTruth<'_> {
         distance: Some(&truth.distance),
         normal: Some(&truth.normal),
         position: Some(&truth.position),
+        position_low: truth.position_low.as_ref(),
         camera_space_position: truth.camera_space_position.as_ref(),
         instance: Some(&truth.instance),
         semantic: Some(&truth.semantic),

@@ -22,6 +22,8 @@ pub struct GroundTruth<'a> {
     pub normal: Option<&'a Plane<Vector>>,
     /// Position in the world, m, rounded to 32-bit floats (at 100 km from the origin by up to 4 mm, at 5 000 km by 0.25 m).
     pub position: Option<&'a Plane<Vector>>,
+    /// What that rounding took off, m.
+    pub position_low: Option<&'a Plane<Vector>>,
     /// Position in the camera frame (x right, y down, z forward and negative behind), m.
     pub camera_space_position: Option<&'a Plane<Vector>>,
     /// Identity of the instance.
@@ -122,6 +124,9 @@ fn state(image: &mut ExrImage<'_>, truth: &GroundTruth<'_>, has_gaps: bool) {
     if truth.camera_space_position.is_some() {
         image.state("P_camera", "camera frame (x right, y down, z forward, negative behind), m; 0 for the sky");
     }
+    if truth.position_low.is_some() {
+        image.state("P_low", "P + P_low is the position, m: what P is rounded by to 32 bits");
+    }
     if truth.mirror.is_some() {
         image.state("mirror", "point of the mirror, camera frame (x right, y down, z forward), m; NaN: beside it");
     }
@@ -137,6 +142,7 @@ impl<'a> GroundTruth<'a> {
         let vectors = [
             ("N", self.normal),
             ("P", self.position),
+            ("P_low", self.position_low),
             ("P_camera", self.camera_space_position),
             ("mirror", self.mirror),
         ];

@@ -50,6 +50,7 @@ fn ground_truth() -> Vec<u8> {
         distance: Some(&lengths),
         normal: Some(&vectors),
         position: Some(&vectors),
+        position_low: None,
         camera_space_position: None,
         instance: Some(&ids),
         semantic: Some(&ids),

@@ -27,8 +27,11 @@ pub struct GroundTruth {
     pub distance: Plane<Length>,
     /// Unit shading normal in the world; zero for the sky.
     pub normal: Plane<Vector>,
-    /// Position in the world, m; zero for the sky.
+    /// Position in the world, m, rounded to 32 bits; zero for the sky.
     pub position: Plane<Vector>,
+    /// What that rounding took off, m: the sum of both is the position to 10⁻⁶ of its distance from the camera. Of cameras that stand more than
+    /// [`FAR_M`] from the world's origin along an axis, at any time; else `None`.
+    pub position_low: Option<Plane<Vector>>,
     /// Position in the camera's frame, m; z is negative behind the camera; zero for the sky. `None` where it is not asked for.
     pub camera_space_position: Option<Plane<Vector>>,
     /// Instance ids; 0 is the background.
@@ -43,6 +46,10 @@ pub struct GroundTruth {
     /// Of a camera with a mirror: where the ray meets it, in the camera frame, m; NaN where it does not.
     pub mirror: Option<Plane<Vector>>,
 }
+
+/// How far from the world's origin a camera's positions are told in two parts, m: nearer ones are rounded by 0.03 mm at most, or by less than
+/// they are known by their distance from the camera.
+pub const FAR_M: f64 = 1000.0;
 
 /// What one pixel sees.
 pub(crate) enum Seen {
@@ -132,7 +139,8 @@ impl<'a> TruthRows<'a> {
     /// Bytes of all planes of a camera in memory.
     #[must_use]
     pub fn bytes(camera: &CameraPlan) -> f64 {
-        let vectors = 2 + usize::from(camera.products.camera_space_position) + usize::from(has_mirror(camera));
+        let asked = [camera.products.camera_space_position, has_mirror(camera), is_far(camera)];
+        let vectors = 2 + asked.into_iter().filter(|is_asked| *is_asked).count();
         let numbers = 6 + 3 * vectors;
         let raster = &camera.body.raster;
         raster.width() as f64 * raster.height() as f64 * (numbers * size_of::<f32>()) as f64
@@ -164,6 +172,10 @@ impl<'a> TruthRows<'a> {
             distance: plane(&looks, width, height, |l| l.seen.distance()),
             normal: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.normal)),
             position: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.position_m)),
+            position_low: is_far(self.camera).then(|| {
+                let rest = |truth: &Truth| truth.position_m - truth.position_m.as_vec3().as_dvec3();
+                plane(&looks, width, height, |l| l.seen.vector(rest))
+            }),
             camera_space_position: self.camera.products.camera_space_position.then(|| {
                 let points = looks.iter().enumerate().map(|(i, look)| {
                     let in_camera = |truth: &Truth| viewpoint(i).pose.point_to_camera(truth.position_m);
@@ -188,6 +200,10 @@ impl<'a> TruthRows<'a> {
         let strips = starts.flat_map(|y| self.rows(y..(y + STRIP_ROWS).min(height)).depth.into_samples());
         Plane::from_samples(width, height, strips.collect()).expect("one sample a pixel")
     }
+}
+
+fn is_far(camera: &CameraPlan) -> bool {
+    camera.path.farthest_coordinate_m() > FAR_M
 }
 
 fn has_mirror(camera: &CameraPlan) -> bool {
