@@ -6,7 +6,7 @@ use std::ops::Range;
 use ::exr::prelude::FlatSamples;
 use etendue_core::kept_cube::BandReader;
 
-use super::encode::EncodeError;
+use super::encode_error::EncodeError;
 
 /// The samples of a channel.
 pub(crate) enum Channel<'a> {

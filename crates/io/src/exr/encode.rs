@@ -14,52 +14,9 @@ use ::exr::prelude::{Blocks, Compression, LineOrder};
 
 use super::channel::{Channel, ImageRows, Strips};
 use super::compress::compress;
+use super::encode_error::EncodeError;
 use super::head::HeadReplaced;
 use crate::Provenance;
-
-/// Why values cannot become an EXR or PNG file.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum EncodeError {
-    /// Zero pixels.
-    #[error("a picture of {width} × {height} pixels cannot be stored; expected at least one pixel")]
-    Empty {
-        /// Pixels a row.
-        width: usize,
-        /// Rows.
-        height: usize,
-    },
-    /// A digital number that 16 bits do not hold.
-    #[error("the digital number {value} does not fit into 16 bits; write the raw as TIFF")]
-    Wide {
-        /// The number.
-        value: u32,
-    },
-    /// A picture without channels.
-    #[error("a picture without channels cannot be stored; expected at least one plane")]
-    NoChannels,
-    /// Planes of different sizes.
-    #[error("plane `{name}` has {found} samples, expected {expected}; all planes of one file have the same size")]
-    Size {
-        /// The plane.
-        name: String,
-        /// Its samples.
-        found: usize,
-        /// The file's pixels.
-        expected: usize,
-    },
-    /// A text outside Latin-1, or a name longer than 31 bytes, which EXR headers do not hold.
-    #[error("`{0}` cannot stand in an EXR header: texts are Latin-1 without NUL, attribute names at most 31 bytes")]
-    Text(String),
-    /// Samples that are kept on the disk cannot be read.
-    #[error("{0}")]
-    Read(String),
-    /// The file cannot be written.
-    #[error("{0}")]
-    Write(String),
-    /// The encoder refused.
-    #[error("the encoder failed: {0}")]
-    Encoder(String),
-}
 
 /// A picture to be stored: what it states, and where its samples come from.
 pub struct ExrImage<'a> {
@@ -225,6 +182,7 @@ fn record_length(bytes: &[u8]) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ::exr::prelude::{FlatSamples, WritableImage};
 
     fn image() -> ExrImage<'static> {
         let mut image = ExrImage::new(3, 2, &Provenance::default());
@@ -268,5 +226,38 @@ mod tests {
         assert_eq!(uneven.into_bytes(), Err(EncodeError::Size { name: "Z".to_owned(), found: 5, expected: 6 }));
         assert!(matches!(ExrImage::new(0, 2, &Provenance::default()).into_bytes(), Err(EncodeError::Empty { .. })));
         assert_eq!(ExrImage::new(1, 2, &Provenance::default()).into_bytes(), Err(EncodeError::NoChannels));
+    }
+
+    /// More rows than one round of blocks has on these numbers of threads, and a last block of few rows.
+    #[test]
+    fn the_bytes_are_those_of_the_encoder_on_one_thread() {
+        let floats: Vec<f32> = (0..5 * 1003).map(|i| (i * 7919 % 1009) as f32).collect();
+        let uints: Vec<u32> = (0..5 * 1003).map(|i| i / 3).collect();
+        let channels = [("Y", FlatSamples::F32(floats.clone())), ("Z", FlatSamples::U32(uints.clone()))];
+        let channels =
+            AnyChannels::sort(channels.into_iter().map(|(name, samples)| AnyChannel::new(name, samples)).collect());
+        let image = Image::from_layer(Layer::new((5, 1003), LayerAttributes::default(), ENCODING, channels));
+        let mut plain = Cursor::new(Vec::new());
+        image.write().non_parallel().to_buffered(&mut plain).expect("a picture");
+        // Our header says more, in an order of its own; the blocks are the same.
+        let blocks = |bytes: &[u8]| bytes[bytes.len() - length_of_blocks(bytes)..].to_vec();
+        for threads in [1, 2, 3, 7] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            let mut ours = ExrImage::new(5, 1003, &Provenance::default());
+            ours.uint("Z", uints.as_slice());
+            ours.float("Y", floats.as_slice());
+            let bytes = pool.install(|| ours.into_bytes()).expect("a picture");
+            assert!(blocks(&bytes) == blocks(plain.get_ref()), "{threads} threads");
+        }
+    }
+
+    /// From the first block on: its offset is the first in the table behind the header.
+    fn length_of_blocks(bytes: &[u8]) -> usize {
+        let meta = ::exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), true).expect("a header");
+        let count = meta.headers[0].chunk_count;
+        let at = |place: usize| u64::from_le_bytes(bytes[place..place + 8].try_into().expect("eight bytes"));
+        // The table is where its first number points behind its last.
+        let table = (0..bytes.len() - 8 * count).find(|place| at(*place) == (place + 8 * count) as u64);
+        bytes.len() - (table.expect("a table of offsets") + 8 * count)
     }
 }

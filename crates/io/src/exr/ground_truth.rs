@@ -8,7 +8,8 @@ use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Length, Vector};
 
 use super::channel::{Channel, Samples, Strips};
-use super::encode::{EncodeError, ExrImage};
+use super::encode::ExrImage;
+use super::encode_error::EncodeError;
 use crate::Provenance;
 
 /// Planes of ground truth; what a job did not ask for is `None`.

@@ -3,7 +3,8 @@
 use etendue_core::kept_cube::BandReader;
 
 use super::channel::Channel;
-use super::encode::{EncodeError, ExrImage};
+use super::encode::ExrImage;
+use super::encode_error::EncodeError;
 use crate::Provenance;
 
 /// The samples of a named plane, row by row from the top left.

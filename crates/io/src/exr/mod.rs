@@ -22,6 +22,7 @@
 mod channel;
 mod compress;
 mod encode;
+mod encode_error;
 mod ground_truth;
 mod head;
 mod layers;
@@ -36,7 +37,8 @@ mod spectral_read;
 #[cfg(test)]
 pub(crate) mod tests_support;
 
-pub use encode::{EncodeError, ExrImage};
+pub use encode::ExrImage;
+pub use encode_error::EncodeError;
 pub use ground_truth::{GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_image};
 pub use layers::{Layer, encode_layers, layers_image};
 pub use motion::{MotionTruth, NeighbourTruth, VISIBILITY, encode_disparity, encode_motion};

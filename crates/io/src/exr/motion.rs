@@ -3,7 +3,8 @@
 use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, Identity, ImageVelocity, OpticalFlow, Quantity, Time, Vector};
 
-use super::encode::{EncodeError, ExrImage};
+use super::encode::ExrImage;
+use super::encode_error::EncodeError;
 use super::ground_truth::add_vector;
 use crate::Provenance;
 

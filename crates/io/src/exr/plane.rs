@@ -5,7 +5,8 @@
 use etendue_core::Plane;
 use etendue_core::quantity::{Quantity, Variance};
 
-use super::encode::{EncodeError, ExrImage};
+use super::encode::ExrImage;
+use super::encode_error::EncodeError;
 use crate::Provenance;
 
 /// `plane`, with the variance of each pixel where given.

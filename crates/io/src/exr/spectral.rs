@@ -11,7 +11,8 @@ use etendue_core::quantity::{Length, Quantity, Radiance, Variance};
 use etendue_core::{Bands, KeptCube, Plane, SpectralCube};
 
 use super::channel::{Channel, Samples, Strips};
-use super::encode::{EncodeError, ExrImage};
+use super::encode::ExrImage;
+use super::encode_error::EncodeError;
 use super::name::{Stokes, channel_name};
 use super::preview::{band_weights, linear_srgb_of_bands};
 use crate::Provenance;

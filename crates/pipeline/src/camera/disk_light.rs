@@ -17,7 +17,8 @@ use crate::camera::light_error::LightError;
 
 use crate::camera::plane_cube::PlaneCube;
 use crate::camera::stored::Stored;
-use crate::plan::{CameraBody, CameraPlan, Products, Route};
+use crate::plan::film_needs::{needs_all_bands, needs_electrons, needs_irradiance};
+use crate::plan::{CameraBody, CameraPlan, Route};
 use crate::render::band_views::{OverWeight, PartOfBands};
 use crate::render::film::{Estimate, Film, exposed};
 use crate::render::pupil_depth::PupilDepth;
@@ -31,31 +32,6 @@ use std::sync::Arc;
 
 /// Bytes of the bands that go through the lens together, where one band has no more.
 const GROUP_BYTES: usize = 1 << 29;
-
-/// For what the bands of a camera's film are needed in memory all at once, in words; `None` where they are not.
-#[must_use]
-pub(crate) fn needs_all_bands(camera: &CameraPlan) -> Option<&'static str> {
-    let is_at_pupil = matches!(camera.settings.route, Route::Pupil(_));
-    let makes = needs_irradiance(camera);
-    let by_depth = is_at_pupil && camera.depth_of_field != DepthOfField::None;
-    match (makes, camera.body.effects.ghosts().is_some(), by_depth) {
-        (true, true, _) => Some("ghosts"),
-        (true, false, true) => Some("depth of field"),
-        _ => None,
-    }
-}
-
-/// Whether something that is delivered is made of the irradiance.
-pub(crate) fn needs_irradiance(camera: &CameraPlan) -> bool {
-    let products = &camera.products;
-    products.irradiance || products.ghosts || (!camera.settings.folded && needs_electrons(&camera.body, products))
-}
-
-/// Whether something that is delivered is made of electrons.
-fn needs_electrons(body: &CameraBody, products: &Products) -> bool {
-    let frames = products.raw || products.picture || products.signal_breakdown || products.video;
-    body.sensor.is_some() && (products.electrons || frames)
-}
 
 /// Where effects leave a film.
 struct Behind {

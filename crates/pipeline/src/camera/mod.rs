@@ -10,7 +10,7 @@
 pub(crate) mod behind_lens;
 pub mod datasheet;
 pub mod defocus;
-pub(crate) mod disk_light;
+mod disk_light;
 mod effects;
 pub mod flat;
 mod light;

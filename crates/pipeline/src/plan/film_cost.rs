@@ -8,7 +8,7 @@
 
 use super::path_cost::PATH_CPU_S;
 use crate::camera::defocus::{margin_px, whole_margin_px};
-use crate::camera::disk_light::needs_irradiance;
+use crate::plan::film_needs::needs_irradiance;
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
 use crate::render::weather_layers;
 use etendue_core::Bands;
