@@ -1,0 +1,61 @@
+//! How an input is made of others.
+
+mod bytes;
+mod numbers;
+mod png_checksum;
+mod text;
+
+use crate::random::Random;
+
+/// Longest input, bytes.
+const LONGEST: usize = 1 << 20;
+
+/// What an input is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Material<'a> {
+    /// Inputs that are changed and mixed; at least one.
+    pub inputs: &'a [Vec<u8>],
+    /// Words that mean something to the reader.
+    pub words: &'a [&'a str],
+    /// Whether the reader takes text.
+    pub is_text: bool,
+}
+
+/// Makes inputs; the same seed makes the same.
+#[derive(Clone, Debug)]
+pub struct Mutator {
+    random: Random,
+}
+
+impl Mutator {
+    /// The sequence of a seed.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self { random: Random::new(seed) }
+    }
+
+    /// The next input.
+    pub fn next(&mut self, material: Material<'_>) -> Vec<u8> {
+        let random = &mut self.random;
+        let mut input = random.of(material.inputs).clone();
+        for _ in 0..random.few().min(12) {
+            let as_text = if material.is_text { !random.one_in(4) } else { random.one_in(12) };
+            if as_text {
+                text::change(&mut input, material, random);
+            } else {
+                bytes::change(&mut input, material, random);
+            }
+        }
+        if !random.one_in(4) {
+            png_checksum::correct(&mut input);
+        }
+        input.truncate(LONGEST);
+        input
+    }
+}
+
+/// The first and the end of a part of `length` bytes or less.
+fn part(length: usize, random: &mut Random) -> std::ops::Range<usize> {
+    let start = random.below(length + 1);
+    start..start + random.length(length - start)
+}
