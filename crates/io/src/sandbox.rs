@@ -82,9 +82,15 @@ mod tests {
         symlink("meshes", root.join("job/inner")).expect("link");
         symlink(root.join("nowhere"), root.join("job/dangling")).expect("link");
         let sandbox = Sandbox::about(&root.join("job/job.toml"), &[root.join("library")]).expect("there");
-        for inside in
-            ["job/a.obj", "job/meshes/../a.obj", "job/inner/b.obj", "library/c.obj", "job/../job/x/y/z.obj", "job/./a"]
-        {
+        for inside in [
+            "job/a.obj",
+            "job/meshes/../a.obj",
+            "job/inner/b.obj",
+            "library/c.obj",
+            "job/../job/x/y/z.obj",
+            "job/folder/../job/x",
+            "job/./a",
+        ] {
             assert_eq!(sandbox.check(&root.join(inside)), Ok(()), "{inside}");
         }
         let outside = [
@@ -92,7 +98,6 @@ mod tests {
             "job/../secret.csv",
             "job/a.csv",
             "job/folder/x",
-            "job/folder/../job/x",
             "job-other/x",
             "job/dangling",
             "job/dangling/../a.obj",

@@ -25,6 +25,7 @@ mod goldens;
 mod help;
 mod hostile;
 mod identity;
+mod interrupted;
 mod kenney;
 mod lenses;
 mod limits;
