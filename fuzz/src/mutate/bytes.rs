@@ -1,7 +1,7 @@
 //! Changes of bytes.
 
+use super::material::{LONGEST, Material, part};
 use super::numbers::{FLOATS, WHOLE};
-use super::{LONGEST, Material, part};
 use crate::random::Random;
 
 /// Changes `input` once.

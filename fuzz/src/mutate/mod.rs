@@ -1,25 +1,15 @@
 //! How an input is made of others.
 
 mod bytes;
+mod material;
 mod numbers;
 mod png_checksum;
 mod text;
 
+pub use material::Material;
+
 use crate::random::Random;
-
-/// Longest input, bytes.
-const LONGEST: usize = 1 << 20;
-
-/// What an input is made of.
-#[derive(Clone, Copy, Debug)]
-pub struct Material<'a> {
-    /// Inputs that are changed and mixed; at least one.
-    pub inputs: &'a [Vec<u8>],
-    /// Words that mean something to the reader.
-    pub words: &'a [&'a str],
-    /// Whether the reader takes text.
-    pub is_text: bool,
-}
+use material::LONGEST;
 
 /// Makes inputs; the same seed makes the same.
 #[derive(Clone, Debug)]
@@ -52,10 +42,4 @@ impl Mutator {
         input.truncate(LONGEST);
         input
     }
-}
-
-/// The first and the end of a part of `length` bytes or less.
-fn part(length: usize, random: &mut Random) -> std::ops::Range<usize> {
-    let start = random.below(length + 1);
-    start..start + random.length(length - start)
 }

@@ -1,7 +1,7 @@
 //! Changes of texts: words, numbers, lines, nesting.
 
+use super::material::{LONGEST, Material, part};
 use super::numbers::TEXTS;
-use super::{LONGEST, Material, part};
 use crate::random::Random;
 use std::ops::Range;
 

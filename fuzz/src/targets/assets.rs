@@ -1,7 +1,7 @@
 //! Meshes, lamps, lenses, tables, trajectories.
 
 use super::seeds::{repository, stored, write};
-use super::{NUMBERS as PER_NUMBER, RECORDS, TREE, Target, told};
+use super::target::{NUMBERS as PER_NUMBER, RECORDS, TREE, Target, told};
 use etendue_io::mesh::{read_mesh, read_mesh_frame};
 use etendue_io::photometry::read_photometry;
 use etendue_io::prescription::read_prescription;

@@ -1,7 +1,7 @@
 //! Calibrated cameras of other programs.
 
 use super::seeds::{repository, stored};
-use super::{TREE, Target, told};
+use super::target::{TREE, Target, told};
 use etendue_io::calibration::{CalibrationFormat, read_calibration};
 use std::path::Path;
 

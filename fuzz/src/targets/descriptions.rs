@@ -1,7 +1,7 @@
 //! Jobs, scenes, cameras, weather, data sheets, changes of keys, and whole plans.
 
 use super::seeds::{repository, stored, write};
-use super::{TREE, Target, told};
+use super::target::{TREE, Target, told};
 use etendue::{Existing, JobRequest, TextureMemory, Unobserved};
 use etendue_scene::limits::DESCRIPTION;
 use etendue_scene::{Description, Overrides, load_camera, load_datasheet, load_weather};

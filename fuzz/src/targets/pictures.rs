@@ -1,7 +1,7 @@
 //! Pictures: as textures, as photographs to be measured, as files to be looked into.
 
 use super::seeds::{repository, stored};
-use super::{Target, told};
+use super::target::{Target, told};
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
 use etendue_io::exr::read_spectral;

@@ -1,7 +1,7 @@
 //! Files of this program and of measurements: side-cars, descriptors, lists of points, truths, films of shards.
 
 use super::seeds::{repository, stored, write};
-use super::{RECORDS, TREE, Target, told};
+use super::target::{RECORDS, TREE, Target, told};
 use etendue::measure::{DistortionRequest, SfrRequest, distortion, sfr};
 use etendue::{Existing, Job, RenderOptions, ShardSpec, Simd, Unobserved, merge};
 use etendue_io::emva_descriptor::read_emva_descriptor;
