@@ -35,6 +35,10 @@ validate *cameras:
 faults:
     ETENDUE_BLESS=1 cargo test -p etendue-cli --test binary faults::
 
+# The ends of every range: writes docs/extremes.md
+extremes:
+    ETENDUE_BLESS=1 cargo test -p etendue-tests --test extremes -- --test-threads=1
+
 # Variance by the density of wavelengths, by sensor and light: writes docs/wavelengths.md
 wavelengths:
     ETENDUE_BLESS=1 cargo test -p etendue-tests --test physics wavelength_density

@@ -1,10 +1,12 @@
 //! What the benchmarks are made of: scenes and rays, clocks, tables. The benchmarks beside other programs (peers/) use
 //! it too.
 
+pub mod adaptive;
 pub mod child;
 pub mod clock;
 pub mod defocus;
 pub mod files;
+pub mod films;
 pub mod flat;
 pub mod frames;
 pub mod instances;

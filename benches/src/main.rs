@@ -10,6 +10,7 @@
 //! | `lamps` | cost and error of a path under 10 to 10 000 lamps |
 //! | `road` | error of the road by night at 64 samples a pixel, dry and wet |
 //! | `lenses` | nanoseconds of a ray through each kind of lens |
+//! | `adaptive` | samples by the sensor's noise against as many everywhere: five scenes (some ten minutes) |
 //! | `defocus` | depth of field through the lens, physical and fast: error of a point's blur, time |
 //! | `ghosts` | milliseconds of a picture's layer of ghosts |
 //! | `views` | a fisheye and a panorama, through the lens and by six views |
@@ -18,6 +19,7 @@
 //! | `instances` | the street with 10⁵ instances more: time and memory until its light can be gathered |
 //! | `motion` | the street with fifty objects more, at rest and moving |
 //! | `textures` | peak memory and time of textures that are larger than the memory that they may take |
+//! | `films` | peak memory and time of films of a hundred megapixels, whose bands are on the disk |
 //! | `memory` | peak memory of a scene, in a process of its own |
 //! | `frames` | raw and picture of a frame of two megapixels |
 //! | `sensor` | mean electrons to digital numbers: all noises, all effects, each alone; time and memory |
@@ -30,20 +32,21 @@
 
 use etendue_benches::table::Table;
 use etendue_benches::{
-    defocus, files, frames, instances, lamps, lenses, machine, memory, motion, obj, paths, peer, rays, road, sensor,
-    textures, trees, views,
+    adaptive, defocus, files, films, frames, instances, lamps, lenses, machine, memory, motion, obj, paths, peer, rays,
+    road, sensor, textures, trees, views,
 };
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 17] = [
+const BENCHMARKS: [Benchmark; 19] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
     ("road", road::table),
     ("lenses", lenses::table),
+    ("adaptive", adaptive::table),
     ("defocus", defocus::table),
     ("ghosts", lenses::ghosts),
     ("views", views::table),
@@ -52,6 +55,7 @@ const BENCHMARKS: [Benchmark; 17] = [
     ("instances", instances::table),
     ("motion", motion::table),
     ("textures", textures::table),
+    ("films", films::table),
     ("memory", memory::table),
     ("frames", frames::table),
     ("sensor", sensor::table),
@@ -75,6 +79,10 @@ fn main() -> ExitCode {
         }
         [flag, folder, limit_mb] if flag == textures::CHILD => {
             println!("{}", textures::child(folder, limit_mb));
+            ExitCode::SUCCESS
+        }
+        [flag, folder, job] if flag == films::CHILD => {
+            println!("{}", films::child(folder, job));
             ExitCode::SUCCESS
         }
         [flag, order @ ..] if flag == peer::FLAG => answer(peer::rendered(order)),

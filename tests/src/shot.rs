@@ -95,7 +95,7 @@ impl Shot {
     /// Where no cube is kept.
     #[must_use]
     pub fn irradiance(&self) -> Samples {
-        Samples::of(self.film.cube.as_ref().expect("a cube is kept"), self.film.replicates)
+        Samples::of(self.film.cube().expect("a cube is kept"), self.film.replicates)
     }
 
     /// The ground truth.

@@ -4,7 +4,7 @@
 //! electrons to one that works on counted charge.
 
 /// A physical quantity of an image, named so that a plane of it cannot be taken for another.
-pub trait Quantity: Copy + Send + Sync + 'static {
+pub trait Quantity: Copy + core::fmt::Debug + Send + Sync + 'static {
     /// What one pixel holds.
     type Sample: Copy + Default + PartialEq + Send + Sync + core::fmt::Debug + 'static;
     /// The quantity's name in the words of the field, as files state it.

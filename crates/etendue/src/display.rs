@@ -17,7 +17,11 @@ pub(crate) fn show(observer: &dyn Observer, (camera, shot): (&CameraPlan, Shot),
         return;
     }
     let (channels, values) = match (&film.cube, &film.electron_rate) {
-        (Some(_), _) => (&["R", "G", "B"][..], radiance(film, tile)),
+        (Some(_), _) => match radiance(film, tile) {
+            Ok(values) => (&["R", "G", "B"][..], values),
+            // The run that cannot read its film tells so itself.
+            Err(_) => return,
+        },
         (None, Some(_)) => (&["Y"][..], electrons(film, tile, camera.body.exposure.exposure_s)),
         (None, None) => return,
     };
@@ -37,21 +41,20 @@ fn name(camera: &CameraPlan, shot: Shot) -> String {
 }
 
 /// Planes of linear sRGB, one after the other.
-fn radiance(film: &Film, tile: Tile) -> Vec<f32> {
-    let Some(cube) = &film.cube else { return Vec::new() };
-    let weights: Vec<[f64; 3]> = xyz_weights(cube.mean.bands()).into_iter().map(linear_srgb_from_xyz).collect();
+fn radiance(film: &Film, tile: Tile) -> Result<Vec<f32>, String> {
+    let Some(((of, _), bands)) = film.bands().zip(film.tile_bands(tile)?) else { return Ok(Vec::new()) };
+    let weights: Vec<[f64; 3]> = xyz_weights(of).into_iter().map(linear_srgb_from_xyz).collect();
     let mut sums = vec![0.0_f64; 3 * tile.len()];
     for (place, pixel) in tile.pixels().enumerate() {
-        let (x, y) = (pixel.x as usize, pixel.y as usize);
-        let pupil_sr = film.weight.at(x, y);
+        let pupil_sr = film.weight.at(pixel.x as usize, pixel.y as usize);
         if pupil_sr > 0.0 {
-            for (plane, weight) in cube.mean.planes().iter().zip(&weights) {
-                let radiance = f64::from(plane.at(x, y) / pupil_sr);
+            for (mean, weight) in bands.means(pixel).zip(&weights) {
+                let radiance = f64::from(mean / pupil_sr);
                 (0..3).for_each(|channel| sums[channel * tile.len() + place] += weight[channel] * radiance);
             }
         }
     }
-    sums.into_iter().map(|sum| sum as f32).collect()
+    Ok(sums.into_iter().map(|sum| sum as f32).collect())
 }
 
 /// Mean electrons of an exposure, s.

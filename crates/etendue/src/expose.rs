@@ -143,8 +143,14 @@ fn write(
     if let Some(captures) = light.captures() {
         let address = |frame| FrameAddress { seed, camera: stored.camera_index(), frame, capture: 0 };
         let products = products(body);
-        let wanted =
-            Wanted { products: &products, camera: &writer.prefix.clone(), facts: &facts, undistorted: None, observer };
+        let wanted = Wanted {
+            products: &products,
+            camera: &writer.prefix.clone(),
+            facts: &facts,
+            undistorted: None,
+            one_by_one: false,
+            observer,
+        };
         let taken = frames(body, captures, (request.frames.clone(), SensorState::default()), address, false);
         points = write_frames(body, taken, address, wanted, writer)?;
     }

@@ -8,7 +8,7 @@ use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::noise_reached::NoiseReached;
 use etendue_pipeline::plan::{CameraPlan, PassAt, TimeDependence};
-use etendue_pipeline::render::{Request, Shot, pass, tolerance};
+use etendue_pipeline::render::{FilmKeeping, Request, Shot, pass, tolerance};
 use etendue_pipeline::tile::{Shard, Tile, tiles};
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
@@ -76,11 +76,11 @@ impl<'a> Exposures<'a> {
             count: self.frames.len() as u32,
         });
         let tiles = Tiles { heading: &heading, frame, film: (camera, shot), before: self.done, run: self };
-        let request = Request { shot, simd: self.simd, shard: self.shard };
+        let request = Request { shot, simd: self.simd, shard: self.shard, keeping: FilmKeeping::Planned };
         let film = pass(self.plan, camera, request, (number, before), &tiles);
         self.done += tile_count(camera, self.shard);
         check_textures(self.plan)?;
-        film.map_err(|cancelled| Error::Run(cancelled.to_string()))
+        film.map_err(|cause| Error::Run(cause.to_string()))
     }
 
     /// Where noise decided the samples: how many it took, and whether the limit was reached.

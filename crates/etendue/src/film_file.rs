@@ -6,7 +6,7 @@ use crate::error::Error;
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Quantity};
 use etendue_io::Provenance;
-use etendue_io::exr::{ExrFile, Layer, Samples, encode_layers, read_exr_within};
+use etendue_io::exr::{ExrFile, ExrImage, Layer, Samples, layers_image, read_exr_within};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};
 use etendue_pipeline::render::{Shot, layout};
@@ -24,17 +24,17 @@ pub(crate) fn film_name(camera: &CameraPlan, shot: Shot) -> String {
     }
 }
 
-/// The bytes of a film.
-pub(crate) fn encode(film: &Film, facts: &Provenance) -> Result<Vec<u8>, Error> {
+/// A film, to be written.
+pub(crate) fn image<'a>(film: &'a Film, facts: &Provenance) -> ExrImage<'a> {
     let mut layers = vec![
         ("weight".to_owned(), Layer::Float(film.weight.samples())),
         ("samples".to_owned(), Layer::Uint(film.samples.samples())),
         ("not_finite".to_owned(), Layer::Uint(film.not_finite.samples())),
     ];
-    if let Some(cube) = &film.cube {
-        for (i, (mean, variance)) in cube.mean.planes().iter().zip(cube.variance.planes()).enumerate() {
-            layers.push((format!("band.{i:04}.mean"), Layer::Float(mean.samples())));
-            layers.push((format!("band.{i:04}.variance"), Layer::Float(variance.samples())));
+    if let Some((bands, [mean, variance])) = film.bands() {
+        for i in 0..bands.count() {
+            layers.push((format!("band.{i:04}.mean"), Layer::Band(mean, i)));
+            layers.push((format!("band.{i:04}.variance"), Layer::Band(variance, i)));
         }
     }
     if let Some(rate) = &film.electron_rate {
@@ -45,8 +45,7 @@ pub(crate) fn encode(film: &Film, facts: &Provenance) -> Result<Vec<u8>, Error> 
         layers.push(("watched.mean".to_owned(), Layer::Float(watched.mean.samples())));
         layers.push(("watched.variance".to_owned(), Layer::Float(watched.variance.samples())));
     }
-    encode_layers(film.weight.width(), film.weight.height(), &layers, facts)
-        .map_err(|error| Error::Run(format!("the film cannot be encoded: {error}")))
+    layers_image(film.weight.width(), film.weight.height(), &layers, facts)
 }
 
 /// A film of a camera of the plan, and its facts; `None` where the file holds another film.
@@ -65,7 +64,7 @@ fn decode(file: &ExrFile, camera: &CameraPlan) -> Option<Film> {
     fill(&mut film.weight, file, "weight")?;
     fill_counts(&mut film.samples, file, "samples")?;
     fill_counts(&mut film.not_finite, file, "not_finite")?;
-    if let Some(cube) = &mut film.cube {
+    if let Some(cube) = film.cube_mut() {
         for (i, plane) in cube.mean.planes_mut().iter_mut().enumerate() {
             fill(plane, file, &format!("band.{i:04}.mean"))?;
         }

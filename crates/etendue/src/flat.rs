@@ -188,8 +188,14 @@ impl Task<'_> {
             return Err(Error::input(format!("{given}: {why}")));
         }
         let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());
-        let wanted =
-            Wanted { products: &products, camera: &camera, facts: &facts, undistorted: None, observer: self.observer };
+        let wanted = Wanted {
+            products: &products,
+            camera: &camera,
+            facts: &facts,
+            undistorted: None,
+            one_by_one: false,
+            observer: self.observer,
+        };
         let begun = (self.request.frames.clone(), SensorState::default());
         let steady = CaptureLight::steady(&electrons);
         let taken = frames(self.body, steady, begun, |n| self.address(n), products.signal_breakdown);

@@ -3,6 +3,7 @@
 use crate::delivery::{SoFar, check_finite, check_frames, deliver, films_of, shots_of};
 use crate::error::Error;
 use crate::exposures::Exposures;
+use crate::film_memory::{self, FilmMemory};
 use crate::memory::MemoryFiles;
 use crate::observer::{Message, Observer};
 use crate::plan_report::PlanReport;
@@ -96,6 +97,9 @@ pub struct JobRequest {
     /// request leave it out.
     #[serde(skip)]
     pub textures: TextureMemory,
+    /// How much memory films may take, and where those are kept that take more. It belongs to the machine as well.
+    #[serde(skip)]
+    pub films: FilmMemory,
 }
 
 impl JobRequest {
@@ -114,6 +118,7 @@ impl JobRequest {
             seed: None,
             sandbox: None,
             textures: TextureMemory::default(),
+            films: FilmMemory::default(),
         }
     }
 
@@ -137,7 +142,9 @@ impl JobRequest {
         let assets = complete_assets(files.assets().clone(), &description.assets(), &self.textures, &sandbox);
         let assets = assets.map_err(Error::inputs)?;
         let plan = compile(&description, &assets, &self.choices()).map_err(Error::inputs)?;
-        let plan = Arc::new(self.narrowed(plan)?);
+        let mut plan = self.narrowed(plan)?;
+        plan.film_limit = Some(self.films.limit(self.textures.cache.as_ref()));
+        let plan = Arc::new(plan);
         Ok(Job { request: self, plan })
     }
 
@@ -324,6 +331,7 @@ impl Job {
         take: impl FnMut(CameraResults) -> Result<(), Error>,
     ) -> Result<(), Error> {
         self.warn(observer);
+        film_memory::check(&self.plan)?;
         if let Some(total_s) = self.request.time_s {
             check_frames(&self.plan, &options.frames)?;
             let mut light = timed::light(&self.plan, total_s, options, observer, &mut progress.borrow_mut())?;
@@ -425,6 +433,7 @@ impl Job {
         mut take: impl FnMut(&CameraPlan, Shot, Film) -> Result<(), Error>,
     ) -> Result<(), Error> {
         self.warn(observer);
+        film_memory::check(&self.plan)?;
         check_frames(&self.plan, frames)?;
         let shard = spec.shard()?;
         let done = DoneFrames::default();

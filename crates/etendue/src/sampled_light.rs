@@ -8,7 +8,7 @@ use crate::shard_spec::ShardSpec;
 use etendue_core::random::Pixel;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, Route};
-use etendue_pipeline::render::{Request, Shot, light};
+use etendue_pipeline::render::{FilmKeeping, Request, Shot, light};
 use etendue_pipeline::tile::{Tile, tiles};
 use etendue_sensor::{Sensor, TemporalNoise};
 use etendue_tracer::accel::Simd;
@@ -97,7 +97,9 @@ impl Job {
         settings.adaptive = None;
         (settings.spp, settings.replicates, settings.seed) = (sampling.spp, sampling.replicates, sampling.seed);
         settings.tile_px = settings.blocks.tile_px(sampling.tile_px);
-        let request = Request { shot: Shot::default(), simd, shard: sampling.shard.shard()? };
+        // Of a few tiles; the others take no memory.
+        let keeping = FilmKeeping::Memory;
+        let request = Request { shot: Shot::default(), simd, shard: sampling.shard.shard()?, keeping };
         let film = light(self.plan(), &camera, request, &Silent(observer));
         let film = film.map_err(|cancelled| Error::Run(cancelled.to_string()))?;
         check_textures(self.plan())?;
@@ -219,7 +221,7 @@ impl Reading {
                 of(rate.variance.at(x, y), self.exposure_s * self.exposure_s),
             );
         }
-        let Some(cube) = &film.cube else { return (0.0, f64::NAN) };
+        let Some(cube) = film.cube() else { return (0.0, f64::NAN) };
         let bands = cube.mean.planes().iter().map(|plane| f64::from(plane.at(x, y)));
         match self.of_bands.get(colour) {
             Some(weights) => {

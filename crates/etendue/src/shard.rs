@@ -10,6 +10,7 @@ use crate::film_file::{self, film_name};
 use crate::job::{Job, JobRequest};
 use crate::observer::Observer;
 use crate::results::metadata;
+use crate::results::writer::write_exr;
 use crate::shard_spec::ShardSpec;
 use etendue_io::{Existing, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
@@ -52,8 +53,8 @@ impl Job {
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
         folder.claim(self.shard_names(&frames).iter().map(String::as_str)).map_err(Error::input)?;
         self.render_shard((spec, &frames), simd, observer, |camera, shot, film| {
-            let bytes = film_file::encode(&film, &metadata::provenance(self.plan(), camera, shot.frame))?;
-            folder.write(&film_name(camera, shot), &bytes).map_err(Error::run)
+            let facts = metadata::provenance(self.plan(), camera, shot.frame);
+            write_exr(&mut folder, &film_name(camera, shot), film_file::image(&film, &facts))
         })?;
         let (request, plan_hash, tile_px) = (self.request().clone(), self.plan().hash_text(), tile_sides(self.plan()));
         let ShardSpec { index, count } = spec;

@@ -49,7 +49,8 @@ pub fn encode_depth16(depth: &Plane<Length>, per_metre: f64) -> Result<Vec<u8>, 
 /// A display picture, rounded to 8 bits. Values outside 0–1 are cut, as a display would; NaN is black. The file says how they are
 /// `encoded`, as far as a chunk can: of curves that none can state it says sRGB, for the display.
 pub fn encode_display(picture: &Plane<Display>, encoded: &Encoding) -> Result<Vec<u8>, EncodeError> {
-    let bytes: Vec<u8> = picture.samples().iter().flatten().map(|&v| (v * 255.0).round() as u8).collect();
+    let mut bytes = Vec::with_capacity(3 * picture.samples().len());
+    bytes.extend(picture.samples().iter().flatten().map(|&v| (v * 255.0).round() as u8));
     let file = encode(picture.width(), picture.height(), &bytes, ExtendedColorType::Rgb8)?;
     Ok(with_statement(file, encoded))
 }

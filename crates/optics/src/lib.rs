@@ -23,5 +23,5 @@ pub use lens::{
     ThinParameters, TruthRay,
 };
 pub use prescription::{Prescription, PrescriptionError, PrescriptionParameters};
-pub use pupil_image::{Cube, Face, PupilProjection, Resampling, View, Window, irradiance};
+pub use pupil_image::{BandEtendue, Cube, Face, PupilProjection, Resampling, View, Window, irradiance};
 pub use wavelength::PRINCIPAL_NM;

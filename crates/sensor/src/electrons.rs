@@ -2,8 +2,11 @@
 
 use crate::sensor::Sensor;
 use etendue_core::quantity::{Irradiance, MeanElectrons};
-use etendue_core::{Plane, SpectralCube};
+use etendue_core::{Bands, KeptCube, Plane, SpectralCube};
 use rayon::prelude::*;
+
+/// Rows of light that are read at a time.
+const STRIP_ROWS: usize = 16;
 
 impl Sensor {
     /// Mean electrons of every pixel: Σ over bands of (band mean of E) × (integral of R over the band).
@@ -14,20 +17,53 @@ impl Sensor {
     pub fn electrons(&self, irradiance: &SpectralCube<Irradiance>) -> Plane<MeanElectrons> {
         let (width, height) = (irradiance.width(), irradiance.height());
         let mut plane = Plane::new(width, height);
-        let weights = self.band_weights(irradiance);
+        let weights = self.band_weights(irradiance.bands());
         if width > 0 {
             plane.samples_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-                for (x, electrons) in row.iter_mut().enumerate() {
-                    *electrons = weighted_sum(irradiance, &weights[self.channel_at(x, y)], y * width + x);
-                }
+                self.electrons_of_row(irradiance, &weights, (y, y), row);
             });
         }
         plane
     }
 
+    /// The same of a cube wherever it is, of which some rows at a time are read.
+    ///
+    /// # Errors
+    /// Where they cannot be read.
+    pub fn electrons_of(&self, irradiance: &KeptCube<Irradiance>) -> Result<Plane<MeanElectrons>, String> {
+        let (width, height) = (irradiance.width(), irradiance.height());
+        let mut plane = Plane::new(width, height);
+        let weights = self.band_weights(irradiance.bands());
+        if width > 0 {
+            let strips = plane.samples_mut().par_chunks_mut(width * STRIP_ROWS);
+            strips.enumerate().try_for_each(|(strip, samples)| {
+                let first = strip * STRIP_ROWS;
+                let light = irradiance.rows(first..first + samples.len() / width)?;
+                for (y, row) in samples.chunks_mut(width).enumerate() {
+                    self.electrons_of_row(&light, &weights, (first + y, y), row);
+                }
+                Ok::<(), String>(())
+            })?;
+        }
+        Ok(plane)
+    }
+
+    /// Of row `y` of the sensor, which is row `place` of the light.
+    fn electrons_of_row(
+        &self,
+        light: &SpectralCube<Irradiance>,
+        weights: &[Vec<f64>],
+        (y, place): (usize, usize),
+        row: &mut [f32],
+    ) {
+        let width = row.len();
+        for (x, electrons) in row.iter_mut().enumerate() {
+            *electrons = weighted_sum(light, &weights[self.channel_at(x, y)], place * width + x);
+        }
+    }
+
     /// ∫ R dλ over each band, for each channel.
-    fn band_weights(&self, irradiance: &SpectralCube<Irradiance>) -> Vec<Vec<f64>> {
-        let bands = irradiance.bands();
+    fn band_weights(&self, bands: Bands) -> Vec<Vec<f64>> {
         let weights = |r: &etendue_spectra::Spectrum| {
             r.band_means(bands).into_iter().map(|mean| mean * bands.width_nm()).collect()
         };

@@ -73,10 +73,12 @@ pub struct Confirmation {
     pub tiles: u32,
     /// Whether the study had not looked at them before; small pictures are looked at as a whole.
     pub unseen: bool,
-    /// Time found over time foretold.
-    pub seconds: f64,
-    /// Noise (root mean square, without bias) found over foretold.
-    pub noise: Estimate,
+    /// Samples of each replicate of the trial: those of the recommendation, or fewer where these take longer than a study may.
+    pub samples: u32,
+    /// Time found for samples over what pilots foretold. The recommendation's time has it in it.
+    pub seconds: Estimate,
+    /// Noise (root mean square, without bias) found over foretold; `None` where none was foretold.
+    pub noise: Option<Estimate>,
 }
 
 /// A setting for a target.
@@ -84,11 +86,11 @@ pub struct Confirmation {
 pub struct Recommendation {
     /// What is wanted.
     pub target: Target,
-    /// What is foretold.
+    /// What is foretold, its time by the trial where there was one.
     pub point: FrontPoint,
     /// Whether the target is reached.
     pub is_reached: bool,
-    /// How it went where it was tried; `None` where that takes longer than a study may.
+    /// How it went where it was tried; `None` of pictures of too few tiles.
     pub confirmation: Option<Confirmation>,
 }
 

@@ -8,9 +8,11 @@
 
 mod ablation;
 mod budget;
+mod change;
 mod error;
 mod front;
 mod job_file;
+mod looks;
 mod measured;
 mod pictures;
 mod pilot;
@@ -18,9 +20,12 @@ mod pixels;
 mod plan;
 mod report;
 mod study;
+mod trial;
+mod variation;
 mod way;
 
 pub use ablation::{Ablation, Dropped, Kept, ablation, ablation_table};
+pub use change::Change;
 pub use error::{Currencies, Estimate};
 pub use front::{FrontPoint, Recommendation, Target};
 pub use job_file::job_file;
@@ -28,6 +33,7 @@ pub use measured::{Bias, Measured, PowerLaw, Role};
 pub use pictures::{Comparison, pictures};
 pub use report::{plot, table};
 pub use study::{Request, Study, study};
+pub use variation::{Variations, Varied, variation_table, variations};
 pub use way::{Accelerator, WayToRender};
 
 /// Clocks that only go forward.

@@ -1,6 +1,6 @@
 //! Which tiles a study looks at, so that it takes the time that it may take.
 
-use etendue::ShardSpec;
+use etendue::{Error, Job, ShardSpec};
 use etendue_core::maths::integer::greatest_common_divisor;
 
 /// Side of the study's tiles, px, where no pixels share more.
@@ -35,6 +35,12 @@ impl PilotPlan {
 fn spread(count: u32, columns: u32) -> u32 {
     let apart = |a: u32, b: u32| greatest_common_divisor(a, b) == 1;
     (1..=count.max(1)).rev().find(|n| apart(*n, columns)).unwrap_or(1)
+}
+
+/// The part of a frame that so many of its pixels are.
+pub(crate) fn share(job: &Job, camera: &str, pixels: usize) -> Result<f64, Error> {
+    let [width, height] = job.film_px(camera)?;
+    Ok(pixels as f64 / (f64::from(width) * f64::from(height)))
 }
 
 #[cfg(test)]

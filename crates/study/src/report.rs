@@ -160,16 +160,14 @@ fn recommended(recommendation: &Recommendation, out: &mut String) {
     let _ = match confirmation {
         Some(found) => writeln!(
             out,
-            "  tried on {} {} tiles: {:.2} of the time foretold, {} of the noise",
+            "  tried on {} {} tiles with {} samples a replicate: {} of the time that the pilots foretold (the time above follows the trial){}",
             found.tiles,
             if found.unseen { "other" } else { "of the same" },
-            found.seconds,
-            figure(found.noise)
+            found.samples,
+            figure(found.seconds),
+            found.noise.map_or_else(String::new, |noise| format!(", {} of the noise", figure(noise)))
         ),
-        None => writeln!(
-            out,
-            "  not tried: it takes longer than this study may (give a larger --time), or tiles or replicates are too few"
-        ),
+        None => writeln!(out, "  not tried: the picture has too few tiles"),
     };
 }
 

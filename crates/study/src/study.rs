@@ -3,10 +3,12 @@
 use crate::Clock;
 use crate::budget::within;
 use crate::error::{Currencies, Estimate};
-use crate::front::{Confirmation, Frame, FrontPoint, Recommendation, front, point, recommend, targets};
+use crate::front::{Frame, FrontPoint, Recommendation, front, point, recommend, targets};
 use crate::measured::{Bias, Measured, Role, Times, bias, variance};
-use crate::pilot::{Pilot, Pilots, seed};
+use crate::pilot::{Pilot, Pilots};
 use crate::pixels::Pixels;
+use crate::plan::share;
+use crate::trial::Trial;
 use crate::way::{Accelerator, EXACT_BOUNCES, WayToRender};
 use etendue::{
     Error, Existing, Integrator, Job, JobRequest, LightSignal, Observer, Progress, RenderOptions, Simd, Unit,
@@ -23,9 +25,6 @@ const SEEDS: u32 = 8;
 const WAYS: f64 = 17.0;
 /// The part of the time that pilots may have; the rest is for whole frames and for trying what is recommended.
 const PILOTS_PART: f64 = 0.7;
-/// The part of the time that trying one recommendation may have, and the fewest tiles worth it.
-const TRIAL_PART: f64 = 0.1;
-const TRIAL_TILES: u32 = 16;
 /// Samples that are told of a job whose pixels get as many as their noise asks for.
 const EVEN_SPP: u32 = 64;
 /// By how much a choice without bias must be better to be taken.
@@ -100,8 +99,10 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     let eligible = bench.eligible(spp, frame);
     let mut recommendations: Vec<_> =
         targets(has_sensor).into_iter().filter_map(|target| recommend(&eligible, target, frame)).collect();
+    let trial = Trial { budget_s: request.budget_s, job: &job, pilots: &bench.pilots };
     for recommendation in &mut recommendations {
-        recommendation.confirmation = bench.tried(recommendation)?;
+        let measured = bench.ways.iter().find(|m| m.way == recommendation.point.way).expect("recommended of these");
+        trial.of(recommendation, measured, rest_s)?;
     }
     Ok(Study {
         signal: match job.light_signal(&camera)? {
@@ -118,12 +119,6 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
         ways: bench.ways,
         camera,
     })
-}
-
-/// The part of a frame that so many of its pixels are.
-fn share(job: &Job, camera: &str, pixels: usize) -> Result<f64, Error> {
-    let [width, height] = job.film_px(camera)?;
-    Ok(pixels as f64 / (f64::from(width) * f64::from(height)))
 }
 
 /// The most that two omissions come to together (Minkowski): both are light that is missing, so that they seldom cancel.
@@ -305,45 +300,6 @@ impl Bench<'_> {
         };
         let gains = |m: &&Measured| !is_of_own(m) || cost(m, &self.ways[0], spp, frame) < 1.0;
         self.ways.iter().filter(gains).cloned().collect()
-    }
-
-    /// Tries a recommendation on tiles that the study has not seen.
-    fn tried(&self, recommendation: &Recommendation) -> Result<Option<Confirmation>, Error> {
-        let FrontPoint { way, spp, replicates, .. } = recommendation.point;
-        let measured = self.ways.iter().find(|m| m.way == way).expect("recommended of these");
-        let whole_s = measured.sample_s.value * f64::from(spp);
-        let fewest = (whole_s / (TRIAL_PART * self.request.budget_s)).ceil() as u32;
-        let [columns, rows] = self.job.tile_grid(self.pilots.camera, self.pilots.plan.tile_px)?;
-        let plan = self.pilots.plan.unseen(columns, fewest);
-        let tiles = columns * rows / plan.shard.count;
-        if tiles < TRIAL_TILES || replicates < 2 {
-            return Ok(None);
-        }
-        let Pilots { camera, simd, clock, observer, .. } = self.pilots;
-        let pilots = Pilots { camera, plan, simd, clock, observer };
-        let job = way.request(&self.request.job, camera).open()?;
-        let own = job.render_settings(camera)?.seed;
-        let (mut planes, mut pixels, mut took_s) = (Vec::new(), Vec::new(), 0.0);
-        for k in 0..replicates {
-            let (light, replicate_s) = pilots.timed(&job, (spp / replicates, 1), seed(own, 2000 + k))?;
-            planes.push(light.signal);
-            (pixels, took_s) = (light.pixels, took_s + replicate_s);
-        }
-        let seen = pixels.len();
-        let pixels = Pixels::new(&pixels, &planes, self.job.temporal_noise(camera)?.as_ref());
-        let (found, laws) = (pixels.variance(&planes), &measured.variance);
-        let pair = match (found.sensor, laws.sensor) {
-            (Some(found), Some(law)) => (found, law),
-            _ => (found.relative, laws.relative),
-        };
-        let (found, foretold) = (pair.0, pair.1.at(f64::from(spp / replicates)));
-        if foretold.value <= 0.0 {
-            return Ok(None);
-        }
-        let foretold_s = measured.frame_s * f64::from(replicates) + whole_s * share(&job, camera, seen)?;
-        let ratio = Estimate { value: found.value / foretold.value, uncertainty: found.uncertainty / foretold.value };
-        let unseen = plan.shard.count > 1;
-        Ok(Some(Confirmation { tiles, unseen, seconds: took_s / foretold_s, noise: ratio.root() }))
     }
 }
 

@@ -59,7 +59,7 @@ fn job(render: &str) -> Job {
 /// Irradiance behind stored radiance.
 fn at_pupil(method: &str) -> Vec<f32> {
     let light = job(&format!("route = \"pupil\"\ndepth_of_field = {method}")).shot().light();
-    light.irradiance.expect("irradiance").planes()[0].samples().to_vec()
+    light.irradiance.expect("irradiance").plane(0).expect("in memory").samples().to_vec()
 }
 
 /// Mean difference of two pictures over the mean of the first.

@@ -97,7 +97,8 @@ fn dirt_is_the_same_by_both_routes() {
         let job = job(UNIFORM, front, render).replacing("spp = 256", "spp = 4096");
         job.with_image("dirt.png", 64, 1, row.clone().collect()).shot().light().irradiance
     };
-    let [lens, pupil] = ["", "route = \"pupil\""].map(|render| job(render).expect("irradiance"));
+    let [lens, pupil] =
+        ["", "route = \"pupil\""].map(|render| job(render).expect("irradiance").load().expect("in memory"));
     let brightest = lens.planes()[0].samples().iter().fold(0.0_f32, |a, b| a.max(*b));
     for (a, b) in lens.planes()[0].samples().iter().zip(pupil.planes()[0].samples()) {
         // 4 096 samples across an edge, σ at most 0.8 % were they not stratified, and a wide pixel, of which the operator

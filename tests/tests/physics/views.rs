@@ -71,7 +71,7 @@ fn job(lens: &str, route: &str) -> Job {
 
 fn irradiance(shot: &Shot) -> Vec<f64> {
     let cube = shot.light().irradiance.expect("a cube is kept");
-    cube.planes()[0].samples().iter().map(|v| f64::from(*v)).collect()
+    cube.plane(0).expect("in memory").samples().iter().map(|v| f64::from(*v)).collect()
 }
 
 /// Pixels whose neighbours, too, look at one and the same wall.

@@ -4,7 +4,7 @@ use super::choice::{Word, choice};
 use super::run::whole;
 use crate::output::print_message;
 use clap::Args;
-use etendue::{Error, Integrator, Job, JobRequest, Quality, TextureMemory};
+use etendue::{Error, FilmMemory, Integrator, Job, JobRequest, Quality, TextureMemory};
 use std::path::PathBuf;
 
 const INTEGRATORS: [Word<Integrator>; 3] = [
@@ -60,6 +60,13 @@ pub struct JobArgs {
     /// The folder of these tiles, which another run finds again [default: etendue in $XDG_CACHE_HOME, else in ~/.cache]
     #[arg(long, value_name = "DIR")]
     pub cache: Option<PathBuf>,
+    /// Memory of the bands of one film: their means and variances, 8 bytes a pixel and band. Larger ones are kept in a scratch file on the disk, and
+    /// files, effects and electrons are made of it some rows or one band at a time. The result does not depend on it
+    #[arg(long, value_name = "MB", value_parser = whole(1, 1 << 20), default_value = "2048")]
+    pub film_memory: u32,
+    /// The folder of these scratch files, which are gone when the run ends [default: that of --cache]
+    #[arg(long, value_name = "DIR")]
+    pub scratch: Option<PathBuf>,
 }
 
 impl From<&JobArgs> for JobRequest {
@@ -77,6 +84,7 @@ impl From<&JobArgs> for JobRequest {
             seed: a.seed,
             sandbox: a.sandboxed.then(|| a.allow_outside.clone()),
             textures: TextureMemory { limit_bytes: u64::from(a.texture_memory) * 1_000_000, cache: a.cache.clone() },
+            films: FilmMemory { limit_bytes: u64::from(a.film_memory) * 1_000_000, scratch: a.scratch.clone() },
         }
     }
 }

@@ -7,7 +7,10 @@ use crate::output::{print, print_paths};
 use crate::progress::Terminal;
 use clap::Args;
 use etendue::{Error, Existing, JobRequest, write_file};
-use etendue_study::{Clock, Dropped, Request, ablation, ablation_table, job_file, pictures, plot, study, table};
+use etendue_study::{
+    Clock, Dropped, Request, Varied, ablation, ablation_table, job_file, pictures, plot, study, table, variation_table,
+    variations,
+};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -27,6 +30,10 @@ pub struct Tradeoff {
     /// Leave out one effect of the plan after the other instead, and tell what that changes and saves
     #[arg(long)]
     pub ablate: bool,
+    /// Compare the frame with this change of a key instead (as of --set; several keys with ';' between them), and tell what it
+    /// changes and saves; give it once for each change: --vary render.wavelengths_per_path=1 --vary "a.b=1; a.c=2"
+    #[arg(long, value_name = "KEY=VALUE", conflicts_with = "ablate", value_parser = changes)]
+    pub vary: Vec<Changes>,
     /// Print the study as JSON instead of as tables
     #[arg(long)]
     pub json: bool,
@@ -36,6 +43,20 @@ pub struct Tradeoff {
 const STUDY_FILES: [&str; 6] =
     ["tradeoff.json", "tradeoff.txt", "tradeoff.svg", "draft.toml", "standard.toml", "reference.toml"];
 const ABLATION_FILES: [&str; 2] = ["ablation.json", "ablation.txt"];
+const VARIATION_FILES: [&str; 2] = ["variations.json", "variations.txt"];
+
+/// Changes of keys that are made together.
+#[derive(Clone, Debug)]
+pub struct Changes(Vec<String>);
+
+/// Changes with ';' between them.
+fn changes(text: &str) -> Result<Changes, String> {
+    let changes: Vec<_> = text.split(';').map(|change| change.trim().to_owned()).collect();
+    match changes.iter().find(|change| !change.contains('=')) {
+        Some(_) => Err(format!("expected KEY=VALUE, or several with ';' between them, not '{text}'")),
+        None => Ok(Changes(changes)),
+    }
+}
 
 /// Seconds of a study.
 fn seconds(text: &str) -> Result<f64, String> {
@@ -73,7 +94,11 @@ impl Tradeoff {
         self.refuse_to_replace()?;
         let job = JobRequest::from(&self.job);
         let request = Request { job, camera: self.job.camera.clone(), budget_s: self.time, simd };
-        let findings = pool.install(|| if self.ablate { ablated(&request) } else { studied(&request, folder) })?;
+        let findings = pool.install(|| match (self.ablate, self.vary.as_slice()) {
+            (true, _) => ablated(&request),
+            (false, []) => studied(&request, folder),
+            (false, changes) => varied(&request, changes),
+        })?;
         let write = |(name, bytes): &(String, Vec<u8>)| -> Result<PathBuf, Error> {
             let path = folder.join(name);
             write_file(&path, bytes, existing)?;
@@ -92,7 +117,11 @@ impl Tradeoff {
     /// Nothing is replaced unasked, nor the job that is studied; told before a study takes its time.
     fn refuse_to_replace(&self) -> Result<(), Error> {
         let (folder, existing) = self.output.folder();
-        let names: &[&str] = if self.ablate { &ABLATION_FILES } else { &STUDY_FILES };
+        let names: &[&str] = match (self.ablate, self.vary.is_empty()) {
+            (true, _) => &ABLATION_FILES,
+            (false, true) => &STUDY_FILES,
+            (false, false) => &VARIATION_FILES,
+        };
         for path in names.iter().map(|name| folder.join(name)).filter(|path| path.exists()) {
             if existing == Existing::Refuse {
                 let problem = "is there already; give another folder, or --overwrite";
@@ -134,8 +163,23 @@ fn ablated(request: &Request) -> Result<Findings, Error> {
         ("ablation.json".to_owned(), json.clone().into_bytes()),
         ("ablation.txt".to_owned(), text.clone().into_bytes()),
     ];
-    let picture = |dropped: Dropped| Some((format!("pictures/without-{}.jpg", dropped.id), dropped.jpeg?));
+    let picture = |dropped: Dropped| Some((format!("pictures/without-{}.jpg", dropped.id), dropped.change.jpeg?));
     files.extend(found.dropped.into_iter().filter_map(picture));
+    Ok(Findings { text, json, files })
+}
+
+/// Change by change.
+fn varied(request: &Request, changes: &[Changes]) -> Result<Findings, Error> {
+    let changes: Vec<_> = changes.iter().map(|Changes(set)| set.clone()).collect();
+    let found = variations(request, &changes, &Stopwatch(Instant::now()), &Terminal::default())?;
+    let (text, json) = (variation_table(&found), to_json(&found)?);
+    let mut files = vec![
+        ("variations.json".to_owned(), json.clone().into_bytes()),
+        ("variations.txt".to_owned(), text.clone().into_bytes()),
+    ];
+    let pictures = found.varied.into_iter().enumerate();
+    let picture = |(i, varied): (usize, Varied)| Some((format!("pictures/with-{}.jpg", i + 1), varied.change.jpeg?));
+    files.extend(pictures.filter_map(picture));
     Ok(Findings { text, json, files })
 }
 

@@ -19,6 +19,7 @@ mod dropped;
 mod drops;
 mod encodings;
 mod faults;
+mod films;
 mod flat;
 mod geometry;
 mod goldens;

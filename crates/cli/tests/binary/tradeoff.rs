@@ -83,11 +83,50 @@ fn effects_are_left_out_one_after_the_other() {
 }
 
 #[test]
+fn keys_are_varied_one_after_the_other() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let (job, out) = (job(place.path()), text(&place.path().join("out")));
+    let vary = [
+        "--vary",
+        "render.wavelengths_per_path=1; render.max_bounces=5",
+        "--vary",
+        "render.max_bounces=1",
+        "--vary",
+        "render.route=\"pupil\"",
+    ];
+    let asked = ["tradeoff", &job, "-o", &out, "--time", "10", "--json"];
+    let told = etendue(asked.into_iter().chain(vary)).ok().out;
+    let found: serde_json::Value = serde_json::from_str(&told).expect("JSON");
+    let varied = found["varied"].as_array().expect("a list");
+    let light = |i: usize| {
+        let light = &varied[i]["light"];
+        (light["value"].as_f64().expect("known"), light["uncertainty"].as_f64().expect("known"))
+    };
+    assert_eq!(varied[0]["set"], serde_json::json!(["render.wavelengths_per_path=1", "render.max_bounces=5"]));
+    // A bounce less than the job's six takes little, five less take what the floor throws on the ball.
+    let (few, none) = (light(0), light(1));
+    assert!(few.0 < 0.02 + 3.0 * few.1 && none.0 > 0.02 && none.0 > 3.0 * none.1, "{few:?} {none:?}");
+    // The ball is lit alike, whichever way its light is kept; sharp edges share their pixels otherwise.
+    assert!(light(2).0 < 0.5, "{:?}", light(2));
+    // What the route at the pupil keeps of every pixel is a spectrum.
+    let memory = |value: &serde_json::Value| value["memory_bytes"].as_f64().expect("known");
+    assert!(memory(&varied[2]) > memory(&found), "{told}");
+    let files = contents(Path::new(&out));
+    assert!(files.contains_key("variations.txt") && !files.contains_key("draft.toml"));
+}
+
+#[test]
 fn what_cannot_be_studied_is_refused() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (job, out) = (job(place.path()), text(&place.path().join("out")));
     etendue(["tradeoff", &job, "-o", &out, "--time", "5"]).refused(&["--time", "expected seconds from 10"]);
     etendue(["tradeoff", &job, "-o", &out, "--camera", "rear"]).refused(&["--camera rear", "front"]);
     etendue(["tradeoff", &job, "-o", &out, "--set", "render.sp=3"]).refused(&["render.sp"]);
+    let vary = |change: &str, phrases: &[&str]| {
+        drop(etendue(["tradeoff", &job, "-o", &out, "--vary", change]).refused(phrases));
+    };
+    vary("render.max_bounces", &["--vary", "expected KEY=VALUE"]);
+    vary("render.bounces=3", &["render.bounces"]);
+    vary("render.spp=4", &["--vary render.spp=4", "looks have samples of their own"]);
     assert!(!Path::new(&out).exists(), "nothing is written");
 }

@@ -142,6 +142,10 @@ pub struct CostReport {
     pub is_lower_bound: bool,
     /// Memory of the film, bytes.
     pub film_bytes: f64,
+    /// Its bands in a scratch file on the disk, bytes; 0 where they are in memory.
+    pub film_disk_bytes: f64,
+    /// For what these are read into memory all at once, which then counts as memory; `None` where they are not.
+    pub film_all_bands_for: Option<&'static str>,
 }
 
 /// A part of what is done on the film.
@@ -275,7 +279,9 @@ impl CostReport {
             film_parts: parts.collect(),
             cpu_s: cost.cpu_s(),
             is_lower_bound: cost.is_lower_bound,
-            film_bytes: cost.film_bytes,
+            film_bytes: cost.film.memory,
+            film_disk_bytes: cost.film.disk,
+            film_all_bands_for: cost.film.all_bands_for,
         }
     }
 }

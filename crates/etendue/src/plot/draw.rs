@@ -2,29 +2,28 @@
 
 use super::axis::Fitted;
 use super::figure::{Colour, Mark, Plot, Series};
+use super::layout::{BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH};
+use super::legend::{Legend, ROW};
 use std::fmt::Write as _;
 
-const WIDTH: f64 = 760.0;
-const HEIGHT: f64 = 460.0;
-const LEFT: f64 = 84.0;
-const RIGHT: f64 = 24.0;
-const TOP: f64 = 44.0;
-const BOTTOM: f64 = 60.0;
 /// Colours that people with colour-blindness tell apart (Okabe & Ito 2008).
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"];
 
 /// Plots one below the other as one SVG file.
 #[must_use]
 pub fn svg(plots: &[Plot]) -> String {
-    let height = HEIGHT * plots.len() as f64;
+    let drawings: Vec<_> = plots.iter().map(Drawing::new).collect();
+    let height: f64 = drawings.iter().map(Drawing::height).sum();
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" \
          font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
     );
-    for (i, plot) in plots.iter().enumerate() {
-        let _ = writeln!(out, "<g transform=\"translate(0 {})\">", HEIGHT * i as f64);
-        Drawing::new(plot).draw(&mut out);
+    let mut top = 0.0;
+    for drawing in &drawings {
+        let _ = writeln!(out, "<g transform=\"translate(0 {top})\">");
+        drawing.draw(&mut out);
         out += "</g>\n";
+        top += drawing.height();
     }
     out + "</svg>\n"
 }
@@ -33,16 +32,41 @@ struct Drawing<'a> {
     plot: &'a Plot,
     x: Fitted,
     y: Fitted,
+    legend: Legend,
 }
 
 impl<'a> Drawing<'a> {
     fn new(plot: &'a Plot) -> Self {
         let points = || plot.series.iter().flat_map(|s| &s.points);
-        Self {
+        let mut drawing = Self {
             plot,
             x: Fitted::new(&plot.x, points().map(|p| p[0])),
             y: Fitted::new(&plot.y, points().flat_map(|p| [p[1] - p[2], p[1] + p[2]])),
+            legend: Legend::below(plot),
+        };
+        if let Some(legend) = drawing.legend.in_a_corner(&drawing.drawn()) {
+            drawing.legend = legend;
         }
+        drawing
+    }
+
+    /// Where something is drawn: points, ends of error bars, and points of lines some pixels apart.
+    fn drawn(&self) -> Vec<(f64, f64)> {
+        let mut drawn = Vec::new();
+        for series in &self.plot.series {
+            let placed: Vec<_> = series.points.iter().filter_map(|p| self.place(p[0], p[1])).collect();
+            let ends = series.points.iter().flat_map(|[x, y, half]| [y - half, y + half].map(|y| self.place(*x, y)));
+            drawn.extend(ends.flatten());
+            if series.mark != Mark::Points {
+                let between = |pair: &[(f64, f64)]| {
+                    let ((x, y), (to_x, to_y)) = (pair[0], pair[1]);
+                    (0..64).map(move |i| f64::from(i) / 64.0).map(move |t| (x + t * (to_x - x), y + t * (to_y - y)))
+                };
+                drawn.extend(placed.windows(2).flat_map(between));
+            }
+            drawn.extend(placed);
+        }
+        drawn
     }
 
     fn draw(&self, out: &mut String) {
@@ -50,7 +74,7 @@ impl<'a> Drawing<'a> {
         for (i, series) in self.plot.series.iter().enumerate() {
             self.series(out, series, colour(i, series));
         }
-        self.legend(out);
+        self.draw_legend(out);
     }
 
     fn place(&self, x: f64, y: f64) -> Option<(f64, f64)> {
@@ -108,21 +132,15 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// Whether more points lie in the upper left than in the upper right: the legend then goes to the right.
-    fn crowded_left(&self) -> bool {
-        let placed = self.plot.series.iter().flat_map(|s| &s.points);
-        let places: Vec<(f64, f64)> =
-            placed.filter_map(|p| Some((self.x.place(p[0])?, self.y.place(p[1])?))).filter(|(_, y)| *y > 0.6).collect();
-        let (left, right) = (places.iter().filter(|p| p.0 < 0.4).count(), places.iter().filter(|p| p.0 > 0.6).count());
-        left > right
+    /// What stands above the next plot: the legend too, where the curves leave it no corner.
+    fn height(&self) -> f64 {
+        HEIGHT + if self.legend.is_below { self.legend.height } else { 0.0 }
     }
 
-    fn legend(&self, out: &mut String) {
-        let longest = self.plot.series.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
-        let left = if self.crowded_left() { WIDTH - RIGHT - 56.0 - 7.5 * longest as f64 } else { LEFT + 14.0 };
+    fn draw_legend(&self, out: &mut String) {
         let named = self.plot.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty());
         for (row, (i, series)) in named.enumerate() {
-            let (x, y) = (left.max(LEFT + 14.0), TOP + 20.0 + 18.0 * row as f64);
+            let (x, y) = (self.legend.left, self.legend.top + ROW * (row as f64 + 0.8));
             let colour = colour(i, series);
             match series.mark {
                 Mark::Points => {
@@ -166,6 +184,26 @@ fn escaped(text: &str) -> String {
 mod tests {
     use super::super::figure::Axis;
     use super::*;
+
+    #[test]
+    fn the_legend_stands_where_nothing_is_drawn() {
+        let plot = |points: &[(f64, f64)]| Plot {
+            title: String::new(),
+            x: Axis::linear("x"),
+            y: Axis::linear("y"),
+            series: vec![Series::new("a curve with a name", Mark::Line, points.iter().copied())],
+        };
+        let (rising, all_over) =
+            (plot(&[(0.0, 0.0), (1.0, 1.0)]), plot(&[(0.0, 1.0), (0.1, 0.0), (0.9, 1.0), (1.0, 0.0)]));
+        let in_corner = Drawing::new(&rising);
+        assert!(!in_corner.legend.is_below && in_corner.legend.left < 200.0 && in_corner.height() == HEIGHT);
+        let crossed = Drawing::new(&all_over);
+        let free = |drawing: &Drawing<'_>| !drawing.drawn().iter().any(|at| drawing.legend.holds(*at));
+        assert!(free(&in_corner) && free(&crossed));
+        let zigzag: Vec<_> = (0..40).map(|i| (f64::from(i), f64::from(i % 2))).collect();
+        let below = plot(&zigzag);
+        assert!(Drawing::new(&below).legend.is_below && Drawing::new(&below).height() > HEIGHT);
+    }
 
     #[test]
     fn a_plot_holds_its_points_and_its_texts() {

@@ -5,6 +5,8 @@
 mod axis;
 mod draw;
 mod figure;
+mod layout;
+mod legend;
 
 pub use draw::svg;
 pub use figure::{Axis, Colour, Mark, Plot, Series};

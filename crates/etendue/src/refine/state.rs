@@ -6,6 +6,7 @@
 use crate::error::Error;
 use crate::film_file::{self, FILM, film_name};
 use crate::results::metadata;
+use crate::results::writer::write_exr;
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
@@ -108,5 +109,5 @@ pub(crate) fn write(
     facts.further.insert(PASSES.to_owned(), passes.text());
     facts.further.insert(REPLICATES.to_owned(), replicates.to_string());
     facts.further.insert(SECONDS.to_owned(), elapsed_s.to_string());
-    folder.write(&name(camera, shot), &film_file::encode(film, &facts)?).map_err(Error::run)
+    write_exr(folder, &name(camera, shot), film_file::image(film, &facts))
 }

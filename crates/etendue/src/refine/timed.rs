@@ -17,7 +17,7 @@ use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, MAX_PASSES, PARTS, Pass, PassAt, Passes};
 use etendue_pipeline::render::{Request, Shot, pass};
-use etendue_pipeline::tile::{Shard, Tile};
+use etendue_pipeline::tile::Tile;
 use etendue_sensor::SensorState;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
@@ -217,7 +217,7 @@ impl<'a> Run<'a> {
         let camera = groups[film.group][0];
         let place = (place, self.films.len());
         let watched = Watched { watch: &self.watch, camera, shot: film.shot, place, is_kept };
-        let request = Request { shot: film.shot, simd: self.options.simd, shard: Shard::WHOLE };
+        let request = Request { shot: film.shot, simd: self.options.simd, ..Request::default() };
         let joined = pass(&self.plan, camera, request, (at, before), &watched);
         self.watch.ends();
         match joined {

@@ -32,6 +32,8 @@ pub(crate) struct Wanted<'a> {
     pub(crate) facts: &'a Provenance,
     /// The twin whose pictures are wanted as well.
     pub(crate) undistorted: Option<&'a RectifiedCamera>,
+    /// Whether files are made one after the other, for the sake of memory.
+    pub(crate) one_by_one: bool,
     /// Who is told of pixels without valid light.
     pub(crate) observer: &'a dyn Observer,
 }
@@ -76,7 +78,11 @@ pub(crate) fn write_frames<'a>(
     if !(products.raw || products.picture || products.signal_breakdown) {
         return Ok(points);
     }
-    for (number, frame) in taken {
+    for (number, mut frame) in taken {
+        // Of a large picture all that is not written goes before files are made.
+        if let (None, Cow::Owned(Frame { picture: Some(picture), .. })) = (wanted.undistorted, &mut frame) {
+            picture.linear = Plane::new(0, 0);
+        }
         if !frame.raw.invalid.is_empty() {
             let count = frame.raw.invalid.len();
             let told = format!("frame {number}: {count} pixels have no valid light; their digital number is 0");
@@ -124,7 +130,10 @@ fn write_frame(
             files.push((Files::undistorted(&name), Box::new(encode)));
         }
     }
-    writer.write_together(files)
+    match wanted.one_by_one {
+        true => files.into_iter().try_for_each(|(name, encode)| writer.write(&name, encode())),
+        false => writer.write_together(files),
+    }
 }
 
 /// Digital numbers of a raw without its facts: TIFF or PNG.

@@ -10,18 +10,22 @@ use super::writer::{Encoder, ResultWriter};
 use crate::error::Error;
 use crate::observer::Observer;
 use crate::rig;
+use etendue_core::quantity::Radiance;
 use etendue_io::exr::{
-    self, Layer, Lengths, encode_ground_truth, encode_layers, encode_plane, encode_radiance, encode_rays,
-    encode_spectral,
+    self, Layer, Lengths, SpectralBands, encode_ground_truth, ground_truth_image, layers_image, plane_image,
+    radiance_image, rays_image, spectral_image,
 };
 use etendue_io::{Existing, OutputFolder, png};
+use etendue_pipeline::Plan;
+use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::rays::{RayTable, ray_table};
 use etendue_pipeline::rectified::RectifiedCamera;
 use etendue_pipeline::render::Shot;
 use etendue_pipeline::sampling::SamplingPlanes;
-use etendue_pipeline::truth::{GroundTruth, ground_truth};
+use etendue_pipeline::truth::{GroundTruth, TruthRows, ground_truth};
 use etendue_pipeline::weather_layers::weather_layers;
 use serde_json::Value;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// The results of a job's cameras.
@@ -101,10 +105,10 @@ impl CameraResults {
         }
         let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
         let facts = self.provenance();
-        writer.write(Files::RAYS, encoded_rays(&self.rays(), &facts))?;
+        writer.exr(Files::RAYS, image_of_rays(&self.rays(), &facts))?;
         if let Some(twin) = &self.undistorted {
             let facts = metadata::undistorted_provenance(facts, twin);
-            writer.write(&Files::undistorted(Files::RAYS), encoded_rays(&ray_table(twin.body()), &facts))?;
+            writer.exr(&Files::undistorted(Files::RAYS), image_of_rays(&ray_table(twin.body()), &facts))?;
         }
         Ok(())
     }
@@ -126,7 +130,8 @@ impl CameraResults {
             let variance = products.variance.then_some(&radiance.variance);
             let facts = metadata::radiance_provenance(self.provenance(), camera);
             let lengths = self.depth.as_ref().map(|d| Lengths { distance: &d.distance, depth: &d.depth });
-            writer.write(&self.file(Files::RADIANCE), encode_radiance(&radiance.mean, variance, lengths, &facts))?;
+            let bands = SpectralBands::of_kept(&radiance.mean, variance);
+            writer.exr(&self.file(Files::RADIANCE), radiance_image(bands, lengths, &facts))?;
         }
         if products.irradiance {
             writer.irradiance(&self.file(Files::IRRADIANCE), light, products.variance, &self.provenance())?;
@@ -135,11 +140,11 @@ impl CameraResults {
             writer.ghosts(&self.file(Files::GHOSTS), light, &self.provenance())?;
         }
         if let Some(sampling) = &self.sampling {
-            writer.write(&self.file(Files::SAMPLING), encoded_sampling(sampling, &self.provenance()))?;
+            writer.exr(&self.file(Files::SAMPLING), sampling_image(sampling, &self.provenance()))?;
         }
         if let Some(mean) = light.electrons.as_ref().filter(|_| products.electrons) {
             let variance = light.electrons_variance.as_ref().filter(|_| products.variance);
-            writer.write(&self.file(Files::ELECTRONS), encode_plane(mean, variance, &self.provenance()))?;
+            writer.exr(&self.file(Files::ELECTRONS), plane_image(mean, variance, &self.provenance()))?;
         }
         Ok(())
     }
@@ -149,7 +154,14 @@ impl CameraResults {
         let camera = self.camera();
         let facts = self.provenance();
         let (products, undistorted) = (&camera.products, self.undistorted.as_ref());
-        let wanted = Wanted { products, camera: &camera.name, facts: &facts, undistorted, observer };
+        let wanted = Wanted {
+            products,
+            camera: &camera.name,
+            facts: &facts,
+            undistorted,
+            one_by_one: is_large(&self.plan, camera),
+            observer,
+        };
         write_frames(&camera.body, self.numbered_frames(), |frame| self.address(frame), wanted, writer)
     }
 
@@ -157,6 +169,9 @@ impl CameraResults {
         let products = &self.camera().products;
         if !products.ground_truth && products.depth_png_per_m.is_none() {
             return Ok(());
+        }
+        if is_large(&self.plan, self.camera()) {
+            return self.write_large_truth(writer);
         }
         let (truth, facts) = (self.ground_truth(), self.provenance());
         let mut files: Vec<(String, Encoder<'_>)> = Vec::new();
@@ -171,6 +186,19 @@ impl CameraResults {
         writer.write_together(files)
     }
 
+    /// The same of planes that are larger than films may be in memory: found when they are written, some rows at a time.
+    fn write_large_truth(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let camera = self.camera();
+        let rows = TruthRows::new(&self.plan, camera, self.frame_numbers().start, self.simd);
+        if camera.products.ground_truth {
+            writer.exr(&self.file(Files::GROUND_TRUTH), truth_image(&rows, &self.provenance()))?;
+        }
+        match camera.products.depth_png_per_m {
+            Some(per_metre) => writer.write(&self.file(Files::DEPTH), png::encode_depth16(&rows.depth(), per_metre)),
+            None => Ok(()),
+        }
+    }
+
     /// What weather does to each pixel: found anew, with the samples of the light.
     fn write_weather(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let camera = self.camera();
@@ -180,12 +208,10 @@ impl CameraResults {
         let shot = Shot { frame: self.frame_numbers().start, capture: 0 };
         let layers = weather_layers(&self.plan, camera, shot, self.simd);
         let facts = metadata::radiance_provenance(self.provenance(), camera);
-        writer.write(&self.file(Files::TRANSMITTANCE), encode_plane(&layers.transmittance, None, &facts))?;
-        writer.write(&self.file(Files::AIRLIGHT), encode_spectral(&layers.airlight, None, &facts))?;
-        layers
-            .cover
-            .iter()
-            .try_for_each(|cover| writer.write(&self.file(Files::COVER), encode_plane(cover, None, &facts)))
+        writer.exr(&self.file(Files::TRANSMITTANCE), plane_image(&layers.transmittance, None, &facts))?;
+        let airlight = SpectralBands::of(&layers.airlight, None);
+        writer.exr(&self.file(Files::AIRLIGHT), spectral_image::<Radiance>(airlight, &facts))?;
+        layers.cover.iter().try_for_each(|cover| writer.exr(&self.file(Files::COVER), plane_image(cover, None, &facts)))
     }
 
     /// Ground truth of the undistorted twin.
@@ -195,24 +221,47 @@ impl CameraResults {
             return Ok(());
         }
         let facts = metadata::undistorted_provenance(self.provenance(), twin);
-        let truth = ground_truth(&self.plan, &twin.plan(camera), self.frame_numbers().start, self.simd);
         let name = Files::undistorted(&self.file(Files::GROUND_TRUTH));
+        let twin = twin.plan(camera);
+        if is_large(&self.plan, &twin) {
+            let rows = TruthRows::new(&self.plan, &twin, self.frame_numbers().start, self.simd);
+            return writer.exr(&name, truth_image(&rows, &facts));
+        }
+        let truth = ground_truth(&self.plan, &twin, self.frame_numbers().start, self.simd);
         writer.write(&name, encode_ground_truth(&planes(&truth), &facts))
     }
 }
 
-fn encoded_sampling(sampling: &SamplingPlanes, facts: &etendue_io::Provenance) -> Result<Vec<u8>, exr::EncodeError> {
+/// Whether a picture is so large that its ground truth, about as much as all else that is made of it, would take more memory than the bands of a film may.
+fn is_large(plan: &Plan, camera: &CameraPlan) -> bool {
+    plan.film_limit.as_ref().is_some_and(|limit| TruthRows::bytes(camera) > limit.bytes as f64)
+}
+
+/// Rows of ground truth for a file.
+struct RowsOfFile<'a>(&'a TruthRows<'a>);
+
+impl exr::GroundTruthRows for RowsOfFile<'_> {
+    fn rows(&self, rows: Range<usize>, take: &mut dyn FnMut(&exr::GroundTruth<'_>)) {
+        take(&planes(&self.0.rows(rows)));
+    }
+}
+
+fn truth_image<'a>(rows: &'a TruthRows<'a>, facts: &etendue_io::Provenance) -> exr::ExrImage<'a> {
+    ground_truth_image(rows.size(), rows.has_gaps(), RowsOfFile(rows), facts)
+}
+
+fn sampling_image<'a>(sampling: &'a SamplingPlanes, facts: &etendue_io::Provenance) -> exr::ExrImage<'a> {
     let SamplingPlanes { samples, monte_carlo, sensor } = sampling;
     let variances = [("monte_carlo_variance", monte_carlo), ("sensor_variance", sensor)];
     let variances =
         variances.into_iter().filter_map(|(name, plane)| Some((name, Layer::Float(plane.as_ref()?.samples()))));
     let layers: Vec<_> = [("samples", Layer::Uint(samples.samples()))].into_iter().chain(variances).collect();
     let layers: Vec<_> = layers.into_iter().map(|(name, layer)| (name.to_owned(), layer)).collect();
-    encode_layers(samples.width(), samples.height(), &layers, facts)
+    layers_image(samples.width(), samples.height(), &layers, facts)
 }
 
-fn encoded_rays(table: &RayTable, facts: &etendue_io::Provenance) -> Result<Vec<u8>, exr::EncodeError> {
-    encode_rays(&table.origin, &table.direction, &table.ray, table.path.as_ref(), facts)
+fn image_of_rays<'a>(table: &'a RayTable, facts: &etendue_io::Provenance) -> exr::ExrImage<'a> {
+    rays_image(&table.origin, &table.direction, &table.ray, table.path.as_ref(), facts)
 }
 
 fn planes(truth: &GroundTruth) -> exr::GroundTruth<'_> {

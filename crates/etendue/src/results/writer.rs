@@ -1,7 +1,8 @@
 //! Where the files of one camera go.
 
 use crate::error::Error;
-use etendue_io::exr::{EncodeError, encode_spectral};
+use etendue_core::quantity::Irradiance;
+use etendue_io::exr::{EncodeError, ExrImage, SpectralBands, spectral_image};
 use etendue_io::{OutputFolder, Provenance, sidecar};
 use etendue_pipeline::photograph::Light;
 use rayon::prelude::*;
@@ -30,6 +31,11 @@ impl ResultWriter<'_> {
         self.folder.write(&name, &bytes).map_err(Error::run)
     }
 
+    /// Writes an EXR file, some rows at a time.
+    pub(crate) fn exr(&mut self, name: &str, image: ExrImage<'_>) -> Result<(), Error> {
+        write_exr(self.folder, &format!("{}/{name}", self.prefix), image)
+    }
+
     /// Writes files in their order, encoded side by side on the caller's thread pool.
     pub(crate) fn write_together(&mut self, files: Vec<(String, Encoder<'_>)>) -> Result<(), Error> {
         let encoded: Vec<_> = files.into_par_iter().map(|(name, encode)| (name, encode())).collect();
@@ -52,12 +58,29 @@ impl ResultWriter<'_> {
     ) -> Result<(), Error> {
         let Some(cube) = &light.irradiance else { return Ok(()) };
         let variance = light.irradiance_variance.as_ref().filter(|_| variance);
-        self.write(name, encode_spectral(cube, variance, facts))
+        self.exr(name, spectral_image::<Irradiance>(SpectralBands::of_kept(cube, variance), facts))
     }
 
     /// Writes the part of the irradiance that is ghosts.
     pub(crate) fn ghosts(&mut self, name: &str, light: &Light, facts: &Provenance) -> Result<(), Error> {
         let Some(cube) = &light.ghosts else { return Ok(()) };
-        self.write(name, encode_spectral(cube, None, facts))
+        self.exr(name, spectral_image::<Irradiance>(SpectralBands::of_kept(cube, None), facts))
+    }
+}
+
+/// Writes an EXR file into a folder, some rows at a time.
+pub(crate) fn write_exr(folder: &mut OutputFolder, name: &str, image: ExrImage<'_>) -> Result<(), Error> {
+    let mut failure = None;
+    let written = folder.write_with(name, |file| {
+        image.write_to(file).map_err(|cause| {
+            let told = std::io::Error::other(cause.to_string());
+            failure = Some(cause);
+            told
+        })
+    });
+    match failure {
+        // The folder says which file.
+        Some(EncodeError::Write(_)) | None => written.map_err(Error::run),
+        Some(cause) => Err(Error::Run(format!("{name}: {cause}"))),
     }
 }

@@ -1,12 +1,20 @@
 //! Channels and facts to the bytes of an EXR file.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::fmt::{Debug, Formatter};
+use std::io::{Cursor, Seek, Write};
 
+use ::exr::block;
+use ::exr::image::write::layers::WritableLayers;
+use ::exr::meta::Headers;
 use ::exr::meta::attribute::AttributeValue;
-use ::exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text};
+use ::exr::prelude::{AnyChannel, AnyChannels, Encoding, Image, Layer, LayerAttributes, Text};
 use ::exr::prelude::{Blocks, Compression, LineOrder};
 
+use super::channel::{Channel, ImageRows, Strips};
 use super::compress::compress;
+use super::head::HeadReplaced;
 use crate::Provenance;
 
 /// Why values cannot become an EXR or PNG file.
@@ -42,26 +50,41 @@ pub enum EncodeError {
     /// A text outside Latin-1, or a name longer than 31 bytes, which EXR headers do not hold.
     #[error("`{0}` cannot stand in an EXR header: texts are Latin-1 without NUL, attribute names at most 31 bytes")]
     Text(String),
+    /// Samples that are kept on the disk cannot be read.
+    #[error("{0}")]
+    Read(String),
+    /// The file cannot be written.
+    #[error("{0}")]
+    Write(String),
     /// The encoder refused.
     #[error("the encoder failed: {0}")]
     Encoder(String),
 }
 
-/// A picture to be stored.
-pub(crate) struct ExrImage {
-    pub(crate) width: usize,
-    pub(crate) height: usize,
-    pub(crate) channels: Vec<(String, FlatSamples)>,
+/// A picture to be stored: what it states, and where its samples come from.
+pub struct ExrImage<'a> {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) channels: Vec<(String, Channel<'a>)>,
+    pub(super) strips: Option<Box<dyn Strips + 'a>>,
     /// Header attributes, all texts: readers in use pass over attributes of 64-bit floats (OpenEXR 3.5 for Python).
     pub(crate) facts: BTreeMap<String, String>,
     /// Luminance of R = G = B = 1, cd/m², where R, G, B are photometric.
     pub(crate) white_luminance: Option<f32>,
 }
 
-impl ExrImage {
+impl Debug for ExrImage<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let names: Vec<&str> = self.channels.iter().map(|(name, _)| name.as_str()).collect();
+        f.debug_struct("ExrImage").field("size", &(self.width, self.height)).field("channels", &names).finish()
+    }
+}
+
+impl<'a> ExrImage<'a> {
     /// A picture without channels that carries `provenance` as `etendue:…` facts.
     pub(crate) fn new(width: usize, height: usize, provenance: &Provenance) -> Self {
-        let mut image = Self { width, height, channels: Vec::new(), facts: BTreeMap::new(), white_luminance: None };
+        let (facts, white_luminance) = (BTreeMap::new(), None);
+        let mut image = Self { width, height, channels: Vec::new(), strips: None, facts, white_luminance };
         for (name, text) in provenance.texts() {
             image.state(&name, text);
         }
@@ -74,29 +97,56 @@ impl ExrImage {
     }
 
     /// Adds a plane of floats.
-    pub(crate) fn float(&mut self, name: impl Into<String>, samples: Vec<f32>) {
-        self.channels.push((name.into(), FlatSamples::F32(samples)));
+    pub(crate) fn float(&mut self, name: impl Into<String>, samples: impl Into<Cow<'a, [f32]>>) {
+        self.add(name, Channel::Float(samples.into()));
     }
 
     /// Adds a plane of unsigned integers.
-    pub(crate) fn uint(&mut self, name: impl Into<String>, samples: Vec<u32>) {
-        self.channels.push((name.into(), FlatSamples::U32(samples)));
+    pub(crate) fn uint(&mut self, name: impl Into<String>, samples: impl Into<Cow<'a, [u32]>>) {
+        self.add(name, Channel::Uint(samples.into()));
+    }
+
+    /// Adds a channel.
+    pub(super) fn add(&mut self, name: impl Into<String>, channel: Channel<'a>) {
+        self.channels.push((name.into(), channel));
     }
 
     /// The bytes of the file. Runs on the caller's thread pool.
-    pub(crate) fn into_bytes(self) -> Result<Vec<u8>, EncodeError> {
+    ///
+    /// # Errors
+    /// Where the picture cannot be stored.
+    pub fn into_bytes(self) -> Result<Vec<u8>, EncodeError> {
+        let mut bytes = Cursor::new(Vec::new());
+        self.write_to(&mut bytes)?;
+        Ok(bytes.into_inner())
+    }
+
+    /// Writes the same bytes, some rows at a time. Runs on the caller's thread pool.
+    ///
+    /// # Errors
+    /// Where the picture cannot be stored, its samples cannot be read, or `sink` fails.
+    pub fn write_to(mut self, sink: impl Write + Seek) -> Result<(), EncodeError> {
         self.check()?;
         let mut attributes = LayerAttributes { white_luminance: self.white_luminance, ..LayerAttributes::default() };
         for (name, fact) in &self.facts {
             attributes.other.insert(header_name(name)?, AttributeValue::Text(text(fact)?));
         }
-        let channels = self.channels.into_iter().map(|(name, samples)| Ok(AnyChannel::new(text(&name)?, samples)));
-        let channels = AnyChannels::sort(channels.collect::<Result<_, EncodeError>>()?);
-        let layer = Layer::new((self.width, self.height), attributes, ENCODING, channels);
-        let file = compress(&Image::from_layer(layer));
-        let mut bytes = file.map_err(|cause| EncodeError::Encoder(cause.to_string()))?;
-        sort_header(&mut bytes).ok_or_else(|| EncodeError::Encoder("the header cannot be followed".to_owned()))?;
-        Ok(bytes)
+        let mut named = Vec::with_capacity(self.channels.len());
+        for (name, channel) in std::mem::take(&mut self.channels) {
+            named.push((text(&name)?, channel));
+        }
+        named.sort_by(|(a, _), (b, _)| a.cmp(b));
+        let described = named.iter().map(|(name, channel)| AnyChannel::new(name.clone(), channel.described()));
+        let described = AnyChannels::sort(described.collect());
+        let image = Image::from_layer(Layer::new((self.width, self.height), attributes, ENCODING, described));
+        let rows = ImageRows {
+            width: self.width,
+            channels: named.into_iter().map(|(_, channel)| channel).collect(),
+            strips: self.strips,
+        };
+        let headers = image.layer_data.infer_headers(&image.attributes);
+        let head = sorted_head(&headers)?;
+        compress(headers, &rows, HeadReplaced::new(sink, head))
     }
 
     fn check(&self) -> Result<(), EncodeError> {
@@ -108,15 +158,18 @@ impl ExrImage {
             return Err(EncodeError::NoChannels);
         }
         let expected = width * height;
-        match self.channels.iter().find(|(_, samples)| samples.len() != expected) {
-            Some((name, samples)) => Err(EncodeError::Size { name: name.clone(), found: samples.len(), expected }),
+        let wrong = |(name, channel): &(String, Channel<'_>)| {
+            channel.len().filter(|found| *found != expected).map(|found| (name.clone(), found))
+        };
+        match self.channels.iter().find_map(wrong) {
+            Some((name, found)) => Err(EncodeError::Size { name, found, expected }),
             None => Ok(()),
         }
     }
 }
 
 /// The one encoding we write.
-const ENCODING: Encoding =
+pub(super) const ENCODING: Encoding =
     Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
 
 fn text(string: &str) -> Result<Text, EncodeError> {
@@ -129,10 +182,23 @@ fn header_name(name: &str) -> Result<Text, EncodeError> {
     if name.len() > 31 { Err(EncodeError::Text(name.to_owned())) } else { text(name) }
 }
 
-/// Sorts the header's records by name in place. The encoder writes custom attributes in the random order of a hash map;
-/// the sum of their lengths does not change, so the offsets that follow stay valid. `None` where the bytes are no
-/// single-part header.
-fn sort_header(bytes: &mut [u8]) -> Option<()> {
+/// The head of a file up to the end of its header, the header's records sorted by name. The encoder writes custom attributes in the random order
+/// of a hash map; the sum of their lengths does not change, so the offsets that follow stay valid.
+fn sorted_head(headers: &Headers) -> Result<Vec<u8>, EncodeError> {
+    let mut bytes = Cursor::new(Vec::new());
+    match block::write(&mut bytes, headers.clone(), true, |_, _| Err(::exr::error::Error::Aborted)) {
+        Ok(()) | Err(::exr::error::Error::Aborted) => {}
+        Err(cause) => return Err(EncodeError::Encoder(cause.to_string())),
+    }
+    let mut bytes = bytes.into_inner();
+    let length = sort_header(&mut bytes);
+    let length = length.ok_or_else(|| EncodeError::Encoder("the header cannot be followed".to_owned()))?;
+    bytes.truncate(length);
+    Ok(bytes)
+}
+
+/// Sorts the header's records by name in place; answers with where they end. `None` where the bytes are no single-part header.
+fn sort_header(bytes: &mut [u8]) -> Option<usize> {
     const START: usize = 8; // magic number and version
     let mut records: Vec<&[u8]> = Vec::new();
     let mut rest = bytes.get(START..)?;
@@ -144,7 +210,7 @@ fn sort_header(bytes: &mut [u8]) -> Option<()> {
     records.sort_by_key(|record| record.split(|&b| b == 0).next());
     let sorted = records.concat();
     bytes[START..START + sorted.len()].copy_from_slice(&sorted);
-    Some(())
+    Some(START + sorted.len())
 }
 
 /// Length of the record at the head of `bytes`: name, NUL, type, NUL, length as little-endian i32, value.
@@ -160,7 +226,7 @@ fn record_length(bytes: &[u8]) -> Option<usize> {
 mod tests {
     use super::*;
 
-    fn image() -> ExrImage {
+    fn image() -> ExrImage<'static> {
         let mut image = ExrImage::new(3, 2, &Provenance::default());
         image.float("Y", vec![0.5; 6]);
         image

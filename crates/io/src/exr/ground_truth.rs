@@ -2,9 +2,12 @@
 //!
 //! Lengths and positions are in metres; the sky is at +∞; identity 0 is the background.
 
+use std::ops::Range;
+
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Length, Vector};
 
+use super::channel::{Channel, Samples, Strips};
 use super::encode::{EncodeError, ExrImage};
 use crate::Provenance;
 
@@ -34,35 +37,86 @@ pub struct GroundTruth<'a> {
 }
 
 /// The planes of `truth` in one file.
+///
+/// # Errors
+/// Where there is no plane, or planes have different sizes.
 pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> Result<Vec<u8>, EncodeError> {
     let (width, height) = truth.size().ok_or(EncodeError::NoChannels)?;
     let mut image = ExrImage::new(width, height, provenance);
-    for (name, plane) in [("depth.Z", truth.depth), ("distance.Z", truth.distance)] {
-        if let Some(plane) = plane {
-            image.float(name, plane.samples().to_vec());
+    for (name, layer) in truth.layers() {
+        match layer {
+            Layer::Float(samples) => image.float(name, samples),
+            Layer::Component(vectors, axis) => image.add(name, Channel::Component(vectors, axis)),
+            Layer::Uint(samples) => image.uint(name, samples),
         }
     }
-    let vectors = [
-        ("N", truth.normal),
-        ("P", truth.position),
-        ("P_camera", truth.camera_space_position),
-        ("mirror", truth.mirror),
-    ];
-    for (layer, plane) in vectors {
-        if let Some(plane) = plane {
-            add_vector(&mut image, layer, plane);
+    let has_gaps = truth.depth.is_some_and(|depth| depth.samples().iter().any(|z| z.is_nan()));
+    state(&mut image, truth, has_gaps);
+    image.into_bytes()
+}
+
+/// Ground truth that is found some rows at a time.
+pub trait GroundTruthRows: Send + Sync {
+    /// Hands over the planes of some rows, the same planes for all rows.
+    fn rows(&self, rows: Range<usize>, take: &mut dyn FnMut(&GroundTruth<'_>));
+}
+
+/// The same file of `width` × `height` pixels, to be written, of rows that are found when they are. `has_gaps` says whether the depth of some pixel is NaN.
+#[must_use]
+pub fn ground_truth_image<'a>(
+    (width, height): (usize, usize),
+    has_gaps: bool,
+    rows: impl GroundTruthRows + 'a,
+    provenance: &Provenance,
+) -> ExrImage<'a> {
+    let mut image = ExrImage::new(width, height, provenance);
+    rows.rows(0..1, &mut |truth| {
+        for (place, (name, layer)) in truth.layers().into_iter().enumerate() {
+            match layer {
+                Layer::Float(_) | Layer::Component(..) => image.add(name, Channel::StripFloat(place)),
+                Layer::Uint(_) => image.add(name, Channel::StripUint(place)),
+            }
+        }
+        state(&mut image, truth, has_gaps);
+    });
+    image.strips = Some(Box::new(TruthStrips(rows)));
+    image
+}
+
+struct TruthStrips<T>(T);
+
+impl<T: GroundTruthRows> Strips for TruthStrips<T> {
+    fn rows(&self, rows: Range<usize>) -> Result<Vec<Samples>, String> {
+        let mut strips = Vec::new();
+        self.0.rows(rows, &mut |truth| {
+            strips = truth.layers().into_iter().map(|(_, layer)| layer.samples()).collect();
+        });
+        Ok(strips)
+    }
+}
+
+/// The samples of a channel.
+enum Layer<'a> {
+    Float(&'a [f32]),
+    Component(&'a [[f32; 3]], usize),
+    Uint(&'a [u32]),
+}
+
+impl Layer<'_> {
+    fn samples(&self) -> Samples {
+        match self {
+            Self::Float(samples) => Samples::Float(samples.to_vec()),
+            Self::Component(vectors, axis) => Samples::Float(vectors.iter().map(|v| v[*axis]).collect()),
+            Self::Uint(samples) => Samples::Uint(samples.to_vec()),
         }
     }
-    for (layer, plane) in
-        [("instance", truth.instance), ("semantic", truth.semantic), ("material", truth.material), ("ray", truth.ray)]
-    {
-        if let Some(plane) = plane {
-            image.uint(format!("{layer}.ID"), plane.samples().to_vec());
-        }
-    }
+}
+
+/// What the header says of planes.
+fn state(image: &mut ExrImage<'_>, truth: &GroundTruth<'_>, has_gaps: bool) {
     image.state("quantity", "ground truth");
     image.state("units", "depth, distance, P: m; N: 1; ID: identity, 0 is the background");
-    if truth.depth.is_some_and(|depth| depth.samples().iter().any(|z| z.is_nan())) {
+    if has_gaps {
         image.state("depth", "NaN where a pixel has no ray, and where it looks sideways, back or at a mirror: distance.Z is defined there");
     }
     if truth.camera_space_position.is_some() {
@@ -72,10 +126,33 @@ pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> 
         image.state("mirror", "point of the mirror, camera frame (x right, y down, z forward), m; NaN: beside it");
     }
     image.state("sampling", "point sample on the principal ray, never filtered; sky at +inf");
-    image.into_bytes()
 }
 
-impl GroundTruth<'_> {
+impl<'a> GroundTruth<'a> {
+    /// The channels of the planes that there are.
+    fn layers(&self) -> Vec<(String, Layer<'a>)> {
+        let lengths = [("depth.Z", self.depth), ("distance.Z", self.distance)];
+        let lengths =
+            lengths.into_iter().filter_map(|(name, plane)| Some((name.to_owned(), Layer::Float(plane?.samples()))));
+        let vectors = [
+            ("N", self.normal),
+            ("P", self.position),
+            ("P_camera", self.camera_space_position),
+            ("mirror", self.mirror),
+        ];
+        let vectors = vectors.into_iter().filter_map(|(name, plane)| Some((name, plane?)));
+        let components = vectors.flat_map(|(name, plane)| {
+            let component = move |(axis, letter)| (format!("{name}.{letter}"), Layer::Component(plane.samples(), axis));
+            ["X", "Y", "Z"].into_iter().enumerate().map(component)
+        });
+        let identities =
+            [("instance", self.instance), ("semantic", self.semantic), ("material", self.material), ("ray", self.ray)];
+        let identities = identities
+            .into_iter()
+            .filter_map(|(name, plane)| Some((format!("{name}.ID"), Layer::Uint(plane?.samples()))));
+        lengths.chain(components).chain(identities).collect()
+    }
+
     fn size(&self) -> Option<(usize, usize)> {
         let lengths = [self.depth, self.distance].into_iter().flatten().map(|p| (p.width(), p.height()));
         let vectors = [self.normal, self.position, self.camera_space_position]
@@ -90,8 +167,8 @@ impl GroundTruth<'_> {
     }
 }
 
-pub(super) fn add_vector(image: &mut ExrImage, layer: &str, plane: &Plane<Vector>) {
+pub(super) fn add_vector<'a>(image: &mut ExrImage<'a>, layer: &str, plane: &'a Plane<Vector>) {
     for (axis, letter) in ["X", "Y", "Z"].into_iter().enumerate() {
-        image.float(format!("{layer}.{letter}"), plane.samples().iter().map(|v| v[axis]).collect());
+        image.add(format!("{layer}.{letter}"), Channel::Component(plane.samples(), axis));
     }
 }

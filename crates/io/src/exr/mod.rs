@@ -5,6 +5,9 @@
 //! are compressed on the caller's thread pool). 32-bit floats and unsigned integers pass unchanged, NaN and infinities
 //! included.
 //!
+//! A file is made some rows at a time. What may be large is an [`ExrImage`] first, which is written without ever being in memory as a whole, and whose bands
+//! may be on the disk ([`SpectralBands`]).
+//!
 //! | writer | channels |
 //! | --- | --- |
 //! | [`encode_spectral`] | `S0.550,000000nm` …, `variance.S0.550,000000nm` …, preview `R`, `G`, `B` |
@@ -12,13 +15,15 @@
 //! | [`encode_ground_truth`] | `depth.Z`, `distance.Z`, `N.X/Y/Z`, `P.X/Y/Z`, `instance.ID`, `semantic.ID`, `material.ID` |
 //! | [`encode_motion`] | `flow.forward.X/Y`, `visibility.forward.ID`, `scene_flow.forward.X/Y/Z`, the same `.backward.`, `motion_vector.X/Y`, `velocity.X/Y/Z`, `time.T` |
 //! | [`encode_disparity`] | `disparity.X`, `visibility.ID` |
-//! | [`encode_rays`] | `origin.X/Y/Z`, `direction.X/Y/Z`, `ray.ID` |
+//! | [`rays_image`] | `origin.X/Y/Z`, `direction.X/Y/Z`, `ray.ID` |
 //! | [`encode_layers`] | as named |
 //! | [`encode_plane`] | the quantity's name, `variance.` and the quantity's name |
 
+mod channel;
 mod compress;
 mod encode;
 mod ground_truth;
+mod head;
 mod layers;
 mod motion;
 mod name;
@@ -31,15 +36,15 @@ mod spectral_read;
 #[cfg(test)]
 pub(crate) mod tests_support;
 
-pub use encode::EncodeError;
-pub use ground_truth::{GroundTruth, encode_ground_truth};
-pub use layers::{Layer, encode_layers};
+pub use encode::{EncodeError, ExrImage};
+pub use ground_truth::{GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_image};
+pub use layers::{Layer, encode_layers, layers_image};
 pub use motion::{MotionTruth, NeighbourTruth, VISIBILITY, encode_disparity, encode_motion};
 pub use name::{SpectralChannel, Stokes, channel_name, parse_channel_name};
-pub use plane::encode_plane;
-pub use rays::encode_rays;
+pub use plane::{encode_plane, plane_image};
+pub use rays::rays_image;
 pub use read::{ExrChannel, ExrFile, Samples, read_exr, read_exr_within};
-pub use spectral::{Lengths, encode_radiance, encode_spectral};
+pub use spectral::{Lengths, SpectralBands, encode_radiance, encode_spectral, radiance_image, spectral_image};
 pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral};
 
 pub(crate) use preview::linear_srgb;

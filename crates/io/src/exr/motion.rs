@@ -51,7 +51,7 @@ pub fn encode_motion(truth: &MotionTruth<'_>, provenance: &Provenance) -> Result
             add_pair(&mut image, &format!("flow.{direction}"), plane.samples());
         }
         if let Some(plane) = neighbour.visibility {
-            image.uint(format!("visibility.{direction}.ID"), plane.samples().to_vec());
+            image.uint(format!("visibility.{direction}.ID"), plane.samples());
         }
         if let Some(plane) = neighbour.scene_flow {
             add_vector(&mut image, &format!("scene_flow.{direction}"), plane);
@@ -64,7 +64,7 @@ pub fn encode_motion(truth: &MotionTruth<'_>, provenance: &Provenance) -> Result
         add_vector(&mut image, "velocity", plane);
     }
     if let Some(plane) = truth.time {
-        image.float("time.T", plane.samples().to_vec());
+        image.float("time.T", plane.samples());
     }
     image.state("quantity", "ground truth of motion");
     image.state("units", "flow: px; motion_vector: px/s; scene_flow: m, camera frames; velocity: m/s, world; time: s");
@@ -85,8 +85,8 @@ pub fn encode_disparity(
     provenance: &Provenance,
 ) -> Result<Vec<u8>, EncodeError> {
     let mut image = ExrImage::new(disparity.width(), disparity.height(), provenance);
-    image.float("disparity.X", disparity.samples().to_vec());
-    image.uint("visibility.ID", visibility.samples().to_vec());
+    image.float("disparity.X", disparity.samples());
+    image.uint("visibility.ID", visibility.samples());
     image.state("quantity", "disparity");
     image.state("units", "px; the column here minus that in the right camera's picture; NaN: no image there");
     image.state("right_camera", right);
@@ -104,9 +104,9 @@ impl MotionTruth<'_> {
     }
 }
 
-fn add_pair(image: &mut ExrImage, layer: &str, samples: &[[f32; 2]]) {
+fn add_pair(image: &mut ExrImage<'_>, layer: &str, samples: &[[f32; 2]]) {
     for (axis, letter) in ["X", "Y"].into_iter().enumerate() {
-        image.float(format!("{layer}.{letter}"), samples.iter().map(|v| v[axis]).collect());
+        image.float(format!("{layer}.{letter}"), samples.iter().map(|v| v[axis]).collect::<Vec<_>>());
     }
 }
 

@@ -14,13 +14,23 @@ pub fn encode_plane<Q: Quantity<Sample = f32>>(
     variance: Option<&Plane<Variance>>,
     provenance: &Provenance,
 ) -> Result<Vec<u8>, EncodeError> {
+    plane_image(plane, variance, provenance).into_bytes()
+}
+
+/// The same, to be written.
+#[must_use]
+pub fn plane_image<'a, Q: Quantity<Sample = f32>>(
+    plane: &'a Plane<Q>,
+    variance: Option<&'a Plane<Variance>>,
+    provenance: &Provenance,
+) -> ExrImage<'a> {
     let mut image = ExrImage::new(plane.width(), plane.height(), provenance);
     let name = Q::NAME.replace(' ', "_");
     if let Some(variance) = variance {
-        image.float(format!("variance.{name}"), variance.samples().to_vec());
+        image.float(format!("variance.{name}"), variance.samples());
     }
-    image.float(name, plane.samples().to_vec());
+    image.float(name, plane.samples());
     image.state("quantity", Q::NAME);
     image.state("units", Q::UNIT);
-    image.into_bytes()
+    image
 }

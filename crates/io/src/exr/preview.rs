@@ -1,18 +1,29 @@
 //! The colour preview of a spectral image.
 
-use etendue_core::SpectralCube;
 use etendue_core::quantity::Quantity;
+use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_spectra::colour::linear_srgb_from_xyz;
 use etendue_spectra::observer::xyz_weights;
 
 /// Linear sRGB planes of `cube`, (1, 1, 1) at a luminance of 1 cd/m² (1 lx for irradiance). Components may be negative:
 /// spectral colours lie outside sRGB. Bands outside the visible add nothing.
 pub(crate) fn linear_srgb<Q: Quantity<Sample = f32>>(cube: &SpectralCube<Q>) -> [Vec<f32>; 3] {
-    let weights: Vec<[f64; 3]> = xyz_weights(cube.bands()).into_iter().map(linear_srgb_from_xyz).collect();
+    let planes: Vec<&[f32]> = cube.planes().iter().map(Plane::samples).collect();
+    linear_srgb_of_bands(&planes, &band_weights(cube.bands()))
+}
+
+/// What each band adds to linear sRGB.
+pub(super) fn band_weights(bands: Bands) -> Vec<[f64; 3]> {
+    xyz_weights(bands).into_iter().map(linear_srgb_from_xyz).collect()
+}
+
+/// Linear sRGB of as many pixels as each band has, by the weights of the bands.
+pub(super) fn linear_srgb_of_bands(bands: &[&[f32]], weights: &[[f64; 3]]) -> [Vec<f32>; 3] {
+    let pixels = bands.first().map_or(0, |band| band.len());
     std::array::from_fn(|channel| {
-        let mut sums = vec![0.0_f64; cube.width() * cube.height()];
-        for (plane, weight) in cube.planes().iter().zip(&weights) {
-            for (sum, mean) in sums.iter_mut().zip(plane.samples()) {
+        let mut sums = vec![0.0_f64; pixels];
+        for (band, weight) in bands.iter().zip(weights) {
+            for (sum, mean) in sums.iter_mut().zip(*band) {
                 *sum += weight[channel] * f64::from(*mean);
             }
         }
@@ -29,7 +40,6 @@ fn single(value: f64) -> f32 {
 mod tests {
     use super::*;
     use etendue_core::quantity::Radiance;
-    use etendue_core::{Bands, Plane};
     use etendue_spectra::{illuminant, observer};
 
     #[test]

@@ -37,7 +37,7 @@ impl TileCache {
     /// temporary files.
     #[must_use]
     pub fn new(folder: Option<&Path>) -> Self {
-        Self { folder: folder.map_or_else(of_user, Path::to_path_buf) }
+        Self { folder: folder.map_or_else(folder_of_user, Path::to_path_buf) }
     }
 
     /// Where the blocks of a key are.
@@ -69,7 +69,7 @@ impl BlockStore for TileCache {
 }
 
 /// The user's folder for what can be made again (XDG Base Directory Specification 0.8: relative paths count as none).
-fn of_user() -> PathBuf {
+pub(crate) fn folder_of_user() -> PathBuf {
     let absolute = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let cache = absolute("XDG_CACHE_HOME").or_else(|| absolute("HOME").map(|home| home.join(".cache")));
     cache.unwrap_or_else(std::env::temp_dir).join("etendue")

@@ -28,11 +28,12 @@ pub(super) fn demosaic(samples: &[f32], width: usize, tile: &Tile) -> Vec<[f32; 
         }
     });
     // Mirrored greens are the greens of the mirrored picture: the method is symmetric.
-    let green = Padded::new(&green, width, MARGIN);
+    let padded = Padded::new(&green, width, MARGIN);
+    drop(green);
     let mut plane = vec![[0.0; 3]; samples.len()];
     plane.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
         let around =
-            Around { mosaic: [-1, 0, 1].map(|dy| mosaic.row(y, dy)), green: [-1, 0, 1].map(|dy| green.row(y, dy)) };
+            Around { mosaic: [-1, 0, 1].map(|dy| mosaic.row(y, dy)), green: [-1, 0, 1].map(|dy| padded.row(y, dy)) };
         for (x, rgb) in out.iter_mut().enumerate() {
             *rgb = around.colours(x + MARGIN, tile.at(x, y), tile.at(x + 1, y));
         }

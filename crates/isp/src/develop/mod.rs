@@ -82,7 +82,7 @@ pub fn develop(
     shade(&mut samples, raw, processing);
     let gains = gains(&samples, raw, processing.colour.as_ref());
     balance(&mut samples, width, raw.mosaic, &gains, processing.ceiling());
-    let linear = Plane::from_samples(width, raw.plane.height(), colours(&samples, width, raw.mosaic, processing));
+    let linear = Plane::from_samples(width, raw.plane.height(), colours(samples, width, raw.mosaic, processing));
     let mut linear = linear.expect("as many colours as samples");
     paper::apply_linear(&processing.image_filters, &mut linear, address);
     let display = processing.displayed(&linear, address);
@@ -122,11 +122,11 @@ fn balance(samples: &mut [f32], width: usize, mosaic: &Mosaic, gains: &[f64], ce
 }
 
 /// Linear sRGB of balanced samples.
-fn colours(samples: &[f32], width: usize, mosaic: &Mosaic, processing: &Processing) -> Vec<[f32; 3]> {
+fn colours(samples: Vec<f32>, width: usize, mosaic: &Mosaic, processing: &Processing) -> Vec<[f32; 3]> {
     match mosaic {
         Mosaic::Mono => {
             let grey = ColourMatrix::new([vec![1.0], vec![1.0], vec![1.0]]).expect("a column");
-            let lone: Vec<[f32; 1]> = samples.par_iter().map(|v| [*v]).collect();
+            let lone: Vec<[f32; 1]> = samples.into_par_iter().map(|v| [v]).collect();
             finished(lone, width, &grey, processing)
         }
         Mosaic::Tile(tile) => match tile.filters().len() {
@@ -137,9 +137,17 @@ fn colours(samples: &[f32], width: usize, mosaic: &Mosaic, processing: &Processi
     }
 }
 
-fn interpolated<const N: usize>(samples: &[f32], width: usize, tile: &Tile, processing: &Processing) -> Vec<[f32; 3]> {
+fn interpolated<const N: usize>(
+    samples: Vec<f32>,
+    width: usize,
+    tile: &Tile,
+    processing: &Processing,
+) -> Vec<[f32; 3]> {
     let colour = processing.colour.as_ref().expect("checked: a tile has colour settings");
-    finished(processing.demosaic.apply::<N>(samples, width, tile), width, &colour.matrix, processing)
+    let picture = processing.demosaic.apply::<N>(&samples, width, tile);
+    // A large picture's samples are no longer needed where its colours take three times their memory.
+    drop(samples);
+    finished(picture, width, &colour.matrix, processing)
 }
 
 /// Noise reduction, colour matrix and digital gain.

@@ -11,9 +11,10 @@ use super::radial::RadialEtendue;
 use crate::error::OpticsError;
 use crate::lens::Lens;
 use etendue_core::plane::{Plane, SpectralCube};
-use etendue_core::quantity::{Irradiance, Radiance};
+use etendue_core::quantity::{Irradiance, Quantity, Radiance};
 use etendue_projection::Raster;
 use glam::DVec2;
+use rayon::prelude::*;
 
 /// Irradiance on the sensor of a radiance image that already is in the sensor's raster.
 ///
@@ -49,9 +50,59 @@ pub fn irradiance(
     Ok(result)
 }
 
+/// The same for one band at a time, with the memory of that band alone: the étendue is found anew for each, row by row on the caller's threads.
+#[derive(Debug)]
+pub struct BandEtendue<'a> {
+    lens: &'a Lens,
+    raster: &'a Raster,
+    /// Of a prescription.
+    table: Option<RadialEtendue>,
+}
+
+impl<'a> BandEtendue<'a> {
+    /// The étendue of a lens at the pixels of a raster.
+    #[must_use]
+    pub fn new(lens: &'a Lens, raster: &'a Raster) -> Self {
+        let table = match lens {
+            Lens::Prescription(prescribed) => Some(RadialEtendue::new(prescribed, raster.max_radius_mm())),
+            _ => None,
+        };
+        Self { lens, raster, table }
+    }
+
+    /// Irradiance of the band about `centre_nm` of a radiance in the raster: the numbers that [`irradiance`] has.
+    ///
+    /// # Errors
+    /// Where the plane's size is not the raster's.
+    pub fn irradiance(&self, radiance: &Plane<Radiance>, centre_nm: f64) -> Result<Plane<Irradiance>, OpticsError> {
+        let (width, height) = (self.raster.width(), self.raster.height());
+        check_plane(radiance, width, height)?;
+        let mut result = Plane::new(width, height);
+        let of_band = match (self.lens, &self.table) {
+            (Lens::Prescription(lens), Some(table)) if lens.disperses() => Some(table.at_wavelength(lens, centre_nm)),
+            _ => None,
+        };
+        let table = of_band.as_ref().or(self.table.as_ref());
+        let rows = result.samples_mut().par_chunks_exact_mut(width).zip(radiance.samples().par_chunks_exact(width));
+        rows.enumerate().for_each(|(y, (to, from))| {
+            let centre = |x: usize| self.raster.sensor_mm(DVec2::new(x as f64 + 0.5, y as f64 + 0.5));
+            let etendue: Vec<f64> = match table {
+                Some(table) => table.at_radii(&(0..width).map(|x| centre(x).length()).collect::<Vec<_>>()),
+                None => (0..width).map(|x| self.lens.projected_solid_angle_sr(centre(x))).collect(),
+            };
+            times_samples(from, &etendue, to);
+        });
+        Ok(result)
+    }
+}
+
 fn times(radiance: &Plane<Radiance>, projected_solid_angle_sr: &[f64], irradiance: &mut Plane<Irradiance>) {
-    let pixels = radiance.samples().iter().zip(projected_solid_angle_sr);
-    for (e, (l, sr)) in irradiance.samples_mut().iter_mut().zip(pixels) {
+    times_samples(radiance.samples(), projected_solid_angle_sr, irradiance.samples_mut());
+}
+
+fn times_samples(radiance: &[f32], projected_solid_angle_sr: &[f64], irradiance: &mut [f32]) {
+    let pixels = radiance.iter().zip(projected_solid_angle_sr);
+    for (e, (l, sr)) in irradiance.iter_mut().zip(pixels) {
         *e = (f64::from(*l) * sr) as f32;
     }
 }
@@ -64,7 +115,12 @@ fn over_pixels(raster: &Raster, of: impl Fn(DVec2) -> f64) -> Vec<f64> {
 
 /// Refuses a cube that is not of the stated size.
 pub(super) fn check_size(cube: &SpectralCube<Radiance>, width: usize, height: usize) -> Result<(), OpticsError> {
-    let (got_width, got_height) = (cube.width(), cube.height());
+    cube.planes().iter().try_for_each(|plane| check_plane(plane, width, height))
+}
+
+/// Refuses a plane that is not of the stated size.
+pub(super) fn check_plane<Q: Quantity>(plane: &Plane<Q>, width: usize, height: usize) -> Result<(), OpticsError> {
+    let (got_width, got_height) = (plane.width(), plane.height());
     if (got_width, got_height) == (width, height) {
         return Ok(());
     }

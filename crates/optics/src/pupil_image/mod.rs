@@ -22,7 +22,7 @@ mod survey;
 mod view;
 
 pub use cube::{Cube, Window};
-pub use irradiance::irradiance;
+pub use irradiance::{BandEtendue, irradiance};
 pub use projection::{PupilProjection, WIDEST_RECTILINEAR_RAD};
 pub use resample::Resampling;
 pub use view::{Face, View};

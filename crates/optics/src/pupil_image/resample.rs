@@ -16,7 +16,7 @@
 
 use super::aim::Aim;
 use super::covering::serves;
-use super::irradiance::check_size;
+use super::irradiance::{check_plane, check_size};
 use super::projection::PupilProjection;
 use super::survey::{REACH, Survey};
 use super::view::{Face, View};
@@ -95,15 +95,32 @@ impl<'a> Resampling<'a> {
     /// Where the image's size is not that of its geometry, or directions are missing after all.
     pub fn apply(&self, radiance: &SpectralCube<Radiance>) -> Result<SpectralCube<Radiance>, OpticsError> {
         check_size(radiance, self.stored.width(), self.stored.height())?;
-        let mut result = SpectralCube::new(self.raster.width(), self.raster.height(), radiance.bands());
+        let bands = radiance.bands();
+        let planes = self.apply_to_bands(radiance.planes(), |i| bands.centre_nm(i))?;
+        Ok(SpectralCube::from_planes(bands, planes).expect("a plane a band, all of the raster's size"))
+    }
+
+    /// Some bands of a radiance image in the raster of the picture, each of the wavelength in its middle, nm: the numbers that
+    /// [`apply`](Self::apply) has.
+    ///
+    /// # Errors
+    /// Where a band's size is not that of the geometry, or directions are missing after all.
+    pub fn apply_to_bands(
+        &self,
+        radiance: &[Plane<Radiance>],
+        centre_nm: impl Fn(usize) -> f64,
+    ) -> Result<Vec<Plane<Radiance>>, OpticsError> {
+        radiance.iter().try_for_each(|band| check_plane(band, self.stored.width(), self.stored.height()))?;
+        let empty = |_: &Plane<Radiance>| Plane::new(self.raster.width(), self.raster.height());
+        let mut result: Vec<Plane<Radiance>> = radiance.iter().map(empty).collect();
         let reach_mm = self.raster.max_radius_mm() * REACH;
         if !self.lens.spreads_colours() {
             let aim = Aim::principal(self.lens, reach_mm);
-            self.apply_to(&aim, radiance.planes(), result.planes_mut())?;
+            self.apply_to(&aim, radiance, &mut result)?;
             return Ok(result);
         }
-        for (i, (from, to)) in radiance.planes().iter().zip(result.planes_mut()).enumerate() {
-            let aim = Aim::new(self.lens, reach_mm, radiance.bands().centre_nm(i));
+        for (i, (from, to)) in radiance.iter().zip(&mut result).enumerate() {
+            let aim = Aim::new(self.lens, reach_mm, centre_nm(i));
             self.apply_to(&aim, core::slice::from_ref(from), core::slice::from_mut(to))?;
         }
         Ok(result)
@@ -115,11 +132,7 @@ impl<'a> Resampling<'a> {
     /// # Errors
     /// Where the plane's size is not that of the geometry.
     pub fn nearest<Q: Quantity>(&self, plane: &Plane<Q>, nothing: Q::Sample) -> Result<Plane<Q>, OpticsError> {
-        let (got_width, got_height) = (plane.width(), plane.height());
-        let (width, height) = (self.stored.width(), self.stored.height());
-        if (got_width, got_height) != (width, height) {
-            return Err(OpticsError::Size { got_width, got_height, width, height });
-        }
+        check_plane(plane, self.stored.width(), self.stored.height())?;
         let aim = Aim::principal(self.lens, self.raster.max_radius_mm() * REACH);
         let mut result = Plane::filled(self.raster.width(), self.raster.height(), nothing);
         for y in 0..self.raster.height() {

@@ -2,7 +2,7 @@
 
 use crate::plan::CameraBody;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
-use etendue_core::{Plane, SpectralCube};
+use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_optics::effects::Prepared;
 use etendue_optics::{Lens, ghosts};
 use rayon::prelude::*;
@@ -28,7 +28,10 @@ pub(crate) fn behind(
     let ghosts = ghosts(body, &film);
     let bands = film.bands();
     let prepared = body.effects.prepared(&body.raster, (bands.low_nm(), bands.high_nm()));
-    let of_band = |band: usize| of_band(&prepared, band, &film, variance.as_ref());
+    let of_band = |band: usize| {
+        let variance = variance.as_ref().map(|cube| &cube.planes()[band]);
+        of_band(&prepared, (bands, band), &film.planes()[band], variance)
+    };
     let (means, variances): (Vec<_>, Vec<_>) = (0..film.planes().len()).into_par_iter().map(of_band).unzip();
     let mut irradiance = SpectralCube::from_planes(bands, means).expect("planes of one picture");
     if let Some(ghosts) = &ghosts {
@@ -54,15 +57,15 @@ fn add(sum: &mut Plane<Irradiance>, plane: &Plane<Irradiance>) {
     sum.samples_mut().iter_mut().zip(plane.samples()).for_each(|(sum, value)| *sum += value);
 }
 
-fn of_band(
+/// What effects leave of a band and its variance.
+pub(crate) fn of_band(
     prepared: &Prepared,
-    band: usize,
-    film: &SpectralCube<Irradiance>,
-    variance: Option<&SpectralCube<Variance>>,
+    (bands, band): (Bands, usize),
+    film: &Plane<Irradiance>,
+    variance: Option<&Plane<Variance>>,
 ) -> (Plane<Irradiance>, Option<Plane<Variance>>) {
-    let bands = film.bands();
     let low_nm = bands.low_nm() + band as f64 * bands.width_nm();
-    prepared.apply((low_nm, low_nm + bands.width_nm()), &film.planes()[band], variance.map(|cube| &cube.planes()[band]))
+    prepared.apply((low_nm, low_nm + bands.width_nm()), film, variance)
 }
 
 /// The picture of a film, without its margin.

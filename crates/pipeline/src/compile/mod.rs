@@ -157,6 +157,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         classes,
         remarks,
         notices,
+        film_limit: None,
         hash,
         described,
         passes,

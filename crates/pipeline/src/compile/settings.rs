@@ -3,8 +3,8 @@
 use super::context::Context;
 use super::samples::{Samples, has_variance, samples};
 use super::{Choices, Quality};
+use crate::camera::behind_lens::front_on_picture;
 use crate::camera::defocus::{margin_px, whole_margin_px};
-use crate::camera::photograph::front_on_picture;
 use crate::camera::raw_colour::RawColour;
 use crate::camera::rectified::RectifiedCamera;
 use crate::plan::{CameraBody, Passes, Products, RawFormat, Route, Settings, WavelengthSampling};

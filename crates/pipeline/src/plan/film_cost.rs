@@ -8,6 +8,7 @@
 
 use super::path_cost::PATH_CPU_S;
 use crate::camera::defocus::{margin_px, whole_margin_px};
+use crate::camera::disk_light::needs_irradiance;
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
 use crate::render::weather_layers;
 use etendue_core::Bands;
@@ -71,7 +72,7 @@ pub(crate) fn shares(plan: &Plan, camera: &CameraPlan) -> Vec<Share> {
         share(Effect::PointSpread.name(), point_spread(camera)),
         share(Effect::Glare.name(), glare(camera)),
         Share { name: Effect::Ghosts.name(), cpu_s: ghosts_s, holds_for },
-        share("the lens on the picture", at_pupil(camera)),
+        share("the lens on the picture", if is_made(plan, camera) { at_pupil(camera) } else { 0.0 }),
         share("ground truth", truth(camera)),
         share("spectral files", files(camera)),
         share("layers of weather", weather(camera)),
@@ -129,6 +130,11 @@ fn is_seen(camera: &CameraPlan, sun: &Sun) -> bool {
     let direction = camera.path.at(camera.timing.frame_start_s(0)).rotation.transpose() * sun.direction().as_dvec3();
     let at_px = camera.body.lens.project(direction).map(|mm| film.raster_px(mm));
     at_px.is_some_and(|px| px.cmpge(DVec2::ZERO).all() && px.x < film.width() as f64 && px.y < film.height() as f64)
+}
+
+/// Whether the lens is put on the picture: not where the film is on the disk and nothing is delivered that it is needed for.
+fn is_made(plan: &Plan, camera: &CameraPlan) -> bool {
+    plan.scratch(camera).is_none() || needs_irradiance(camera)
 }
 
 /// On the route at the pupil: resampling, and depth of field.

@@ -4,9 +4,7 @@
 
 use super::film_cost::{self, Share};
 use super::path_cost::path_cpu_s;
-use crate::plan::{CameraPlan, Plan};
-use crate::render::film::Film;
-use crate::render::layout;
+use crate::plan::{CameraPlan, FilmBytes, Plan};
 
 /// What a frame of a camera is foretold to take.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,8 +15,8 @@ pub struct FrameCost {
     pub paths_cpu_s: f64,
     /// What is done on the finished film; parts that the camera does not have take no time.
     pub parts: Vec<Share>,
-    /// Memory of the film, bytes.
-    pub film_bytes: f64,
+    /// What the film takes in memory and on the disk.
+    pub film: FilmBytes,
     /// Whether more samples than the fewest may be needed.
     pub is_lower_bound: bool,
 }
@@ -36,7 +34,7 @@ impl FrameCost {
             paths,
             paths_cpu_s: paths * path_cpu_s(camera),
             parts: film_cost::shares(plan, camera),
-            film_bytes: Film::bytes(width as usize, height as usize, &layout(camera)),
+            film: plan.film_bytes(camera),
             is_lower_bound: settings.adaptive.is_some(),
         }
     }

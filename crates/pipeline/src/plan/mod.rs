@@ -5,6 +5,7 @@ mod camera;
 mod development;
 pub mod effects;
 mod film_cost;
+mod film_limit;
 pub(crate) mod fingerprint;
 mod frame_cost;
 mod mount;
@@ -34,6 +35,7 @@ pub use annotations::{Annotations, CorrespondenceFormat, DisparityProduct};
 pub use camera::{CameraBody, CameraPlan, LightOwner};
 pub use development::{Development, PictureFormat};
 pub use film_cost::Share;
+pub use film_limit::{FilmBytes, FilmLimit};
 pub use frame_cost::FrameCost;
 pub use mount::Mount;
 pub(crate) use passes::CameraPasses;
@@ -75,6 +77,8 @@ pub struct Plan {
     pub remarks: Vec<Remark>,
     /// Which keys of the files the command line makes meaningless, in sentences.
     pub notices: Vec<String>,
+    /// How much memory the bands of a film may take; `None`: any.
+    pub film_limit: Option<FilmLimit>,
     /// Hash of all that decides the result: description, assets by content, version.
     pub hash: [u8; 32],
     /// The same without the passes of cameras that have some.

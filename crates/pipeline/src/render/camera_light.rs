@@ -4,7 +4,7 @@ use crate::plan::{CameraBody, CameraPlan, PassAt, Plan, Precipitation, Route, Se
 use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
 use crate::render::gather::Layout;
-use crate::render::light::{Cancelled, RaySource, RenderJob, Sampling};
+use crate::render::light::{GatherError, RaySource, RenderJob, Sampling};
 use crate::render::mosaic::Mosaic;
 use crate::render::near_precipitation::{near, seen_region};
 use crate::render::observer::Observer;
@@ -38,11 +38,22 @@ pub struct Request {
     pub shard: Shard,
     /// Which instruction set the accelerator may use. It does not change the result.
     pub simd: Simd,
+    /// Where the bands are kept. It does not change the result.
+    pub keeping: FilmKeeping,
+}
+
+/// Where the bands of a film are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FilmKeeping {
+    /// In memory, or on the disk where they are larger than the plan allows them.
+    Planned,
+    /// In memory, whatever they take.
+    Memory,
 }
 
 impl Default for Request {
     fn default() -> Self {
-        Self { shot: Shot::default(), shard: Shard::WHOLE, simd: Simd::Auto }
+        Self { shot: Shot::default(), shard: Shard::WHOLE, simd: Simd::Auto, keeping: FilmKeeping::Planned }
     }
 }
 
@@ -50,8 +61,8 @@ impl Default for Request {
 /// route at the pupil) radiance, for which every weight is 1.
 ///
 /// # Errors
-/// [`Cancelled`] where the observer asked to stop.
-pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn Observer) -> Result<Film, Cancelled> {
+/// Where the observer asked to stop, or bands cannot be kept on the disk.
+pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn Observer) -> Result<Film, GatherError> {
     let mut film = pass(plan, camera, request, (camera.pass(0), None), observer)?;
     for number in 1..camera.pass_count() {
         film = pass(plan, camera, request, (camera.pass(number), Some(&film)), observer)?;
@@ -62,14 +73,14 @@ pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn 
 /// One pass of it, joined with what the passes before it gathered.
 ///
 /// # Errors
-/// [`Cancelled`] where the observer asked to stop.
+/// Where the observer asked to stop, or bands cannot be kept on the disk.
 pub fn pass(
     plan: &Plan,
     camera: &CameraPlan,
     request: Request,
     (pass, before): (PassAt, Option<&Film>),
     observer: &dyn Observer,
-) -> Result<Film, Cancelled> {
+) -> Result<Film, GatherError> {
     with_source(camera, request.shot, LightJob { plan, camera, request, pass, before, observer })
 }
 
@@ -106,7 +117,7 @@ struct LightJob<'a> {
 }
 
 impl SourceJob for LightJob<'_> {
-    type Output = Result<Film, Cancelled>;
+    type Output = Result<Film, GatherError>;
 
     fn run<S: RaySource>(self, source: &S) -> Self::Output {
         through(&self, source)
@@ -126,7 +137,7 @@ pub(super) fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -
         .expect("a compiled plan names only materials that it has")
 }
 
-fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, Cancelled> {
+fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, GatherError> {
     let LightJob { plan, camera, request, pass, before, observer } = *job;
     let rows = FilmExposure::of(camera, request.shot);
     let view = plan.world.render_space_with(rows.origin_m(), rows.interval(), request.simd);
@@ -142,7 +153,8 @@ fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, Cancell
     let density = pixel_density(plan, camera);
     let mosaic = camera.summing_sensor().map(|sensor| Mosaic::of(sensor, &density).beyond(margin_px(camera)));
     let job = render_job((camera, rows), request, source, mosaic.as_ref());
-    let job = RenderJob { sampling: Sampling { pass, ..job.sampling }, ..job };
+    let scratch = if request.keeping == FilmKeeping::Memory { None } else { plan.scratch(camera) };
+    let job = RenderJob { sampling: Sampling { pass, ..job.sampling }, scratch, ..job };
     match settings.wavelengths {
         1 => job.gather::<1>(&tracer, before, observer),
         8 => job.gather::<8>(&tracer, before, observer),
@@ -242,6 +254,7 @@ pub(super) fn render_job<'a, S>(
         blocks: settings.blocks,
         tile_px: settings.tile_px,
         shard: request.shard,
+        scratch: None,
     }
 }
 

@@ -1,7 +1,11 @@
 //! The light of a whole frame: f32 means and variances, filled tile by tile by one owner each.
 
+use crate::render::band_views::over;
 use crate::render::gather::{Layout, PixelLight};
 use crate::render::tile::Tile;
+use crate::render::tile_bands::TileBands;
+use crate::render::tiled_cube::TiledCube;
+use etendue_core::kept_cube::BandReader;
 use etendue_core::quantity::{
     ElectronRate, Identity, Irradiance, MeanElectrons, Quantity, Radiance, SolidAngle, Variance, WatchedSignal,
 };
@@ -27,12 +31,23 @@ impl Estimate<ElectronRate> {
     /// Electrons of an exposure, s, and the variance of their mean.
     #[must_use]
     pub fn exposed(&self, exposure_s: f64) -> Estimate<MeanElectrons> {
-        let scaled = |by: f64| move |value: f32| (f64::from(value) * by) as f32;
         Estimate {
-            mean: self.mean.map(scaled(exposure_s)),
-            variance: self.variance.map(scaled(exposure_s * exposure_s)),
+            mean: exposed(self.mean.clone(), exposure_s),
+            variance: exposed(self.variance.clone(), exposure_s * exposure_s),
         }
     }
+}
+
+/// Numbers of a second, in their own memory, by a factor of the exposure.
+pub(crate) fn exposed<Q, R>(plane: Plane<Q>, by: f64) -> Plane<R>
+where
+    Q: Quantity<Sample = f32>,
+    R: Quantity<Sample = f32>,
+{
+    let (width, height) = (plane.width(), plane.height());
+    let mut samples = plane.into_samples();
+    samples.iter_mut().for_each(|value| *value = (f64::from(*value) * by) as f32);
+    Plane::from_samples(width, height, samples).expect("the plane's own samples")
 }
 
 /// A spectral cube of means and their variances.
@@ -44,12 +59,32 @@ pub struct CubeEstimate<Q: Quantity> {
     pub variance: SpectralCube<Variance>,
 }
 
+/// The bands of a film, in memory or on the disk.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FilmCube {
+    /// In memory.
+    Memory(CubeEstimate<Irradiance>),
+    /// In a scratch file.
+    Disk(TiledCube),
+}
+
+impl FilmCube {
+    /// The bands, where they are in memory.
+    #[must_use]
+    pub fn into_memory(self) -> Option<CubeEstimate<Irradiance>> {
+        match self {
+            Self::Memory(cube) => Some(cube),
+            Self::Disk(_) => None,
+        }
+    }
+}
+
 /// The light that one camera gathered.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     /// Spectral irradiance on the sensor plane (through the lens) where a cube is kept. At the pupil, where every
     /// weight is 1, the same numbers are radiance.
-    pub cube: Option<CubeEstimate<Irradiance>>,
+    pub cube: Option<FilmCube>,
     /// Mean weight of the pupil.
     pub weight: Plane<SolidAngle>,
     /// Folded electrons of a second of light.
@@ -65,15 +100,39 @@ pub struct Film {
 }
 
 impl Film {
-    /// An empty film.
+    /// An empty film in memory.
     #[must_use]
     pub fn new(width: usize, height: usize, layout: &Layout, replicates: u32) -> Self {
         let cube = |bands| CubeEstimate {
             mean: SpectralCube::new(width, height, bands),
             variance: SpectralCube::new(width, height, bands),
         };
+        Self::with(layout.bands.map(cube).map(FilmCube::Memory), (width, height), layout, replicates)
+    }
+
+    /// An empty film whose bands are on the disk.
+    #[must_use]
+    pub fn on_disk(cube: TiledCube, layout: &Layout, replicates: u32) -> Self {
+        let size = cube.size();
+        Self::with(Some(FilmCube::Disk(cube)), size, layout, replicates)
+    }
+
+    /// The same film, but for its bands, which are those of `cube`.
+    pub(super) fn planes_beside(&self, cube: TiledCube) -> Self {
         Self {
-            cube: layout.bands.map(cube),
+            cube: Some(FilmCube::Disk(cube)),
+            weight: self.weight.clone(),
+            electron_rate: self.electron_rate.clone(),
+            watched: self.watched.clone(),
+            samples: self.samples.clone(),
+            not_finite: self.not_finite.clone(),
+            replicates: self.replicates,
+        }
+    }
+
+    fn with(cube: Option<FilmCube>, (width, height): (usize, usize), layout: &Layout, replicates: u32) -> Self {
+        Self {
+            cube,
             weight: Plane::new(width, height),
             electron_rate: layout.folded.then(|| Estimate::new(width, height)),
             watched: layout.watched.then(|| Estimate::new(width, height)),
@@ -83,19 +142,76 @@ impl Film {
         }
     }
 
-    /// Bytes that a film of this size and layout takes; a float, for a picture too large to be made must not overflow.
+    /// Bytes that a film of this size and layout takes in memory; a float, for a picture too large to be made must not overflow.
     #[must_use]
     pub fn bytes(width: usize, height: usize, layout: &Layout) -> f64 {
-        let planes = 2 * layout.bands.map_or(0, Bands::count)
-            + 2 * (usize::from(layout.folded) + usize::from(layout.watched))
-            + 3;
-        width as f64 * height as f64 * (planes * size_of::<f32>()) as f64
+        Self::cube_bytes(width, height, layout) + Self::bytes_beside_cube(width, height, layout)
     }
 
-    /// Stores the light of one pixel, of which it keeps what it has planes for.
+    /// Bytes of the bands of a film, in memory.
+    #[must_use]
+    pub fn cube_bytes(width: usize, height: usize, layout: &Layout) -> f64 {
+        plane_bytes(width, height) * (2 * layout.bands.map_or(0, Bands::count)) as f64
+    }
+
+    /// Bytes of all else, which always is in memory.
+    #[must_use]
+    pub fn bytes_beside_cube(width: usize, height: usize, layout: &Layout) -> f64 {
+        let planes = 2 * (usize::from(layout.folded) + usize::from(layout.watched)) + 3;
+        plane_bytes(width, height) * planes as f64
+    }
+
+    /// The bands, where they are in memory.
+    #[must_use]
+    pub fn cube(&self) -> Option<&CubeEstimate<Irradiance>> {
+        match &self.cube {
+            Some(FilmCube::Memory(cube)) => Some(cube),
+            Some(FilmCube::Disk(_)) | None => None,
+        }
+    }
+
+    /// The same, to be filled.
+    pub fn cube_mut(&mut self) -> Option<&mut CubeEstimate<Irradiance>> {
+        match &mut self.cube {
+            Some(FilmCube::Memory(cube)) => Some(cube),
+            Some(FilmCube::Disk(_)) | None => None,
+        }
+    }
+
+    /// The bands, where they are on the disk.
+    #[must_use]
+    pub fn disk(&self) -> Option<&TiledCube> {
+        match &self.cube {
+            Some(FilmCube::Disk(cube)) => Some(cube),
+            Some(FilmCube::Memory(_)) | None => None,
+        }
+    }
+
+    /// The wavelength bands, and their means and variances, wherever they are.
+    #[must_use]
+    pub fn bands(&self) -> Option<(Bands, [&dyn BandReader; 2])> {
+        match self.cube.as_ref()? {
+            FilmCube::Memory(cube) => Some((cube.mean.bands(), [&cube.mean, &cube.variance])),
+            FilmCube::Disk(cube) => Some((cube.bands(), [&**cube.mean(), &**cube.variance()])),
+        }
+    }
+
+    /// The bands of a tile of the film's grid, `None` where the film has none.
+    ///
+    /// # Errors
+    /// Where they cannot be read.
+    pub fn tile_bands(&self, tile: Tile) -> Result<Option<TileBands>, String> {
+        match &self.cube {
+            None => Ok(None),
+            Some(FilmCube::Memory(cube)) => Ok(Some(TileBands::of(tile, &cube.mean, &cube.variance))),
+            Some(FilmCube::Disk(cube)) => cube.tile(tile).map(Some),
+        }
+    }
+
+    /// Stores the light of one pixel, of which it keeps what it has planes for in memory.
     pub fn store(&mut self, pixel: Pixel, light: &PixelLight) {
         let (x, y) = (pixel.x as usize, pixel.y as usize);
-        if let Some(cube) = &mut self.cube {
+        if let Some(FilmCube::Memory(cube)) = &mut self.cube {
             for (plane, mean) in cube.mean.planes_mut().iter_mut().zip(light.bands()) {
                 plane.set(x, y, *mean as f32);
             }
@@ -115,17 +231,21 @@ impl Film {
         self.samples.set(x, y, light.samples());
         let means = light.bands().iter().copied().chain(light.electrons().map(|(mean, _)| mean));
         let is_lost = means.into_iter().any(|mean| !(mean as f32).is_finite());
-        self.not_finite.set(x, y, light.not_finite().max(u32::from(is_lost)));
+        let not_finite = light.not_finite().max(u32::from(is_lost));
+        // Memory that nobody writes to is not taken.
+        if not_finite != self.not_finite.at(x, y) {
+            self.not_finite.set(x, y, not_finite);
+        }
     }
 
-    /// The light of one pixel, as it is stored; `layout` is the film's.
+    /// The light of one pixel, as it is stored; `layout` is the film's, `bands` are those of its tile.
     #[must_use]
-    pub fn light(&self, pixel: Pixel, layout: &Layout) -> PixelLight {
+    pub fn light(&self, pixel: Pixel, layout: &Layout, bands: Option<&TileBands>) -> PixelLight {
         let (x, y) = (pixel.x as usize, pixel.y as usize);
         let (mut means, mut variances) = (Vec::new(), Vec::new());
-        if let Some(cube) = &self.cube {
-            means.extend(cube.mean.planes().iter().map(|plane| f64::from(plane.at(x, y))));
-            variances.extend(cube.variance.planes().iter().map(|plane| f64::from(plane.at(x, y))));
+        if let Some(bands) = bands {
+            means.extend(bands.means(pixel).map(f64::from));
+            variances.extend(bands.variances(pixel).map(f64::from));
         }
         means.push(f64::from(self.weight.at(x, y)));
         variances.push(0.0);
@@ -138,9 +258,9 @@ impl Film {
         PixelLight::of(layout, means, variances, (self.samples.at(x, y), self.not_finite.at(x, y)))
     }
 
-    /// Copies `tile` from a film of the same size and layout.
+    /// Copies `tile` from a film of the same size and layout; bands from memory to memory.
     pub fn copy_tile(&mut self, tile: Tile, from: &Self) {
-        if let (Some(to), Some(from)) = (&mut self.cube, &from.cube) {
+        if let (Some(to), Some(from)) = (self.cube_mut(), from.cube()) {
             copy_planes(to.mean.planes_mut(), from.mean.planes(), tile);
             copy_planes(to.variance.planes_mut(), from.variance.planes(), tile);
         }
@@ -158,10 +278,10 @@ impl Film {
     }
 
     /// The radiance that each pixel sees, mean over its pupil: irradiance over the pupil's weight; 0 where no light
-    /// passes the lens. The weight is taken as exact in the variance.
+    /// passes the lens. The weight is taken as exact in the variance. `None` where no bands are in memory.
     #[must_use]
     pub fn radiance(&self) -> Option<CubeEstimate<Radiance>> {
-        let cube = self.cube.as_ref()?;
+        let cube = self.cube()?;
         let mean = divided(&cube.mean, &self.weight, |weight| weight);
         let variance = divided(&cube.variance, &self.weight, |weight| weight * weight);
         Some(CubeEstimate { mean, variance })
@@ -172,6 +292,11 @@ impl Film {
     pub fn not_finite_samples(&self) -> u64 {
         self.not_finite.samples().iter().map(|n| u64::from(*n)).sum()
     }
+}
+
+/// Bytes of a plane of 32-bit numbers.
+fn plane_bytes(width: usize, height: usize) -> f64 {
+    width as f64 * height as f64 * size_of::<f32>() as f64
 }
 
 fn copy_planes<Q: Quantity>(to: &mut [Plane<Q>], from: &[Plane<Q>], tile: Tile) {
@@ -192,10 +317,7 @@ where
 {
     let plane = |plane: &Plane<Q>| {
         let mut weights = weight.samples().iter();
-        plane.map(|value| match weights.next() {
-            Some(w) if *w > 0.0 => value / divisor(*w),
-            _ => 0.0,
-        })
+        plane.map(|value| weights.next().map_or(0.0, |weight| over(value, *weight, divisor)))
     };
     SpectralCube::from_planes(cube.bands(), cube.planes().iter().map(plane).collect()).expect("planes of one cube")
 }

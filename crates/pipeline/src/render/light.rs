@@ -9,14 +9,17 @@ use crate::render::mosaic::{Mosaic, Site};
 use crate::render::observer::Observer;
 use crate::render::spectrum_spread::{Heroes, SpectrumSpread};
 use crate::render::tile::{Shard, Tile, tiles};
+use crate::render::tile_bands::TileBands;
+use crate::render::tiled_cube::TiledCube;
 use crate::render::tolerance::Tolerance;
 use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
+use etendue_core::scratch::ScratchStore;
 use etendue_core::{FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 
 /// How a raster point becomes a ray: through a lens, or from the centre of the entrance pupil.
 pub trait RaySource: Sync {
@@ -87,6 +90,8 @@ pub struct RenderJob<'a, S> {
     pub tile_px: u32,
     /// Which tiles to render; the others stay zero.
     pub shard: Shard,
+    /// Where the bands are kept that are not kept in memory. It does not change the result.
+    pub scratch: Option<&'a Arc<dyn ScratchStore>>,
 }
 
 /// One sample of each pixel of a block, while it is answered.
@@ -106,61 +111,104 @@ impl<const N: usize> Asked<N> {
     }
 }
 
-/// The caller asked to stop before the film was complete.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the rendering was cancelled")]
-pub struct Cancelled;
+/// Why a film is not complete.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GatherError {
+    /// The caller asked to stop.
+    #[error("the rendering was cancelled")]
+    Cancelled,
+    /// The bands could not be written to the scratch file, or read from it.
+    #[error("{0}")]
+    Scratch(String),
+}
+
+/// Whether the bands of a film have variances that say something: those of one replicate are unknown, and all are kept of a shard, whose other
+/// tiles are 0.
+pub(crate) fn has_variance(replicates: u32, shard: Shard) -> bool {
+    replicates > 1 || shard != Shard::WHOLE
+}
 
 impl<S: RaySource> RenderJob<'_, S> {
     /// Renders the shard's tiles in parallel on the caller's thread pool; joined with what the passes before it gathered, where there are some.
     ///
     /// # Errors
-    /// [`Cancelled`] where the observer asked to stop.
+    /// Where the observer asked to stop, or bands cannot be kept on the disk.
     pub fn gather<const N: usize>(
         &self,
         field: &impl RadianceField<N>,
         before: Option<&Film>,
         observer: &dyn Observer,
-    ) -> Result<Film, Cancelled> {
-        let film = Mutex::new(before.map_or_else(|| self.empty_film(), Film::clone));
+    ) -> Result<Film, GatherError> {
+        let film = self.begun(before).map_err(GatherError::Scratch)?;
+        let (disk, film) = (film.disk().cloned(), Mutex::new(film));
         let tiles = tiles(self.width, self.height, self.tile_px, self.shard);
         let done = AtomicUsize::new(0);
         observer.begins();
         // Tile by tile, or the last of a thread are a row of tiles that no other can take over.
         tiles.par_iter().with_max_len(1).try_for_each(|tile| {
             if observer.cancelled() {
-                return Err(Cancelled);
+                return Err(GatherError::Cancelled);
             }
-            self.gather_tile(field, (*tile, before.is_some()), &film, observer);
+            let pixels = self.gather_tile(field, *tile);
+            let pixels = self.joined(pixels, *tile, before, disk.as_ref()).map_err(GatherError::Scratch)?;
+            // The film is locked once a tile.
+            let mut film = film.lock().expect("no tile panicked");
+            pixels.iter().for_each(|(pixel, light)| film.store(*pixel, light));
+            observer.tile(*tile, &film);
+            drop(film);
             observer.tiles(done.fetch_add(1, Ordering::Relaxed) + 1, tiles.len());
             Ok(())
         })?;
         Ok(film.into_inner().expect("no tile panicked"))
     }
 
+    /// The film before the first tile. One on the disk has its own file, so that the film before stays as it is.
+    fn begun(&self, before: Option<&Film>) -> Result<Film, String> {
+        let disk = self.scratch.zip(self.layout.bands).map(|(store, bands)| {
+            let has_variance = has_variance(self.sampling.replicates, self.shard);
+            TiledCube::new(store, bands, [self.width, self.height, self.tile_px], has_variance)
+        });
+        match (disk.transpose()?, before) {
+            (None, Some(before)) => Ok(before.clone()),
+            (None, None) => Ok(self.empty_film()),
+            (Some(cube), Some(before)) => Ok(before.planes_beside(cube)),
+            (Some(cube), None) => Ok(Film::on_disk(cube, &self.layout, self.sampling.replicates)),
+        }
+    }
+
     fn empty_film(&self) -> Film {
         Film::new(self.width as usize, self.height as usize, &self.layout, self.sampling.replicates)
     }
 
-    /// Gathers a tile's pixels, then stores them together: the film is locked once a tile.
-    fn gather_tile<const N: usize>(
-        &self,
-        field: &impl RadianceField<N>,
-        (tile, has_before): (Tile, bool),
-        film: &Mutex<Film>,
-        observer: &dyn Observer,
-    ) {
+    /// The light of the pixels of a tile, which this pass takes.
+    fn gather_tile<const N: usize>(&self, field: &impl RadianceField<N>, tile: Tile) -> Vec<(Pixel, PixelLight)> {
         let taken = |block: &Vec<Pixel>| self.sampling.pass.takes(block[0]);
-        let pixels: Vec<(Pixel, PixelLight)> = match &self.tolerance {
+        match &self.tolerance {
             None => self.blocks.of(tile).filter(taken).flat_map(|block| self.gather_block(field, &block)).collect(),
             Some(tolerance) => self.gather_to_tolerance(field, tile, tolerance),
-        };
-        let mut film = film.lock().expect("no tile panicked");
-        for (pixel, light) in pixels {
-            let joined = if has_before { light.joined(&film.light(pixel, &self.layout)) } else { light };
-            film.store(pixel, &joined);
         }
-        observer.tile(tile, &film);
+    }
+
+    /// The same joined with the light before; the bands of the tile are written where they are kept on the disk.
+    fn joined(
+        &self,
+        pixels: Vec<(Pixel, PixelLight)>,
+        tile: Tile,
+        before: Option<&Film>,
+        disk: Option<&TiledCube>,
+    ) -> Result<Vec<(Pixel, PixelLight)>, String> {
+        let bands_before = before.map_or(Ok(None), |before| before.tile_bands(tile))?;
+        let join = |(pixel, light): (Pixel, PixelLight)| match before {
+            Some(before) => (pixel, light.joined(&before.light(pixel, &self.layout, bands_before.as_ref()))),
+            None => (pixel, light),
+        };
+        let pixels: Vec<_> = pixels.into_iter().map(join).collect();
+        if let Some(disk) = disk {
+            let mut bands = bands_before.unwrap_or_else(|| TileBands::new(tile, disk.bands().count()));
+            pixels.iter().for_each(|(pixel, light)| bands.store(*pixel, light));
+            disk.write(&bands)?;
+        }
+        Ok(pixels)
     }
 
     /// What is gathered of each pixel: what the film keeps, and electrons where their noise is watched.
@@ -295,7 +343,7 @@ mod tests {
     #[test]
     fn a_stopped_pixel_is_dark_and_an_open_one_sees_weight_times_radiance() {
         let film = film(4, Shard::WHOLE);
-        let cube = film.cube.as_ref().expect("a cube");
+        let cube = film.cube().expect("a cube");
         let sum = |x: usize| cube.mean.planes().iter().map(|p| p.at(x, 2)).sum::<f32>() / 6.0;
         assert!((sum(1) - 0.5).abs() < 1e-6, "the mean over all bands is exact: {}", sum(1));
         assert_eq!(sum(7), 0.0);
@@ -325,7 +373,7 @@ mod tests {
         exposure.sampling =
             Sampling { pass: PassAt::only(spp), replicates, low_nm, high_nm, spread, ..exposure.sampling };
         let film = exposure.gather::<4>(&ConstantField { radiance: 4.0 }, None, &Unobserved).expect("not cancelled");
-        let cube = film.cube.expect("a cube");
+        let cube = film.cube().expect("a cube");
         let lit =
             |y: usize, x: usize| cube.mean.planes().iter().map(move |p| f64::from(p.at(x, y))).collect::<Vec<_>>();
         (0..40).flat_map(|y| (0..4).flat_map(move |x| lit(y, x)).collect::<Vec<_>>()).collect()

@@ -3,6 +3,7 @@
 //! # Contract
 //! - [`light`](light()) renders one camera of a plan and answers with a [`film::Film`]: spectral irradiance (W·m⁻²·nm⁻¹) or mean
 //!   electrons a second through the lens, spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) on the route at the pupil, with the variance of the means.
+//! - Bands of a film that is too large for memory are in a scratch file ([`tiled_cube`]).
 //! - [`adaptive`] decides how many samples a pixel gets, where noise does.
 //! - [`motion`] is the ground truth of what moves: optical flow, scene flow, disparity.
 //! - [`boxes`] are those of objects, in the picture and in space.
@@ -12,9 +13,12 @@
 //! - Work runs on the caller's rayon pool, under the caller's [`observer::Observer`].
 
 pub mod adaptive;
+pub(crate) mod band_views;
 pub mod block;
 pub mod boxes;
 mod camera_light;
+#[cfg(test)]
+mod disk_tests;
 pub mod exposure;
 pub mod film;
 pub mod foretold_gain;
@@ -38,11 +42,14 @@ mod test_job;
 #[cfg(test)]
 mod test_scenes;
 pub mod tile;
+pub mod tile_bands;
+pub mod tiled_cube;
 mod tolerance;
 pub mod truth;
 pub mod weather_layers;
 
-pub use camera_light::{Request, change_over, layout, light, light_counts, pass, tolerance};
+pub use camera_light::{FilmKeeping, Request, change_over, layout, light, light_counts, pass, tolerance};
 pub use exposure::Shot;
+pub use light::GatherError;
 pub(crate) use near_precipitation::region_of_projection;
 pub use tolerance::Tolerance;

@@ -53,7 +53,7 @@ fn passes_join_to_the_mean_of_all_samples_and_its_variance() {
     for number in 1..3 {
         joined = pass_of(passes.at(number), Some(&joined));
     }
-    let cube = |film: &Film| film.cube.clone().expect("a cube");
+    let cube = |film: &Film| film.cube().expect("a cube").clone();
     let mut parts = 0;
     for pixel in pixels() {
         let weights: Vec<f64> = alone.iter().map(|film| f64::from(film.samples.at(pixel.0, pixel.1))).collect();
@@ -82,7 +82,7 @@ fn the_stated_variance_of_joined_passes_is_their_scatter() {
     for number in 1..3 {
         joined = pass_of(passes.at(number), Some(&joined));
     }
-    let cube = joined.cube.expect("a cube");
+    let cube = joined.cube().expect("a cube");
     let sum =
         |plane: &dyn Fn(usize, usize) -> f64| pixels().map(|(x, y)| plane(x, y)).sum::<f64>() / (WIDTH * HEIGHT) as f64;
     let planes = cube.mean.planes();

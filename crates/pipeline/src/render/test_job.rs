@@ -48,5 +48,6 @@ pub(super) fn still_job<S>(
         blocks: Blocks::SINGLE,
         tile_px: 16,
         shard: Shard::WHOLE,
+        scratch: None,
     }
 }

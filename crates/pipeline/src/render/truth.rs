@@ -13,6 +13,7 @@ use etendue_tracer::render_space::{RenderSpace, Truth};
 use etendue_tracer::textures::Lookup;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Planes of ground truth, in the raster of the picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +59,7 @@ pub(crate) enum Seen {
 }
 
 /// From where and when a pixel's truth is seen.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Viewpoint {
     pub(crate) pose: CameraPose,
     /// From the origin of the render frame to the camera, m.
@@ -97,34 +98,95 @@ struct Look {
 /// Where the lens clips that ray but lets light through, the ray through the centroid of the open pupil is used.
 #[must_use]
 pub fn ground_truth(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) -> GroundTruth {
-    let raster = &camera.body.raster;
-    let (width, height) = (raster.width(), raster.height());
-    let exposure = FilmExposure::of(camera, Shot { frame, capture: 0 });
-    let view = plan.world.render_space_with(exposure.origin_m(), exposure.interval(), simd);
-    let viewpoints: Vec<Viewpoint> =
-        (0..height).map(|row| Viewpoint::new(&view, camera, truth_time_s(camera, frame, row))).collect();
-    let look = |i: usize| {
-        let centre = DVec2::new((i % width) as f64, (i / width) as f64) + 0.5;
-        look(&view, &plan.material_table, (camera, &viewpoints[i / width]), centre)
-    };
-    let looks: Vec<Look> = (0..width * height).into_par_iter().map(look).collect();
-    GroundTruth {
-        depth: plane(&looks, width, height, |l| l.seen.depth()),
-        distance: plane(&looks, width, height, |l| l.seen.distance()),
-        normal: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.normal)),
-        position: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.position_m)),
-        camera_space_position: camera.products.camera_space_position.then(|| {
-            let points = looks.iter().enumerate().map(|(i, look)| {
-                let in_camera = |truth: &Truth| viewpoints[i / width].pose.point_to_camera(truth.position_m);
-                look.seen.vector(in_camera)
-            });
-            Plane::from_samples(width, height, points.collect()).expect("one sample a pixel")
-        }),
-        instance: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.instance_id)),
-        semantic: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.semantic_id)),
-        material: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.material + 1)),
-        ray: plane(&looks, width, height, |l| l.ray),
-        mirror: has_mirror(camera).then(|| plane(&looks, width, height, Look::mirror)),
+    TruthRows::new(plan, camera, frame, simd).rows(0..camera.body.raster.height())
+}
+
+/// The ground truth of a camera, some rows at a time.
+#[derive(Debug)]
+pub struct TruthRows<'a> {
+    view: RenderSpace<'a>,
+    material_table: &'a MaterialTable,
+    camera: &'a CameraPlan,
+    /// By row.
+    viewpoints: Vec<Viewpoint>,
+}
+
+impl<'a> TruthRows<'a> {
+    /// That of a frame.
+    #[must_use]
+    pub fn new(plan: &'a Plan, camera: &'a CameraPlan, frame: u32, simd: Simd) -> Self {
+        let exposure = FilmExposure::of(camera, Shot { frame, capture: 0 });
+        let view = plan.world.render_space_with(exposure.origin_m(), exposure.interval(), simd);
+        let rows = 0..camera.body.raster.height();
+        let viewpoints = rows.map(|row| Viewpoint::new(&view, camera, truth_time_s(camera, frame, row))).collect();
+        Self { view, material_table: &plan.material_table, camera, viewpoints }
+    }
+
+    /// Columns and rows of the whole.
+    #[must_use]
+    pub fn size(&self) -> (usize, usize) {
+        let raster = &self.camera.body.raster;
+        (raster.width(), raster.height())
+    }
+
+    /// Bytes of all planes of a camera in memory.
+    #[must_use]
+    pub fn bytes(camera: &CameraPlan) -> f64 {
+        let vectors = 2 + usize::from(camera.products.camera_space_position) + usize::from(has_mirror(camera));
+        let numbers = 6 + 3 * vectors;
+        let raster = &camera.body.raster;
+        raster.width() as f64 * raster.height() as f64 * (numbers * size_of::<f32>()) as f64
+    }
+
+    /// Whether some pixel has no depth along the axis: it has no ray, or does not look ahead. Nothing is traced.
+    #[must_use]
+    pub fn has_gaps(&self) -> bool {
+        let (width, height) = self.size();
+        let is_gap = |i: usize| {
+            let centre = DVec2::new((i % width) as f64, (i / width) as f64) + 0.5;
+            self.camera.body.truth_ray(centre).is_none_or(|(front, _)| !has_planar_depth(&front))
+        };
+        (0..width * height).into_par_iter().any(is_gap)
+    }
+
+    /// Planes of some rows, on the caller's pool.
+    #[must_use]
+    pub fn rows(&self, rows: Range<usize>) -> GroundTruth {
+        let (width, height) = (self.camera.body.raster.width(), rows.len());
+        let viewpoint = |i: usize| &self.viewpoints[rows.start + i / width];
+        let look = |i: usize| {
+            let centre = DVec2::new((i % width) as f64, (rows.start + i / width) as f64) + 0.5;
+            look(&self.view, self.material_table, (self.camera, viewpoint(i)), centre)
+        };
+        let looks: Vec<Look> = (0..width * height).into_par_iter().map(look).collect();
+        GroundTruth {
+            depth: plane(&looks, width, height, |l| l.seen.depth()),
+            distance: plane(&looks, width, height, |l| l.seen.distance()),
+            normal: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.normal)),
+            position: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.position_m)),
+            camera_space_position: self.camera.products.camera_space_position.then(|| {
+                let points = looks.iter().enumerate().map(|(i, look)| {
+                    let in_camera = |truth: &Truth| viewpoint(i).pose.point_to_camera(truth.position_m);
+                    look.seen.vector(in_camera)
+                });
+                Plane::from_samples(width, height, points.collect()).expect("one sample a pixel")
+            }),
+            instance: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.instance_id)),
+            semantic: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.semantic_id)),
+            material: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.material + 1)),
+            ray: plane(&looks, width, height, |l| l.ray),
+            mirror: has_mirror(self.camera).then(|| plane(&looks, width, height, Look::mirror)),
+        }
+    }
+
+    /// The depth along the axis alone, found some rows at a time, on the caller's pool.
+    #[must_use]
+    pub fn depth(&self) -> Plane<Length> {
+        const STRIP_ROWS: usize = 64;
+        let (width, height) = self.size();
+        let starts = (0..height).step_by(STRIP_ROWS);
+        let strips = starts.flat_map(|y| self.rows(y..(y + STRIP_ROWS).min(height)).depth.into_samples());
+        Plane::from_samples(width, height, strips.collect()).expect("one sample a pixel")
     }
 }
 

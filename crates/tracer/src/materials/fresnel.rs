@@ -19,8 +19,12 @@ pub fn planes(cos_i: f32, n: f32) -> [f32; 2] {
     }
     let c = cos_i.clamp(0.0, 1.0);
     let n_cos_t = cos_square(c, n).sqrt();
-    let s = (c - n_cos_t) / (c + n_cos_t);
-    let p = (n * n * c - n_cos_t) / (n * n * c + n_cos_t);
+    // (c − n cos θₜ)/(c + n cos θₜ) and (n² c − n cos θₜ)/(n² c + n cos θₜ), both with their denominator above and below the line: the
+    // differences, of nearly equal numbers where n is close to 1, become products.
+    let (difference, n2) = ((n - 1.0) * (n + 1.0), n * n);
+    let (s_sum, p_sum) = (c + n_cos_t, n2 * c + n_cos_t);
+    let s = difference / (s_sum * s_sum);
+    let p = difference * ((n2 + 1.0) * c * c - 1.0) / (p_sum * p_sum);
     [s * s, p * p]
 }
 

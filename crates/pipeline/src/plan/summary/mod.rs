@@ -17,7 +17,9 @@ use crate::plan::film_cost::Share;
 use crate::plan::frame_cost::FrameCost;
 use crate::plan::remark::grouped;
 use crate::plan::texture_use::TextureUse;
-use crate::plan::{AdaptiveSampling, CameraPlan, Passes, Plan, Products, RawFormat, Route, Settings, SkyFacts};
+use crate::plan::{
+    AdaptiveSampling, CameraPlan, FilmBytes, Passes, Plan, Products, RawFormat, Route, Settings, SkyFacts,
+};
 use crate::render::block::Blocks;
 use crate::render::light_counts;
 use depth_of_field::depth_of_field;
@@ -341,13 +343,24 @@ fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result 
         f,
         "cost",
         format!(
-            "{:.1} million paths{upwards}, about {:.0} CPU seconds at the street's rate{served}; film {:.1} MB",
+            "{:.1} million paths{upwards}, about {:.0} CPU seconds at the street's rate{served}; film {}",
             cost.paths / 1e6,
             cost.paths_cpu_s,
-            cost.film_bytes / 1e6
+            film(cost.film)
         ),
     )?;
     cost_beside(&cost.parts, cost.cpu_s(), f)
+}
+
+/// Where a film is.
+fn film(bytes: FilmBytes) -> String {
+    let memory = format!("{:.1} MB", bytes.memory / 1e6);
+    if bytes.disk == 0.0 {
+        return memory;
+    }
+    let read =
+        bytes.all_bands_for.map_or_else(String::new, |what| format!(", read into memory all at once for {what}"));
+    format!("{memory} in memory, its bands {:.1} MB on the disk{read}", bytes.disk / 1e6)
 }
 
 /// What takes time beside the paths, and the whole; nothing where it is little.

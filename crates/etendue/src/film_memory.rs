@@ -1,0 +1,38 @@
+//! How much memory films may take.
+
+use crate::error::Error;
+use etendue_io::ScratchFolder;
+use etendue_pipeline::Plan;
+use etendue_pipeline::plan::FilmLimit;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// How much memory the bands of a film may take, and where those are kept that take more. No result depends on it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FilmMemory {
+    /// Most bytes of the means and variances of one film's bands in memory.
+    pub limit_bytes: u64,
+    /// The folder for the scratch files of larger ones; `None`: that of tiles of textures ([`TextureMemory::cache`](crate::TextureMemory)).
+    pub scratch: Option<PathBuf>,
+}
+
+impl Default for FilmMemory {
+    /// 2048 MB.
+    fn default() -> Self {
+        Self { limit_bytes: 2_048_000_000, scratch: None }
+    }
+}
+
+impl FilmMemory {
+    /// What a plan is told, where tiles of textures are in `cache`.
+    pub(crate) fn limit(&self, cache: Option<&PathBuf>) -> FilmLimit {
+        let folder = self.scratch.as_ref().or(cache).map(PathBuf::as_path);
+        FilmLimit { bytes: self.limit_bytes, store: Arc::new(ScratchFolder::new(folder)) }
+    }
+}
+
+/// Refuses a folder for scratch files that cannot be written, before anything is rendered.
+pub(crate) fn check(plan: &Plan) -> Result<(), Error> {
+    let store = plan.cameras.iter().find_map(|camera| plan.scratch(camera));
+    store.map_or(Ok(()), |store| store.room(0).map(|_| ()).map_err(Error::input))
+}

@@ -1,0 +1,132 @@
+//! Where the samples of an EXR file come from: planes in memory, bands on the disk, or strips of rows that are made when they are written.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use ::exr::prelude::FlatSamples;
+use etendue_core::kept_cube::BandReader;
+
+use super::encode::EncodeError;
+
+/// The samples of a channel.
+pub(crate) enum Channel<'a> {
+    /// 32-bit floats, row by row.
+    Float(Cow<'a, [f32]>),
+    /// 32-bit unsigned integers, row by row.
+    Uint(Cow<'a, [u32]>),
+    /// A component of vectors, row by row.
+    Component(&'a [[f32; 3]], usize),
+    /// A band.
+    Band(&'a dyn BandReader, usize),
+    /// The floats of this place in a strip.
+    StripFloat(usize),
+    /// The integers of this place in a strip.
+    StripUint(usize),
+}
+
+/// Rows of a channel.
+pub(crate) enum Samples {
+    /// 32-bit floats.
+    Float(Vec<f32>),
+    /// 32-bit unsigned integers.
+    Uint(Vec<u32>),
+}
+
+/// Channels of which rows are made together.
+pub(crate) trait Strips: Send + Sync {
+    /// Whole rows of all these channels.
+    ///
+    /// # Errors
+    /// Where they cannot be read, in a sentence for the user.
+    fn rows(&self, rows: Range<usize>) -> Result<Vec<Samples>, String>;
+}
+
+impl Channel<'_> {
+    /// Samples, where they are in memory.
+    pub(super) fn len(&self) -> Option<usize> {
+        match self {
+            Self::Float(samples) => Some(samples.len()),
+            Self::Uint(samples) => Some(samples.len()),
+            Self::Component(samples, _) => Some(samples.len()),
+            Self::Band(..) | Self::StripFloat(_) | Self::StripUint(_) => None,
+        }
+    }
+
+    /// What the encoder knows of a channel before it has samples: their type.
+    pub(super) fn described(&self) -> FlatSamples {
+        match self {
+            Self::Uint(_) | Self::StripUint(_) => FlatSamples::U32(Vec::new()),
+            _ => FlatSamples::F32(Vec::new()),
+        }
+    }
+}
+
+/// The channels of a picture, sorted by name.
+pub(super) struct ImageRows<'a> {
+    pub(super) width: usize,
+    pub(super) channels: Vec<Channel<'a>>,
+    pub(super) strips: Option<Box<dyn Strips + 'a>>,
+}
+
+/// Rows of a channel.
+enum Rows<'a> {
+    Float(Cow<'a, [f32]>),
+    Uint(Cow<'a, [u32]>),
+}
+
+impl ImageRows<'_> {
+    /// Bytes of a row.
+    pub(super) fn row_bytes(&self) -> usize {
+        self.width * self.channels.len() * size_of::<f32>()
+    }
+
+    /// The bytes of rows as the encoder wants them: line by line, in each channel by channel, in the machine's order.
+    pub(super) fn bytes(&self, rows: Range<usize>) -> Result<Vec<u8>, EncodeError> {
+        let strip = self.strips.as_ref().map(|strips| strips.rows(rows.clone())).transpose();
+        let strip = strip.map_err(EncodeError::Read)?.unwrap_or_default();
+        let channels = self.channels.iter().map(|channel| self.of_channel(channel, &strip, rows.clone()));
+        let channels = channels.collect::<Result<Vec<_>, String>>().map_err(EncodeError::Read)?;
+        let mut bytes = vec![0; self.row_bytes() * rows.len()];
+        let mut rest = bytes.as_mut_slice();
+        for line in 0..rows.len() {
+            let at = line * self.width..(line + 1) * self.width;
+            for channel in &channels {
+                let (to, after) = rest.split_at_mut(self.width * size_of::<f32>());
+                let (numbers, _) = to.as_chunks_mut::<4>();
+                match channel {
+                    Rows::Float(samples) => {
+                        numbers.iter_mut().zip(&samples[at.clone()]).for_each(|(to, value)| *to = value.to_ne_bytes());
+                    }
+                    Rows::Uint(samples) => {
+                        numbers.iter_mut().zip(&samples[at.clone()]).for_each(|(to, value)| *to = value.to_ne_bytes());
+                    }
+                }
+                rest = after;
+            }
+        }
+        Ok(bytes)
+    }
+
+    fn of_channel<'s>(
+        &'s self,
+        channel: &'s Channel<'_>,
+        strip: &'s [Samples],
+        rows: Range<usize>,
+    ) -> Result<Rows<'s>, String> {
+        let at = rows.start * self.width..rows.end * self.width;
+        Ok(match channel {
+            Channel::Float(samples) => Rows::Float(Cow::Borrowed(&samples[at])),
+            Channel::Uint(samples) => Rows::Uint(Cow::Borrowed(&samples[at])),
+            Channel::Component(vectors, axis) => Rows::Float(vectors[at].iter().map(|v| v[*axis]).collect()),
+            Channel::Band(reader, band) => {
+                let mut samples = vec![0.0; at.len()];
+                reader.read(*band, rows, &mut samples)?;
+                Rows::Float(samples.into())
+            }
+            Channel::StripFloat(place) | Channel::StripUint(place) => match &strip[*place] {
+                Samples::Float(samples) => Rows::Float(samples.as_slice().into()),
+                Samples::Uint(samples) => Rows::Uint(samples.as_slice().into()),
+            },
+        })
+    }
+}

@@ -1,0 +1,250 @@
+//! From a film whose bands are on the disk to the light of its camera: the numbers that a film in memory gives, with the memory of a few planes.
+//!
+//! - Radiance is read off the film when it is wanted.
+//! - Point spread and glare take band after band; the result is a scratch file of its own.
+//! - On the route at the pupil some bands at a time go through the lens, as many as [`GROUP_BYTES`] hold.
+//! - Electrons are summed some rows at a time.
+//! - Ghosts (which look for their sources in all bands) and depth of field (whose outlines serve all bands) need all bands at once: they are read into
+//!   memory, and all goes on as if they had been there.
+//!
+//! Light that is not delivered, and nothing delivered is made of, is not made.
+
+use crate::camera::behind_lens::{dirt_shades, front_on_picture, shaded};
+use crate::camera::defocus::{held_margin_px, whole_margin_px};
+use crate::camera::effects::{EffectsOutput, behind, of_band, picture};
+use crate::camera::light::{KeptEstimate, Light};
+use crate::camera::light_error::LightError;
+
+use crate::camera::plane_cube::PlaneCube;
+use crate::camera::stored::Stored;
+use crate::plan::{CameraBody, CameraPlan, Products, Route};
+use crate::render::band_views::{OverWeight, PartOfBands};
+use crate::render::film::{Estimate, Film, exposed};
+use crate::render::pupil_depth::PupilDepth;
+use crate::render::tiled_cube::TiledCube;
+use etendue_core::kept_cube::{BandReader, CubeOnDisk};
+use etendue_core::quantity::{ElectronRate, Irradiance, Quantity, Radiance, SolidAngle, Variance};
+use etendue_core::scratch::ScratchStore;
+use etendue_core::{Bands, KeptCube, Plane};
+use etendue_optics::{BandEtendue, DepthOfField, PupilProjection, Resampling};
+use std::sync::Arc;
+
+/// Bytes of the bands that go through the lens together, where one band has no more.
+const GROUP_BYTES: usize = 1 << 29;
+
+/// For what the bands of a camera's film are needed in memory all at once, in words; `None` where they are not.
+#[must_use]
+pub(crate) fn needs_all_bands(camera: &CameraPlan) -> Option<&'static str> {
+    let is_at_pupil = matches!(camera.settings.route, Route::Pupil(_));
+    let makes = needs_irradiance(camera);
+    let by_depth = is_at_pupil && camera.depth_of_field != DepthOfField::None;
+    match (makes, camera.body.effects.ghosts().is_some(), by_depth) {
+        (true, true, _) => Some("ghosts"),
+        (true, false, true) => Some("depth of field"),
+        _ => None,
+    }
+}
+
+/// Whether something that is delivered is made of the irradiance.
+pub(crate) fn needs_irradiance(camera: &CameraPlan) -> bool {
+    let products = &camera.products;
+    products.irradiance || products.ghosts || (!camera.settings.folded && needs_electrons(&camera.body, products))
+}
+
+/// Whether something that is delivered is made of electrons.
+fn needs_electrons(body: &CameraBody, products: &Products) -> bool {
+    let frames = products.raw || products.picture || products.signal_breakdown || products.video;
+    body.sensor.is_some() && (products.electrons || frames)
+}
+
+/// Where effects leave a film.
+struct Behind {
+    irradiance: KeptCube<Irradiance>,
+    variance: Option<KeptCube<Variance>>,
+    ghosts: Option<KeptCube<Irradiance>>,
+}
+
+/// The light of a film whose bands are in `cube`, rows exposed alike.
+///
+/// # Errors
+/// As [`Light::of_film`], and where the disk fails.
+pub(super) fn seen(
+    camera: &CameraPlan,
+    film: Film,
+    cube: &TiledCube,
+    depth: Option<&PupilDepth>,
+) -> Result<Light, LightError> {
+    let (body, products) = (&camera.body, &camera.products);
+    // What is not named goes at once.
+    let (weight, electron_rate) = (Arc::new(film.weight), film.electron_rate);
+    drop((film.watched, film.samples, film.not_finite));
+    let radiance = KeptEstimate {
+        mean: over_weight(cube, cube.mean(), &weight, |weight| weight),
+        variance: over_weight(cube, cube.variance(), &weight, |weight| weight * weight),
+    };
+    drop(weight);
+    match &camera.settings.route {
+        Route::Pupil(projection) => {
+            let made = needs_irradiance(camera).then(|| at_pupil(camera, (projection, &radiance.mean), cube, depth));
+            Ok(Light { radiance: Some(radiance), ..made.transpose()?.unwrap_or_default() })
+        }
+        Route::Lens => {
+            let KeptEstimate { mean, variance } = radiance;
+            let of_picture = |mean, variance| KeptEstimate { mean: part(body, mean), variance: part(body, variance) };
+            let radiance = products.radiance.then(|| of_picture(mean, variance));
+            let variance = (products.irradiance && products.variance).then(|| kept(cube, cube.variance()));
+            let film = (kept(cube, cube.mean()), variance);
+            let light = Light { radiance, ..folded(camera, electron_rate) };
+            match needs_irradiance(camera) {
+                true => with_irradiance(camera, behind_of(body, film, cube.store())?, light),
+                false => Ok(light),
+            }
+        }
+    }
+}
+
+/// The light behind the lens of a radiance at the pupil (its radiance itself is not repeated).
+fn at_pupil(
+    camera: &CameraPlan,
+    (projection, radiance): (&PupilProjection, &KeptCube<Radiance>),
+    cube: &TiledCube,
+    depth: Option<&PupilDepth>,
+) -> Result<Light, LightError> {
+    if needs_all_bands(camera).is_some() {
+        let radiance = radiance.clone().load().map_err(LightError::Scratch)?;
+        let stored = Stored { projection, radiance: &radiance, distance: depth.map(|depth| &depth.distance) };
+        return Ok(Light::of_stored(&camera.body, &stored, &camera.depth_of_field)?);
+    }
+    front_on_picture(&camera.body)?;
+    let film = through_lens(&camera.body, (projection, radiance), cube.store())?;
+    let behind = behind_of(&camera.body, (film, None), cube.store())?;
+    with_irradiance(camera, behind, Light::default())
+}
+
+/// The irradiance on the film of a radiance at the pupil without depth of field, some bands after the other.
+fn through_lens(
+    body: &CameraBody,
+    (projection, radiance): (&PupilProjection, &KeptCube<Radiance>),
+    store: &dyn ScratchStore,
+) -> Result<KeptCube<Irradiance>, LightError> {
+    let (bands, raster) = (radiance.bands(), body.film());
+    let margin = whole_margin_px(body, held_margin_px(projection, body, bands, &DepthOfField::None)?);
+    let resampling = Resampling::new(*projection, &body.lens, &body.raster, margin, bands)?;
+    let etendue = BandEtendue::new(&body.lens, &raster);
+    let shades = dirt_shades(body);
+    let film = PlaneCube::new(store, bands, (raster.width(), raster.height())).map_err(LightError::Scratch)?;
+    let group = (GROUP_BYTES / (radiance.width() * radiance.height() * size_of::<f32>()).max(1)).max(1);
+    for first in (0..bands.count()).step_by(group) {
+        let of_group = first..(first + group).min(bands.count());
+        let planes = of_group.clone().map(|band| radiance.plane(band).map(std::borrow::Cow::into_owned));
+        let planes = planes.collect::<Result<Vec<_>, String>>().map_err(LightError::Scratch)?;
+        let seen = resampling.apply_to_bands(&planes, |i| bands.centre_nm(first + i))?;
+        drop(planes);
+        for (band, seen) in of_group.zip(seen) {
+            let mut plane = etendue.irradiance(&seen, bands.centre_nm(band))?;
+            shades.iter().for_each(|shades| shaded(&mut plane, shades));
+            film.write(band, &plane).map_err(LightError::Scratch)?;
+        }
+    }
+    Ok(film.kept())
+}
+
+/// What the effects of a camera leave of a film.
+fn behind_of(
+    body: &CameraBody,
+    (film, variance): (KeptCube<Irradiance>, Option<KeptCube<Variance>>),
+    store: &dyn ScratchStore,
+) -> Result<Behind, LightError> {
+    if body.effects.is_idle() {
+        return Ok(Behind { irradiance: film, variance, ghosts: None });
+    }
+    if body.effects.ghosts().is_some() {
+        let film = film.load().map_err(LightError::Scratch)?;
+        let variance = variance.map(KeptCube::load).transpose().map_err(LightError::Scratch)?;
+        let EffectsOutput { irradiance, variance, ghosts } = behind(body, film, variance);
+        return Ok(Behind {
+            irradiance: irradiance.into(),
+            variance: variance.map(KeptCube::from),
+            ghosts: ghosts.map(KeptCube::from),
+        });
+    }
+    by_band(body, &film, variance.as_ref(), store).map_err(LightError::Scratch)
+}
+
+/// Effects that take band after band.
+fn by_band(
+    body: &CameraBody,
+    film: &KeptCube<Irradiance>,
+    variance: Option<&KeptCube<Variance>>,
+    store: &dyn ScratchStore,
+) -> Result<Behind, String> {
+    let bands = film.bands();
+    let prepared = body.effects.prepared(&body.raster, (bands.low_nm(), bands.high_nm()));
+    let room = || PlaneCube::new(store, bands, (body.raster.width(), body.raster.height()));
+    let (means, variances) = (room()?, variance.map(|_| room()).transpose()?);
+    for band in 0..bands.count() {
+        let of_variance = variance.map(|cube| cube.plane(band)).transpose()?;
+        let (mean, of_variance) = of_band(&prepared, (bands, band), &*film.plane(band)?, of_variance.as_deref());
+        means.write(band, &mean)?;
+        if let (Some(to), Some(plane)) = (&variances, &of_variance) {
+            to.write(band, plane)?;
+        }
+    }
+    Ok(Behind { irradiance: means.kept(), variance: variances.map(PlaneCube::kept), ghosts: None })
+}
+
+/// The light with its irradiance, and the electrons that are made of it.
+fn with_irradiance(camera: &CameraPlan, behind: Behind, light: Light) -> Result<Light, LightError> {
+    let Behind { irradiance, variance, ghosts } = behind;
+    let (body, products) = (&camera.body, &camera.products);
+    let sensor = body.sensor.as_ref().filter(|_| light.electrons.is_none() && needs_electrons(body, products));
+    let made = sensor.map(|sensor| sensor.electrons_of(&irradiance)).transpose().map_err(LightError::Scratch)?;
+    let electrons = light.electrons.or(made);
+    Ok(Light { irradiance: Some(irradiance), irradiance_variance: variance, ghosts, electrons, ..light })
+}
+
+/// The electrons that pixels summed directly, and their variance where it is delivered.
+fn folded(camera: &CameraPlan, rate: Option<Estimate<ElectronRate>>) -> Light {
+    let Some((sensor, Estimate { mean, variance })) = camera.body.sensor.as_ref().zip(rate) else {
+        return Light::default();
+    };
+    let exposure_s = sensor.parameters().exposure.exposure_s;
+    let products = &camera.products;
+    let of_variance = (products.electrons && products.variance).then(|| exposed(variance, exposure_s * exposure_s));
+    Light { electrons: Some(exposed(mean, exposure_s)), electrons_variance: of_variance, ..Light::default() }
+}
+
+/// Bands of a film as they are.
+fn kept<Q: Quantity>(cube: &TiledCube, reader: &Arc<dyn BandReader>) -> KeptCube<Q> {
+    of_size(cube.bands(), cube.size(), Arc::clone(reader))
+}
+
+fn of_size<Q: Quantity>(bands: Bands, size: (usize, usize), reader: Arc<dyn BandReader>) -> KeptCube<Q> {
+    KeptCube::Disk(CubeOnDisk::new(bands, size, reader))
+}
+
+/// Bands of a film over the pupil's weight.
+fn over_weight<Q: Quantity>(
+    cube: &TiledCube,
+    reader: &Arc<dyn BandReader>,
+    weight: &Arc<Plane<SolidAngle>>,
+    divisor: fn(f32) -> f32,
+) -> KeptCube<Q> {
+    let view = OverWeight { of: Arc::clone(reader), weight: Arc::clone(weight), divisor };
+    of_size(cube.bands(), cube.size(), Arc::new(view))
+}
+
+/// The picture's part of a film.
+fn part<Q: Quantity<Sample = f32>>(body: &CameraBody, film: KeptCube<Q>) -> KeptCube<Q> {
+    let (bands, whole_width) = (film.bands(), film.width());
+    match film {
+        KeptCube::Memory(cube) => picture(body, cube).into(),
+        KeptCube::Disk(cube) if body.effects.margin_px() == [0, 0] => KeptCube::Disk(cube),
+        KeptCube::Disk(cube) => {
+            let (width, height) = (body.raster.width(), body.raster.height());
+            let of = Arc::clone(cube.reader());
+            let part = PartOfBands { of, whole_width, first: body.effects.margin_px(), width };
+            of_size(bands, (width, height), Arc::new(part))
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Bands that are read through others: in another quantity, or without a margin.
+
+use etendue_core::Plane;
+use etendue_core::kept_cube::BandReader;
+use etendue_core::quantity::SolidAngle;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Bands over the pupil's weight: radiance of irradiance; 0 where no light passes the lens.
+#[derive(Debug)]
+pub(crate) struct OverWeight {
+    /// Of the size of the weight.
+    pub(crate) of: Arc<dyn BandReader>,
+    /// Mean weight of the pupil.
+    pub(crate) weight: Arc<Plane<SolidAngle>>,
+    /// What they are divided by.
+    pub(crate) divisor: fn(f32) -> f32,
+}
+
+impl BandReader for OverWeight {
+    fn read(&self, band: usize, rows: Range<usize>, samples: &mut [f32]) -> Result<(), String> {
+        self.of.read(band, rows.clone(), samples)?;
+        let width = self.weight.width();
+        let weights = &self.weight.samples()[rows.start * width..rows.end * width];
+        samples.iter_mut().zip(weights).for_each(|(value, weight)| *value = over(*value, *weight, self.divisor));
+        Ok(())
+    }
+}
+
+/// A value over a function of the weight; 0 where no light passes the lens.
+pub(crate) fn over(value: f32, weight: f32, divisor: fn(f32) -> f32) -> f32 {
+    if weight > 0.0 { value / divisor(weight) } else { 0.0 }
+}
+
+/// A part of larger bands.
+#[derive(Debug)]
+pub(crate) struct PartOfBands {
+    /// The larger bands.
+    pub(crate) of: Arc<dyn BandReader>,
+    /// Their columns.
+    pub(crate) whole_width: usize,
+    /// First column and row of the part.
+    pub(crate) first: [usize; 2],
+    /// Columns of the part.
+    pub(crate) width: usize,
+}
+
+impl BandReader for PartOfBands {
+    fn read(&self, band: usize, rows: Range<usize>, samples: &mut [f32]) -> Result<(), String> {
+        let [x, y] = self.first;
+        let mut whole = vec![0.0; self.whole_width * rows.len()];
+        self.of.read(band, rows.start + y..rows.end + y, &mut whole)?;
+        for (to, from) in samples.chunks_exact_mut(self.width).zip(whole.chunks_exact(self.whole_width)) {
+            to.copy_from_slice(&from[x..x + self.width]);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,145 @@
+//! Films whose bands are in scratch files, against films in memory.
+
+use super::film::Film;
+use super::gather::Layout;
+use super::light::{GatherError, RaySource, RenderJob};
+use super::observer::Unobserved;
+use super::test_job::{sampling, still_job};
+use super::tile::Shard;
+use crate::plan::{Pass, PassAt, Passes};
+use etendue_core::random::Draw;
+use etendue_core::scratch::{Scratch, ScratchStore};
+use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
+use glam::{DVec2, DVec3};
+use std::sync::{Arc, Mutex};
+
+const SIZE: [u32; 2] = [37, 23];
+
+/// Room in memory, for tests; `Full` has none.
+#[derive(Debug)]
+enum Room {
+    Memory,
+    Full,
+}
+
+#[derive(Debug)]
+struct Bytes(Mutex<Vec<u8>>);
+
+impl ScratchStore for Room {
+    fn room(&self, bytes: u64) -> Result<Arc<dyn Scratch>, String> {
+        match self {
+            Self::Memory => Ok(Arc::new(Bytes(Mutex::new(vec![0; bytes as usize])))),
+            Self::Full => Ok(Arc::new(Nothing)),
+        }
+    }
+}
+
+impl Scratch for Bytes {
+    fn write(&self, offset: u64, bytes: &[u8]) -> Result<(), String> {
+        self.0.lock().expect("whole")[offset as usize..][..bytes.len()].copy_from_slice(bytes);
+        Ok(())
+    }
+
+    fn read(&self, offset: u64, bytes: &mut [u8]) -> Result<(), String> {
+        bytes.copy_from_slice(&self.0.lock().expect("whole")[offset as usize..][..bytes.len()]);
+        Ok(())
+    }
+}
+
+#[derive(Debug)]
+struct Nothing;
+
+impl Scratch for Nothing {
+    fn write(&self, _: u64, _: &[u8]) -> Result<(), String> {
+        Err("no room".to_owned())
+    }
+
+    fn read(&self, _: u64, _: &mut [u8]) -> Result<(), String> {
+        Err("nothing".to_owned())
+    }
+}
+
+struct Ahead;
+
+impl RaySource for Ahead {
+    fn ray(&self, raster_px: DVec2, _: DVec2, _: f64) -> Option<PupilRay> {
+        let ray = PupilRay { origin_m: DVec3::ZERO, direction: DVec3::Z, weight_sr: 0.25 };
+        (raster_px.x > 2.0).then_some(ray)
+    }
+}
+
+/// Light that differs from sample to sample.
+struct Uneven;
+
+impl RadianceField<4> for Uneven {
+    fn radiance(&self, asked: &FieldRay, _: &Wavelengths<4>) -> Spectral<4> {
+        Spectral::splat(asked.stream.one(Draw::Pupil, 0))
+    }
+}
+
+fn gathered(
+    store: Option<Room>,
+    (pass, replicates): (PassAt, u32),
+    shard: Shard,
+    before: Option<&Film>,
+) -> Result<Film, GatherError> {
+    let layout = Layout { bands: Bands::covering(400.0, 700.0, 50.0), folded: false, watched: false };
+    let store: Option<Arc<dyn ScratchStore>> = store.map(|store| -> Arc<dyn ScratchStore> { Arc::new(store) });
+    let job = still_job(&Ahead, SIZE, layout, sampling(pass, replicates));
+    RenderJob { shard, scratch: store.as_ref(), ..job }.gather::<4>(&Uneven, before, &Unobserved)
+}
+
+/// Bits of all bands, rows asked for in strips that fit no tile.
+fn bits(film: &Film) -> Vec<u32> {
+    let (bands, readers) = film.bands().expect("bands");
+    let [width, height] = SIZE.map(|side| side as usize);
+    let mut all = Vec::new();
+    for reader in readers {
+        for band in 0..bands.count() {
+            for first in (0..height).step_by(5) {
+                let rows = first..(first + 5).min(height);
+                let mut samples = vec![0.0_f32; width * rows.len()];
+                reader.read(band, rows, &mut samples).expect("read");
+                all.extend(samples.into_iter().map(f32::to_bits));
+            }
+        }
+    }
+    all
+}
+
+#[test]
+fn a_film_on_the_disk_has_the_bits_of_one_in_memory() {
+    let third = Shard::new(1, 3).expect("a shard");
+    for (replicates, shard) in [(4, Shard::WHOLE), (1, Shard::WHOLE), (1, third), (2, third)] {
+        let passes = Passes::new(vec![Pass::whole(8), Pass { samples: 4, part: 64 }, Pass::whole(4)]);
+        let (mut held, mut kept) = (None, None);
+        for number in 0..3 {
+            let pass = (passes.at(number), replicates);
+            held = Some(gathered(None, pass, shard, held.as_ref()).expect("in memory"));
+            kept = Some(gathered(Some(Room::Memory), pass, shard, kept.as_ref()).expect("room"));
+            let [held, kept] = [&held, &kept].map(|film| film.as_ref().expect("just gathered"));
+            assert!(held.disk().is_none() && kept.cube().is_none());
+            assert_eq!(bits(kept), bits(held), "{replicates} replicates, pass {number}");
+            assert_eq!((&kept.weight, &kept.samples), (&held.weight, &held.samples));
+        }
+    }
+}
+
+#[test]
+fn a_pass_leaves_the_film_before_as_it_is_and_joins_one_in_memory() {
+    let passes = Passes::new(vec![Pass::whole(8), Pass::whole(8)]);
+    let [first, second] = [0, 1].map(|number| (passes.at(number), 2));
+    let of_first = |room| gathered(room, first, Shard::WHOLE, None).expect("room");
+    let (held, kept) = (of_first(None), of_first(Some(Room::Memory)));
+    let joined = |room, before| bits(&gathered(room, second, Shard::WHOLE, Some(before)).expect("room"));
+    let both = joined(None, &held);
+    assert_eq!(joined(Some(Room::Memory), &kept), both);
+    assert_eq!(joined(Some(Room::Memory), &held), both, "of a film that was read into memory");
+    assert_eq!(bits(&kept), bits(&held), "the film before");
+}
+
+#[test]
+fn a_disk_that_is_full_ends_the_rendering() {
+    let failed = gathered(Some(Room::Full), (PassAt::only(4), 1), Shard::WHOLE, None).expect_err("no room");
+    assert_eq!(failed, GatherError::Scratch("no room".to_owned()));
+}

@@ -1,0 +1,182 @@
+//! The bands of a film in a scratch file, tile by tile.
+//!
+//! Each tile is one piece, written once when its light is complete: band after band, row by row, all means and then all variances (32 bits, little-endian,
+//! the numbers that memory would hold). Tiles follow one another row by row of the film's grid. A band, or rows of it, are read out of all pieces that
+//! hold some of them. A single replicate knows no variance: none is written then, and NaN is read.
+
+use crate::render::tile::Tile;
+use crate::render::tile_bands::TileBands;
+use etendue_core::Bands;
+use etendue_core::kept_cube::BandReader;
+use etendue_core::scratch::{Scratch, ScratchStore};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Bytes of a number.
+const NUMBER: usize = size_of::<f32>();
+
+/// Means and variances of bands in a scratch file. Clones share the file.
+#[derive(Clone, Debug)]
+pub struct TiledCube {
+    bands: Bands,
+    grid: Grid,
+    store: Arc<dyn ScratchStore>,
+    scratch: Arc<dyn Scratch>,
+    mean: Arc<dyn BandReader>,
+    variance: Arc<dyn BandReader>,
+}
+
+/// Cubes are equal that share a file.
+impl PartialEq for TiledCube {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scratch, &other.scratch)
+    }
+}
+
+/// Where the pieces are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Grid {
+    width: usize,
+    height: usize,
+    /// Side of a tile, px.
+    side: usize,
+    /// Numbers that are kept of each pixel.
+    planes: usize,
+}
+
+impl TiledCube {
+    /// A cube of `width` × `height` pixels, all 0, in tiles of `side` pixels; its variances are written where there are some.
+    ///
+    /// # Errors
+    /// Where there is no room.
+    pub fn new(
+        store: &Arc<dyn ScratchStore>,
+        bands: Bands,
+        [width, height, side]: [u32; 3],
+        has_variance: bool,
+    ) -> Result<Self, String> {
+        let planes = bands.count() * if has_variance { 2 } else { 1 };
+        let grid = Grid { width: width as usize, height: height as usize, side: side as usize, planes };
+        let scratch = store.room(grid.offset(0, grid.height))?;
+        let reader = |first| Arc::new(Reader { grid, scratch: Arc::clone(&scratch), first });
+        let mean = reader(0);
+        let variance: Arc<dyn BandReader> = if has_variance { reader(bands.count()) } else { Arc::new(Unknown) };
+        Ok(Self { bands, grid, store: Arc::clone(store), scratch, mean, variance })
+    }
+
+    /// Bytes in the file of a cube of that many pixels.
+    #[must_use]
+    pub fn bytes(pixels: f64, bands: Bands, has_variance: bool) -> f64 {
+        let planes = bands.count() * if has_variance { 2 } else { 1 };
+        pixels * (planes * NUMBER) as f64
+    }
+
+    /// Where there is room for what is made of it.
+    #[must_use]
+    pub fn store(&self) -> &dyn ScratchStore {
+        &*self.store
+    }
+
+    /// The wavelength bands.
+    #[must_use]
+    pub fn bands(&self) -> Bands {
+        self.bands
+    }
+
+    /// Columns and rows.
+    #[must_use]
+    pub fn size(&self) -> (usize, usize) {
+        (self.grid.width, self.grid.height)
+    }
+
+    /// The means.
+    #[must_use]
+    pub fn mean(&self) -> &Arc<dyn BandReader> {
+        &self.mean
+    }
+
+    /// The variances of the means.
+    #[must_use]
+    pub fn variance(&self) -> &Arc<dyn BandReader> {
+        &self.variance
+    }
+
+    /// Writes a tile of the grid.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    pub(super) fn write(&self, bands: &TileBands) -> Result<(), String> {
+        let tile = bands.tile();
+        let kept = &bands.samples()[..self.grid.planes * tile.len()];
+        let bytes: Vec<u8> = kept.iter().flat_map(|number| number.to_le_bytes()).collect();
+        self.scratch.write(self.grid.offset(tile.x0 as usize, tile.y0 as usize), &bytes)
+    }
+
+    /// A tile of the grid.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub(super) fn tile(&self, tile: Tile) -> Result<TileBands, String> {
+        let mut samples = vec![f32::NAN; 2 * self.bands.count() * tile.len()];
+        let offset = self.grid.offset(tile.x0 as usize, tile.y0 as usize);
+        read(&*self.scratch, offset, &mut samples[..self.grid.planes * tile.len()])?;
+        Ok(TileBands::from_samples(tile, self.bands.count(), samples))
+    }
+}
+
+impl Grid {
+    /// Where the piece of the tile from column `x`, row `y` on begins, bytes.
+    fn offset(&self, x: usize, y: usize) -> u64 {
+        let rows = self.side.min(self.height - y);
+        ((y * self.width + x * rows) * self.planes * NUMBER) as u64
+    }
+}
+
+/// Planes of the pieces.
+#[derive(Debug)]
+struct Reader {
+    grid: Grid,
+    scratch: Arc<dyn Scratch>,
+    /// Which plane is that of band 0.
+    first: usize,
+}
+
+impl BandReader for Reader {
+    fn read(&self, band: usize, rows: Range<usize>, samples: &mut [f32]) -> Result<(), String> {
+        let Grid { width, height, side, .. } = self.grid;
+        let mut part = Vec::new();
+        for y0 in (rows.start / side * side..rows.end).step_by(side) {
+            let y1 = (y0 + side).min(height);
+            let (from, to) = (rows.start.max(y0), rows.end.min(y1));
+            for x0 in (0..width).step_by(side) {
+                let columns = side.min(width - x0);
+                let before = (self.first + band) * columns * (y1 - y0) + columns * (from - y0);
+                part.resize(columns * (to - from), 0.0);
+                read(&*self.scratch, self.grid.offset(x0, y0) + (before * NUMBER) as u64, &mut part)?;
+                for (row, numbers) in part.chunks_exact(columns).enumerate() {
+                    samples[(from - rows.start + row) * width + x0..][..columns].copy_from_slice(numbers);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Variances of a single replicate.
+#[derive(Debug)]
+struct Unknown;
+
+impl BandReader for Unknown {
+    fn read(&self, _: usize, _: Range<usize>, samples: &mut [f32]) -> Result<(), String> {
+        samples.fill(f32::NAN);
+        Ok(())
+    }
+}
+
+fn read(scratch: &dyn Scratch, offset: u64, samples: &mut [f32]) -> Result<(), String> {
+    let mut bytes = vec![0; samples.len() * NUMBER];
+    scratch.read(offset, &mut bytes)?;
+    let (numbers, _) = bytes.as_chunks::<NUMBER>();
+    samples.iter_mut().zip(numbers).for_each(|(sample, number)| *sample = f32::from_le_bytes(*number));
+    Ok(())
+}

@@ -1,0 +1,162 @@
+//! What a change of a job changes of its frame: time, light, numbers, picture and geometry.
+
+use crate::error::Estimate;
+use crate::looks::Pair;
+use crate::pictures::{QUALITY, side_by_side};
+use etendue::{Error, GroundTruth, display_jpeg};
+use etendue_core::Plane;
+use etendue_core::maths::f64::acos;
+use etendue_core::quantity::Quantity;
+use glam::DVec3;
+use serde::Serialize;
+
+/// Side of the tiles that err alike, px, and of the cells by whose light errors are measured.
+const TILE_PX: usize = 16;
+
+/// What a frame with a change differs by from the frame as the job says.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Change {
+    /// Processor time of all threads (time, where the machine does not tell that) that is saved of loading the job and making one frame with its samples, s; below 0 where the change takes longer.
+    pub cpu_saved_s: f64,
+    /// Root mean square change of a pixel's mean light, over the mean light of the 16 × 16 px about it; of electrons where there are any, else of irradiance over all wavelengths, at the pupil of radiance. `None` where the light has another size or is another quantity.
+    pub light: Option<Estimate>,
+    /// Root mean square change of the digital numbers of one frame, DN, the random numbers of both alike; `None` where there are none, or of another size.
+    pub raw_dn: Option<f64>,
+    /// Root mean square change of the encoded picture, 0 to 1; `None` where there is none, or of another size.
+    pub picture: Option<f64>,
+    /// Part of the pixels that see another instance.
+    pub instances: Option<f64>,
+    /// Root mean square change of the distance of what a pixel sees, relative, of pixels that see the same instance.
+    pub distance: Option<f64>,
+    /// Root mean square change of the direction of a pixel's ray, in pixels of the middle of the picture.
+    pub direction_px: Option<f64>,
+    /// The frame as the job says, with the change, and four times their difference on grey, side by side, JPEG; `None` where there is no picture of the same size.
+    #[serde(skip)]
+    pub jpeg: Option<Vec<u8>>,
+}
+
+impl Change {
+    /// What the frame of `changed` differs by, with `spp` samples a pixel.
+    pub(crate) fn of(own: &Pair, changed: &Pair, spp: f64) -> Result<Self, Error> {
+        let truths = [own, changed].map(|pair| pair.many.results.ground_truth());
+        let same = |a: &Pair, b: &Pair| a.many.results.camera().body.raster == b.many.results.camera().body.raster;
+        let is_same = same(own, changed);
+        let numbers = own.many.raw.as_ref().zip(changed.many.raw.as_ref()).filter(|(a, b)| a.len() == b.len());
+        let pictures = own.many.picture.as_ref().zip(changed.many.picture.as_ref());
+        let pictures = pictures.filter(|(a, b)| (a.width(), a.height()) == (b.width(), b.height()));
+        Ok(Self {
+            cpu_saved_s: own.seconds(spp) - changed.seconds(spp),
+            light: change_of_light(own, changed),
+            raw_dn: numbers.map(|(a, b)| root_mean_square(a.iter().zip(b).map(|(a, b)| f64::from(*a) - f64::from(*b)))),
+            picture: pictures.map(|(a, b)| {
+                let channels = a.samples().iter().flatten().zip(b.samples().iter().flatten());
+                root_mean_square(channels.map(|(a, b)| f64::from(*a) - f64::from(*b)))
+            }),
+            instances: is_same.then(|| part_that_differs(&truths[0].instance, &truths[1].instance)),
+            distance: is_same.then(|| change_of_distance(&truths)),
+            direction_px: is_same.then(|| change_of_direction(own, changed)),
+            jpeg: pictures.map(|(a, b)| display_jpeg(&side_by_side(a, b), QUALITY)).transpose()?,
+        })
+    }
+
+    /// Its figures as a row under [`header`].
+    pub(crate) fn row(&self) -> String {
+        let percent = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| format!("{:.2} %", 100.0 * v));
+        let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| format!("{v:.2}"));
+        let light = self.light.map_or_else(|| "–".to_owned(), crate::report::percent);
+        format!(
+            "{:>8.1} s {light:>14} {:>9} {:>9} {:>9} {:>9} {:>9}",
+            self.cpu_saved_s,
+            number(self.raw_dn),
+            percent(self.picture),
+            percent(self.instances),
+            percent(self.distance),
+            number(self.direction_px)
+        )
+    }
+}
+
+/// What stands over the rows.
+pub(crate) fn header() -> String {
+    format!(
+        "{:>10} {:>14} {:>9} {:>9} {:>9} {:>9} {:>9}",
+        "saved", "light (rms)", "raw, DN", "picture", "other ids", "distance", "rays, px"
+    )
+}
+
+fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for value in values {
+        (sum, count) = (sum + value * value, count + 1.0);
+    }
+    if count > 0.0 { (sum / count).sqrt() } else { 0.0 }
+}
+
+/// The root of the mean product of two independent differences, each over the light about it: free of the noise of either.
+fn change_of_light(own: &Pair, changed: &Pair) -> Option<Estimate> {
+    let planes = [&own.few, &changed.few, &own.many, &changed.many].map(|look| look.light.as_ref());
+    let [Some((kind, a)), Some((other, b)), Some((_, c)), Some((_, d))] = planes else { return None };
+    let (width, height) = (a.width(), a.height());
+    if kind != other || [b, c, d].iter().any(|plane| (plane.width(), plane.height()) != (width, height)) {
+        return None;
+    }
+    let mean_of = |plane: &Plane<_>, x0: usize, y0: usize| {
+        let cell = (y0..(y0 + TILE_PX).min(height)).flat_map(|y| (x0..(x0 + TILE_PX).min(width)).map(move |x| (x, y)));
+        let (sum, count) = cell.fold((0.0, 0.0), |(sum, n), (x, y)| (sum + f64::from(at(plane, x, y)), n + 1.0));
+        sum / count
+    };
+    let whole: f64 = c.samples().iter().map(|v| f64::from(*v)).sum::<f64>() / c.samples().len() as f64;
+    let mut groups = Vec::new();
+    for y0 in (0..height).step_by(TILE_PX) {
+        for x0 in (0..width).step_by(TILE_PX) {
+            let light = mean_of(c, x0, y0).max(1e-3 * whole);
+            let (mut sum, mut count) = (0.0, 0);
+            for y in y0..(y0 + TILE_PX).min(height) {
+                for x in x0..(x0 + TILE_PX).min(width) {
+                    let difference = |p, q| f64::from(at(p, x, y)) - f64::from(at(q, x, y));
+                    (sum, count) = (sum + difference(a, b) * difference(c, d), count + 1);
+                }
+            }
+            if light > 0.0 {
+                groups.push((sum / (light * light), count));
+            }
+        }
+    }
+    Some(Estimate::of_groups(&groups).root())
+}
+
+fn at<Q: Quantity>(plane: &Plane<Q>, x: usize, y: usize) -> Q::Sample {
+    plane.at(x, y)
+}
+
+/// The part of samples that differ.
+fn part_that_differs<Q: Quantity>(a: &Plane<Q>, b: &Plane<Q>) -> f64
+where
+    Q::Sample: PartialEq,
+{
+    let count = a.samples().iter().zip(b.samples()).filter(|(a, b)| a != b).count();
+    count as f64 / a.samples().len().max(1) as f64
+}
+
+fn change_of_distance([a, b]: &[GroundTruth; 2]) -> f64 {
+    let pairs = a.distance.samples().iter().zip(b.distance.samples());
+    let ids = a.instance.samples().iter().zip(b.instance.samples());
+    let alike = pairs.zip(ids).filter(|((a, b), (i, j))| a.is_finite() && b.is_finite() && **a > 0.0 && i == j);
+    root_mean_square(alike.map(|((a, b), _)| f64::from(*b) / f64::from(*a) - 1.0))
+}
+
+/// Angles between the rays of pixels' centres, over that between neighbours in the middle.
+fn change_of_direction(own: &Pair, changed: &Pair) -> f64 {
+    let [a, b] = [own, changed].map(|pair| pair.many.results.rays().direction);
+    let vector = |v: [f32; 3]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
+    let angle = |a: DVec3, b: DVec3| {
+        // Of small angles the chord is exact where the cosine has no digits left.
+        let chord = (a - b).length();
+        if chord < 0.1 { chord } else { acos(a.dot(b).clamp(-1.0, 1.0)) }
+    };
+    let (x, y) = (a.width() / 2, a.height() / 2);
+    let pixel = angle(vector(a.at(x, y)), vector(a.at(x.saturating_sub(1), y)));
+    let pairs = a.samples().iter().zip(b.samples()).map(|(a, b)| angle(vector(*a), vector(*b)));
+    let known = pairs.filter(|angle| angle.is_finite());
+    if pixel > 0.0 { root_mean_square(known) / pixel } else { 0.0 }
+}

@@ -1,0 +1,132 @@
+//! Looks at a frame: rendered twice, by different random numbers and with different numbers of samples.
+
+use crate::Clock;
+use crate::pilot::seed;
+use crate::study::Request;
+use crate::way::{SAMPLE_KEYS, without_keys};
+use etendue::{CameraResults, Error, Job, JobRequest, Observer, RenderOptions};
+use etendue_core::quantity::{Display, Quantity, WatchedSignal};
+use etendue_core::{KeptCube, Plane};
+
+/// Samples of the second look over those of the first.
+pub(crate) const MORE: u32 = 3;
+/// Samples of the first look, at most.
+const MOST_SPP: f64 = 64.0;
+
+/// A job whose samples and way to render are said by changes of keys, so that a trial's changes come after them.
+pub(crate) fn as_changes(job: &JobRequest, camera: &str) -> JobRequest {
+    let mut own = without_keys(job, camera, &SAMPLE_KEYS);
+    if let Some(integrator) = own.integrator.take() {
+        own.set.push(format!("cameras.{camera}.render.integrator={:?}", integrator.name()));
+    }
+    own
+}
+
+/// Renders looks at a frame.
+pub(crate) struct Looks<'a> {
+    pub(crate) request: &'a Request,
+    pub(crate) camera: &'a str,
+    pub(crate) clock: &'a dyn Clock,
+    pub(crate) observer: &'a dyn Observer,
+    pub(crate) own_seed: u64,
+}
+
+/// Passes on the wish to stop, and no message: frames without this or that have much to warn of.
+struct Quiet<'a>(&'a dyn Observer);
+
+impl Observer for Quiet<'_> {
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}
+
+/// One look: the frame with so many samples, and how long it took.
+pub(crate) struct Look {
+    seconds: f64,
+    /// Mean electrons; of a camera without electronics its irradiance over all wavelengths, at the pupil the radiance.
+    pub(crate) light: Option<(&'static str, Plane<WatchedSignal>)>,
+    pub(crate) raw: Option<Vec<u32>>,
+    pub(crate) picture: Option<Plane<Display>>,
+    pub(crate) results: CameraResults,
+}
+
+/// Two looks by different random numbers.
+pub(crate) struct Pair {
+    pub(crate) few: Look,
+    pub(crate) many: Look,
+    spp: u32,
+}
+
+impl Pair {
+    /// The whole frame with so many samples, s.
+    pub(crate) fn seconds(&self, spp: f64) -> f64 {
+        let slope = (self.many.seconds - self.few.seconds) / f64::from((MORE - 1) * self.spp);
+        (self.few.seconds + slope.max(0.0) * (spp - f64::from(self.spp))).max(0.0)
+    }
+}
+
+impl Looks<'_> {
+    /// Samples of the first look with which so many pairs take the study's time, by a look at one.
+    pub(crate) fn affordable_spp(&self, job: &JobRequest, pairs: usize) -> Result<u32, Error> {
+        let from_s = self.clock.seconds();
+        self.look(job, 1, 3)?;
+        let runs = f64::from(1 + MORE) * pairs as f64;
+        Ok((self.request.budget_s / (runs * (self.clock.seconds() - from_s))).clamp(1.0, MOST_SPP) as u32)
+    }
+
+    fn now_s(&self) -> f64 {
+        self.clock.processor_seconds().unwrap_or_else(|| self.clock.seconds())
+    }
+
+    pub(crate) fn pair(&self, job: &JobRequest, spp: u32) -> Result<Pair, Error> {
+        Ok(Pair { few: self.look(job, spp, 1)?, many: self.look(job, MORE * spp, 2)?, spp })
+    }
+
+    fn look(&self, job: &JobRequest, spp: u32, k: u32) -> Result<Look, Error> {
+        let mut request = JobRequest { spp: Some(spp.into()), noise: None, ..job.clone() };
+        (request.camera, request.seed) = (Some(self.camera.to_owned()), Some(seed(self.own_seed, 3000 + k)));
+        let from_s = self.now_s();
+        let job: Job = request.open()?;
+        let options = RenderOptions { simd: self.request.simd, ..RenderOptions::default() };
+        let mut cameras = Vec::new();
+        job.render_each(&options, &Quiet(self.observer), |camera| {
+            cameras.push(camera);
+            Ok(())
+        })?;
+        let results = cameras.pop().expect("the job's only camera");
+        let frame = results.frames().next();
+        let seconds = self.now_s() - from_s;
+        let (raw, picture) = frame.map_or((None, None), |frame| {
+            (Some(frame.raw.plane.samples().to_vec()), frame.picture.map(|developed| developed.display))
+        });
+        Ok(Look { seconds, light: light(&results)?, raw, picture, results })
+    }
+}
+
+/// A signal, and what it is.
+type Signal = (&'static str, Plane<WatchedSignal>);
+
+/// The signal of a camera's pixels.
+///
+/// # Errors
+/// Where bands that are on the disk cannot be read.
+fn light(results: &CameraResults) -> Result<Option<Signal>, Error> {
+    let light = results.light();
+    if let Some(electrons) = &light.electrons {
+        return Ok(Some(("electrons", electrons.map(|e| e))));
+    }
+    let irradiance = light.irradiance.as_ref().map(|cube| ("irradiance", over_all_wavelengths(cube)));
+    let radiance = || light.radiance.as_ref().map(|of| ("radiance", over_all_wavelengths(&of.mean)));
+    let signal = irradiance.or_else(radiance).map(|(name, signal)| Ok((name, signal.map_err(Error::Run)?)));
+    signal.transpose()
+}
+
+fn over_all_wavelengths<Q: Quantity<Sample = f32>>(cube: &KeptCube<Q>) -> Result<Plane<WatchedSignal>, String> {
+    let mut sum: Plane<WatchedSignal> = Plane::new(cube.width(), cube.height());
+    let width_nm = cube.bands().width_nm() as f32;
+    for band in 0..cube.bands().count() {
+        let plane = cube.plane(band)?;
+        sum.samples_mut().iter_mut().zip(plane.samples()).for_each(|(sum, value)| *sum += width_nm * value);
+    }
+    Ok(sum)
+}

@@ -1,0 +1,147 @@
+//! A recommendation tried on tiles that the study has not seen. Of many ways the quickest by times that scatter is in part the luckiest: a time
+//! that is measured after the choice is not.
+
+use crate::error::Estimate;
+use crate::front::{Confirmation, Recommendation};
+use crate::measured::Measured;
+use crate::pilot::{Pilots, seed};
+use crate::pixels::Pixels;
+use crate::plan::{PilotPlan, share};
+use etendue::{Error, Job};
+use etendue_stats::Moments;
+
+/// The part of the study's time that trying one recommendation may have.
+const PART: f64 = 0.1;
+/// The fewest tiles worth it.
+const FEWEST_TILES: u32 = 16;
+/// The most replicates, and the fewest that tell a variance.
+const REPLICATES: [u32; 2] = [2, 16];
+/// The first seed of trials.
+const FIRST_SEED: u32 = 2000;
+
+/// What trials are made with.
+pub(crate) struct Trial<'a> {
+    /// How long the study may take, s.
+    pub(crate) budget_s: f64,
+    /// The studied job.
+    pub(crate) job: &'a Job,
+    pub(crate) pilots: &'a Pilots<'a>,
+}
+
+/// What is rendered for a trial.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Extent {
+    plan: PilotPlan,
+    tiles: u32,
+    /// Of each replicate.
+    samples: u32,
+    replicates: u32,
+}
+
+impl Extent {
+    /// As much of a recommendation of `spp` samples as may be rendered where the whole takes `1 / affordable` times what is there: fewer
+    /// tiles first, then fewer samples. `None` of pictures of too few tiles.
+    fn within(
+        affordable: f64,
+        (spp, replicates): (u32, u32),
+        (seen, [columns, rows]): (PilotPlan, [u32; 2]),
+    ) -> Option<Self> {
+        let fewest = (1.0 / affordable).ceil() as u32;
+        let plan = seen.unseen(columns, fewest.min(columns * rows / FEWEST_TILES));
+        let tiles = columns * rows / plan.shard.count;
+        let own = f64::from(spp / replicates);
+        let planes = replicates.clamp(REPLICATES[0], REPLICATES[1]);
+        let most = affordable * f64::from(plan.shard.count) * f64::from(spp);
+        let samples = (most / f64::from(planes)).min(own).max(1.0) as u32;
+        let replicates = (most / f64::from(samples)).clamp(f64::from(REPLICATES[0]), f64::from(planes)) as u32;
+        (tiles >= FEWEST_TILES / 2).then_some(Self { plan, tiles, samples, replicates })
+    }
+}
+
+impl Trial<'_> {
+    /// Tries a recommendation, and tells its time by what was found.
+    pub(crate) fn of(
+        &self,
+        recommendation: &mut Recommendation,
+        measured: &Measured,
+        rest_s: f64,
+    ) -> Result<(), Error> {
+        let Some(found) = self.tried(recommendation, measured)? else { return Ok(()) };
+        let samples_s = measured.sample_s.value * f64::from(recommendation.point.spp);
+        let fixed = Estimate { value: measured.load_s + measured.frame_s + rest_s, uncertainty: 0.0 };
+        recommendation.point.seconds = found.seconds.times(samples_s).plus(fixed);
+        recommendation.confirmation = Some(found);
+        Ok(())
+    }
+
+    fn tried(&self, recommendation: &Recommendation, measured: &Measured) -> Result<Option<Confirmation>, Error> {
+        let point = &recommendation.point;
+        let Pilots { camera, simd, clock, observer, plan } = *self.pilots;
+        let affordable = PART * self.budget_s / (measured.sample_s.value * f64::from(point.spp));
+        let grid = self.job.tile_grid(camera, plan.tile_px)?;
+        let Some(extent) = Extent::within(affordable, (point.spp, point.replicates), (plan, grid)) else {
+            return Ok(None);
+        };
+        let pilots = Pilots { camera, plan: extent.plan, simd, clock, observer };
+        let job = point.way.request(self.job.request(), camera).open()?;
+        let own = job.render_settings(camera)?.seed;
+        let (mut planes, mut pixels, mut times) = (Vec::new(), Vec::new(), Moments::default());
+        for k in 0..extent.replicates {
+            let (light, took_s) = pilots.timed(&job, (extent.samples, 1), seed(own, FIRST_SEED + k))?;
+            planes.push(light.signal);
+            pixels = light.pixels;
+            times.push(took_s);
+        }
+        let foretold_s = measured.sample_s.value * f64::from(extent.samples) * share(&job, camera, pixels.len())?;
+        let uncertainty_s = times.variance_of_mean().unwrap_or(f64::NAN).sqrt();
+        let found_s = Estimate { value: (times.mean() - measured.frame_s).max(0.0), uncertainty: uncertainty_s };
+        let pixels = Pixels::new(&pixels, &planes, self.job.temporal_noise(camera)?.as_ref());
+        Ok(Some(Confirmation {
+            tiles: extent.tiles,
+            unseen: extent.plan.shard.count > 1,
+            samples: extent.samples,
+            seconds: found_s.times(1.0 / foretold_s),
+            noise: noise(&pixels, &planes, measured, extent.samples),
+        }))
+    }
+}
+
+/// Noise of the planes over what was foretold of so many samples, in the currency that decides; `None` where none was foretold.
+fn noise(pixels: &Pixels, planes: &[Vec<f32>], measured: &Measured, samples: u32) -> Option<Estimate> {
+    let (found, laws) = (pixels.variance(planes), &measured.variance);
+    let (found, law) = match (found.sensor, laws.sensor) {
+        (Some(found), Some(law)) => (found, law),
+        _ => (found.relative, laws.relative),
+    };
+    let foretold = law.at(f64::from(samples)).value;
+    (foretold > 0.0).then(|| found.times(1.0 / foretold).root())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GRID: [u32; 2] = [80, 50];
+
+    fn extent(affordable: f64) -> Extent {
+        let seen = PilotPlan::of_tiles(GRID, 100);
+        Extent::within(affordable, (64, 4), (seen, GRID)).expect("enough tiles")
+    }
+
+    #[test]
+    fn what_is_affordable_is_tried_on_fewer_tiles_and_then_with_fewer_samples() {
+        let (much, less, little) = (extent(1.0), extent(0.008), extent(1e-4));
+        assert!(much.samples == 16 && much.replicates == 4 && much.tiles >= 80, "{much:?}");
+        assert!(less.samples == 16 && less.replicates == 4 && (8..40).contains(&less.tiles), "{less:?}");
+        // A ten-thousandth of 64 samples of 4000 tiles is 26 tile-samples: 1 sample of the fewest tiles, twice.
+        assert!(little.samples == 1 && little.replicates == 2 && (8..=20).contains(&little.tiles), "{little:?}");
+    }
+
+    #[test]
+    fn one_replicate_is_tried_twice() {
+        let seen = PilotPlan::of_tiles(GRID, 100);
+        let extent = Extent::within(1.0, (64, 1), (seen, GRID)).expect("enough tiles");
+        assert!(extent.samples == 64 && extent.replicates == 2, "{extent:?}");
+        assert_eq!(Extent::within(1.0, (64, 4), (PilotPlan::of_tiles([2, 2], 48), [2, 2])), None, "too few tiles");
+    }
+}

@@ -1,0 +1,107 @@
+//! The frame with other values of keys: forms and precisions of what a job models, compared with the job as it stands.
+
+use crate::Clock;
+use crate::change::{Change, header};
+use crate::looks::{Looks, MORE, as_changes};
+use crate::study::Request;
+use crate::way::{SAMPLE_KEYS, is_of};
+use etendue::{Error, Job, JobRequest, Observer, Progress, Unit};
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// What is found where keys have other values.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Varied {
+    /// The changes of keys, as `--set` takes them.
+    pub set: Vec<String>,
+    /// Memory of all effects that the plan foretells memory of, bytes: cubes of light, maps, textures in tiles.
+    pub memory_bytes: f64,
+    /// What that changes.
+    #[serde(flatten)]
+    pub change: Change,
+}
+
+/// A frame with each of the variations.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Variations {
+    /// The camera.
+    pub camera: String,
+    /// Samples a pixel that the errors are found with.
+    pub spp: u32,
+    /// Processor time of loading and of making one frame as the job says, s.
+    pub cpu_s: f64,
+    /// Memory of it that the plan foretells, bytes.
+    pub memory_bytes: f64,
+    /// What was changed, in the order asked for.
+    pub varied: Vec<Varied>,
+}
+
+/// Renders a frame of a job with each of `variations`, which are changes of keys. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where the job has faults, as it stands or with a variation, or no such camera; a variation changes the number of samples; the observer cancels, or light is not finite.
+pub fn variations(
+    request: &Request,
+    variations: &[Vec<String>],
+    clock: &dyn Clock,
+    observer: &dyn Observer,
+) -> Result<Variations, Error> {
+    let job = request.job.clone().open()?;
+    let camera = request.camera.clone().unwrap_or_else(|| job.plan().cameras[0].name.clone());
+    let settings = job.render_settings(&camera)?;
+    let own = as_changes(&request.job, &camera);
+    let requests = variations.iter().map(|set| varied_request(&own, set, &camera)).collect::<Result<Vec<_>, _>>()?;
+    // All faults before anything is rendered.
+    let memory = requests.iter().map(|request| Ok(memory_bytes(&request.clone().open()?, &camera)));
+    let memory = memory.collect::<Result<Vec<_>, Error>>()?;
+    let looks = Looks { request, camera: &camera, clock, observer, own_seed: settings.seed };
+    let spp = looks.affordable_spp(&own, requests.len() + 1)?;
+    let stated = looks.pair(&own, spp)?;
+    let (mut varied, total) = (Vec::new(), requests.len());
+    for (done, ((request, set), memory_bytes)) in requests.iter().zip(variations).zip(memory).enumerate() {
+        observer.progress(Progress { heading: &set.join("; "), frame: None, unit: Unit::Pilots, done, total });
+        let change = Change::of(&stated, &looks.pair(request, spp)?, f64::from(settings.spp))?;
+        varied.push(Varied { set: set.clone(), memory_bytes, change });
+    }
+    observer.progress(Progress { heading: "done", frame: None, unit: Unit::Pilots, done: total, total });
+    let (cpu_s, memory_bytes) = (stated.seconds(f64::from(settings.spp)), memory_bytes(&job, &camera));
+    Ok(Variations { spp: spp * (1 + MORE), cpu_s, memory_bytes, camera, varied })
+}
+
+fn varied_request(own: &JobRequest, set: &[String], camera: &str) -> Result<JobRequest, Error> {
+    if let Some(change) = set.iter().find(|change| is_of(change, camera, &SAMPLE_KEYS)) {
+        let problem = "looks have samples of their own; without --vary a study tells what more or fewer come to";
+        return Err(Error::input(format!("--vary {change}: {problem}")));
+    }
+    let mut request = own.clone();
+    request.set.extend(set.iter().cloned());
+    Ok(request)
+}
+
+/// Of every effect of a camera together.
+fn memory_bytes(job: &Job, camera: &str) -> f64 {
+    let effects = job.effects().into_iter().find(|(plan, _)| plan.name == camera);
+    effects.map_or(0.0, |(_, effects)| effects.iter().filter_map(|effect| effect.memory_bytes).fold(0.0, |a, b| a + b))
+}
+
+/// The table of variations.
+#[must_use]
+pub fn variation_table(variations: &Variations) -> String {
+    let megabytes = |bytes: f64| format!("{:.0} MB", bytes / 1e6);
+    let labels: Vec<_> = variations.varied.iter().map(|varied| varied.set.join("; ")).collect();
+    let width = labels.iter().map(|label| label.chars().count()).fold("with".len(), usize::max);
+    let mut out = format!(
+        "camera {}: one frame takes {:.1} s of processor time and, by its plan, {} of memory; found with {} samples a pixel\n\n{:<width$} {:>9} {}\n",
+        variations.camera,
+        variations.cpu_s,
+        megabytes(variations.memory_bytes),
+        variations.spp,
+        "with",
+        "memory",
+        header()
+    );
+    for (varied, label) in variations.varied.iter().zip(labels) {
+        let _ = writeln!(out, "{label:<width$} {:>9} {}", megabytes(varied.memory_bytes), varied.change.row());
+    }
+    out
+}

@@ -1,0 +1,189 @@
+"""Closed forms to 60 digits by mpmath for tests/tests/extremes/numerics: figures/closed_forms.json.
+
+Python 3.11, mpmath 1.4.1 (requirements.txt). Run at the root of the repository (seconds):
+    python tests/oracles/closed_forms.py
+
+Arguments are exact floats over the whole range that a function is declared for; each value is the nearest double and what is left of it.
+"""
+
+import json
+import math
+import random
+
+import mpmath
+import numpy as np
+
+mpmath.mp.dps = 60
+COUNT = 36
+random.seed(20)
+
+
+def logarithmic(low, high, signs=(1,)):
+    return [random.choice(signs) * math.exp(random.uniform(math.log(low), math.log(high))) for _ in range(COUNT)]
+
+
+def even(low, high):
+    return [random.uniform(low, high) for _ in range(COUNT)]
+
+
+def near(points, scale):
+    """Either side of points, 10⁻¹ … `scale` away."""
+    return [p + s * 10 ** random.uniform(math.log10(scale), -1) for p in points for s in (-1, 1) for _ in range(6)]
+
+
+WHOLE = logarithmic(1e-300, 1e300)
+SIGNED = logarithmic(1e-300, 1e300, (-1, 1))
+ANGLES = logarithmic(1e-300, 1e5, (-1, 1)) + near([math.pi * k / 2 for k in (1, 2, 3, 7, 100)], 1e-12) + even(-20, 20)
+UNIT = logarithmic(1e-300, 1, (-1, 1)) + even(-1, 1) + [s * (1 - 10 ** random.uniform(-15.5, -1)) for s in (-1, 1) for _ in range(12)]
+EXPONENTS = logarithmic(1e-300, 700, (-1, 1)) + even(-700, 700)
+ABOUT_ONE = WHOLE + [1 + s * 10 ** random.uniform(-15, -1) for s in (-1, 1) for _ in range(16)]
+
+ONE = {
+    "sin": (mpmath.sin, ANGLES),
+    "cos": (mpmath.cos, ANGLES),
+    "tan": (mpmath.tan, ANGLES),
+    "asin": (mpmath.asin, UNIT),
+    "acos": (mpmath.acos, UNIT),
+    "atan": (mpmath.atan, SIGNED + even(-5, 5)),
+    "exp": (mpmath.exp, EXPONENTS),
+    "exp2": (lambda x: mpmath.mpf(2) ** x, [1.4 * x for x in EXPONENTS]),
+    "exp_m1": (mpmath.expm1, EXPONENTS),
+    "ln": (mpmath.log, ABOUT_ONE),
+    "ln_1p": (mpmath.log1p, WHOLE + logarithmic(1e-300, 0.999, (-1,))),
+    "log2": (lambda x: mpmath.log(x, 2), ABOUT_ONE),
+    "log10": (lambda x: mpmath.log(x, 10), ABOUT_ONE),
+    "cbrt": (lambda x: mpmath.sign(x) * mpmath.cbrt(abs(x)), SIGNED),
+}
+# The same within what a float of 32 bits holds.
+SINGLE_RANGE = (1e-37, 1e37)
+S_WHOLE = logarithmic(*SINGLE_RANGE)
+S_SIGNED = logarithmic(*SINGLE_RANGE, (-1, 1))
+S_EXPONENTS = logarithmic(1e-37, 87, (-1, 1)) + even(-87, 87)
+S_ABOUT_ONE = S_WHOLE + [1 + s * 10 ** random.uniform(-6.5, -1) for s in (-1, 1) for _ in range(16)]
+S_ANGLES = logarithmic(1e-37, 1e4, (-1, 1)) + near([math.pi * k / 2 for k in (1, 2, 3, 7, 100)], 1e-5) + even(-20, 20)
+S_UNIT = logarithmic(1e-37, 1, (-1, 1)) + even(-1, 1) + [s * (1 - 10 ** random.uniform(-7, -1)) for s in (-1, 1) for _ in range(12)]
+SINGLE = {
+    "sin": S_ANGLES,
+    "cos": S_ANGLES,
+    "tan": S_ANGLES,
+    "asin": S_UNIT,
+    "acos": S_UNIT,
+    "atan": S_SIGNED + even(-5, 5),
+    "exp": S_EXPONENTS,
+    "exp2": [1.4 * x for x in S_EXPONENTS],
+    "exp_m1": S_EXPONENTS,
+    "ln": S_ABOUT_ONE,
+    "ln_1p": S_WHOLE + logarithmic(1e-37, 0.999, (-1,)),
+    "log2": S_ABOUT_ONE,
+    "log10": S_ABOUT_ONE,
+    "cbrt": S_SIGNED,
+}
+
+
+def pow_pairs(low, high, most):
+    """Bases with exponents that keep the power within e^±most."""
+    bases = logarithmic(low, high) + [1 + s * 10 ** random.uniform(-6, -1) for s in (-1, 1) for _ in range(16)]
+    return [(b, random.uniform(-most, most) / max(abs(math.log(b)), 1e-9)) for b in bases]
+
+
+def fresnel(c, n):
+    """Both planes of a dielectric."""
+    t = mpmath.sqrt(n * n - 1 + c * c)
+    return ((c - t) / (c + t)) ** 2, ((n * n * c - t) / (n * n * c + t)) ** 2
+
+
+def conductor(c, n, k):
+    index = mpmath.mpc(n, k)
+    t = mpmath.sqrt(index * index - 1 + c * c)
+    s, p = abs((c - t) / (c + t)) ** 2, abs((index * index * c - t) / (index * index * c + t)) ** 2
+    return (s + p) / 2
+
+
+def planck(nm, kelvin):
+    h, c, k = mpmath.mpf("6.62607015e-34"), mpmath.mpf(299792458), mpmath.mpf("1.380649e-23")
+    metres = mpmath.mpf(nm) / 10**9
+    return 2 * h * c * c / metres**5 / mpmath.expm1(h * c / (metres * k * kelvin)) / 10**9
+
+
+def ciede2000(one, other):
+    """Sharma, Wu and Dalal (2005), equations 1 to 22."""
+    (l1, a1, b1), (l2, a2, b2) = [[mpmath.mpf(v) for v in lab] for lab in (one, other)]
+    mean_c = (mpmath.hypot(a1, b1) + mpmath.hypot(a2, b2)) / 2
+    g = (1 - mpmath.sqrt(mean_c**7 / (mean_c**7 + mpmath.mpf(25) ** 7))) / 2
+    a1, a2 = (1 + g) * a1, (1 + g) * a2
+    c1, c2 = mpmath.hypot(a1, b1), mpmath.hypot(a2, b2)
+    degrees = lambda a, b: mpmath.degrees(mpmath.atan2(b, a)) % 360 if (a or b) else mpmath.mpf(0)
+    h1, h2 = degrees(a1, b1), degrees(a2, b2)
+    turn = h2 - h1
+    if c1 * c2 == 0:
+        turn = mpmath.mpf(0)
+    elif turn > 180:
+        turn -= 360
+    elif turn < -180:
+        turn += 360
+    d_l, d_c, d_h = l2 - l1, c2 - c1, 2 * mpmath.sqrt(c1 * c2) * mpmath.sin(mpmath.radians(turn / 2))
+    l, c = (l1 + l2) / 2, (c1 + c2) / 2
+    if c1 * c2 == 0:
+        h = h1 + h2
+    elif abs(h1 - h2) <= 180:
+        h = (h1 + h2) / 2
+    else:
+        h = (h1 + h2 + 360) / 2 if h1 + h2 < 360 else (h1 + h2 - 360) / 2
+    cos = lambda x: mpmath.cos(mpmath.radians(x))
+    t = 1 - mpmath.mpf("0.17") * cos(h - 30) + mpmath.mpf("0.24") * cos(2 * h) + mpmath.mpf("0.32") * cos(3 * h + 6) - mpmath.mpf("0.2") * cos(4 * h - 63)
+    s_l = 1 + mpmath.mpf("0.015") * (l - 50) ** 2 / mpmath.sqrt(20 + (l - 50) ** 2)
+    s_c, s_h = 1 + mpmath.mpf("0.045") * c, 1 + mpmath.mpf("0.015") * c * t
+    theta = 30 * mpmath.exp(-(((h - 275) / 25) ** 2))
+    r_t = -mpmath.sin(mpmath.radians(2 * theta)) * 2 * mpmath.sqrt(c**7 / (c**7 + mpmath.mpf(25) ** 7))
+    return mpmath.sqrt((d_l / s_l) ** 2 + (d_c / s_c) ** 2 + (d_h / s_h) ** 2 + r_t * d_c / s_c * d_h / s_h)
+
+
+def single(values):
+    return [float(np.float32(v)) for v in values]
+
+
+def split(value):
+    nearest = float(value)
+    return [nearest, float(value - mpmath.mpf(nearest))]
+
+
+def table(rows, answers):
+    """Arguments and their answers, each number the nearest double and the rest."""
+    out = []
+    for arguments in rows:
+        values = answers(*[mpmath.mpf(a) if not isinstance(a, (list, tuple)) else a for a in arguments])
+        values = values if isinstance(values, tuple) else (values,)
+        out.append({"at": list(arguments), "is": [split(v) for v in values]})
+    return out
+
+
+def within(rows, largest, smallest):
+    return [r for r in rows if all(v[0] == 0 or smallest < abs(v[0]) < largest for v in r["is"])]
+
+
+figures = {"version": mpmath.__version__, "double": {}, "single": {}}
+for name, (f, arguments) in ONE.items():
+    figures["double"][name] = within(table([(x,) for x in arguments], f), 1e307, 1e-307)
+    figures["single"][name] = within(table([(x,) for x in single(SINGLE[name])], f), 3e38, 1.2e-38)
+two = lambda pairs, f, top, bottom: within(table(pairs, f), top, bottom)
+figures["double"]["pow"] = two(pow_pairs(1e-300, 1e300, 690), mpmath.power, 1e307, 1e-307)
+figures["single"]["pow"] = two([tuple(single(p)) for p in pow_pairs(1e-37, 1e37, 85)], mpmath.power, 3e38, 1.2e-38)
+figures["double"]["atan2"] = two(list(zip(SIGNED, logarithmic(1e-300, 1e300, (-1, 1)))), mpmath.atan2, 1e307, 1e-307)
+figures["single"]["atan2"] = two([tuple(single(p)) for p in zip(S_SIGNED, logarithmic(*SINGLE_RANGE, (-1, 1)))], mpmath.atan2, 3e38, 1.2e-38)
+figures["double"]["hypot"] = two(list(zip(WHOLE, [x * 10 ** random.uniform(-3, 3) for x in WHOLE])), mpmath.hypot, 1e307, 1e-307)
+figures["single"]["hypot"] = two([tuple(single(p)) for p in zip(S_WHOLE, [x * 10 ** random.uniform(-1, 1) for x in S_WHOLE])], mpmath.hypot, 3e38, 1.2e-38)
+
+cosines = logarithmic(1e-6, 1)
+indices = [1 + 10 ** random.uniform(-4, 0.477) for _ in range(COUNT)]
+figures["dielectric"] = table([tuple(single(p)) for p in zip(cosines, indices)], fresnel)
+metals = [(c, 10 ** random.uniform(-1.5, 0.8), 10 ** random.uniform(-1, 1)) for c in cosines]
+figures["conductor"] = table([tuple(single(p)) for p in metals], conductor)
+figures["planck"] = within(table(list(zip(even(300, 1100), logarithmic(10, 1e8))), planck), 1e307, 1e-290)
+labs = [[random.uniform(0, 100), random.uniform(-120, 120), random.uniform(-120, 120)] for _ in range(COUNT)]
+others = [[v + random.choice((1e-6, 1e-2, 1, 30)) * random.uniform(-1, 1) for v in lab] for lab in labs]
+figures["ciede2000"] = table(list(zip(labs, others)), ciede2000)
+
+# A row a line: differences stay readable.
+lines = json.dumps(figures).replace('{"at"', '\n{"at"')
+with open("tests/oracles/figures/closed_forms.json", "w") as file:
+    file.write(lines + "\n")

@@ -1,0 +1,214 @@
+//! Cameras at the ends of their keys: sizes, apertures, exposures, wells, converters, temperatures.
+
+use crate::page::{Row, check, figure};
+use etendue_core::maths::f64::exp2;
+use etendue_sensor::{FrameAddress, SensorState};
+use etendue_tests::{Job, Shot};
+
+const LENS: &str = "type = \"thin\", focal_length_mm = 6, f_number = 2, focus_distance_m = 5";
+
+/// A camera before a white wall under an even sky, 1 ms.
+fn camera() -> Job {
+    Job::new(format!(
+        r#"
+        [scene]
+        materials = [{{ name = "white", type = "diffuse", reflectance = 0.8 }}]
+        environment = {{ type = "uniform", radiance_w_m2_sr_nm = 0.01 }}
+        [[scene.objects]]
+        name = "wall"
+        material = "white"
+        position_m = [5, 0, 0]
+        rotation_deg = [0, -90, 0]
+        shape = {{ type = "quad", size_m = [100, 100] }}
+        [[cameras]]
+        name = "eye"
+        position_m = [0, 0, 0]
+        look_at_m = [1, 0, 0]
+        lens = {{ {LENS} }}
+        [cameras.sensor]
+        width_px = 16
+        height_px = 16
+        pixel_pitch_um = 3
+        exposure_s = 0.001
+        cfa = "mono"
+        quantum_efficiency = 0.5
+        full_well_e = 1e5
+        read_noise_e = 2
+        dark_current_e_s = 5
+        gain_dn_per_e = 0.5
+        black_level_dn = 64
+        bits = 16
+        [render]
+        spp = 16
+        wavelength_range_nm = [500, 600]
+        [output]
+        electrons = true
+        "#
+    ))
+}
+
+/// Digital numbers of a frame.
+fn numbers(shot: &Shot) -> Vec<f64> {
+    let sensor = shot.camera().body.sensor.as_ref().expect("electronics");
+    let means = shot.light().electrons.expect("the camera has electronics");
+    let address = FrameAddress { seed: 3, camera: 0, frame: 0, capture: 0 };
+    let raw = sensor.step(SensorState::default(), &means, address).1;
+    raw.plane.samples().iter().map(|dn| f64::from(*dn)).collect()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+fn electrons(job: &Job) -> f64 {
+    mean(&job.shot().electrons().iter().map(|e| f64::from(*e)).collect::<Vec<_>>())
+}
+
+fn optics() -> Vec<Row> {
+    let at = |f_number: f64| electrons(&camera().replaced("f_number = 2", &format!("f_number = {f_number}")));
+    // E = π L/(1 + 4 N²), the lens at 1 + m of its stop number by focus: 6 mm at 5 m, m = 0.0012.
+    let falls = |a: f64, b: f64| at(a) / at(b) / ((1.0 + 4.0 * b * b) / (1.0 + 4.0 * a * a)) - 1.0;
+    let focus = |m: &str| electrons(&camera().replaced("focus_distance_m = 5", &format!("focus_distance_m = {m}")));
+    vec![
+        Row::at_most("f/0.5 against f/2", "light as 1/(1 + 4 N²) (relative error)", falls(0.5, 2.0).abs(), 2e-2),
+        Row::at_most("f/1000 against f/2", "light as 1/(1 + 4 N²) (relative error)", falls(1000.0, 2.0).abs(), 2e-2),
+        Row::at_most(
+            "focus at infinity and at 10⁹ m",
+            "one picture (relative difference)",
+            (focus("\"infinity\"") / focus("1e9") - 1.0).abs(),
+            1e-6,
+        ),
+        Row::at_most(
+            "a wall seen with focus on 1 cm: blur circles of hundreds of pixels",
+            "light as 1/(1 + 4 N² (1 + m)²), m 1.5 and 0.0012 (relative error)",
+            (focus("0.01") / focus("5") / ((1.0 + 16.0 * 1.0012 * 1.0012) / (1.0 + 16.0 * 2.5 * 2.5)) - 1.0).abs(),
+            2e-2,
+        ),
+    ]
+}
+
+fn sizes() -> Vec<Row> {
+    let of = |width: u32, height: u32| {
+        camera()
+            .replaced("width_px = 16", &format!("width_px = {width}"))
+            .replaced("height_px = 16", &format!("height_px = {height}"))
+            .replaced("spp = 16", "spp = 1")
+    };
+    let bad = |job: &Job, pixels: usize| {
+        let numbers = numbers(&job.shot());
+        numbers.iter().filter(|dn| **dn <= 64.0).count().max(pixels.abs_diff(numbers.len())) as f64
+    };
+    let lit = "every pixel is there and has light (pixels without)";
+    vec![
+        Row::at_most("a picture of 1 × 1 px", lit, bad(&of(1, 1), 1), 0.0),
+        Row::at_most(
+            "a picture of 65 535 × 2 px, 0.1 µm wide",
+            lit,
+            bad(
+                &of(65_535, 2)
+                    .replaced("pixel_pitch_um = 3", "pixel_pitch_um = 0.1")
+                    .replaced("exposure_s = 0.001", "exposure_s = 1"),
+                131_070,
+            ),
+            0.0,
+        ),
+    ]
+}
+
+fn electronics() -> Vec<Row> {
+    let with = |changes: &[(&str, &str)]| changes.iter().fold(camera(), |job, (old, new)| job.replaced(old, new));
+    let signal = |job: &Job| mean(&numbers(&job.shot()));
+    let dark_e = |celsius: f64| {
+        let dark = format!(
+            "dark_current_e_s = 5\n        dark = {{ temperature_c = {celsius}, reference_c = 20, doubling_k = 8 }}"
+        );
+        let job = with(&[
+            ("dark_current_e_s = 5", &dark),
+            ("radiance_w_m2_sr_nm = 0.01", "radiance_w_m2_sr_nm = 0"),
+            ("read_noise_e = 2", "read_noise_e = 0"),
+            ("exposure_s = 0.001", "exposure_s = 1e4"),
+            ("full_well_e = 1e5", "full_well_e = 1e12"),
+            ("bits = 16", "bits = 24"),
+            ("gain_dn_per_e = 0.5", &format!("gain_dn_per_e = {:e}", 200.0 * exp2(-(celsius - 20.0) / 8.0))),
+        ]);
+        (signal(&job) - 64.0) / (200.0 * exp2(-(celsius - 20.0) / 8.0))
+    };
+    let law = |celsius: f64| (dark_e(celsius) / (5e4 * exp2((celsius - 20.0) / 8.0)) - 1.0).abs();
+    let full = with(&[("exposure_s = 0.001", "exposure_s = 1e6")]);
+    let photon = with(&[
+        ("exposure_s = 0.001", "exposure_s = 1e-10"),
+        ("read_noise_e = 2", "read_noise_e = 0"),
+        ("gain_dn_per_e = 0.5", "gain_dn_per_e = 100"),
+        ("black_level_dn = 64", "black_level_dn = 0"),
+        ("width_px = 16", "width_px = 256"),
+        ("height_px = 16", "height_px = 256"),
+        ("pixel_pitch_um = 3", "pixel_pitch_um = 1"),
+        ("spp = 16", "spp = 4"),
+    ]);
+    let one_electron = with(&[
+        ("full_well_e = 1e5", "full_well_e = 1"),
+        ("read_noise_e = 2", "read_noise_e = 0"),
+        ("gain_dn_per_e = 0.5", "gain_dn_per_e = 10"),
+    ]);
+    let one_electron = numbers(&one_electron.shot());
+    let shot = photon.shot();
+    let (expected, got) =
+        (shot.electrons().iter().map(|e| f64::from(*e)).sum::<f64>(), numbers(&shot).iter().sum::<f64>() / 100.0);
+    vec![
+        Row::at_most(
+            "an exposure of 0 s",
+            "the black level alone, within the read noise of 256 pixels (DN from it)",
+            (signal(&with(&[("exposure_s = 0.001", "exposure_s = 0")])) - 64.0).abs(),
+            0.25,
+        ),
+        Row::at_most(
+            "an exposure of 10⁶ s",
+            "the full well in every pixel (relative error)",
+            (signal(&full) / 50_064.0 - 1.0).abs(),
+            1e-3,
+        ),
+        Row {
+            extreme: "a pixel that holds one electron".to_owned(),
+            expected: "0 or 1 electron: nothing above 64 + 10 DN".to_owned(),
+            found: format!("largest {} DN", figure(one_electron.iter().copied().fold(0.0, f64::max))),
+            holds: one_electron.iter().all(|dn| *dn <= 74.0 && *dn >= 64.0),
+        },
+        Row {
+            extreme: format!("{expected:.2} photons in a frame of 65 536 pixels"),
+            expected: "a whole number of them, Poisson: within four deviations".to_owned(),
+            found: format!("{got} electrons"),
+            holds: got.fract() == 0.0 && (got - expected).abs() <= 4.0 * expected.sqrt() + 1.0,
+        },
+        Row::at_most(
+            "−50 °C, doubling every 8 K",
+            "the law's dark current over 10⁴ s (relative error, its shot noise in it)",
+            law(-50.0),
+            0.05,
+        ),
+        Row::at_most(
+            "+150 °C, doubling every 8 K",
+            "the law's dark current over 10⁴ s (relative error)",
+            law(150.0),
+            0.01,
+        ),
+        Row::at_most(
+            "24 bits, 100 DN an electron",
+            "the mean signal, as of 16 bits (relative error)",
+            ((signal(&with(&[("bits = 16", "bits = 24"), ("gain_dn_per_e = 0.5", "gain_dn_per_e = 100")])) - 64.0)
+                / 200.0
+                / (signal(&camera()) - 64.0)
+                - 1.0)
+                .abs(),
+            2e-2,
+        ),
+    ]
+}
+
+#[test]
+fn cameras() {
+    let mut rows = optics();
+    rows.extend(sizes());
+    rows.extend(electronics());
+    let about = "A camera of 6 mm before a white wall, 1 ms, 16 × 16 pixels of 3 µm.";
+    check("Cameras", about, &rows);
+}

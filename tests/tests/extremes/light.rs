@@ -1,0 +1,228 @@
+//! Light at the ends of its range: surfaces that swallow nothing, hide nothing or are not there, lamps without number, lines.
+
+use crate::page::{Row, check, figure};
+use etendue_stats::Moments;
+use etendue_tests::Job;
+
+/// A camera over a matt floor with a ball of a material, under an even sky.
+fn ball(material: &str, more: &str) -> Job {
+    Job::new(format!(
+        r#"
+        [[cameras]]
+        name = "eye"
+        position_m = [-3, 0, 1]
+        look_at_m = [0, 0, 0.5]
+        lens = {{ type = "pinhole", focal_length_mm = 20, f_number = 8 }}
+        sensor = {{ width_px = 16, height_px = 12, pixel_pitch_um = 1000 }}
+        [render]
+        spp = 64
+        replicates = 16
+        max_bounces = 8
+        wavelength_range_nm = [500, 600]
+        band_width_nm = 100
+        [output]
+        irradiance = true
+        [scene]
+        materials = [
+            {{ name = "matt", type = "diffuse", reflectance = 0.5 }},
+            {{ name = "ball", {material} }},
+        ]
+        environment = {{ type = "uniform", radiance_w_m2_sr_nm = 1 }}
+        [[scene.objects]]
+        name = "floor"
+        material = "matt"
+        shape = {{ type = "quad", size_m = [20, 20] }}
+        [[scene.objects]]
+        name = "ball"
+        material = "ball"
+        position_m = [0, 0, 0.5]
+        shape = {{ type = "sphere", radius_m = 0.5 }}
+        {more}
+        "#
+    ))
+}
+
+fn seen(job: &Job) -> Vec<f64> {
+    job.shot().irradiance().mean.into_iter().map(f64::from).collect()
+}
+
+/// The greatest relative difference of two pictures, pixel by pixel.
+fn difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Pixels that are not above 0 and finite.
+fn bad(values: &[f64]) -> f64 {
+    values.iter().filter(|v| !(v.is_finite() && **v > 0.0)).count() as f64
+}
+
+const ALL_LIT: &str = "light in every pixel (pixels without, or not finite)";
+
+fn surfaces() -> Vec<Row> {
+    let glass = |index: f64| seen(&ball(&format!("type = \"dielectric\", index = {index}"), ""));
+    let metal = |alpha: f64| seen(&ball(&format!("type = \"conductor\", metal = \"Al\", alpha = {alpha}"), ""));
+    let bare =
+        ball("type = \"diffuse\", reflectance = 0", "").replaced("position_m = [0, 0, 0.5]", "position_m = [0, 0, -5]");
+    let bare = seen(&bare);
+    let (one, smooth) = (glass(1.0), metal(0.0));
+    let mut rows = vec![
+        Row::at_most(
+            "a ball of index 1",
+            "is not seen: the light of the picture without it (relative difference of the mean)",
+            (mean(&one) / mean(&bare) - 1.0).abs(),
+            1e-2,
+        ),
+        Row::at_most(
+            "a mirror of roughness 0 and one of 10⁻⁶",
+            "one picture: narrower than a hundredth of a degree is a mirror",
+            difference(&metal(1e-6), &smooth),
+            1e-6,
+        ),
+    ];
+    for index in [1.0001, 4.0] {
+        rows.push(Row::at_most(&format!("a ball of index {index}"), ALL_LIT, bad(&glass(index)), 0.0));
+    }
+    for alpha in [1e-4, 1e-3, 1.0] {
+        rows.push(Row::at_most(
+            &format!("a metal ball of roughness {}", figure(alpha)),
+            ALL_LIT,
+            bad(&metal(alpha)),
+            0.0,
+        ));
+    }
+    rows
+}
+
+/// A closed room that swallows nothing, whose walls glow a little: L = Lₑ (1 + 1 + … ) over max_bounces + 1 terms.
+fn nothing_is_swallowed() -> Row {
+    const BOUNCES: u32 = 200;
+    let job = ball("type = \"diffuse\", reflectance = 1, emission = { radiance_w_m2_sr_nm = 1, sides = \"both\" }", "");
+    let job = job
+        .replaced("position_m = [-3, 0, 1]", "position_m = [0, 0, 0.5]")
+        .replaced("look_at_m = [0, 0, 0.5]", "look_at_m = [1, 0, 0.5]");
+    let job = job
+        .replaced("max_bounces = 8", &format!("max_bounces = {BOUNCES}"))
+        .replaced("radius_m = 0.5", "radius_m = 0.4");
+    let radiance = job.shot().radiance();
+    let found = mean(&radiance.mean.iter().map(|v| f64::from(*v)).collect::<Vec<_>>());
+    let expected = f64::from(BOUNCES) + 1.0;
+    Row::at_most(
+        "a closed ball of albedo 1 that glows inside, 200 bounces",
+        "201 times its own radiance (relative error)",
+        (found / expected - 1.0).abs(),
+        1e-2,
+    )
+}
+
+/// Two mirrors that face each other, the camera between them.
+fn mirrors() -> Row {
+    let mirror = |name: &str, x: f64, turn: f64| {
+        format!(
+            "[[scene.objects]]\nname = \"{name}\"\nmaterial = \"ball\"\nposition_m = [{x}, 0, 2]\nrotation_deg = [0, {turn}, 0]\nshape = {{ type = \"quad\", size_m = [8, 8] }}\n"
+        )
+    };
+    let job = ball(
+        "type = \"conductor\", metal = \"Ag\", alpha = 0",
+        &(mirror("near", -4.0, 90.0) + &mirror("far", 4.0, -90.0)),
+    );
+    Row::at_most(
+        "two mirrors that face each other, 1 000 bounces",
+        ALL_LIT,
+        bad(&seen(&job.replaced("max_bounces = 8", "max_bounces = 1000"))),
+        0.0,
+    )
+}
+
+/// As many lamps at one place as make one.
+fn lamps() -> Vec<Row> {
+    const MANY: usize = 100_000;
+    let lamp = |i: usize, power: f64| {
+        format!(
+            "[[scene.lights]]\nname = \"lamp{i}\"\ntype = \"point\"\nposition_m = [0, 2, 3]\nilluminant = \"E\"\nintensity_cd = {power:?}\n"
+        )
+    };
+    let dark = |lights: String| {
+        ball("type = \"diffuse\", reflectance = 0.5", &lights)
+            .replaced("environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }", "")
+    };
+    let one = mean(&seen(&dark(lamp(0, 1e5))));
+    let many = mean(&seen(&dark((0..MANY).map(|i| lamp(i, 1e5 / MANY as f64)).collect())));
+    vec![Row::at_most(
+        "10⁵ lamps at one place, each of 10⁻⁵ of the power",
+        "the light of one (relative difference of the mean)",
+        (many / one - 1.0).abs(),
+        5e-3,
+    )]
+}
+
+/// Light of one wavelength, and bands at the ends of the domain.
+fn wavelengths() -> Vec<Row> {
+    let of = |range: &str, radiance: &str| {
+        let sky = format!("environment = {{ type = \"uniform\", {radiance} }}");
+        let job = ball("type = \"diffuse\", reflectance = 0.5", "")
+            .replaced("wavelength_range_nm = [500, 600]\n        band_width_nm = 100", range);
+        job.replaced("environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }", &sky)
+    };
+    let line = of(
+        "wavelength_range_nm = [580, 600]\n        band_width_nm = 20",
+        "radiance_w_m2_sr_nm = { spectrum = \"line.csv\" }",
+    )
+    .with_spectrum("line.csv", &[(588.0, 0.0), (589.0, 1.0), (590.0, 0.0)]);
+    let flat = of("wavelength_range_nm = [580, 600]\n        band_width_nm = 20", "radiance_w_m2_sr_nm = 1");
+    let ends = |low: u32, high: u32| {
+        of(&format!("wavelength_range_nm = [{low}, {high}]\n        band_width_nm = 5"), "radiance_w_m2_sr_nm = 1")
+    };
+    // A triangle of base 2 nm in a band of 20 nm: a twentieth of the flat one.
+    let ratio = 20.0 * mean(&seen(&line)) / mean(&seen(&flat));
+    vec![
+        Row::at_most(
+            "light of a line 1 nm wide in a band of 20 nm",
+            "a twentieth of that of a flat spectrum (relative error of the mean)",
+            (ratio - 1.0).abs(),
+            3e-2,
+        ),
+        Row::at_most(
+            "bands from 300 nm and to 1 100 nm",
+            ALL_LIT,
+            bad(&seen(&ends(300, 310))) + bad(&seen(&ends(1090, 1100))),
+            0.0,
+        ),
+    ]
+}
+
+/// A lamp in fog, the camera close to it: 1/r² along the rays that pass it.
+fn lamp_in_fog() -> Row {
+    let fog = "[[scene.media]]\nname = \"fog\"\nvisibility = { distance_m = 20, contrast = 0.05 }\nphase = { type = \"henyey_greenstein\", g = 0.8 }\n[[scene.lights]]\nname = \"lamp\"\ntype = \"point\"\nposition_m = [-2.9, 0, 1]\nilluminant = \"E\"\nintensity_cd = 100\n";
+    Row::at_most(
+        "a point lamp in fog, 10 cm before the camera",
+        ALL_LIT,
+        bad(&seen(&ball("type = \"diffuse\", reflectance = 0.5", fog))),
+        0.0,
+    )
+}
+
+/// A hundred million numbers into one mean: 0.1 has no exact form, so that every sum rounds.
+fn long_sums() -> Row {
+    const COUNT: u32 = 100_000_000;
+    let moments = Moments::of((0..COUNT).map(|i| if i % 2 == 0 { 0.1 } else { 0.3 }));
+    let variance = 0.01 * f64::from(COUNT) / f64::from(COUNT - 1);
+    let error = (moments.mean() / 0.2 - 1.0).abs().max((moments.variance().unwrap_or(f64::NAN) / variance - 1.0).abs());
+    Row::at_most("mean and variance of 10⁸ numbers", "neither drifts (relative error)", error, 1e-9)
+}
+
+#[test]
+fn light() {
+    let mut rows = surfaces();
+    rows.push(nothing_is_swallowed());
+    rows.push(mirrors());
+    rows.extend(lamps());
+    rows.extend(wavelengths());
+    rows.push(lamp_in_fog());
+    rows.push(long_sums());
+    let about = "A ball over a floor under an even sky, 64 samples. Radiances from 10⁻⁹ to 10¹² W·m⁻²·sr⁻¹·nm⁻¹ are the same picture to 10⁻⁵ (tests/tests/physics/extremes.rs).";
+    check("Light", about, &rows);
+}
