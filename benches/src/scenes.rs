@@ -1,6 +1,6 @@
 //! The scenes that ship with the project, as plans.
 
-use etendue_io::{TextureMemory, complete_assets};
+use etendue_io::{Sandbox, TextureMemory, complete_assets};
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::asset::Assets;
@@ -119,8 +119,8 @@ fn compiled_within(
     memory: &TextureMemory,
 ) -> Plan {
     let description = Description::load(job, read, overrides).unwrap_or_else(|faults| panic!("{faults}"));
-    let assets =
-        complete_assets(Assets::default(), &description.assets(), memory).unwrap_or_else(|faults| panic!("{faults:?}"));
+    let assets = complete_assets(Assets::default(), &description.assets(), memory, &Sandbox::NONE)
+        .unwrap_or_else(|faults| panic!("{faults:?}"));
     compile(&description, &assets, &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 

@@ -13,6 +13,7 @@ mod verbs;
 
 use clap::Parser;
 use etendue::Error;
+use etendue_scene::limits;
 use std::process::ExitCode;
 use verbs::Verb;
 
@@ -25,10 +26,33 @@ struct Arguments {
     /// What to do.
     #[command(subcommand)]
     verb: Verb,
+    /// Move a limit on what files may cost, e.g. picture-mib=4096; docs/limits.md lists them
+    #[arg(long = "limit", value_name = "NAME=N", global = true)]
+    limits: Vec<String>,
+}
+
+impl Arguments {
+    fn run(&self) -> Result<(), Error> {
+        for limit in &self.limits {
+            limits::set(limit).map_err(|told| Error::input(format!("--limit {limit}: {told}")))?;
+        }
+        self.verb.run()
+    }
+}
+
+/// Panics print their message, but for those of decoders, which become errors of the file.
+fn quieten_decoders() {
+    let print = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        if !etendue::is_decoding() {
+            print(info);
+        }
+    }));
 }
 
 fn main() -> ExitCode {
-    match Arguments::parse().verb.run() {
+    quieten_decoders();
+    match Arguments::parse().run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             output::print_message(&error.to_string());

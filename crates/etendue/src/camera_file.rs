@@ -4,6 +4,7 @@ use crate::error::Error;
 use etendue_io::{load_assets, read_regular};
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::plan::CameraBody;
+use etendue_scene::limits::DESCRIPTION;
 use etendue_scene::{Overrides, asset, load_camera};
 use std::path::Path;
 
@@ -30,7 +31,7 @@ pub(crate) fn text_of(path: &Path) -> Result<String, Error> {
 
 /// Reads a text file; the error says in a few words why it cannot.
 pub(crate) fn read_text(path: &Path) -> Result<String, String> {
-    let bytes = read_regular(path).map_err(|error| match error.kind() {
+    let bytes = read_regular(path, &DESCRIPTION).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
         std::io::ErrorKind::IsADirectory => "it is a folder; name a file in it".to_owned(),
         _ => error.to_string(),

@@ -12,7 +12,7 @@ use crate::render_options::RenderOptions;
 use crate::results::{CameraResults, DoneFrames, Results, Sequence, file_names};
 use crate::rig;
 use crate::shard_spec::ShardSpec;
-use etendue_io::{Existing, OutputFolder, TextureMemory, complete_assets};
+use etendue_io::{Existing, OutputFolder, Sandbox, TextureMemory, complete_assets};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::effects::PlannedEffect;
 use etendue_pipeline::plan::{CameraPlan, Passes};
@@ -89,6 +89,10 @@ pub struct JobRequest {
     pub camera: Option<String>,
     /// The seed of all random numbers, at most 2⁶³ − 1; `None`: the job's, or 0.
     pub seed: Option<u64>,
+    /// Folders beside the job's own that its files may lie in, however they are named: in the job, a base, a scene, a camera, a material library, a lamp or
+    /// a change. `None`: files may lie anywhere. A shard keeps it for `merge`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sandbox: Option<Vec<PathBuf>>,
     /// How much memory textures may take, and where those are kept that take more. It belongs to the machine and not to the plan: files that state a
     /// request leave it out.
     #[serde(skip)]
@@ -112,6 +116,7 @@ impl JobRequest {
             quality: None,
             camera: None,
             seed: None,
+            sandbox: None,
             textures: TextureMemory::default(),
             films: FilmMemory::default(),
         }
@@ -131,15 +136,22 @@ impl JobRequest {
     /// All faults of the job and of the files that it names.
     pub fn open_in(self, files: &MemoryFiles) -> Result<Job, Error> {
         self.check()?;
-        let description = Description::load(&self.job, &|path| files.read(path), &self.overrides());
+        let sandbox = self.folders()?;
+        let description = Description::load(&self.job, &|path| files.read(path, &sandbox), &self.overrides());
         let description = description.map_err(|faults| Error::inputs(faults.list()))?;
-        let assets = complete_assets(files.assets().clone(), &description.assets(), &self.textures);
+        let assets = complete_assets(files.assets().clone(), &description.assets(), &self.textures, &sandbox);
         let assets = assets.map_err(Error::inputs)?;
         let plan = compile(&description, &assets, &self.choices()).map_err(Error::inputs)?;
         let mut plan = self.narrowed(plan)?;
         plan.film_limit = Some(self.films.limit(self.textures.cache.as_ref()));
         let plan = Arc::new(plan);
         Ok(Job { request: self, plan })
+    }
+
+    /// Where the files of the job may lie.
+    pub(crate) fn folders(&self) -> Result<Sandbox, Error> {
+        let Some(further) = &self.sandbox else { return Ok(Sandbox::NONE) };
+        Sandbox::about(&self.job, further).map_err(Error::input)
     }
 
     /// Refuses what excludes one another, and a time that cannot be kept.

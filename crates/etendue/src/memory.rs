@@ -2,6 +2,7 @@
 
 use crate::camera_file::read_text;
 use crate::error::Error;
+use etendue_io::Sandbox;
 use etendue_io::hash::of_bytes;
 use etendue_scene::asset::{Assets, MeshAsset, MeshFrameAsset, MeshFramePart, SlotMaterial};
 use std::collections::BTreeMap;
@@ -66,8 +67,11 @@ impl MemoryFiles {
     }
 
     /// The text of a file, from memory or from the disk.
-    pub(crate) fn read(&self, path: &Path) -> Result<String, String> {
-        self.texts.get(path).map_or_else(|| read_text(path), |text| Ok(text.clone()))
+    pub(crate) fn read(&self, path: &Path, sandbox: &Sandbox) -> Result<String, String> {
+        match self.texts.get(path) {
+            Some(text) => Ok(text.clone()),
+            None => sandbox.check(path).and_then(|()| read_text(path)),
+        }
     }
 
     pub(crate) fn assets(&self) -> &Assets {

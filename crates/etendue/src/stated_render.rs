@@ -5,6 +5,7 @@ use crate::job::JobRequest;
 use crate::memory::MemoryFiles;
 use etendue_scene::record::render::Accelerator;
 use etendue_scene::{Description, stated_render_keys};
+use std::path::Path;
 
 /// How a job's file says that a camera renders.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,7 +25,9 @@ impl JobRequest {
     /// All faults of the job, and where it has no such camera.
     pub fn stated_render(&self, camera: &str) -> Result<StatedRender, Error> {
         let files = MemoryFiles::new();
-        let description = Description::load(&self.job, &|path| files.read(path), &self.overrides());
+        let sandbox = self.folders()?;
+        let read = |path: &Path| files.read(path, &sandbox);
+        let description = Description::load(&self.job, &read, &self.overrides());
         let description = description.map_err(|faults| Error::inputs(faults.list()))?;
         let entry = description.cameras.iter().find(|entry| entry.name.value == camera);
         let entry = entry.ok_or_else(|| Error::input(format!("{}: no camera {camera}", self.job.display())))?;
@@ -34,6 +37,6 @@ impl JobRequest {
             Some(Accelerator::Best) => "best",
         };
         let cameras = description.cameras.len();
-        Ok(StatedRender { cameras, keys: stated_render_keys(&self.job, camera, &|path| files.read(path)), accelerator })
+        Ok(StatedRender { cameras, keys: stated_render_keys(&self.job, camera, &read), accelerator })
     }
 }

@@ -1,6 +1,6 @@
 //! The keys by which a plan says that its effects are left out: each is tried on the jobs that ship.
 
-use etendue_io::{TextureMemory, complete_assets};
+use etendue_io::{Sandbox, TextureMemory, complete_assets};
 use etendue_pipeline::plan::effects::PlannedEffect;
 use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::asset::Assets;
@@ -33,7 +33,8 @@ fn plan(job: &Path, set: &[String], assets: &mut Assets) -> Result<Plan, String>
     let told = |errors: Vec<String>| errors.join("\n");
     let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
     let description = Description::load(job, &read, &Overrides::new(set)).map_err(|faults| faults.to_string())?;
-    let complete = complete_assets(std::mem::take(assets), &description.assets(), &TextureMemory::default());
+    let complete =
+        complete_assets(std::mem::take(assets), &description.assets(), &TextureMemory::default(), &Sandbox::NONE);
     *assets = complete.map_err(|errors| told(errors.iter().map(ToString::to_string).collect()))?;
     compile(&description, assets, &Choices::default())
         .map_err(|faults| told(faults.iter().map(ToString::to_string).collect()))

@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset, TexelStore};
 
-use crate::Error;
 use crate::calibration::{ImportedCamera, read_calibration};
-use crate::mesh::{read_mesh, read_mesh_frame};
-use crate::photometry::read_photometry;
+use crate::mesh::{read_mesh_frame, read_mesh_in};
+use crate::photometry::read_photometry_in;
 use crate::picture::{PictureHead, head, large_picture, read_picture};
 use crate::prescription::read_prescription;
 use crate::spectrum::read_spectrum_of;
@@ -15,17 +14,18 @@ use crate::table::{read_complex_index, read_numbers, read_retro_table};
 use crate::texture_memory::{TextureMemory, pyramid_bytes};
 use crate::tile_cache::TileCache;
 use crate::trajectory::read_trajectory;
+use crate::{Error, Sandbox};
 
 /// Reads every file of `named` (as a description names them), and those that its meshes name in turn; all pictures whole.
 ///
 /// # Errors
 /// All faults of all files, each with the place that names the file.
 pub fn load_assets(named: &[AssetRequest]) -> Result<Assets, Vec<Error>> {
-    complete_assets(Assets::default(), named, &TextureMemory { limit_bytes: u64::MAX, cache: None })
+    complete_assets(Assets::default(), named, &TextureMemory { limit_bytes: u64::MAX, cache: None }, &Sandbox::NONE)
 }
 
 /// The same where some assets are there already, such as those a program made. Pictures of textures that need more than `memory` are not
-/// decoded but become [large](Assets::large_images).
+/// decoded but become [large](Assets::large_images); every file lies in `sandbox`.
 ///
 /// # Errors
 /// All faults of all files, each with the place that names the file.
@@ -33,6 +33,7 @@ pub fn complete_assets(
     mut assets: Assets,
     named: &[AssetRequest],
     memory: &TextureMemory,
+    sandbox: &Sandbox,
 ) -> Result<Assets, Vec<Error>> {
     let mut errors = Vec::new();
     let mut tried: Vec<AssetRequest> = Vec::new();
@@ -42,6 +43,13 @@ pub fn complete_assets(
         if requests.is_empty() {
             break;
         }
+        // Of what is outside, nothing is looked at.
+        let (requests, outside): (Vec<_>, Vec<_>) = requests.into_iter().partition(|r| sandbox.check(&r.path).is_ok());
+        for request in outside {
+            let told = sandbox.check(&request.path).err().unwrap_or_default();
+            errors.push(Error::new(&request.path, told).named_at(request.place.to_string()));
+            tried.push(request);
+        }
         // Which textures are large is known once all are: meshes name more of them.
         let (textures, others): (Vec<_>, Vec<_>) = requests.into_iter().partition(|r| r.kind == AssetKind::Texture);
         let now = if others.is_empty() { textures } else { others };
@@ -49,7 +57,7 @@ pub fn complete_assets(
         for (request, large) in now.into_iter().zip(large) {
             let loaded = match large {
                 Some(head) => load_large(&mut assets, &request, head),
-                None => load(&mut assets, &request),
+                None => load(&mut assets, &request, sandbox),
             };
             if let Err(error) = loaded {
                 errors.push(error.named_at(request.place.to_string()));
@@ -82,14 +90,14 @@ fn load_large(assets: &mut Assets, request: &AssetRequest, head: PictureHead) ->
     Ok(())
 }
 
-fn load(assets: &mut Assets, request: &AssetRequest) -> Result<(), Error> {
+fn load(assets: &mut Assets, request: &AssetRequest, sandbox: &Sandbox) -> Result<(), Error> {
     let (path, key) = (&request.path, request.path.clone());
     match &request.kind {
-        AssetKind::Mesh => drop(assets.meshes.insert(key, read_mesh(path)?)),
+        AssetKind::Mesh => drop(assets.meshes.insert(key, read_mesh_in(path, sandbox)?)),
         AssetKind::MeshFrame => drop(assets.mesh_frames.insert(key, read_mesh_frame(path)?)),
         AssetKind::Image | AssetKind::Texture => drop(assets.images.insert(key, read_picture(path)?)),
         AssetKind::Spectrum(values) => drop(assets.spectra.insert(key, read_spectrum_of(path, *values)?)),
-        AssetKind::Photometry => drop(assets.photometry.insert(key, read_photometry(path)?)),
+        AssetKind::Photometry => drop(assets.photometry.insert(key, read_photometry_in(path, sandbox)?)),
         AssetKind::ComplexIndex => drop(assets.indices.insert(key, read_complex_index(path)?)),
         AssetKind::RetroTable => drop(assets.retro_tables.insert(key, read_retro_table(path)?)),
         AssetKind::Numbers => drop(assets.numbers.insert(key, read_numbers(path)?)),

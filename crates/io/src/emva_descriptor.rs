@@ -15,7 +15,7 @@
 //! refused. Left out: masks and the extra columns of other programs.
 
 use crate::Error;
-use crate::source::{decode_text, read_bytes};
+use crate::source::{decode_text, read_description_bytes};
 use std::path::{Path, PathBuf};
 
 /// Seconds a nanosecond.
@@ -50,7 +50,7 @@ pub struct EmvaDescriptor {
 /// # Errors
 /// Where the file is missing, a line is not understood, or a level has fewer than two pictures.
 pub fn read_emva_descriptor(file: &Path) -> Result<EmvaDescriptor, Error> {
-    let bytes = read_bytes(file, "descriptor")?;
+    let bytes = read_description_bytes(file, "descriptor")?;
     let text = decode_text(file, &bytes)?;
     parse_emva_descriptor(text, file)
 }

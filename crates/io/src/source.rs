@@ -1,16 +1,28 @@
 //! Reading a whole file, with an error that says what to do.
 
-use std::io::ErrorKind;
+use std::fs::File;
+use std::io::{ErrorKind, Read as _};
 use std::path::Path;
+
+use etendue_scene::limits::{self, Limit};
 
 use crate::Error;
 
 /// The bytes of `file`; `what` names in words what it should be ("mesh", "texture").
 pub(crate) fn read_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
-    let bytes = read_regular(file).map_err(|cause| match cause.kind() {
+    read_bytes_within(file, what, &limits::FILE)
+}
+
+/// The bytes of a file that describes, of which a few may take much more memory than they are long: trees of values, lenses, lamps.
+pub(crate) fn read_description_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
+    read_bytes_within(file, what, &limits::DESCRIPTION)
+}
+
+fn read_bytes_within(file: &Path, what: &str, limit: &Limit) -> Result<Vec<u8>, Error> {
+    let bytes = read_regular(file, limit).map_err(|cause| match cause.kind() {
         ErrorKind::NotFound => Error::missing(file, format!("no such {what} file; check the path")),
         ErrorKind::IsADirectory => Error::missing(file, "this is a folder; name a file in it"),
-        ErrorKind::InvalidInput => Error::new(file, cause.to_string()),
+        ErrorKind::InvalidInput | ErrorKind::FileTooLarge => Error::new(file, cause.to_string()),
         ErrorKind::PermissionDenied => Error::new(file, format!("this {what} file may not be read: permission denied")),
         _ => Error::new(file, format!("this {what} file cannot be read: {cause}")),
     })?;
@@ -24,14 +36,22 @@ pub(crate) fn read_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
 /// are refused before they are opened, `/dev/stdin` too unless a regular file is redirected to it.
 ///
 /// # Errors
-/// As reading a file has them; of the kind [`ErrorKind::InvalidInput`], with words for the user, where it is no regular file.
-pub fn read_regular(file: &Path) -> std::io::Result<Vec<u8>> {
-    let kind = std::fs::metadata(file)?.file_type();
+/// As reading a file has them; of the kind [`ErrorKind::InvalidInput`], with words for the user, where it is no regular file, of the kind
+/// [`ErrorKind::FileTooLarge`], with such words, where it is larger than its limit.
+pub fn read_regular(file: &Path, limit: &Limit) -> std::io::Result<Vec<u8>> {
+    let metadata = std::fs::metadata(file)?;
+    let kind = metadata.file_type();
     if !kind.is_file() && !kind.is_dir() {
         let told = format!("this is {}, not a file on a disk; save what it gives as a file and name that", word(kind));
         return Err(std::io::Error::new(ErrorKind::InvalidInput, told));
     }
-    std::fs::read(file)
+    let too_large = |told| std::io::Error::new(ErrorKind::FileTooLarge, told);
+    limit.check_size(metadata.len()).map_err(too_large)?;
+    // A file of /proc has no size, and one may grow.
+    let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
+    File::open(file)?.take(limit.most_bytes() + 1).read_to_end(&mut bytes)?;
+    limit.check_size(bytes.len() as u64).map_err(too_large)?;
+    Ok(bytes)
 }
 
 #[cfg(unix)]

@@ -16,6 +16,7 @@
 pub mod asset;
 mod document;
 mod fault;
+pub mod limits;
 mod line_index;
 mod load;
 mod overrides;

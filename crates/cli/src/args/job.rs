@@ -47,6 +47,12 @@ pub struct JobArgs {
     /// The seed of all random numbers [default: the job's, or 0]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// Refuse every file outside the folder of the job, whoever names it and through whatever link: for the jobs of others (docs/limits.md)
+    #[arg(long)]
+    pub sandboxed: bool,
+    /// With --sandboxed: files may lie in this folder, too
+    #[arg(long, value_name = "DIR", requires = "sandboxed")]
+    pub allow_outside: Vec<PathBuf>,
     /// Memory of textures. Where they need more, the large ones are kept in tiles on the disk and read where they are looked up. The result
     /// does not depend on it
     #[arg(long, value_name = "MB", value_parser = whole(1, 1 << 20), default_value = "512")]
@@ -76,6 +82,7 @@ impl From<&JobArgs> for JobRequest {
             quality: a.quality,
             camera: a.camera.clone(),
             seed: a.seed,
+            sandbox: a.sandboxed.then(|| a.allow_outside.clone()),
             textures: TextureMemory { limit_bytes: u64::from(a.texture_memory) * 1_000_000, cache: a.cache.clone() },
             films: FilmMemory { limit_bytes: u64::from(a.film_memory) * 1_000_000, scratch: a.scratch.clone() },
         }

@@ -26,7 +26,7 @@ mod yaml;
 
 use crate::Error;
 use crate::hash::{self, ContentHash};
-use crate::source::{decode_text, read_bytes};
+use crate::source::{decode_text, read_description_bytes};
 use etendue_projection::Calibration;
 use found::{Fault, Found, Read, of_camera, passed_over};
 use std::path::Path;
@@ -51,7 +51,7 @@ pub struct ImportedCamera {
 /// # Errors
 /// The first fault of the file, with its line.
 pub fn read_calibration(file: &Path, format: CalibrationFormat, camera: Option<&str>) -> Result<ImportedCamera, Error> {
-    let bytes = read_bytes(file, "calibration")?;
+    let bytes = read_description_bytes(file, "calibration")?;
     let text = decode_text(file, &bytes)?;
     let read = match format {
         CalibrationFormat::OpenCv => opencv::read(text, false),

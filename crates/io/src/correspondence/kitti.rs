@@ -3,6 +3,7 @@
 
 use crate::Error;
 use crate::exr::EncodeError;
+use crate::picture::{Kept, decode_raster};
 use crate::png::{encode_grey16, encode_rgb16, with_text};
 use crate::png_chunks::title;
 use etendue_core::Plane;
@@ -58,7 +59,7 @@ pub(crate) fn is_kitti_flow(bytes: &[u8]) -> bool {
 
 /// The flow in the bytes of KITTI's PNG, NaN where it is not known.
 pub(crate) fn decode_kitti_flow(file: &Path, bytes: &[u8]) -> Result<Plane<OpticalFlow>, Error> {
-    let picture = image::load_from_memory(bytes).map_err(|cause| Error::new(file, format!("not readable: {cause}")))?;
+    let (_, picture) = decode_raster(file, bytes, "KITTI's PNG", Kept::Floats)?;
     let image::DynamicImage::ImageRgb16(picture) = picture else {
         return Err(Error::new(file, "not KITTI's optical flow: expected a PNG of three channels of 16 bits"));
     };

@@ -7,6 +7,7 @@ use std::path::Path;
 use ::exr::meta::attribute::AttributeValue;
 use ::exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers};
 
+use crate::guard::guarded;
 use crate::source::read_bytes;
 use crate::unpacked;
 use crate::{Error, Provenance};
@@ -96,18 +97,22 @@ pub fn read_exr(file: &Path) -> Result<ExrFile, Error> {
 /// Where it is missing, damaged or of a kind that is not read, or unpacks to more.
 pub fn read_exr_within(file: &Path, most_bytes: u64) -> Result<ExrFile, Error> {
     let bytes = read_bytes(file, "EXR")?;
-    unpacked::check_within(file, samples(&bytes), most_bytes.into())?;
+    unpacked::check_within(file, samples(file, &bytes)?, most_bytes.into())?;
     decode_all(file, &bytes)
 }
 
 /// Reads the bytes of `file`.
 pub(crate) fn decode_exr(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
-    unpacked::check(file, samples(bytes), bytes.len())?;
+    unpacked::check(file, samples(file, bytes)?, bytes.len())?;
     decode_all(file, bytes)
 }
 
 /// The samples that the headers state; none where they cannot be read, which reading the file tells.
-fn samples(bytes: &[u8]) -> u128 {
+fn samples(file: &Path, bytes: &[u8]) -> Result<u128, Error> {
+    guarded(file, || Ok(stated_samples(bytes)))
+}
+
+fn stated_samples(bytes: &[u8]) -> u128 {
     let meta = ::exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false);
     let samples = |header: &::exr::meta::header::Header| {
         let (width, height) = (header.layer_size.width() as u128, header.layer_size.height() as u128);
@@ -117,6 +122,10 @@ fn samples(bytes: &[u8]) -> u128 {
 }
 
 fn decode_all(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
+    guarded(file, || decode_unguarded(file, bytes))
+}
+
+fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
     let image = ::exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -225,9 +234,10 @@ mod tests {
     #[test]
     fn a_small_file_of_many_pixels_is_refused_by_its_header() {
         let told = decode_exr(Path::new("a.exr"), &large()).expect_err("too large").to_string();
-        let expected = "a.exr: unpacks to 1600 MB, where a file of its size may hold 537 MB; make the picture smaller";
+        let expected =
+            "a.exr: unpacks to 1526 MiB, where a file of its size may unpack to 1024 MiB; make the picture smaller";
         assert!(told.starts_with(expected), "{told}");
-        assert_eq!(samples(&large()), 400_000_000);
+        assert_eq!(stated_samples(&large()), 400_000_000);
     }
 
     #[test]
@@ -237,6 +247,6 @@ mod tests {
         std::fs::write(&file, picture(20, 10, &["a", "b"], 1.0)).expect("write");
         assert_eq!(read_exr_within(&file, 1600).expect("a film").channels.len(), 2);
         let told = read_exr_within(&file, 1599).expect_err("more than known").to_string();
-        assert!(told.contains("unpacks to 1 MB"), "{told}");
+        assert!(told.contains("unpacks to 1 MiB, where 1 MiB are expected"), "{told}");
     }
 }

@@ -3,7 +3,7 @@
 use super::object_box::ObjectBox;
 use super::{FileReport, Preview, drawing};
 use crate::Error;
-use crate::source::read_bytes;
+use crate::source::read_description_bytes;
 use serde::Deserialize;
 use std::path::Path;
 
@@ -20,7 +20,7 @@ struct Boxes {
 /// # Errors
 /// Where the file is none of boxes, or is of a picture of another size; where the report has no picture.
 pub(super) fn draw(report: &mut FileReport, boxes: &Path) -> Result<(), Error> {
-    let found: Boxes = serde_json::from_slice(&read_bytes(boxes, "file of boxes")?).map_err(|cause| {
+    let found: Boxes = serde_json::from_slice(&read_description_bytes(boxes, "file of boxes")?).map_err(|cause| {
         Error::at(boxes, cause.line(), format!("no boxes of objects, as boxes.0000.json has them: {cause}"))
     })?;
     let Some(preview) = &mut report.preview else {

@@ -7,10 +7,10 @@ use image::{ColorType, DynamicImage, GenericImageView as _};
 use super::statistics::ChannelReport;
 use super::{FileReport, Preview};
 use crate::Error;
-use crate::picture::decode_raster;
+use crate::picture::{Kept, decode_raster};
 
 pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
-    let (format, picture) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR")?;
+    let (format, picture) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR", Kept::Floats)?;
     let mut report = FileReport::new(file, format!("picture, {}", format!("{format:?}").to_uppercase()));
     let (width, height) = (picture.width() as usize, picture.height() as usize);
     report.state("size", format!("{width} x {height} pixels"));

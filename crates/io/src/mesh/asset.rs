@@ -10,13 +10,21 @@ use super::polygon::{newell, triangulate};
 use super::slot::{Slots, slots};
 use super::texture_option::UvLayout;
 use crate::source::{decode_text, read_bytes};
-use crate::{Error, hash};
+use crate::{Error, Sandbox, hash};
 
 /// Reads a Wavefront OBJ file with the material libraries it names.
+///
+/// # Errors
+/// The first fault, with its line.
 pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
+    read_mesh_in(file, &Sandbox::NONE)
+}
+
+/// The same, whose libraries must lie in `sandbox`.
+pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, Error> {
     let bytes = read_bytes(file, "mesh")?;
     let obj = scan(file, decode_text(file, &bytes)?)?;
-    let Slots { materials, layouts, report, library_bytes, missing_libraries } = slots(file, &obj)?;
+    let Slots { materials, layouts, report, library_bytes, missing_libraries } = slots(file, &obj, sandbox)?;
     let parts = obj.parts(file)?;
     let mut builder = Builder::new(&parts, middle_of_far(&parts));
     for part in &parts {

@@ -31,4 +31,5 @@ mod texture_option;
 mod tobj_input;
 
 pub use asset::read_mesh;
+pub(crate) use asset::read_mesh_in;
 pub use frame::read_mesh_frame;

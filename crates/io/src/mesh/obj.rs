@@ -10,6 +10,7 @@ use std::path::Path;
 use super::statement::{Statement, statements};
 use super::tobj_input::TobjInput;
 use crate::Error;
+use etendue_scene::limits::CORNERS;
 
 /// What a corner names, in order.
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
@@ -145,7 +146,10 @@ impl Obj {
             ));
         }
         let sum = u32::try_from(corners).ok().and_then(|n| self.corners.checked_add(n));
-        self.corners = sum.ok_or("more than 2³² corners of faces; split the mesh")?;
+        let most = CORNERS.most();
+        self.corners = sum.filter(|sum| u64::from(*sum) <= most).ok_or_else(|| {
+            format!("more than {most} corners of faces; split the mesh, {}", CORNERS.remedy(most.saturating_mul(4)))
+        })?;
         if self.materials.is_empty() {
             self.use_material("", None)?;
         }

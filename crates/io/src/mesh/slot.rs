@@ -8,8 +8,8 @@ use etendue_scene::asset::SlotMaterial;
 use super::mtl::{beside, parse};
 use super::obj::Obj;
 use super::texture_option::UvLayout;
-use crate::Error;
-use crate::source::{decode_text, read_bytes};
+use crate::source::{decode_text, read_description_bytes};
+use crate::{Error, Sandbox};
 
 /// The slots, their texture layouts, what of the libraries is not used, and the libraries' bytes in order.
 #[derive(Default)]
@@ -22,13 +22,13 @@ pub(super) struct Slots {
 }
 
 /// Reads the libraries that `obj` (read from `file`) names and finds the materials that it uses.
-pub(super) fn slots(file: &Path, obj: &Obj) -> Result<Slots, Error> {
+pub(super) fn slots(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<Slots, Error> {
     let mut slots = Slots::default();
     let mut known = BTreeMap::new();
-    let (paths, missing) = library_paths(file, obj)?;
+    let (paths, missing) = library_paths(file, obj, sandbox)?;
     slots.missing_libraries = missing;
     for path in paths {
-        let bytes = read_bytes(&path, "material library")?;
+        let bytes = read_description_bytes(&path, "material library")?;
         let library = parse(&path, decode_text(&path, &bytes)?)?;
         for (name, material) in library.materials {
             known.entry(name).or_insert(material); // the first library counts
@@ -53,12 +53,15 @@ pub(super) fn slots(file: &Path, obj: &Obj) -> Result<Slots, Error> {
 
 /// The library files, each once, and a sentence for each that does not exist. A name may hold blanks, and one statement may name several files: the whole is tried
 /// as one name first.
-fn library_paths(file: &Path, obj: &Obj) -> Result<(Vec<PathBuf>, Vec<String>), Error> {
+fn library_paths(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<(Vec<PathBuf>, Vec<String>), Error> {
     let (mut paths, mut missing): (Vec<PathBuf>, Vec<String>) = (Vec::new(), Vec::new());
     let (mut statements, mut known) = (BTreeSet::new(), BTreeSet::new());
     for (rest, line) in obj.libraries.iter().filter(|(rest, _)| statements.insert(rest.clone())) {
         let whole = beside(file, rest);
         let several: Vec<PathBuf> = rest.split_whitespace().map(|name| beside(file, name)).collect();
+        for path in several.iter().chain([&whole]) {
+            sandbox.check(path).map_err(|told| Error::at(file, *line, format!("`mtllib {rest}`: {told}")))?;
+        }
         let one = whole.exists() || !several.iter().any(|path| path.exists());
         let named = if one && !several.is_empty() { vec![whole] } else { several };
         if named.is_empty() {

@@ -6,11 +6,11 @@ use image::DynamicImage;
 
 use super::{Photograph, Stated, channel_names, guess, separated};
 use crate::Error;
-use crate::picture::decode_raster;
+use crate::picture::{Kept, decode_raster};
 use crate::png_chunks;
 
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
-    let (_, picture) = decode_raster(file, bytes, super::KINDS)?;
+    let (_, picture) = decode_raster(file, bytes, super::KINDS, Kept::Floats)?;
     let (width, height, colour) = (picture.width() as usize, picture.height() as usize, picture.color());
     let (samples, full_scale) = samples(&picture);
     let channels = usize::from(colour.channel_count());

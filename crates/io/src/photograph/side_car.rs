@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::Encoding;
 use crate::Error;
-use crate::source::{decode_text, read_bytes};
+use crate::source::{decode_text, read_description_bytes};
 
 /// Names of side-cars: of a render, and of a development.
 const NAMES: [&str; 2] = ["camera.json", "develop.json"];
@@ -39,7 +39,7 @@ pub(super) fn beside(file: &Path) -> Result<Option<SideCar>, Error> {
 }
 
 fn read(file: &Path) -> Result<Value, Error> {
-    let bytes = read_bytes(file, "side-car")?;
+    let bytes = read_description_bytes(file, "side-car")?;
     serde_json::from_str(decode_text(file, &bytes)?)
         .map_err(|cause| Error::new(file, format!("not JSON ({cause}); remove it, or render again")))
 }

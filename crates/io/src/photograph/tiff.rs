@@ -10,6 +10,7 @@ use ::tiff::decoder::{Decoder, DecodingResult, Limits};
 use ::tiff::tags::Tag;
 
 use super::{Photograph, channel_names, guess, separated};
+use crate::guard::guarded;
 use crate::{Error, unpacked};
 
 /// Whether the bytes begin as a TIFF, of either byte order, plain or big.
@@ -19,6 +20,10 @@ pub(crate) fn is_tiff(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
+    guarded(file, || decode_unguarded(file, bytes))
+}
+
+fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let damaged = |cause: ::tiff::TiffError| {
         Error::new(
             file,
@@ -94,7 +99,10 @@ fn kind_of_picture(bytes: &[u8], big: bool) -> Option<(usize, u16)> {
 /// Room for what [`unpacked::check`] lets through, in numbers of up to 64 bits.
 fn limits(packed: usize) -> Limits {
     let mut limits = Limits::default();
-    limits.decoding_buffer_size = packed.saturating_mul(200).max(1 << 30);
+    limits.decoding_buffer_size = usize::try_from(2 * unpacked::most(packed)).unwrap_or(usize::MAX);
+    // Tables of offsets and what a strip is packed to are parts of the file.
+    limits.ifd_value_size = packed.max(1 << 16);
+    limits.intermediate_buffer_size = usize::try_from(unpacked::most(packed)).unwrap_or(usize::MAX);
     limits
 }
 

@@ -16,7 +16,7 @@ use etendue_scene::asset::{PhotometryAsset, PhotometryAxes, Tilt};
 use super::fields::Fields;
 use super::symmetry::{self, Symmetry};
 use super::{angles, tilt};
-use crate::Error;
+use crate::{Error, Sandbox};
 
 mod opening;
 
@@ -55,7 +55,7 @@ struct Body {
 }
 
 /// Reads a text, and tells the bytes of a file of tilts, where it names one.
-pub(super) fn read(file: &Path, text: &str) -> Result<(PhotometryAsset, Option<Vec<u8>>), Error> {
+pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(PhotometryAsset, Option<Vec<u8>>), Error> {
     let head = head(file, text)?;
     let numbered = text.lines().enumerate().map(|(i, line)| (i + 1, line)).skip(head.line);
     let mut fields = Fields::divided_by_commas(file, numbered);
@@ -63,7 +63,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<(PhotometryAsset, Option<V
         tilt::Statement::None => (Tilt::None, None),
         tilt::Statement::Include => (tilt::table(&mut fields)?, None),
         tilt::Statement::File(name) => {
-            let (tilt, bytes) = tilt::from_file(file, head.line, name)?;
+            let (tilt, bytes) = tilt::from_file(file, head.line, name, sandbox)?;
             (tilt, Some(bytes))
         }
     };

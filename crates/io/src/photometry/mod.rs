@@ -22,19 +22,24 @@ use std::path::Path;
 
 use etendue_scene::asset::PhotometryAsset;
 
-use crate::source::read_bytes;
-use crate::{Error, hash};
+use crate::source::read_description_bytes;
+use crate::{Error, Sandbox, hash};
 
 /// Reads a measured lamp; the kind of file is told by its name.
 ///
 /// # Errors
 /// The first fault of the file, with its line.
 pub fn read_photometry(file: &Path) -> Result<PhotometryAsset, Error> {
-    let bytes = read_bytes(file, "lamp")?;
+    read_photometry_in(file, &Sandbox::NONE)
+}
+
+/// The same, whose table of tilts must lie in `sandbox`.
+pub(crate) fn read_photometry_in(file: &Path, sandbox: &Sandbox) -> Result<PhotometryAsset, Error> {
+    let bytes = read_description_bytes(file, "lamp")?;
     let text = text::decode(file, &bytes)?;
     let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
     let (mut asset, further) = match extension.to_str() {
-        Some("ies") => ies::read(file, &text)?,
+        Some("ies") => ies::read(file, &text, sandbox)?,
         Some("ldt") => (ldt::read(file, &text)?, None),
         _ => return Err(Error::new(file, "expected a measured lamp by the name of .ies (LM-63) or .ldt (EULUMDAT)")),
     };

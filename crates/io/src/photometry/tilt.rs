@@ -6,8 +6,8 @@ use etendue_scene::asset::Tilt;
 
 use super::fields::Fields;
 use super::{angles, text};
-use crate::Error;
-use crate::source::read_bytes;
+use crate::source::read_description_bytes;
+use crate::{Error, Sandbox};
 
 /// What the line says behind `TILT=`.
 pub(super) enum Statement<'a> {
@@ -38,11 +38,12 @@ pub(super) fn table(fields: &mut Fields<'_>) -> Result<Tilt, Error> {
 }
 
 /// The table in the file of that name beside `file`, and its bytes.
-pub(super) fn from_file(file: &Path, line: usize, name: &str) -> Result<(Tilt, Vec<u8>), Error> {
+pub(super) fn from_file(file: &Path, line: usize, name: &str, sandbox: &Sandbox) -> Result<(Tilt, Vec<u8>), Error> {
     let path = file.parent().unwrap_or(Path::new("")).join(name.replace('\\', "/"));
     let place = format!("{}:{line}: TILT", file.display());
     let read = || {
-        let bytes = read_bytes(&path, "tilt")?;
+        sandbox.check(&path).map_err(|told| Error::new(&path, told))?;
+        let bytes = read_description_bytes(&path, "tilt")?;
         let text = text::decode(&path, &bytes)?.into_owned();
         let mut fields = Fields::divided_by_commas(&path, text.lines().enumerate().map(|(i, line)| (i + 1, line)));
         let tilt = table(&mut fields)?;

@@ -10,15 +10,13 @@ use std::sync::Arc;
 use etendue_scene::asset::{ImagePixels, LargeImage, PixelFormat, PixelRows, TakeRows};
 use image::{ColorType, ImageDecoder as _, ImageReader};
 
-use super::{EXR_MAGIC, decode_picture};
+use super::{EXR_MAGIC, Kept, decode_picture};
+use crate::guard::guarded;
 use crate::source::read_bytes;
-use crate::{Error, hash};
+use crate::{Error, hash, unpacked};
 
 /// Pixels that are handed over at a time, about.
 const STRIP_PIXELS: usize = 1 << 17;
-
-/// Most bytes of a picture of bytes or words that its decoder unpacks, as that of small pictures does.
-const MAX_RASTER_BYTES: u64 = 512 << 20;
 
 /// Columns, rows and format.
 pub(crate) type PictureHead = (u32, u32, PixelFormat);
@@ -28,6 +26,10 @@ pub(crate) fn head(file: &Path) -> Option<PictureHead> {
     if !std::fs::metadata(file).ok()?.is_file() {
         return None;
     }
+    guarded(file, || Ok(head_unguarded(file))).ok().flatten()
+}
+
+fn head_unguarded(file: &Path) -> Option<PictureHead> {
     let mut magic = [0; EXR_MAGIC.len()];
     std::io::Read::read_exact(&mut File::open(file).ok()?, &mut magic).ok()?;
     let (width, height, format) = if magic == EXR_MAGIC { exr_head(file)? } else { raster_head(file)? };
@@ -53,7 +55,8 @@ fn raster_head(file: &Path) -> Option<PictureHead> {
         ColorType::La16 | ColorType::Rgba16 | ColorType::Rgba32F => PixelFormat::Rgba32F,
         _ => PixelFormat::Rgb32F,
     };
-    (decoder.total_bytes() <= MAX_RASTER_BYTES).then_some((width, height, format))
+    let packed = std::fs::metadata(file).ok()?.len() as usize;
+    (Kept::Stored.bytes(&decoder) <= unpacked::most(packed)).then_some((width, height, format))
 }
 
 /// A picture whose head has been read.
@@ -79,7 +82,7 @@ impl PixelRows for PictureFile {
         if hash::of_bytes(&bytes) != self.hash {
             return Err(Error::new(&self.path, "the file was changed while it was read; run again").to_string());
         }
-        if let Some(rows) = PngRows::new(&bytes, self.size) {
+        if let Some(rows) = guarded(&self.path, || Ok(PngRows::new(&bytes, self.size))).ok().flatten() {
             match rows.read(take) {
                 Ok(()) => return Ok(()),
                 Err(Stop::Taker(error)) => return Err(error),

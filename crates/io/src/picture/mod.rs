@@ -20,7 +20,7 @@ use std::path::Path;
 use etendue_scene::asset::ImageAsset;
 
 pub(crate) use large::{PictureHead, head, large_picture};
-pub(crate) use raster::decode_raster;
+pub(crate) use raster::{Kept, decode_raster};
 
 use crate::exr::decode_exr;
 use crate::source::read_bytes;

@@ -1,21 +1,28 @@
 //! PNG, JPEG and Radiance HDR.
 
+use std::io::Cursor;
 use std::path::Path;
 
 use etendue_scene::asset::ImagePixels;
-use image::{DynamicImage, ImageError, ImageFormat};
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 
 use super::floats::Picture;
-use crate::Error;
+use crate::guard::guarded;
+use crate::{Error, unpacked};
 
 /// Decodes `bytes` by their first bytes.
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Picture, Error> {
-    let (_, picture) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR")?;
+    let (_, picture) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR", Kept::Stored)?;
     Ok((picture.width(), picture.height(), pixels(picture)))
 }
 
 /// The picture as stored, with its format; a file of none is told that it should be one of `kinds`.
-pub(crate) fn decode_raster(file: &Path, bytes: &[u8], kinds: &str) -> Result<(ImageFormat, DynamicImage), Error> {
+pub(crate) fn decode_raster(
+    file: &Path,
+    bytes: &[u8],
+    kinds: &str,
+    kept: Kept,
+) -> Result<(ImageFormat, DynamicImage), Error> {
     let known = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr];
     let format = image::guess_format(bytes).ok().filter(|format| known.contains(format));
     let unknown = || Error::new(file, format!("not a picture of a known kind; expected {kinds}"));
@@ -23,8 +30,46 @@ pub(crate) fn decode_raster(file: &Path, bytes: &[u8], kinds: &str) -> Result<(I
     if format == ImageFormat::Jpeg && !jpeg_is_whole(bytes) {
         return Err(Error::new(file, "this JPEG has no end marker: it is truncated; make or fetch it again"));
     }
-    let picture = image::load_from_memory_with_format(bytes, format);
-    Ok((format, picture.map_err(|cause| Error::new(file, explain(&cause)))?))
+    guarded(file, || decode_unguarded(file, bytes, format, kept))
+}
+
+fn decode_unguarded(
+    file: &Path,
+    bytes: &[u8],
+    format: ImageFormat,
+    kept: Kept,
+) -> Result<(ImageFormat, DynamicImage), Error> {
+    let explained = |cause: ImageError| Error::new(file, explain(&cause));
+    let mut limits = image::Limits::no_limits();
+    limits.max_alloc = Some(u64::try_from(2 * unpacked::most(bytes.len())).unwrap_or(u64::MAX));
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(explained)?;
+    unpacked::check_bytes(file, kept.bytes(&decoder), bytes.len())?;
+    Ok((format, DynamicImage::from_decoder(decoder).map_err(explained)?))
+}
+
+/// How the numbers of a picture are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kept {
+    /// As the file stores them.
+    Stored,
+    /// As 32-bit floats.
+    Floats,
+}
+
+impl Kept {
+    /// Bytes of a picture that is not yet decoded.
+    pub(crate) fn bytes(self, decoder: &impl ImageDecoder) -> u128 {
+        match self {
+            Self::Stored => decoder.total_bytes().into(),
+            Self::Floats => {
+                let (width, height) = decoder.dimensions();
+                let samples = u128::from(width) * u128::from(height) * u128::from(decoder.color_type().channel_count());
+                samples * size_of::<f32>() as u128
+            }
+        }
+    }
 }
 
 fn explain(cause: &ImageError) -> String {

@@ -22,7 +22,7 @@ use std::path::Path;
 
 use etendue_scene::asset::TrajectoryAsset;
 
-use crate::source::{decode_text, read_bytes};
+use crate::source::{decode_text, read_bytes, read_description_bytes};
 use crate::{Error, hash};
 
 /// Reads a trajectory.
@@ -30,9 +30,9 @@ use crate::{Error, hash};
 /// # Errors
 /// The first fault, with its line.
 pub fn read_trajectory(file: &Path) -> Result<TrajectoryAsset, Error> {
-    let bytes = read_bytes(file, "trajectory")?;
-    let text = decode_text(file, &bytes)?;
     let is_json = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+    let bytes = if is_json { read_description_bytes(file, "trajectory") } else { read_bytes(file, "trajectory") }?;
+    let text = decode_text(file, &bytes)?;
     let (rows, unread) = if is_json { json::read(file, text) } else { csv::read(file, text) }?;
     if rows.is_empty() {
         return Err(Error::new(file, "holds no place; expected one at least, with a time"));

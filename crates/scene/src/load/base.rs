@@ -16,11 +16,9 @@ use super::files::{FileKind, open};
 use super::read_text::ReadText;
 use crate::document::{Node, Table, Value};
 use crate::fault::Faults;
+use crate::limits::BASES;
 use crate::place::Place;
 use crate::reader::{Rule as _, path};
-
-/// Bases in a row that a file may have: more are taken for a circle that its paths hide.
-const DEEPEST: usize = 16;
 
 /// A file's own tree over that of its base, if it names one. `chain` are the files that led here, this one last.
 pub(super) fn lay_over(
@@ -59,9 +57,11 @@ fn based_on(
         faults.add(named, format!("\"{}\" is built on itself", file.display()), "name another base, or none");
         return None;
     }
-    if chain.len() > DEEPEST {
-        let problem = format!("more than {DEEPEST} files are built one on the other here, in a circle perhaps");
-        faults.add(named, problem, "build on fewer files");
+    // More are taken for a circle that the paths hide.
+    let most = BASES.most();
+    if chain.len() as u64 > most {
+        let problem = format!("more than {most} files are built one on the other here, in a circle perhaps");
+        faults.add(named, problem, format!("build on fewer files, {}", BASES.remedy(2 * most)));
         return None;
     }
     open(file, kind, read, named, chain, faults)

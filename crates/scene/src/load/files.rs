@@ -1,7 +1,7 @@
 //! Reading a job and the files it names into one tree, and changing it by the overrides.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::base;
 use super::read_text::ReadText;
@@ -29,16 +29,18 @@ impl FileKind {
         }
     }
 
-    fn keys(self) -> Vec<&'static str> {
-        match self {
+    /// Its keys; they follow from the schema of everything in it, which is made once.
+    fn keys(self) -> &'static [&'static str] {
+        static KEYS: [OnceLock<Vec<&str>>; 3] = [const { OnceLock::new() }; 3];
+        KEYS[self as usize].get_or_init(|| match self {
             Self::Job => Job::keys(),
             Self::Scene => Scene::keys(),
             Self::Camera => Camera::keys(),
-        }
+        })
     }
 
     fn has_key_of(self, tree: &Node) -> bool {
-        tree.as_table().is_some_and(|table| self.keys().into_iter().any(|key| table.get(key).is_some()))
+        tree.as_table().is_some_and(|table| self.keys().iter().any(|key| table.get(key).is_some()))
     }
 
     /// The kind that the tree is of, where nothing in it belongs to this kind and something to another.

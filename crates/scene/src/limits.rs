@@ -1,0 +1,147 @@
+//! What a file may cost: every limit that a user can raise, in one list.
+//!
+//! Limits keep a small or damaged file from filling the memory, and a mistake from running for hours. They belong to the process, as its memory does:
+//! the command line raises them (`--limit NAME=N`), descriptions cannot, so that a service can run foreign jobs. Readers of this crate and of
+//! `etendue_io` look at them; docs/limits.md is their page, with what cannot be raised.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::suggest::nearest;
+
+/// A limit.
+#[derive(Debug)]
+pub struct Limit {
+    /// Its name on the command line; it ends in the unit of a size.
+    pub name: &'static str,
+    /// What it limits, in words.
+    pub about: &'static str,
+    /// Where it stands unless it is raised.
+    pub default: u64,
+    /// The highest that it can be raised to.
+    pub highest: u64,
+    /// Where it stands; 0: at its default.
+    raised: AtomicU64,
+}
+
+const MIB: u64 = 1 << 20;
+
+/// Sizes of files that describe: a byte of them may take 256 in memory, as a tree of values that know their places.
+pub static DESCRIPTION: Limit = Limit::new(
+    "description-mib",
+    "MiB of a file that describes: jobs, scenes, cameras, weather, data sheets, material libraries, lamps, lenses, calibrations, side-cars, descriptors",
+    16,
+    4096,
+);
+
+/// Sizes of all other files.
+pub static FILE: Limit =
+    Limit::new("file-mib", "MiB of any other file: meshes, pictures, spectra, tables, trajectories", 8192, 1 << 20);
+
+/// What pictures unpack to.
+pub static PICTURE: Limit = Limit::new(
+    "picture-mib",
+    "MiB that a picture may unpack to, where that is more than 8 times its file: its numbers as they are kept, 1 to 4 bytes each",
+    1024,
+    1 << 20,
+);
+
+/// Corners of the faces of a mesh.
+pub static CORNERS: Limit =
+    Limit::new("mesh-corners", "corners of all faces of a mesh together", 1 << 28, u32::MAX as u64);
+
+/// Files in a row that build on one another.
+pub static BASES: Limit = Limit::new("bases", "files that are built one on the other by \"base\"", 16, 64);
+
+/// All of them.
+pub static ALL: [&Limit; 5] = [&DESCRIPTION, &FILE, &PICTURE, &CORNERS, &BASES];
+
+impl Limit {
+    const fn new(name: &'static str, about: &'static str, default: u64, highest: u64) -> Self {
+        Self { name, about, default, highest, raised: AtomicU64::new(0) }
+    }
+
+    /// Where it stands, in its unit.
+    #[must_use]
+    pub fn most(&self) -> u64 {
+        match self.raised.load(Ordering::Relaxed) {
+            0 => self.default,
+            raised => raised,
+        }
+    }
+
+    /// Where a limit in MiB stands, bytes.
+    #[must_use]
+    pub fn most_bytes(&self) -> u64 {
+        self.most().saturating_mul(MIB)
+    }
+
+    /// How to go beyond it, for what needs this much in its unit: the end of a message. What is beyond the highest cannot be read.
+    #[must_use]
+    pub fn remedy(&self, needed: u64) -> String {
+        match needed <= self.highest {
+            true => format!("or raise the limit: --limit {}={needed}", self.name),
+            false => format!("no limit can be raised beyond {}", self.highest),
+        }
+    }
+
+    /// [`remedy`](Self::remedy) of a limit in MiB, for what needs this many bytes.
+    #[must_use]
+    pub fn remedy_bytes(&self, needed: u128) -> String {
+        self.remedy(u64::try_from(needed.div_ceil(u128::from(MIB))).unwrap_or(u64::MAX))
+    }
+
+    /// Refuses a file whose size is beyond a limit in MiB: what is wrong, and what to do.
+    ///
+    /// # Errors
+    /// Where it is beyond.
+    pub fn check_size(&self, bytes: u64) -> Result<(), String> {
+        if bytes <= self.most_bytes() {
+            return Ok(());
+        }
+        let size = bytes.div_ceil(MIB);
+        Err(format!(
+            "the file has {size} MiB, and files of its kind are read up to {} MiB; make it smaller, {}",
+            self.most(),
+            self.remedy_bytes(bytes.into())
+        ))
+    }
+}
+
+/// Moves a limit for all of the process: `NAME=N`.
+///
+/// # Errors
+/// Where there is no such limit, or the number is not from 1 to its highest.
+pub fn set(text: &str) -> Result<(), String> {
+    let names = ALL.map(|limit| limit.name);
+    let (name, number) = text.split_once('=').ok_or_else(|| format!("expected NAME=N, one of {}", names.join(", ")))?;
+    let limit = ALL.into_iter().find(|limit| limit.name == name.trim()).ok_or_else(|| {
+        let hint = nearest(name, &names).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
+        format!("no limit is called \"{name}\"; {hint}the limits are {}", names.join(", "))
+    })?;
+    let legal = number.trim().parse().ok().filter(|n| (1..=limit.highest).contains(n));
+    let number = legal.ok_or_else(|| format!("expected a whole number from 1 to {}, not '{number}'", limit.highest))?;
+    limit.raised.store(number, Ordering::Relaxed);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_limit_is_told() {
+        assert!(set("picture").expect_err("no number").starts_with("expected NAME=N, one of description-mib,"));
+        assert!(set("picture-mb=5").expect_err("no name").contains("did you mean \"picture-mib\"?"));
+        assert_eq!(set("bases=0").expect_err("zero"), "expected a whole number from 1 to 64, not '0'");
+        assert_eq!(set("bases=65").expect_err("high"), "expected a whole number from 1 to 64, not '65'");
+        assert!(ALL.iter().all(|limit| limit.default <= limit.highest && limit.most() == limit.default));
+    }
+
+    #[test]
+    fn a_message_says_how_far_to_raise() {
+        assert!(DESCRIPTION.check_size(16 << 20).is_ok());
+        let told = DESCRIPTION.check_size((16 << 20) + 1).expect_err("a byte more");
+        assert!(told.ends_with("has 17 MiB, and files of its kind are read up to 16 MiB; make it smaller, or raise the limit: --limit description-mib=17"), "{told}");
+        assert_eq!(BASES.remedy(65), "no limit can be raised beyond 64");
+    }
+}

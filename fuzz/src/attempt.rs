@@ -1,0 +1,104 @@
+//! One input and what its reader makes of it.
+
+use crate::MEMORY;
+use crate::targets::Target;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+/// What came of an input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attempt {
+    /// What the reader said, or where it panicked.
+    pub outcome: Outcome,
+    /// Most memory that it held at a time, bytes.
+    pub peak_bytes: u64,
+    /// How long it took, s of processor time.
+    pub time_s: f64,
+}
+
+/// How a reader ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// As it should: what it read or refused, in words.
+    Told(String),
+    /// By a panic: its place and message.
+    Panicked(String),
+}
+
+/// The first panic of an attempt, on whatever thread.
+static PANIC: Mutex<Option<String>> = Mutex::new(None);
+
+fn panic_told() -> MutexGuard<'static, Option<String>> {
+    PANIC.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Keeps places and messages of panics, and prints none.
+pub fn keep_panics() {
+    std::panic::set_hook(Box::new(|info| {
+        let told = info.to_string().replace('\n', " ");
+        panic_told().get_or_insert(told);
+    }));
+}
+
+/// Has a target read the file that it is prepared for.
+#[must_use]
+pub fn attempt(target: &Target, file: &Path) -> Attempt {
+    *panic_told() = None;
+    MEMORY.reset_peak_usage();
+    let (before, start) = (MEMORY.current_usage(), processor_time_s());
+    let told = catch_unwind(AssertUnwindSafe(|| (target.read)(file)));
+    let time_s = processor_time_s() - start;
+    let peak_bytes = MEMORY.peak_usage().saturating_sub(before) as u64;
+    let outcome = match told {
+        // The folder of the worker has another name each time.
+        Ok(told) => Outcome::Told(told.replace(&*file.with_file_name("").to_string_lossy(), "")),
+        Err(_) => Outcome::Panicked(panic_told().take().unwrap_or_default()),
+    };
+    Attempt { outcome, peak_bytes, time_s }
+}
+
+/// Processor time of this thread, s, so that a busy machine makes nobody slow; the clock's where the system does not tell.
+fn processor_time_s() -> f64 {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = told.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    nanoseconds.map_or_else(|| START.elapsed().as_secs_f64(), |ns| 1e-9 * ns)
+}
+
+impl Attempt {
+    /// What is wrong with it, for an input of this length; `None` where nothing is.
+    #[must_use]
+    pub fn fault(&self, target: &Target, length: usize) -> Option<String> {
+        if let Outcome::Panicked(told) = &self.outcome {
+            return Some(format!("panic: {told}"));
+        }
+        let most = target.most_bytes(length);
+        if self.peak_bytes > most {
+            return Some(format!("memory: {} bytes, where {length} bytes of input may take {most}", self.peak_bytes));
+        }
+        (self.time_s > crate::watch::SLOW_S).then(|| format!("time: {} s", self.time_s))
+    }
+
+    /// The words of the outcome without numbers and what is quoted: equal for inputs that go the same way.
+    #[must_use]
+    pub fn way(&self) -> String {
+        let (Outcome::Told(told) | Outcome::Panicked(told)) = &self.outcome;
+        way_of(told)
+    }
+}
+
+fn way_of(told: &str) -> String {
+    let mut way = String::new();
+    let mut quoted = false;
+    for letter in told.chars().take(2000) {
+        match letter {
+            '"' | '`' => quoted = !quoted,
+            _ if quoted || letter.is_ascii_digit() || !letter.is_ascii() => {}
+            _ => way.push(letter),
+        }
+    }
+    way.truncate(160);
+    way
+}

@@ -1,0 +1,262 @@
+//! Meshes, lamps, lenses, tables, trajectories.
+
+use super::seeds::{repository, stored, write};
+use super::target::{NUMBERS as PER_NUMBER, RECORDS, TREE, Target, told};
+use etendue_io::mesh::{read_mesh, read_mesh_frame};
+use etendue_io::photometry::read_photometry;
+use etendue_io::prescription::read_prescription;
+use etendue_io::spectrum::read_spectrum;
+use etendue_io::table::{read_complex_index, read_numbers, read_retro_table};
+use etendue_io::trajectory::read_trajectory;
+use std::path::Path;
+
+const CONSTANT: u64 = 16 << 20;
+
+/// A reader of text.
+const fn text_target(
+    name: &'static str,
+    file: &'static str,
+    prepare: fn(&Path) -> Vec<Vec<u8>>,
+    read: fn(&Path) -> String,
+    words: &'static [&'static str],
+) -> Target {
+    Target { name, file, prepare, read, words, is_text: true, times: PER_NUMBER, constant_bytes: CONSTANT }
+}
+
+const MESH_WORDS: &[&str] = &[
+    "v",
+    "vt",
+    "vn",
+    "f",
+    "o",
+    "g",
+    "s",
+    "l",
+    "p",
+    "usemtl",
+    "mtllib a.mtl",
+    "1//1",
+    "-1/-1/-1",
+    "1/1/1",
+    "2147483648/1",
+    "f 1 2 3",
+    "v 1e38 -1e38 1e38",
+    "f -1 -2 -3",
+    "\\\n",
+];
+
+fn tower(folder: &Path) {
+    let [obj, mtl] = repository(["crates/cli/tests/jobs/small/tower.obj", "crates/cli/tests/jobs/small/tower.mtl"])
+        .try_into()
+        .expect("two files");
+    write(folder, "tower.obj", obj);
+    write(folder, "tower.mtl", mtl);
+}
+
+fn meshes(folder: &Path) -> Vec<Vec<u8>> {
+    tower(folder);
+    let mut seeds = repository([
+        "crates/cli/tests/jobs/small/tower.obj",
+        "scenes/street/meshes/earth.obj",
+        "scenes/street/meshes/post.obj",
+        "scenes/weather/spray.obj",
+    ]);
+    seeds.extend(stored("obj"));
+    seeds
+}
+
+pub(super) const OBJ: Target = text_target("obj", "a.obj", meshes, |file| told(read_mesh(file)), MESH_WORDS);
+pub(super) const MESH_FRAME: Target =
+    text_target("mesh-frame", "a.obj", meshes, |file| told(read_mesh_frame(file)), MESH_WORDS);
+pub(super) const MTL: Target = Target {
+    times: RECORDS,
+    ..text_target(
+        "mtl",
+        "tower.mtl",
+        |folder| {
+            tower(folder);
+            let mut seeds = repository(["crates/cli/tests/jobs/small/tower.mtl"]);
+            seeds.extend(stored("mtl"));
+            seeds
+        },
+        |file| told(read_mesh(&file.with_file_name("tower.obj"))),
+        &[
+            "newmtl",
+            "Kd",
+            "Ks",
+            "Ke",
+            "Ns",
+            "Ni",
+            "d",
+            "Tr",
+            "illum",
+            "map_Kd",
+            "map_Ks",
+            "bump",
+            "-o",
+            "-s",
+            "-clamp on",
+            "-bm",
+            "Kd spectral",
+        ],
+    )
+};
+
+const LAMP_WORDS: &[&str] = &[
+    "TILT=NONE",
+    "TILT=INCLUDE",
+    "TILT=a.ies",
+    "IESNA:LM-63-2002",
+    "IESNA91",
+    "[MORE]",
+    "[_X]",
+    "36001",
+    "360",
+    "90",
+    "-90",
+    "180",
+    "1e9",
+];
+
+pub(super) const IES: Target = Target {
+    times: RECORDS,
+    ..text_target(
+        "ies",
+        "a.ies",
+        |_| {
+            let mut seeds =
+                repository(["tests/oracles/figures/lamps/round.ies", "tests/oracles/figures/lamps/quadrants.ies"]);
+            seeds.extend(stored("ies"));
+            seeds
+        },
+        |file| told(read_photometry(file)),
+        LAMP_WORDS,
+    )
+};
+pub(super) const LDT: Target = Target {
+    times: RECORDS,
+    ..text_target(
+        "ldt",
+        "a.ldt",
+        |_| repository(["tests/oracles/figures/lamps/round.ldt", "tests/oracles/figures/lamps/quadrants.ldt"]),
+        |file| told(read_photometry(file)),
+        LAMP_WORDS,
+    )
+};
+
+pub(super) const ZMX: Target = Target {
+    times: RECORDS,
+    ..text_target(
+        "zmx",
+        "a.zmx",
+        |_| {
+            let mut seeds = stored("zmx");
+            let wide: Vec<u8> = core::iter::once(0xfeff)
+                .chain(String::from_utf8_lossy(&seeds[0]).encode_utf16())
+                .flat_map(u16::to_le_bytes)
+                .collect();
+            seeds.push(wide);
+            seeds
+        },
+        |file| told(read_prescription(file)),
+        &[
+            "SURF",
+            "STOP",
+            "TYPE EVENASPH",
+            "TYPE COORDBRK",
+            "GLAS MIRROR",
+            "DISZ INFINITY",
+            "PARM 8",
+            "CONI",
+            "CLAP",
+            "UNIT IN",
+            "FNUM 2 0",
+            "WAVM 1 0.55 1",
+        ],
+    )
+};
+pub(super) const SEQ: Target = Target {
+    times: RECORDS,
+    ..text_target(
+        "seq",
+        "a.seq",
+        |_| stored("seq"),
+        |file| told(read_prescription(file)),
+        &[
+            "S", "SO", "SI", "STO", "ASP", "K", "A", "PRV", "PWL", "END", "CIR", "&", ";", "REFL", "GO", "RDM", "CUY",
+            "THI", "FNO", "NAO",
+        ],
+    )
+};
+
+fn tables(_: &Path) -> Vec<Vec<u8>> {
+    let mut seeds = repository([
+        "crates/spectra/data/nk_cr.csv",
+        "scenes/cornell/light.csv",
+        "scenes/processing/defects.csv",
+        "scenes/processing/oecf.csv",
+    ]);
+    seeds.push(b"observation_deg \\ entrance_deg, 5, 30, 40\n0.2, 250, 150, 110\n0.33, 180, 100, 95\n".to_vec());
+    seeds
+}
+
+const TABLE_WORDS: &[&str] = &[",", ";", "\t", "wavelength_nm,value", "#", "300", "1100", "-0.0"];
+
+pub(super) const SPECTRUM: Target = text_target(
+    "spectrum",
+    "a.csv",
+    tables,
+    |file| told(read_spectrum(file)) + &told(etendue_io::inspect::inspect(file)),
+    TABLE_WORDS,
+);
+pub(super) const COMPLEX_INDEX: Target =
+    text_target("complex-index", "a.csv", tables, |file| told(read_complex_index(file)), TABLE_WORDS);
+pub(super) const RETRO_TABLE: Target =
+    text_target("retro-table", "a.csv", tables, |file| told(read_retro_table(file)), TABLE_WORDS);
+pub(super) const NUMBERS: Target =
+    text_target("numbers", "a.csv", tables, |file| told(read_numbers(file)), TABLE_WORDS);
+
+const TRAJECTORY_WORDS: &[&str] = &[
+    "time_s",
+    "x_m",
+    "y_m",
+    "z_m",
+    "qw",
+    "qx",
+    "qy",
+    "qz",
+    "yaw_deg",
+    "pitch_deg",
+    "roll_deg",
+    ",",
+    "[",
+    "{",
+    "}",
+    "]",
+];
+
+pub(super) const TRAJECTORY_CSV: Target = text_target(
+    "trajectory-csv",
+    "a.csv",
+    |_| {
+        let mut seeds = repository(["scenes/drive/ego.csv"]);
+        seeds[0].truncate(600);
+        seeds.push(b"# a drive\nspeed_m_s, z_m, time_s, y_m, x_m, roll_deg, pitch_deg, yaw_deg, note\n3.5, 0.5, 10.25, -2, 1, 0, 0, 90, start\n3.6, 0.5, 11, -2, 4.5, 0, 0, 0, # no\n".to_vec());
+        seeds.push(b"time_s x_m y_m z_m qx qy qz qw\n10.25 1 -2 0.5 0 0 0.7071067811865475 0.7071067811865475\n11 4.5 -2 0.5 0 0 0 1\n".to_vec());
+        seeds
+    },
+    |file| told(read_trajectory(file)),
+    TRAJECTORY_WORDS,
+);
+pub(super) const TRAJECTORY_JSON: Target = Target {
+    times: TREE,
+    ..text_target(
+        "trajectory-json",
+        "a.json",
+        |_| {
+            vec![b"[{\"time_s\": 10.25, \"x_m\": 1, \"y_m\": -2.0, \"z_m\": 0.5, \"speed_m_s\": {\"a\": 1},\n\"note\": \"}[\\\"{\",\n\"qw\": 0.7, \"qx\": 0, \"qy\": 0, \"qz\": 0.7},\n{\"time_s\": 11, \"x_m\": 4.5, \"y_m\": -2, \"z_m\": 0.5, \"qw\": 1, \"qx\": 0, \"qy\": 0, \"qz\": 0}]".to_vec()]
+        },
+        |file| told(read_trajectory(file)),
+        TRAJECTORY_WORDS,
+    )
+};

@@ -1,0 +1,99 @@
+//! Calibrated cameras of other programs.
+
+use super::seeds::{repository, stored};
+use super::target::{TREE, Target, told};
+use etendue_io::calibration::{CalibrationFormat, read_calibration};
+use std::path::Path;
+
+const WORDS: &[&str] = &[
+    "&a [1, 2]",
+    "*a",
+    "<<: *a",
+    "!!opencv-matrix",
+    "data: [1, .inf, .nan]",
+    "rows: 1000000",
+    "cols: 1000000",
+    "- - - -",
+    "? a",
+    "|",
+    ">",
+    "---",
+    "...",
+    "%YAML 1.2",
+    "\"data\":[1]",
+    "fisheye_model: 1",
+    "xi: 1.2",
+    "distortion_model: equidistant",
+    "camera_model: omni",
+    "cam0:",
+    "cam6:",
+    "OPENCV",
+    "FULL_OPENCV",
+    "null",
+    "~",
+    "ftheta",
+];
+
+/// A format with its seeds.
+const fn target(
+    name: &'static str,
+    file: &'static str,
+    prepare: fn(&Path) -> Vec<Vec<u8>>,
+    read: fn(&Path) -> String,
+) -> Target {
+    Target { name, file, prepare, read, words: WORDS, is_text: true, times: TREE, constant_bytes: 16 << 20 }
+}
+
+/// Reads the camera of every name that is tried.
+fn read(file: &Path, format: CalibrationFormat, cameras: &[Option<&str>]) -> String {
+    cameras.iter().map(|camera| told(read_calibration(file, format, *camera)) + "; ").collect()
+}
+
+pub(super) const OPENCV: Target = target(
+    "opencv",
+    "a.yaml",
+    |_| {
+        repository([
+            "tests/oracles/figures/calibrations/opencv.yml",
+            "tests/oracles/figures/calibrations/opencv.json",
+            "tests/oracles/figures/calibrations/opencv_fisheye.yml",
+            "tests/oracles/figures/calibrations/opencv_omnidir.yml",
+        ])
+    },
+    |file| read(file, CalibrationFormat::OpenCv, &[None]) + &read(file, CalibrationFormat::OpenCvFisheye, &[None]),
+);
+pub(super) const ROS: Target = target(
+    "ros",
+    "a.yaml",
+    |_| {
+        repository([
+            "crates/io/tests/calibrations/camera_info.yaml",
+            "tests/oracles/figures/rig/calibration/ros/rear.yaml",
+        ])
+    },
+    |file| read(file, CalibrationFormat::Ros, &[None]),
+);
+pub(super) const KALIBR: Target = target(
+    "kalibr",
+    "a.yaml",
+    |_| repository(["crates/io/tests/calibrations/camchain.yaml"]),
+    |file| read(file, CalibrationFormat::Kalibr, &["cam0", "cam1", "cam2", "cam3", "cam4", "cam5"].map(Some)),
+);
+pub(super) const COLMAP: Target = target(
+    "colmap",
+    "cameras.txt",
+    |_| repository(["tests/oracles/figures/calibrations/cameras.txt"]),
+    |file| read(file, CalibrationFormat::Colmap, &["1", "4", "7", "9", "11", "12", "14", "17", "18"].map(Some)),
+);
+pub(super) const OCAM: Target = target(
+    "ocam",
+    "calib_results.txt",
+    |_| repository(["crates/io/tests/calibrations/calib_results.txt"]),
+    |file| read(file, CalibrationFormat::Ocam, &[None]),
+);
+pub(super) const F_THETA: Target = target(
+    "f-theta",
+    "a.json",
+    |_| stored("f-theta"),
+    |file| read(file, CalibrationFormat::FTheta, &[None, Some("camera:front:wide:120fov")]),
+);

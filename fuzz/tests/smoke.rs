@@ -1,0 +1,58 @@
+//! A few inputs to every reader, and all that were found before: none may panic, take too long or too much memory.
+
+use etendue_fuzz::attempt::{attempt, keep_panics};
+use etendue_fuzz::targets::TARGETS;
+use etendue_fuzz::worker::{Until, work};
+use etendue_fuzz::{found, mutate};
+use std::fs;
+
+/// Inputs a target: some seconds in all.
+const INPUTS: u64 = 25;
+
+#[test]
+fn no_reader_is_brought_down() {
+    keep_panics();
+    let mut faults = Vec::new();
+    for target in TARGETS {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let work = work(target, folder.path(), 20, Until::Inputs(INPUTS));
+        assert_eq!(work.inputs, INPUTS);
+        faults.extend(work.findings.into_values().map(|(fault, _)| format!("{}: {fault}", target.name)));
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+#[test]
+fn what_was_found_is_mended() {
+    keep_panics();
+    let (mut faults, mut count) = (Vec::new(), 0);
+    for target in TARGETS {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let _ = (target.prepare)(folder.path());
+        let file = folder.path().join(target.file);
+        for (name, input) in found::of(target.name) {
+            fs::write(&file, &input).expect("written");
+            let fault = attempt(target, &file).fault(target, input.len());
+            faults.extend(fault.map(|fault| format!("{}/{name}: {fault}", target.name)));
+            count += 1;
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+    let stored = fs::read_dir(found::folder()).expect("found").flatten();
+    let files = stored.flat_map(|folder| fs::read_dir(folder.path()).into_iter().flatten()).count();
+    assert_eq!(count, files, "every folder of fuzz/found is that of a target");
+}
+
+#[test]
+fn the_same_seed_makes_the_same_inputs() {
+    let inputs = [b"v 1 2 3\nf 1 2 3\n".to_vec(), b"{\"a\": [1, 2]}".to_vec()];
+    let material = mutate::Material { inputs: &inputs, words: &["vt", "nan"], is_text: true };
+    let of = |seed| {
+        let mut mutator = mutate::Mutator::new(seed);
+        (0..200).map(|_| mutator.next(material)).collect::<Vec<_>>()
+    };
+    assert_eq!(of(1), of(1));
+    assert_ne!(of(1), of(2));
+    let changed = of(1).iter().filter(|input| !inputs.contains(input)).count();
+    assert!(changed > 150, "{changed}");
+}
