@@ -7,9 +7,9 @@ use etendue_pipeline::render::{Request, light};
 use etendue_pipeline::{Plan, Unobserved};
 
 const NOTE: &str = "Five scenes in 320 × 200 px (the Cornell box as it is), by `noise_threshold` and by as many samples everywhere as its mean, four \
-    seeds each. Left: the variance of a pixel's electrons by its scatter over the seeds, over the variance that the sensor has there, in squares of 8 × 8 px without \
-    those that are white; its mean and what 90, 95 and 99 % of the squares stay below. Saved: what is left by even samples over what is left by the \
-    others, times the ratio of their processor times: how many times longer even samples take to the same quality.";
+    seeds each. Left: the root of the variance of a pixel's electrons by its scatter over the seeds, over the variance that the sensor has there, mean over pixels that are not \
+    white. Saved: what is left by even samples (as a variance) over what is left by the others, times the ratio of their processor times: how many times longer even samples take to the same \
+    mean quality, and for 90, 95 and 99 % of the squares of 8 × 8 px to have it.";
 
 const SEEDS: u64 = 4;
 /// Side of the squares whose noise is looked at, px.

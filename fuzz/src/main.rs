@@ -1,4 +1,4 @@
-//! `cargo run --release -p etendue-fuzz -- --seconds 600 [--seed 1] [--found DIR] [TARGET …]`: every target in turn, or those that are named.
+//! `cargo run -p etendue-fuzz -- --seconds 600 [--seed 1] [--found DIR] [TARGET …]`: every target in turn, or those that are named.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
 

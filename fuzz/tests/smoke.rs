@@ -5,12 +5,22 @@ use etendue_fuzz::targets::TARGETS;
 use etendue_fuzz::worker::{Until, work};
 use etendue_fuzz::{found, mutate};
 use std::fs;
+use std::sync::Mutex;
+
+/// Memory is counted for the whole process: one test at a time.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// Faults as the error of a test: panics are kept, and their messages with them.
+fn none(faults: Vec<String>) -> Result<(), Vec<String>> {
+    if faults.is_empty() { Ok(()) } else { Err(faults) }
+}
 
 /// Inputs a target: some seconds in all.
 const INPUTS: u64 = 25;
 
 #[test]
-fn no_reader_is_brought_down() {
+fn no_reader_is_brought_down() -> Result<(), Vec<String>> {
+    let _alone = ALONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     keep_panics();
     let mut faults = Vec::new();
     for target in TARGETS {
@@ -19,11 +29,12 @@ fn no_reader_is_brought_down() {
         assert_eq!(work.inputs, INPUTS);
         faults.extend(work.findings.into_values().map(|(fault, _)| format!("{}: {fault}", target.name)));
     }
-    assert!(faults.is_empty(), "{faults:#?}");
+    none(faults)
 }
 
 #[test]
-fn what_was_found_is_mended() {
+fn what_was_found_is_mended() -> Result<(), Vec<String>> {
+    let _alone = ALONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     keep_panics();
     let (mut faults, mut count) = (Vec::new(), 0);
     for target in TARGETS {
@@ -37,14 +48,15 @@ fn what_was_found_is_mended() {
             count += 1;
         }
     }
-    assert!(faults.is_empty(), "{faults:#?}");
     let stored = fs::read_dir(found::folder()).expect("found").flatten();
     let files = stored.flat_map(|folder| fs::read_dir(folder.path()).into_iter().flatten()).count();
     assert_eq!(count, files, "every folder of fuzz/found is that of a target");
+    none(faults)
 }
 
 #[test]
 fn the_same_seed_makes_the_same_inputs() {
+    let _alone = ALONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let inputs = [b"v 1 2 3\nf 1 2 3\n".to_vec(), b"{\"a\": [1, 2]}".to_vec()];
     let material = mutate::Material { inputs: &inputs, words: &["vt", "nan"], is_text: true };
     let of = |seed| {

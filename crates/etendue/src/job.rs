@@ -4,9 +4,11 @@ use crate::delivery::{SoFar, check_finite, check_frames, deliver, films_of, shot
 use crate::error::Error;
 use crate::exposures::Exposures;
 use crate::film_memory::{self, FilmMemory};
+use crate::integrator::Integrator;
 use crate::memory::MemoryFiles;
 use crate::observer::{Message, Observer};
 use crate::plan_report::PlanReport;
+use crate::quality::Quality;
 use crate::refine::{Progress, timed};
 use crate::render_options::RenderOptions;
 use crate::results::{CameraResults, DoneFrames, Results, Sequence, file_names};
@@ -26,42 +28,6 @@ use std::cell::RefCell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// How much of the light transport is followed: the key `render.integrator`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Integrator {
-    /// Local shading by lamps, suns and sky, without shadows.
-    Flat,
-    /// The same with shadows.
-    Direct,
-    /// Everything, by path tracing.
-    Path,
-}
-
-impl Integrator {
-    /// Its word in the key `render.integrator`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Flat => "flat",
-            Self::Direct => "direct",
-            Self::Path => "path",
-        }
-    }
-}
-
-/// Presets of samples and bounces, for what a job file leaves open.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Quality {
-    /// 16 samples a pixel, 4 bounces: to frame and expose.
-    Draft,
-    /// 64 samples a pixel, 16 bounces.
-    Standard,
-    /// 1024 samples a pixel, 64 bounces.
-    Reference,
-}
 
 /// A job file and what is changed in it: enough to make the same plan again.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

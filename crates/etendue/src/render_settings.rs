@@ -1,7 +1,8 @@
 //! How a compiled job finds a camera's light.
 
 use crate::error::Error;
-use crate::job::{Integrator, Job};
+use crate::integrator::Integrator;
+use crate::job::Job;
 use etendue_tracer::integrator::Level;
 
 /// How a camera's light is found.

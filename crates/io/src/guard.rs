@@ -27,7 +27,7 @@ pub(crate) fn guarded<T>(file: &Path, decode: impl FnOnce() -> Result<T, Error>)
     decoded.unwrap_or_else(|_| {
         Err(Error::new(
             file,
-            "damaged: its data lead the decoder nowhere; make or fetch it again, or store it in another format",
+            "damaged: its data cannot be decoded; make or fetch it again, or store it in another format",
         ))
     })
 }

@@ -37,7 +37,7 @@ pub(crate) fn most(packed: usize) -> u128 {
     u128::from(PICTURE.most_bytes()).max(TIMES_PACKED * packed as u128)
 }
 
-/// Refuses samples of 32 bits that are more than `most` bytes, of who knows how many there should be.
+/// Refuses samples of 32 bits that are more than `most` bytes, where it is known how many there should be.
 pub(crate) fn check_within(file: &Path, samples: u128, most: u128) -> Result<(), Error> {
     let bytes = in_bytes(samples);
     if bytes <= most {

@@ -75,6 +75,12 @@ impl Limit {
         self.most().saturating_mul(MIB)
     }
 
+    /// Where to raise it to, for what needs more than `number` and is not known to the end: twice as much, or to its highest.
+    #[must_use]
+    pub fn next(&self, number: u64) -> u64 {
+        if number < self.highest { number.saturating_mul(2).min(self.highest) } else { u64::MAX }
+    }
+
     /// How to go beyond it, for what needs this much in its unit: the end of a message. What is beyond the highest cannot be read.
     #[must_use]
     pub fn remedy(&self, needed: u64) -> String {
@@ -142,6 +148,7 @@ mod tests {
         assert!(DESCRIPTION.check_size(16 << 20).is_ok());
         let told = DESCRIPTION.check_size((16 << 20) + 1).expect_err("a byte more");
         assert!(told.ends_with("has 17 MiB, and files of its kind are read up to 16 MiB; make it smaller, or raise the limit: --limit description-mib=17"), "{told}");
+        assert_eq!([16, 40, 64].map(|most| BASES.next(most)), [32, 64, u64::MAX]);
         assert_eq!(BASES.remedy(65), "no limit can be raised beyond 64");
     }
 }

@@ -36,6 +36,20 @@ impl Estimate {
         Self { value: self.value + other.value, uncertainty: hypot(self.uncertainty, other.uncertainty) }
     }
 
+    /// The product with one that errs independently.
+    #[must_use]
+    pub fn product(self, other: Self) -> Self {
+        let uncertainty = hypot(self.uncertainty * other.value, other.uncertainty * self.value);
+        Self { value: self.value * other.value, uncertainty }
+    }
+
+    /// This over one that errs independently.
+    #[must_use]
+    pub fn over(self, other: Self) -> Self {
+        let inverse = 1.0 / other.value;
+        self.product(Self { value: inverse, uncertainty: other.uncertainty * inverse * inverse })
+    }
+
     /// The root of a mean square; 0 of one below 0, which differs from 0 by its uncertainty at most.
     #[must_use]
     pub fn root(self) -> Self {
@@ -109,6 +123,8 @@ mod tests {
     fn roots_keep_what_is_known() {
         let root = Estimate { value: 4.0, uncertainty: 0.4 }.root();
         assert!((root.value - 2.0).abs() < 1e-12 && (root.uncertainty - 0.1).abs() < 1e-12);
+        let ratio = Estimate { value: 6.0, uncertainty: 0.3 }.over(Estimate { value: 2.0, uncertainty: 0.0 });
+        assert!((ratio.value - 3.0).abs() < 1e-12 && (ratio.uncertainty - 0.15).abs() < 1e-12, "{ratio:?}");
         let none = Estimate { value: -0.01, uncertainty: 0.04 }.root();
         assert!(none.value == 0.0 && (none.uncertainty - 0.2).abs() < 1e-12);
     }

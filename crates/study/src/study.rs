@@ -101,8 +101,11 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
         targets(has_sensor).into_iter().filter_map(|target| recommend(&eligible, target, frame)).collect();
     let trial = Trial { budget_s: request.budget_s, job: &job, pilots: &bench.pilots };
     for recommendation in &mut recommendations {
-        let measured = bench.ways.iter().find(|m| m.way == recommendation.point.way).expect("recommended of these");
-        trial.of(recommendation, measured, rest_s)?;
+        let way = recommendation.point.way;
+        let measured = bench.ways.iter().find(|m| m.way == way).expect("recommended of these");
+        // The job's own way stands first; of no other use is the exact form.
+        let control = bench.ways.iter().find(|m| m.way != way).expect("several ways are looked at");
+        trial.of(recommendation, (measured, control), rest_s)?;
     }
     Ok(Study {
         signal: match job.light_signal(&camera)? {

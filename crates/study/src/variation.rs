@@ -70,7 +70,7 @@ pub fn variations(
 
 fn varied_request(own: &JobRequest, set: &[String], camera: &str) -> Result<JobRequest, Error> {
     if let Some(change) = set.iter().find(|change| is_of(change, camera, &SAMPLE_KEYS)) {
-        let problem = "looks have samples of their own; without --vary a study tells what more or fewer come to";
+        let problem = "samples are chosen by --time here; without --vary a study tells what more or fewer come to";
         return Err(Error::input(format!("--vary {change}: {problem}")));
     }
     let mut request = own.clone();

@@ -1,6 +1,6 @@
 //! Scenes far away, tiny, huge, degenerate, and cameras where no camera stands: depth and light there.
 
-use crate::page::{Row, check, figure};
+use crate::page::{Row, check, figure, worst};
 use etendue_pipeline::truth::ground_truth;
 use etendue_scene::asset::{MeshAsset, SlotMaterial};
 use etendue_tests::Job;
@@ -50,16 +50,12 @@ fn floor(scale: f64, at_m: [f64; 3], objects: &str) -> Job {
 fn depth_error(job: &Job, scale: f64) -> f64 {
     let plan = job.plan();
     let truth = ground_truth(&plan, &plan.cameras[0], 0, Simd::Auto);
-    let mut worst = 0.0;
-    for row in 0..HEIGHT {
+    let error = |(row, column): (usize, usize)| {
         let below_mm = (row as f64 + 0.5 - 0.4) * PITCH_MM;
         let expected = scale * FOCAL_MM / below_mm;
-        for column in 0..WIDTH {
-            let error = (f64::from(truth.depth.at(column, row)) / expected - 1.0).abs();
-            worst = if error <= worst { worst } else { error };
-        }
-    }
-    worst
+        (f64::from(truth.depth.at(column, row)) / expected - 1.0).abs()
+    };
+    worst((0..HEIGHT).flat_map(|row| (0..WIDTH).map(move |column| (row, column))).map(error))
 }
 
 /// The greatest distance, m, of the places on the floor that the ground truth tells from where they are.
@@ -67,17 +63,14 @@ fn position_error_m(at_m: [f64; 3]) -> f64 {
     let plan = floor(1.0, at_m, "").plan();
     let truth = ground_truth(&plan, &plan.cameras[0], 0, Simd::Auto);
     let low = truth.position_low.expect("a camera far away");
-    let mut worst: f64 = 0.0;
-    for row in 0..HEIGHT {
+    let distance = |(row, column): (usize, usize)| {
         let depth_m = FOCAL_MM / ((row as f64 + 0.5 - 0.4) * PITCH_MM);
-        for column in 0..WIDTH {
-            let right_m = (column as f64 + 0.5 - 16.0) * PITCH_MM / FOCAL_MM * depth_m;
-            let expected = DVec3::from(at_m) + DVec3::new(depth_m, -right_m, 0.0);
-            let found = [&truth.position, &low].map(|plane| Vec3::from(plane.at(column, row)).as_dvec3());
-            worst = worst.max((found[0] + found[1]).distance(expected));
-        }
-    }
-    worst
+        let right_m = (column as f64 + 0.5 - 16.0) * PITCH_MM / FOCAL_MM * depth_m;
+        let expected = DVec3::from(at_m) + DVec3::new(depth_m, -right_m, 0.0);
+        let found = [&truth.position, &low].map(|plane| Vec3::from(plane.at(column, row)).as_dvec3());
+        (found[0] + found[1]).distance(expected)
+    };
+    worst((0..HEIGHT).flat_map(|row| (0..WIDTH).map(move |column| (row, column))).map(distance))
 }
 
 const DEPTH: &str = "depth within 10⁻⁶ of itself down to cos θ = 0.01";
@@ -114,7 +107,7 @@ fn small_beside_large() -> Row {
     let plan = job.plan();
     let truth = ground_truth(&plan, &plan.cameras[0], 0, Simd::Auto);
     let (grain, wall) = (f64::from(truth.depth.at(16, 12)), f64::from(truth.depth.at(2, 2)));
-    let error = (grain / (2e-5 - 5e-7) - 1.0).abs().max((wall / 1e6 - 1.0).abs());
+    let error = worst([(grain / (2e-5 - 5e-7) - 1.0).abs(), (wall / 1e6 - 1.0).abs()]);
     Row::at_most(
         "a grain of 1 µm at 20 µm before a wall of 10⁶ m at 10⁶ m",
         "both are seen, depth within 10⁻⁶",
@@ -169,7 +162,7 @@ fn degenerate() -> Vec<Row> {
     let plain = floor(1.0, [0.0; 3], "").shot().irradiance().mean;
     let changed = |job: &Job, than: &[f32]| {
         let seen = job.shot().irradiance().mean;
-        seen.iter().zip(than).map(|(a, b)| f64::from((a / b - 1.0).abs())).fold(0.0, f64::max)
+        worst(seen.iter().zip(than).map(|(a, b)| f64::from((a / b - 1.0).abs())))
     };
     let dark = |n: usize| format!("{n} pixels");
     vec![

@@ -1,6 +1,6 @@
 //! Light at the ends of its range: surfaces that swallow nothing, hide nothing or are not there, lamps without number, lines.
 
-use crate::page::{Row, check, figure};
+use crate::page::{Row, check, figure, worst};
 use etendue_stats::Moments;
 use etendue_tests::Job;
 
@@ -48,7 +48,7 @@ fn seen(job: &Job) -> Vec<f64> {
 
 /// The greatest relative difference of two pictures, pixel by pixel.
 fn difference(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
+    worst(a.iter().zip(b).map(|(a, b)| (a / b - 1.0).abs()))
 }
 
 fn mean(values: &[f64]) -> f64 {

@@ -28,7 +28,9 @@ fn known(rows: &Value) -> Vec<Known> {
         at: row["at"].as_array().expect("arguments").iter().flat_map(flat).collect(),
         is: row["is"].as_array().expect("values").iter().map(|v| [number(&v[0]), number(&v[1])]).collect(),
     };
-    rows.as_array().expect("rows").iter().map(of).collect()
+    let known: Vec<_> = rows.as_array().expect("rows").iter().map(of).collect();
+    assert!(known.len() > 20, "figures are there");
+    known
 }
 
 /// The distance to the next double from a number other than zero.

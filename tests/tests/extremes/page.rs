@@ -25,6 +25,11 @@ impl Row {
     }
 }
 
+/// The greatest of numbers; not a number where one of them is none, which no bound admits.
+pub(crate) fn worst(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |worst: f64, value| if worst.is_nan() || value <= worst { worst } else { value })
+}
+
 /// Two digits.
 pub(crate) fn figure(value: f64) -> String {
     match value.abs() {
@@ -77,6 +82,12 @@ fn replaced(page: &str, area: &str, section: &str) -> String {
     let rest = &page[from + head.len()..];
     let next = rest.find("\n## ").map_or("", |at| &rest[at..]);
     format!("{}{}\n{}", &page[..from], section.trim_end(), next)
+}
+
+#[test]
+fn what_is_no_number_is_the_worst() {
+    assert_eq!(worst([1.0, 3.0, 2.0]), 3.0);
+    assert!(worst([1.0, f64::NAN, 2.0]).is_nan() && worst([f64::NAN]).is_nan());
 }
 
 #[test]

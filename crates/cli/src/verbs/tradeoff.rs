@@ -122,7 +122,9 @@ impl Tradeoff {
             (false, true) => &STUDY_FILES,
             (false, false) => &VARIATION_FILES,
         };
-        for path in names.iter().map(|name| folder.join(name)).filter(|path| path.exists()) {
+        let pictures = (1..=self.vary.len()).map(varied_picture);
+        let names = names.iter().map(|name| (*name).to_owned()).chain(pictures);
+        for path in names.map(|name| folder.join(name)).filter(|path| path.exists()) {
             if existing == Existing::Refuse {
                 let problem = "is there already; give another folder, or --overwrite";
                 return Err(Error::input(format!("{}: {problem}", path.display())));
@@ -168,6 +170,11 @@ fn ablated(request: &Request) -> Result<Findings, Error> {
     Ok(Findings { text, json, files })
 }
 
+/// The name of the picture of the nth change, from 1.
+fn varied_picture(n: usize) -> String {
+    format!("pictures/with-{n}.jpg")
+}
+
 /// Change by change.
 fn varied(request: &Request, changes: &[Changes]) -> Result<Findings, Error> {
     let changes: Vec<_> = changes.iter().map(|Changes(set)| set.clone()).collect();
@@ -178,7 +185,7 @@ fn varied(request: &Request, changes: &[Changes]) -> Result<Findings, Error> {
         ("variations.txt".to_owned(), text.clone().into_bytes()),
     ];
     let pictures = found.varied.into_iter().enumerate();
-    let picture = |(i, varied): (usize, Varied)| Some((format!("pictures/with-{}.jpg", i + 1), varied.change.jpeg?));
+    let picture = |(i, varied): (usize, Varied)| Some((varied_picture(i + 1), varied.change.jpeg?));
     files.extend(pictures.filter_map(picture));
     Ok(Findings { text, json, files })
 }

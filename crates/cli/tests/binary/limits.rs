@@ -60,7 +60,7 @@ fn corners_and_bases_are_counted() {
     spoilt.render(&["--limit", "mesh-corners=27"]).refused(&[
         "tower.obj:25",
         "more than 27 corners",
-        "mesh-corners=108",
+        "mesh-corners=54",
     ]);
     etendue(["plan", &spoilt.job(), "--limit", "mesh-corners=28"]).ok();
     for i in 0..3 {

@@ -127,6 +127,6 @@ fn what_cannot_be_studied_is_refused() {
     };
     vary("render.max_bounces", &["--vary", "expected KEY=VALUE"]);
     vary("render.bounces=3", &["render.bounces"]);
-    vary("render.spp=4", &["--vary render.spp=4", "looks have samples of their own"]);
+    vary("render.spp=4", &["--vary render.spp=4", "samples are chosen by --time here"]);
     assert!(!Path::new(&out).exists(), "nothing is written");
 }

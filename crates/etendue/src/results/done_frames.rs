@@ -4,11 +4,12 @@ use super::files::Files;
 use super::metadata;
 use super::sequence::Sequence;
 use crate::error::Error;
+use etendue_io::read_regular;
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
+use etendue_scene::limits::DESCRIPTION;
 use etendue_sensor::{Sensor, SensorState};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::Path;
@@ -89,12 +90,12 @@ fn check_sidecar(folder: &Path, plan: &Plan) -> Result<(), Error> {
 
 /// A file of facts; `None` where there is none.
 fn written(path: &Path, otherwise: &str) -> Result<Option<Value>, Error> {
-    let text = match fs::read_to_string(path) {
-        Ok(text) => text,
+    let bytes = match read_regular(path, &DESCRIPTION) {
+        Ok(bytes) => bytes,
         Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(None),
         Err(cause) => return Err(refused(path, &format!("it cannot be read: {cause}"))),
     };
-    let value = serde_json::from_str(&text);
+    let value = serde_json::from_slice(&bytes);
     value.map(Some).map_err(|_| refused(path, &format!("{otherwise}; remove it, or choose another output folder")))
 }
 

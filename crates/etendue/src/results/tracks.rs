@@ -3,11 +3,11 @@
 use super::files::Files;
 use super::writer::ResultWriter;
 use crate::error::Error;
-use etendue_io::OutputFolder;
+use etendue_io::{OutputFolder, read_regular};
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};
+use etendue_scene::limits::DESCRIPTION;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::fs;
 use std::ops::Range;
 
 /// What a track says of its object, not of its frames.
@@ -30,7 +30,7 @@ pub(super) fn write_tracks(camera: &CameraPlan, frames: &Range<u32>, folder: &mu
 fn read(name: &str, folder: &OutputFolder) -> Result<Value, Error> {
     let path = folder.readable(name).map_err(Error::run)?;
     let unread = |why: String| Error::run(format!("{}: {why}", path.display()));
-    let bytes = fs::read(&path).map_err(|cause| unread(format!("it cannot be read: {cause}")))?;
+    let bytes = read_regular(&path, &DESCRIPTION).map_err(|cause| unread(format!("it cannot be read: {cause}")))?;
     serde_json::from_slice(&bytes).map_err(|_| unread("this is not the file of a frame's boxes".to_owned()))
 }
 

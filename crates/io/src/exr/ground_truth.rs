@@ -118,7 +118,7 @@ impl Layer<'_> {
 /// What the header says of planes.
 fn state(image: &mut ExrImage<'_>, truth: &GroundTruth<'_>, has_gaps: bool) {
     image.state("quantity", "ground truth");
-    image.state("units", "depth, distance, P: m; N: 1; ID: identity, 0 is the background");
+    image.state("units", "depth, distance, P, P_low, P_camera, mirror: m; N: 1; ID: identity, 0 is the background");
     if has_gaps {
         image.state("depth", "NaN where a pixel has no ray, and where it looks sideways, back or at a mirror: distance.Z is defined there");
     }
@@ -162,7 +162,7 @@ impl<'a> GroundTruth<'a> {
 
     fn size(&self) -> Option<(usize, usize)> {
         let lengths = [self.depth, self.distance].into_iter().flatten().map(|p| (p.width(), p.height()));
-        let vectors = [self.normal, self.position, self.camera_space_position]
+        let vectors = [self.normal, self.position, self.position_low, self.camera_space_position, self.mirror]
             .into_iter()
             .flatten()
             .map(|p| (p.width(), p.height()));

@@ -12,7 +12,7 @@
 //! | --- | --- |
 //! | [`encode_spectral`] | `S0.550,000000nm` …, `variance.S0.550,000000nm` …, preview `R`, `G`, `B` |
 //! | [`encode_radiance`] | the same, at the pupil `distance.Z` and `depth.Z` |
-//! | [`encode_ground_truth`] | `depth.Z`, `distance.Z`, `N.X/Y/Z`, `P.X/Y/Z`, `instance.ID`, `semantic.ID`, `material.ID` |
+//! | [`encode_ground_truth`] | `depth.Z`, `distance.Z`, `N.X/Y/Z`, `P.X/Y/Z`, far from the origin `P_low.X/Y/Z`, `instance.ID`, `semantic.ID`, `material.ID` |
 //! | [`encode_motion`] | `flow.forward.X/Y`, `visibility.forward.ID`, `scene_flow.forward.X/Y/Z`, the same `.backward.`, `motion_vector.X/Y`, `velocity.X/Y/Z`, `time.T` |
 //! | [`encode_disparity`] | `disparity.X`, `visibility.ID` |
 //! | [`rays_image`] | `origin.X/Y/Z`, `direction.X/Y/Z`, `ray.ID` |

@@ -148,7 +148,7 @@ impl Obj {
         let sum = u32::try_from(corners).ok().and_then(|n| self.corners.checked_add(n));
         let most = CORNERS.most();
         self.corners = sum.filter(|sum| u64::from(*sum) <= most).ok_or_else(|| {
-            format!("more than {most} corners of faces; split the mesh, {}", CORNERS.remedy(most.saturating_mul(4)))
+            format!("more than {most} corners of faces; split the mesh, {}", CORNERS.remedy(CORNERS.next(most)))
         })?;
         if self.materials.is_empty() {
             self.use_material("", None)?;

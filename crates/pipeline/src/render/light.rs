@@ -169,6 +169,10 @@ impl<S: RaySource> RenderJob<'_, S> {
             TiledCube::new(store, bands, [self.width, self.height, self.tile_px], has_variance)
         });
         match (disk.transpose()?, before) {
+            // A copy would share the file, and write into it.
+            (None, Some(before)) if before.disk().is_some() => {
+                Err("a film on the disk goes on in a scratch file of its own, and there is none".to_owned())
+            }
             (None, Some(before)) => Ok(before.clone()),
             (None, None) => Ok(self.empty_film()),
             (Some(cube), Some(before)) => Ok(before.planes_beside(cube)),

@@ -61,7 +61,7 @@ fn based_on(
     let most = BASES.most();
     if chain.len() as u64 > most {
         let problem = format!("more than {most} files are built one on the other here, in a circle perhaps");
-        faults.add(named, problem, format!("build on fewer files, {}", BASES.remedy(2 * most)));
+        faults.add(named, problem, format!("build on fewer files, {}", BASES.remedy(BASES.next(most))));
         return None;
     }
     open(file, kind, read, named, chain, faults)
