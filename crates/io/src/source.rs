@@ -18,8 +18,21 @@ pub(crate) fn read_description_bytes(file: &Path, what: &str) -> Result<Vec<u8>,
     read_bytes_within(file, what, &limits::DESCRIPTION)
 }
 
+/// The bytes of a file of our own that is known to have at most `most` bytes, whatever files may have.
+pub(crate) fn read_expected_bytes(file: &Path, what: &str, most: u64) -> Result<Vec<u8>, Error> {
+    let check = |bytes: u64| match bytes <= most {
+        true => Ok(()),
+        false => Err(format!("the file has {bytes} bytes, where at most {most} are expected; render it again")),
+    };
+    explained(file, what, read_checked(file, most, check))
+}
+
 fn read_bytes_within(file: &Path, what: &str, limit: &Limit) -> Result<Vec<u8>, Error> {
-    let bytes = read_regular(file, limit).map_err(|cause| match cause.kind() {
+    explained(file, what, read_regular(file, limit))
+}
+
+fn explained(file: &Path, what: &str, read: std::io::Result<Vec<u8>>) -> Result<Vec<u8>, Error> {
+    let bytes = read.map_err(|cause| match cause.kind() {
         ErrorKind::NotFound => Error::missing(file, format!("no such {what} file; check the path")),
         ErrorKind::IsADirectory => Error::missing(file, "this is a folder; name a file in it"),
         ErrorKind::InvalidInput | ErrorKind::FileTooLarge => Error::new(file, cause.to_string()),
@@ -39,6 +52,10 @@ fn read_bytes_within(file: &Path, what: &str, limit: &Limit) -> Result<Vec<u8>, 
 /// As reading a file has them; of the kind [`ErrorKind::InvalidInput`], with words for the user, where it is no regular file, of the kind
 /// [`ErrorKind::FileTooLarge`], with such words, where it is larger than its limit.
 pub fn read_regular(file: &Path, limit: &Limit) -> std::io::Result<Vec<u8>> {
+    read_checked(file, limit.most_bytes(), |bytes| limit.check_size(bytes))
+}
+
+fn read_checked(file: &Path, most: u64, check_size: impl Fn(u64) -> Result<(), String>) -> std::io::Result<Vec<u8>> {
     let metadata = std::fs::metadata(file)?;
     let kind = metadata.file_type();
     if !kind.is_file() && !kind.is_dir() {
@@ -46,11 +63,11 @@ pub fn read_regular(file: &Path, limit: &Limit) -> std::io::Result<Vec<u8>> {
         return Err(std::io::Error::new(ErrorKind::InvalidInput, told));
     }
     let too_large = |told| std::io::Error::new(ErrorKind::FileTooLarge, told);
-    limit.check_size(metadata.len()).map_err(too_large)?;
+    check_size(metadata.len()).map_err(too_large)?;
     // A file of /proc has no size, and one may grow.
     let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
-    File::open(file)?.take(limit.most_bytes() + 1).read_to_end(&mut bytes)?;
-    limit.check_size(bytes.len() as u64).map_err(too_large)?;
+    File::open(file)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    check_size(bytes.len() as u64).map_err(too_large)?;
     Ok(bytes)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::Clock;
 use crate::change::{Change, header};
-use crate::looks::{Looks, MORE, as_changes};
+use crate::frame_render::{FrameRenderer, MORE};
 use crate::study::Request;
 use crate::way::{SAMPLE_KEYS, is_of};
 use etendue::{EffectGroup, Error, Observer, Progress, Unit};
@@ -51,38 +51,35 @@ pub struct Ablation {
 /// # Errors
 /// Where the job has faults or no such camera, the observer cancels, or light is not finite.
 pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -> Result<Ablation, Error> {
-    let job = request.job.clone().open()?;
-    let camera = request.camera.clone().unwrap_or_else(|| job.plan().cameras[0].name.clone());
-    let settings = job.render_settings(&camera)?;
-    let effects = job.effects().into_iter().find(|(plan, _)| plan.name == camera);
-    let effects = effects.map(|(_, effects)| effects).unwrap_or_default();
+    let renderer = FrameRenderer::open(request, clock, observer)?;
     let mut trials = Vec::new();
     let mut kept = Vec::new();
-    for effect in effects {
+    for effect in renderer.effects() {
         match effect.if_dropped.as_ref().map(|dropped| dropped.set.clone()) {
             // What is written changes no frame.
             _ if effect.group == EffectGroup::Output => {}
-            Some(Some(set)) if set.iter().any(|change| is_of(change, &camera, &SAMPLE_KEYS)) => {
-                kept.push(Kept { effect: effect.name, reason: "every look has samples of its own".to_owned() });
+            Some(Some(set)) if set.iter().any(|change| is_of(change, &renderer.camera, &SAMPLE_KEYS)) => {
+                kept.push(Kept {
+                    effect: effect.name,
+                    reason: "the number of samples is chosen by --time here".to_owned(),
+                });
             }
             Some(Some(set)) => trials.push((effect.name, effect.id(), set)),
             Some(None) => kept.push(Kept { effect: effect.name, reason: "no key leaves it out".to_owned() }),
             None => {}
         }
     }
-    let own = as_changes(&request.job, &camera);
-    let looks = Looks { request, camera: &camera, clock, observer, own_seed: settings.seed };
-    let spp = looks.affordable_spp(&own, trials.len() + 1)?;
-    let with = looks.pair(&own, spp)?;
+    let spp = renderer.affordable_spp(trials.len() + 1)?;
+    let with = renderer.pair(&renderer.own, spp)?;
     let mut dropped = Vec::new();
     let total = trials.len();
     for (done, (effect, id, set)) in trials.into_iter().enumerate() {
         observer.progress(Progress { heading: effect, frame: None, unit: Unit::Pilots, done, total });
-        let mut changed = own.clone();
+        let mut changed = renderer.own.clone();
         changed.set.extend(set.iter().cloned());
-        match looks.pair(&changed, spp) {
+        match renderer.pair(&changed, spp) {
             Ok(without) => {
-                let change = Change::of(&with, &without, f64::from(settings.spp))?;
+                let change = Change::of(&with, &without, renderer.job_spp)?;
                 dropped.push(Dropped { effect, id, set, change });
             }
             Err(Error::Input(reason)) => {
@@ -92,8 +89,8 @@ pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -
         }
     }
     observer.progress(Progress { heading: "done", frame: None, unit: Unit::Pilots, done: total, total });
-    let cpu_s = with.seconds(f64::from(settings.spp));
-    Ok(Ablation { spp: spp * (1 + MORE), cpu_s, camera, dropped, kept })
+    let cpu_s = with.seconds(renderer.job_spp);
+    Ok(Ablation { spp: spp * (1 + MORE), cpu_s, camera: renderer.camera, dropped, kept })
 }
 
 /// The table of an ablation.

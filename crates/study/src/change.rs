@@ -1,7 +1,7 @@
 //! What a change of a job changes of its frame: time, light, numbers, picture and geometry.
 
 use crate::error::Estimate;
-use crate::looks::Pair;
+use crate::frame_render::RenderPair;
 use crate::pictures::{QUALITY, side_by_side};
 use etendue::{Error, GroundTruth, display_jpeg};
 use etendue_core::Plane;
@@ -37,9 +37,10 @@ pub struct Change {
 
 impl Change {
     /// What the frame of `changed` differs by, with `spp` samples a pixel.
-    pub(crate) fn of(own: &Pair, changed: &Pair, spp: f64) -> Result<Self, Error> {
+    pub(crate) fn of(own: &RenderPair, changed: &RenderPair, spp: f64) -> Result<Self, Error> {
         let truths = [own, changed].map(|pair| pair.many.results.ground_truth());
-        let same = |a: &Pair, b: &Pair| a.many.results.camera().body.raster == b.many.results.camera().body.raster;
+        let same =
+            |a: &RenderPair, b: &RenderPair| a.many.results.camera().body.raster == b.many.results.camera().body.raster;
         let is_same = same(own, changed);
         let numbers = own.many.raw.as_ref().zip(changed.many.raw.as_ref()).filter(|(a, b)| a.len() == b.len());
         let pictures = own.many.picture.as_ref().zip(changed.many.picture.as_ref());
@@ -93,8 +94,8 @@ fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The root of the mean product of two independent differences, each over the light about it: free of the noise of either.
-fn change_of_light(own: &Pair, changed: &Pair) -> Option<Estimate> {
-    let planes = [&own.few, &changed.few, &own.many, &changed.many].map(|look| look.light.as_ref());
+fn change_of_light(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
+    let planes = [&own.few, &changed.few, &own.many, &changed.many].map(|render| render.light.as_ref());
     let [Some((kind, a)), Some((other, b)), Some((_, c)), Some((_, d))] = planes else { return None };
     let (width, height) = (a.width(), a.height());
     if kind != other || [b, c, d].iter().any(|plane| (plane.width(), plane.height()) != (width, height)) {
@@ -146,7 +147,7 @@ fn change_of_distance([a, b]: &[GroundTruth; 2]) -> f64 {
 }
 
 /// Angles between the rays of pixels' centres, over that between neighbours in the middle.
-fn change_of_direction(own: &Pair, changed: &Pair) -> f64 {
+fn change_of_direction(own: &RenderPair, changed: &RenderPair) -> f64 {
     let [a, b] = [own, changed].map(|pair| pair.many.results.rays().direction);
     let vector = |v: [f32; 3]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
     let angle = |a: DVec3, b: DVec3| {

@@ -2,7 +2,7 @@
 
 use crate::Clock;
 use crate::change::{Change, header};
-use crate::looks::{Looks, MORE, as_changes};
+use crate::frame_render::{FrameRenderer, MORE};
 use crate::study::Request;
 use crate::way::{SAMPLE_KEYS, is_of};
 use etendue::{Error, Job, JobRequest, Observer, Progress, Unit};
@@ -46,26 +46,24 @@ pub fn variations(
     clock: &dyn Clock,
     observer: &dyn Observer,
 ) -> Result<Variations, Error> {
-    let job = request.job.clone().open()?;
-    let camera = request.camera.clone().unwrap_or_else(|| job.plan().cameras[0].name.clone());
-    let settings = job.render_settings(&camera)?;
-    let own = as_changes(&request.job, &camera);
-    let requests = variations.iter().map(|set| varied_request(&own, set, &camera)).collect::<Result<Vec<_>, _>>()?;
+    let renderer = FrameRenderer::open(request, clock, observer)?;
+    let camera = &renderer.camera;
+    let requests = variations.iter().map(|set| varied_request(&renderer.own, set, camera));
+    let requests = requests.collect::<Result<Vec<_>, _>>()?;
     // All faults before anything is rendered.
-    let memory = requests.iter().map(|request| Ok(memory_bytes(&request.clone().open()?, &camera)));
+    let memory = requests.iter().map(|request| Ok(memory_bytes(&request.clone().open()?, camera)));
     let memory = memory.collect::<Result<Vec<_>, Error>>()?;
-    let looks = Looks { request, camera: &camera, clock, observer, own_seed: settings.seed };
-    let spp = looks.affordable_spp(&own, requests.len() + 1)?;
-    let stated = looks.pair(&own, spp)?;
+    let spp = renderer.affordable_spp(requests.len() + 1)?;
+    let stated = renderer.pair(&renderer.own, spp)?;
     let (mut varied, total) = (Vec::new(), requests.len());
     for (done, ((request, set), memory_bytes)) in requests.iter().zip(variations).zip(memory).enumerate() {
         observer.progress(Progress { heading: &set.join("; "), frame: None, unit: Unit::Pilots, done, total });
-        let change = Change::of(&stated, &looks.pair(request, spp)?, f64::from(settings.spp))?;
+        let change = Change::of(&stated, &renderer.pair(request, spp)?, renderer.job_spp)?;
         varied.push(Varied { set: set.clone(), memory_bytes, change });
     }
     observer.progress(Progress { heading: "done", frame: None, unit: Unit::Pilots, done: total, total });
-    let (cpu_s, memory_bytes) = (stated.seconds(f64::from(settings.spp)), memory_bytes(&job, &camera));
-    Ok(Variations { spp: spp * (1 + MORE), cpu_s, memory_bytes, camera, varied })
+    let (cpu_s, memory_bytes) = (stated.seconds(renderer.job_spp), memory_bytes(&renderer.job, camera));
+    Ok(Variations { spp: spp * (1 + MORE), cpu_s, memory_bytes, camera: renderer.camera, varied })
 }
 
 fn varied_request(own: &JobRequest, set: &[String], camera: &str) -> Result<JobRequest, Error> {

@@ -40,20 +40,18 @@ fn job(width: usize, height: usize, route: &str, effects: &str) -> Job {
     ))
 }
 
+/// Irradiance of the only band.
+fn irradiance(job: &Job) -> Vec<f32> {
+    let cube = job.shot().light().irradiance.expect("kept");
+    cube.plane(0).expect("in memory").samples().to_vec()
+}
+
 const GLARE: &str =
     "effects = { margin = 0.5, glare = { scatter = 0.1, core_um = 500, exponent = 2.5, reach_mm = 6 } }";
 
 #[test]
 fn a_lamp_beyond_the_picture_veils_it_by_the_kernel_on_both_routes() {
-    let wide = job(2 * WIDTH, 2 * HEIGHT, "lens", "")
-        .shot()
-        .light()
-        .irradiance
-        .expect("kept")
-        .plane(0)
-        .expect("in memory")
-        .samples()
-        .to_vec();
+    let wide = irradiance(&job(2 * WIDTH, 2 * HEIGHT, "lens", ""));
     let parameters = GlareParameters { scatter: 0.1, core_um: 500.0, exponent: 2.5, reach_mm: Some(6.0) };
     let glare = Glare::new(parameters).expect("legal");
     let margin = DVec2::new(WIDTH as f64, HEIGHT as f64) / 2.0;
@@ -64,25 +62,9 @@ fn a_lamp_beyond_the_picture_veils_it_by_the_kernel_on_both_routes() {
         (0..wide.len()).map(|i| f64::from(wide[i]) * 0.1 * density(i) * PITCH_MM * PITCH_MM).sum::<f64>()
     };
     for route in ["lens", "pupil"] {
-        let dark = job(WIDTH, HEIGHT, route, "")
-            .shot()
-            .light()
-            .irradiance
-            .expect("kept")
-            .plane(0)
-            .expect("in memory")
-            .samples()
-            .to_vec();
+        let dark = irradiance(&job(WIDTH, HEIGHT, route, ""));
         assert!(dark.iter().all(|e| *e == 0.0), "the lamp is seen");
-        let veiled = job(WIDTH, HEIGHT, route, GLARE)
-            .shot()
-            .light()
-            .irradiance
-            .expect("kept")
-            .plane(0)
-            .expect("in memory")
-            .samples()
-            .to_vec();
+        let veiled = irradiance(&job(WIDTH, HEIGHT, route, GLARE));
         for (x, y) in [(1, 5), (8, 2), (15, 11)] {
             let (found, expected) = (f64::from(veiled[y * WIDTH + x]), veil(x, y));
             // The lamp's border is sampled: 64 samples a pixel, a dozen border pixels; the kernel's mean over a pixel differs
@@ -95,9 +77,6 @@ fn a_lamp_beyond_the_picture_veils_it_by_the_kernel_on_both_routes() {
 #[test]
 fn an_effect_that_is_switched_off_changes_no_bit() {
     let off = "effects = { glare = { scatter = 0, core_um = 10, exponent = 3 } }";
-    let (with, without) = (job(WIDTH, HEIGHT, "lens", off).shot(), job(WIDTH, HEIGHT, "lens", "").shot());
-    assert_eq!(
-        with.light().irradiance.expect("kept").plane(0).expect("in memory").samples().to_vec(),
-        without.light().irradiance.expect("kept").plane(0).expect("in memory").samples().to_vec()
-    );
+    let (with, without) = (job(WIDTH, HEIGHT, "lens", off), job(WIDTH, HEIGHT, "lens", ""));
+    assert_eq!(irradiance(&with), irradiance(&without));
 }

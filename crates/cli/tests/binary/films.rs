@@ -105,6 +105,23 @@ fn radiance_at_the_pupil_and_its_lens_do_not_depend_on_the_memory_of_films() {
     Place::new("spp = 2", &deep, "irradiance = true").check("depth of field");
 }
 
+/// One element, whose reflections are soon traced; behind the filter each band has an étendue of its own.
+#[test]
+fn prescriptions_and_their_ghosts_do_not_depend_on_the_memory_of_films() {
+    let element = "{ thickness_mm = 1, semi_aperture_mm = 1, stop = true }, { radius_mm = 20, thickness_mm = 4, semi_aperture_mm = 8, glass = \"N-BK7\" }, { radius_mm = -20, semi_aperture_mm = 8 }";
+    let lens = format!(
+        "lens = {{ type = \"prescription\", surfaces = [{element}], focus_distance_m = 5, coating = \"uncoated\", ir_cut = {{ edge_nm = 650, edge_width_nm = 30, effective_index = 1.8 }} }}"
+    );
+    let through = camera(&lens, &format!(", {ELECTRONICS}"), "ghosts = true");
+    let output = "irradiance = true\nvariance = true\nelectrons = true\nghosts = true\nraw = true";
+    Place::new("spp = 2\nreplicates = 2", &through, output).check("through the lens");
+    let at_pupil = format!("{through}\nrender = {{ route = \"pupil\", depth_of_field = \"none\" }}");
+    let output = output.replace("variance = true\n", "");
+    Place::new("spp = 2", &at_pupil, &output).check("at the pupil");
+    let bare = at_pupil.replace("effects = { ghosts = true }", "");
+    Place::new("spp = 2", &bare, "irradiance = true\nraw = true").check("at the pupil, without ghosts");
+}
+
 #[test]
 fn the_plan_tells_where_a_film_is() {
     let place = Place::new("spp = 4\nreplicates = 2", &camera(THIN, "", ""), SPECTRA);

@@ -33,12 +33,14 @@ fn a_run_that_is_killed_at_any_moment_leaves_whole_files_or_none() {
     etendue(arguments(&whole)).ok();
     let expected = contents(Path::new(&whole));
     let out = text(&place.path().join("out"));
+    let mut killed = 0;
     for milliseconds in [5, 20, 40, 60, 90, 130, 180] {
         let mut run = Command::new(env!("CARGO_BIN_EXE_etendue"));
         run.args(arguments(&out)).stdout(Stdio::null()).stderr(Stdio::null());
         let mut run = run.spawn().expect("it starts");
         std::thread::sleep(Duration::from_millis(milliseconds));
         // It may have ended before.
+        killed += u32::from(run.try_wait().expect("a child").is_none());
         let _ = run.kill();
         run.wait().expect("it ends");
         for (name, bytes) in contents(Path::new(&out)) {
@@ -46,6 +48,7 @@ fn a_run_that_is_killed_at_any_moment_leaves_whole_files_or_none() {
             assert!(is_hidden || expected[&name] == bytes, "{name} after {milliseconds} ms");
         }
     }
+    assert!(killed > 0, "no moment was within a run");
     etendue(arguments(&out)).ok();
     assert!(contents(Path::new(&out)) == expected, "leftovers are removed, and the bytes are the same");
 }

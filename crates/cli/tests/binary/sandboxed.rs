@@ -1,4 +1,4 @@
-//! Jobs of others: no file outside their folder is read, whoever names it and by whatever way.
+//! Untrusted jobs: no file outside their folder is read, whoever names it and by whatever way.
 
 use crate::bad_input::Spoilt;
 use crate::support::{Ran, contents, etendue, text};

@@ -118,7 +118,16 @@ impl Layer<'_> {
 /// What the header says of planes.
 fn state(image: &mut ExrImage<'_>, truth: &GroundTruth<'_>, has_gaps: bool) {
     image.state("quantity", "ground truth");
-    image.state("units", "depth, distance, P, P_low, P_camera, mirror: m; N: 1; ID: identity, 0 is the background");
+    let metres = [
+        ("depth", truth.depth.is_some()),
+        ("distance", truth.distance.is_some()),
+        ("P", truth.position.is_some()),
+        ("P_low", truth.position_low.is_some()),
+        ("P_camera", truth.camera_space_position.is_some()),
+        ("mirror", truth.mirror.is_some()),
+    ];
+    let metres: Vec<_> = metres.into_iter().filter_map(|(name, is_there)| is_there.then_some(name)).collect();
+    image.state("units", format!("{}: m; N: 1; ID: identity, 0 is the background", metres.join(", ")));
     if has_gaps {
         image.state("depth", "NaN where a pixel has no ray, and where it looks sideways, back or at a mirror: distance.Z is defined there");
     }

@@ -8,7 +8,7 @@ use ::exr::meta::attribute::AttributeValue;
 use ::exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers};
 
 use crate::guard::guarded;
-use crate::source::read_bytes;
+use crate::source::{read_bytes, read_expected_bytes};
 use crate::unpacked;
 use crate::{Error, Provenance};
 
@@ -91,12 +91,17 @@ pub fn read_exr(file: &Path) -> Result<ExrFile, Error> {
     decode_exr(file, &read_bytes(file, "EXR")?)
 }
 
+/// What the head of a film takes at most, with the names of its channels.
+const HEAD_BYTES: u64 = 64 << 20;
+
 /// Reads `file`, whose samples take at most `most_bytes` as 32-bit numbers.
 ///
 /// # Errors
 /// Where it is missing, damaged or of a kind that is not read, or unpacks to more.
 pub fn read_exr_within(file: &Path, most_bytes: u64) -> Result<ExrFile, Error> {
-    let bytes = read_bytes(file, "EXR")?;
+    // Blocks that would grow are stored as they are; beside them are the head and a table of the blocks.
+    let most_packed = most_bytes.saturating_add(most_bytes / 8).saturating_add(HEAD_BYTES);
+    let bytes = read_expected_bytes(file, "EXR", most_packed)?;
     unpacked::check_within(file, samples(file, &bytes)?, most_bytes.into())?;
     decode_all(file, &bytes)
 }

@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use etendue_scene::asset::{ImagePixels, LargeImage, PixelFormat, PixelRows, TakeRows};
-use image::{ColorType, ImageDecoder as _, ImageReader};
+use image::{ImageDecoder as _, ImageReader};
 
+use super::raster::stored_format;
 use super::{EXR_MAGIC, Kept, decode_picture};
 use crate::guard::guarded;
 use crate::source::read_bytes;
@@ -47,14 +48,7 @@ fn exr_head(file: &Path) -> Option<PictureHead> {
 fn raster_head(file: &Path) -> Option<PictureHead> {
     let decoder = ImageReader::open(file).ok()?.with_guessed_format().ok()?.into_decoder().ok()?;
     let (width, height) = decoder.dimensions();
-    let format = match decoder.color_type() {
-        ColorType::L8 => PixelFormat::Gray8,
-        ColorType::L16 => PixelFormat::Gray16,
-        ColorType::La8 | ColorType::Rgba8 => PixelFormat::Rgba8,
-        ColorType::Rgb8 => PixelFormat::Rgb8,
-        ColorType::La16 | ColorType::Rgba16 | ColorType::Rgba32F => PixelFormat::Rgba32F,
-        _ => PixelFormat::Rgb32F,
-    };
+    let format = stored_format(decoder.color_type());
     let packed = std::fs::metadata(file).ok()?.len() as usize;
     (Kept::Stored.bytes(&decoder) <= unpacked::most(packed)).then_some((width, height, format))
 }
@@ -83,7 +77,7 @@ impl PixelRows for PictureFile {
             return Err(Error::new(&self.path, "the file was changed while it was read; run again").to_string());
         }
         if let Some(rows) = guarded(&self.path, || Ok(PngRows::new(&bytes, self.size))).ok().flatten() {
-            match rows.read(take) {
+            match rows.read(&self.path, take) {
                 Ok(()) => return Ok(()),
                 Err(Stop::Taker(error)) => return Err(error),
                 // What is wrong is told as of any picture.
@@ -143,19 +137,28 @@ impl<'a> PngRows<'a> {
         (is_plain && (info.width, info.height) == size).then_some(Self { reader, colours, size })
     }
 
-    fn read(mut self, take: TakeRows<'_>) -> Result<(), Stop> {
+    fn read(mut self, file: &Path, take: TakeRows<'_>) -> Result<(), Stop> {
         let (width, height) = (self.size.0 as usize, self.size.1 as usize);
         let strip_rows = (STRIP_PIXELS / width).clamp(1, height);
         let mut strip = Vec::with_capacity(strip_rows * width * self.colours.samples());
         for y in 0..height {
-            let row = self.reader.next_row().ok().flatten().ok_or(Stop::Damaged)?;
-            strip.extend_from_slice(row.data());
+            self.append_row(file, &mut strip)?;
             if (y + 1) % strip_rows == 0 || y + 1 == height {
                 take(&pixels(self.colours, &strip)).map_err(Stop::Taker)?;
                 strip.clear();
             }
         }
-        self.reader.finish().map_err(|_| Stop::Damaged)
+        let finished = guarded(file, || Ok(self.reader.finish().is_ok()));
+        if finished == Ok(true) { Ok(()) } else { Err(Stop::Damaged) }
+    }
+
+    /// Decodes the next row to the end of `strip`.
+    fn append_row(&mut self, file: &Path, strip: &mut Vec<u8>) -> Result<(), Stop> {
+        let appended = guarded(file, || {
+            let row = self.reader.next_row().ok().flatten();
+            Ok(row.map(|row| strip.extend_from_slice(row.data())).is_some())
+        });
+        if appended == Ok(true) { Ok(()) } else { Err(Stop::Damaged) }
     }
 }
 

@@ -3,8 +3,8 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use etendue_scene::asset::ImagePixels;
-use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
+use etendue_scene::asset::{ImagePixels, PixelFormat};
+use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 
 use super::floats::Picture;
 use crate::guard::guarded;
@@ -13,7 +13,7 @@ use crate::{Error, unpacked};
 /// Decodes `bytes` by their first bytes.
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Picture, Error> {
     let (_, picture) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR", Kept::Stored)?;
-    Ok((picture.width(), picture.height(), pixels(picture)))
+    Ok((picture.width(), picture.height(), as_pixels(picture)))
 }
 
 /// The picture as stored, with its format; a file of none is told that it should be one of `kinds`.
@@ -52,7 +52,7 @@ fn decode_unguarded(
 /// How the numbers of a picture are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kept {
-    /// As the file stores them.
+    /// As pixels of a texture: of 8 bits, grey of 16 bits, else 32-bit floats.
     Stored,
     /// As 32-bit floats.
     Floats,
@@ -62,13 +62,28 @@ impl Kept {
     /// Bytes of a picture that is not yet decoded.
     pub(crate) fn bytes(self, decoder: &impl ImageDecoder) -> u128 {
         match self {
-            Self::Stored => decoder.total_bytes().into(),
+            Self::Stored => pixels(decoder) * u128::from(stored_format(decoder.color_type()).bytes()),
             Self::Floats => {
-                let (width, height) = decoder.dimensions();
-                let samples = u128::from(width) * u128::from(height) * u128::from(decoder.color_type().channel_count());
-                samples * size_of::<f32>() as u128
+                pixels(decoder) * u128::from(decoder.color_type().channel_count()) * size_of::<f32>() as u128
             }
         }
+    }
+}
+
+fn pixels(decoder: &impl ImageDecoder) -> u128 {
+    let (width, height) = decoder.dimensions();
+    u128::from(width) * u128::from(height)
+}
+
+/// As what a picture of these colours is kept.
+pub(super) fn stored_format(colours: ColorType) -> PixelFormat {
+    match colours {
+        ColorType::L8 => PixelFormat::Gray8,
+        ColorType::L16 => PixelFormat::Gray16,
+        ColorType::La8 | ColorType::Rgba8 => PixelFormat::Rgba8,
+        ColorType::Rgb8 => PixelFormat::Rgb8,
+        ColorType::La16 | ColorType::Rgba16 | ColorType::Rgba32F => PixelFormat::Rgba32F,
+        _ => PixelFormat::Rgb32F,
     }
 }
 
@@ -88,7 +103,7 @@ fn jpeg_is_whole(bytes: &[u8]) -> bool {
     last([0xff, 0xd9]) > last([0xff, 0xda])
 }
 
-fn pixels(picture: DynamicImage) -> ImagePixels {
+fn as_pixels(picture: DynamicImage) -> ImagePixels {
     match picture {
         DynamicImage::ImageLuma8(p) => ImagePixels::Gray8(p.into_raw()),
         DynamicImage::ImageLuma16(p) => ImagePixels::Gray16(p.into_raw()),

@@ -5,13 +5,15 @@ use etendue_core::maths::f64::{atan2, cos, sin};
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::{Length, Radiance};
 use etendue_core::wavelength::Bands;
+use etendue_optics::prescription::filter::InterferenceFilter;
 use etendue_optics::prescription::{Focus, published};
 use etendue_optics::{
-    CalibratedParameters, Cube, Face, LateralColour, Lens, OpticsError, PinholeParameters, Prescribed, Prescription,
-    PrescriptionParameters, PupilProjection, Resampling, ThinParameters, Window,
+    BandEtendue, CalibratedParameters, Cube, Face, LateralColour, Lens, OpticsError, PinholeParameters, Prescribed,
+    Prescription, PrescriptionParameters, PupilProjection, Resampling, ThinParameters, Window, irradiance,
 };
 use etendue_projection::model::{Ideal, KannalaBrandt, Panorama, Perspective};
 use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Raster, Sense};
+use etendue_spectra::{Outside, Spectrum};
 use glam::{DVec2, DVec3};
 
 const PITCH_MM: f64 = 0.01;
@@ -45,10 +47,14 @@ fn limited(model: Model, f_px: f64, [width, height]: [usize; 2], angle_rad: f64)
 }
 
 fn prescription(name: &str, radius_mm: f64) -> (Lens, Raster) {
+    filtered(name, radius_mm, None)
+}
+
+fn filtered(name: &str, radius_mm: f64, filter: Option<InterferenceFilter>) -> (Lens, Raster) {
     let surfaces = published::named(name).expect("a published lens").surfaces();
     let focus = Focus::Sensor { distance_m: f64::INFINITY };
     let lens = Prescription::new(PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 });
-    let lens = Lens::prescription(Prescribed::new(lens.expect("a lens"), None, radius_mm).expect("lit"));
+    let lens = Lens::prescription(Prescribed::new(lens.expect("a lens"), filter, radius_mm).expect("lit"));
     (lens, Raster::centred(72, 48, radius_mm / 43.3).expect("a raster"))
 }
 
@@ -354,4 +360,30 @@ fn through(lens: &Lens, at: DVec2, nm: f64) -> Option<f64> {
 
 fn pupil_point(i: u32) -> DVec2 {
     (DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_3) * f64::from(i) + 0.5).fract()
+}
+
+/// Band by band is what films on the disk go through.
+#[test]
+fn irradiance_band_by_band_is_that_of_the_whole_cube() {
+    let edge = Spectrum::from_points(&[(500.0, 1.0), (600.0, 0.2)], Outside::Hold).expect("a spectrum");
+    let filter = InterferenceFilter::new(edge, 1.8).expect("a filter");
+    let (lens, raster) = filtered("double-gauss", 21.6, Some(filter));
+    for (name, lens, raster) in cameras().into_iter().chain([("double Gauss behind a filter", lens, raster)]) {
+        let plane = |scale: f64| {
+            let mut plane = Plane::<Radiance>::new(raster.width(), raster.height());
+            centres(&raster).for_each(|(x, y, at)| plane.set(x, y, (scale * (1.0 + at.length())) as f32));
+            plane
+        };
+        let cube = SpectralCube::from_planes(bands(), vec![plane(1.0), plane(3.0)]).expect("two planes");
+        let whole = irradiance(&cube, &lens, &raster).expect(name);
+        let band = BandEtendue::new(&lens, &raster);
+        for (i, radiance) in cube.planes().iter().enumerate() {
+            let alone = band.irradiance(radiance, bands().centre_nm(i)).expect(name);
+            assert_eq!(alone.samples(), whole.planes()[i].samples(), "{name}, band {i}");
+        }
+        if name.ends_with("filter") {
+            let [first, second] = [0, 1].map(|i| whole.planes()[i].samples()[raster.width() * raster.height() / 2]);
+            assert!(second < 2.5 * first, "the filter takes from the second band: {first} {second}");
+        }
+    }
 }

@@ -14,7 +14,6 @@ use crate::camera::defocus::{held_margin_px, whole_margin_px};
 use crate::camera::effects::{EffectsOutput, behind, of_band, picture};
 use crate::camera::light::{KeptEstimate, Light};
 use crate::camera::light_error::LightError;
-
 use crate::camera::plane_cube::PlaneCube;
 use crate::camera::stored::Stored;
 use crate::plan::film_needs::{needs_all_bands, needs_electrons, needs_irradiance};
@@ -33,11 +32,21 @@ use std::sync::Arc;
 /// Bytes of the bands that go through the lens together, where one band has no more.
 const GROUP_BYTES: usize = 1 << 29;
 
-/// Where effects leave a film.
-struct Behind {
+/// [`EffectsOutput`], in memory or on the disk.
+struct KeptOutput {
     irradiance: KeptCube<Irradiance>,
     variance: Option<KeptCube<Variance>>,
     ghosts: Option<KeptCube<Irradiance>>,
+}
+
+impl From<EffectsOutput> for KeptOutput {
+    fn from(EffectsOutput { irradiance, variance, ghosts }: EffectsOutput) -> Self {
+        Self {
+            irradiance: irradiance.into(),
+            variance: variance.map(KeptCube::from),
+            ghosts: ghosts.map(KeptCube::from),
+        }
+    }
 }
 
 /// The light of a film whose bands are in `cube`, rows exposed alike.
@@ -72,7 +81,7 @@ pub(super) fn seen(
             let film = (kept(cube, cube.mean()), variance);
             let light = Light { radiance, ..folded(camera, electron_rate) };
             match needs_irradiance(camera) {
-                true => with_irradiance(camera, behind_of(body, film, cube.store())?, light),
+                true => with_irradiance(camera, effects_on(body, film, cube.store())?, light),
                 false => Ok(light),
             }
         }
@@ -93,8 +102,8 @@ fn at_pupil(
     }
     front_on_picture(&camera.body)?;
     let film = through_lens(&camera.body, (projection, radiance), cube.store())?;
-    let behind = behind_of(&camera.body, (film, None), cube.store())?;
-    with_irradiance(camera, behind, Light::default())
+    let output = effects_on(&camera.body, (film, None), cube.store())?;
+    with_irradiance(camera, output, Light::default())
 }
 
 /// The irradiance on the film of a radiance at the pupil without depth of field, some bands after the other.
@@ -126,23 +135,18 @@ fn through_lens(
 }
 
 /// What the effects of a camera leave of a film.
-fn behind_of(
+fn effects_on(
     body: &CameraBody,
     (film, variance): (KeptCube<Irradiance>, Option<KeptCube<Variance>>),
     store: &dyn ScratchStore,
-) -> Result<Behind, LightError> {
+) -> Result<KeptOutput, LightError> {
     if body.effects.is_idle() {
-        return Ok(Behind { irradiance: film, variance, ghosts: None });
+        return Ok(KeptOutput { irradiance: film, variance, ghosts: None });
     }
     if body.effects.ghosts().is_some() {
         let film = film.load().map_err(LightError::Scratch)?;
         let variance = variance.map(KeptCube::load).transpose().map_err(LightError::Scratch)?;
-        let EffectsOutput { irradiance, variance, ghosts } = behind(body, film, variance);
-        return Ok(Behind {
-            irradiance: irradiance.into(),
-            variance: variance.map(KeptCube::from),
-            ghosts: ghosts.map(KeptCube::from),
-        });
+        return Ok(behind(body, film, variance).into());
     }
     by_band(body, &film, variance.as_ref(), store).map_err(LightError::Scratch)
 }
@@ -153,7 +157,7 @@ fn by_band(
     film: &KeptCube<Irradiance>,
     variance: Option<&KeptCube<Variance>>,
     store: &dyn ScratchStore,
-) -> Result<Behind, String> {
+) -> Result<KeptOutput, String> {
     let bands = film.bands();
     let prepared = body.effects.prepared(&body.raster, (bands.low_nm(), bands.high_nm()));
     let room = || PlaneCube::new(store, bands, (body.raster.width(), body.raster.height()));
@@ -166,12 +170,12 @@ fn by_band(
             to.write(band, plane)?;
         }
     }
-    Ok(Behind { irradiance: means.kept(), variance: variances.map(PlaneCube::kept), ghosts: None })
+    Ok(KeptOutput { irradiance: means.kept(), variance: variances.map(PlaneCube::kept), ghosts: None })
 }
 
 /// The light with its irradiance, and the electrons that are made of it.
-fn with_irradiance(camera: &CameraPlan, behind: Behind, light: Light) -> Result<Light, LightError> {
-    let Behind { irradiance, variance, ghosts } = behind;
+fn with_irradiance(camera: &CameraPlan, output: KeptOutput, light: Light) -> Result<Light, LightError> {
+    let KeptOutput { irradiance, variance, ghosts } = output;
     let (body, products) = (&camera.body, &camera.products);
     let sensor = body.sensor.as_ref().filter(|_| light.electrons.is_none() && needs_electrons(body, products));
     let made = sensor.map(|sensor| sensor.electrons_of(&irradiance)).transpose().map_err(LightError::Scratch)?;

@@ -1,7 +1,7 @@
 //! Which films keep their bands in memory, and which on the disk.
 
-use crate::plan::film_needs::needs_all_bands;
-use crate::plan::{CameraPlan, Plan};
+use crate::plan::film_needs::{needs_all_bands, needs_irradiance};
+use crate::plan::{CameraPlan, Plan, Route};
 use crate::render::film::Film;
 use crate::render::layout;
 use crate::render::light::has_variance;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 pub struct FilmBytes {
     /// In memory.
     pub memory: f64,
-    /// In a scratch file; 0 where the bands are in memory.
+    /// In scratch files, the most at a time; 0 where the bands are in memory.
     pub disk: f64,
     /// For what bands on the disk are read into memory all at once, in words; these, and what is made of them, count as memory.
     pub all_bands_for: Option<&'static str>,
@@ -41,12 +41,43 @@ impl Plan {
         };
         let pixels = f64::from(width) * f64::from(height);
         let all_bands_for = needs_all_bands(camera);
-        // Their means, and the irradiance that is made of them.
-        let loaded = if all_bands_for.is_some() { 2.0 * TiledCube::bytes(pixels, bands, false) } else { 0.0 };
+        let means = TiledCube::bytes(pixels, bands, false);
+        let film = TiledCube::bytes(pixels, bands, has_variance(camera.settings.replicates, Shard::WHOLE));
+        // A further pass has a file of its own beside the one before.
+        let films = if camera.pass_count() > 1 { 2.0 } else { 1.0 };
+        let (loaded, made) =
+            if all_bands_for.is_some() { (cubes_in_memory(camera), 0.0) } else { (0.0, cubes_made(camera)) };
         FilmBytes {
-            memory: Film::bytes_beside_cube(size.0, size.1, &layout) + loaded,
-            disk: TiledCube::bytes(pixels, bands, has_variance(camera.settings.replicates, Shard::WHOLE)),
+            memory: Film::bytes_beside_cube(size.0, size.1, &layout) + loaded * means,
+            disk: films * film + made * means,
             all_bands_for,
         }
     }
+}
+
+/// Cubes that are in memory at the same time where all bands are read: the film's (radiance and what passes the lens, at the pupil), what effects leave of it,
+/// ghosts, and the variances of the film's.
+fn cubes_in_memory(camera: &CameraPlan) -> f64 {
+    let effects = &camera.body.effects;
+    let of_film = if is_at_pupil(camera) { 3 } else { 1 };
+    let means = of_film + usize::from(!effects.is_idle()) + usize::from(effects.ghosts().is_some());
+    (means + 2 * usize::from(delivers_variance(camera))) as f64
+}
+
+/// Cubes that are made of a film band after band and kept on the disk: what passes the lens at the pupil, and what effects leave of it and of its variance.
+fn cubes_made(camera: &CameraPlan) -> f64 {
+    if !needs_irradiance(camera) {
+        return 0.0;
+    }
+    let by_effects = if camera.body.effects.is_idle() { 0 } else { 1 + usize::from(delivers_variance(camera)) };
+    (usize::from(is_at_pupil(camera)) + by_effects) as f64
+}
+
+fn is_at_pupil(camera: &CameraPlan) -> bool {
+    matches!(camera.settings.route, Route::Pupil(_))
+}
+
+/// Whether the irradiance's variance is delivered, which is known through the lens alone.
+fn delivers_variance(camera: &CameraPlan) -> bool {
+    camera.products.irradiance && camera.products.variance && !is_at_pupil(camera)
 }

@@ -8,12 +8,9 @@ use crate::render::tile::Tile;
 use crate::render::tile_bands::TileBands;
 use etendue_core::Bands;
 use etendue_core::kept_cube::BandReader;
-use etendue_core::scratch::{Scratch, ScratchStore};
+use etendue_core::scratch::{NUMBER_BYTES, Scratch, ScratchStore, read_numbers, write_numbers};
 use std::ops::Range;
 use std::sync::Arc;
-
-/// Bytes of a number.
-const NUMBER: usize = size_of::<f32>();
 
 /// Means and variances of bands in a scratch file. Clones share the file.
 #[derive(Clone, Debug)]
@@ -68,7 +65,7 @@ impl TiledCube {
     #[must_use]
     pub fn bytes(pixels: f64, bands: Bands, has_variance: bool) -> f64 {
         let planes = bands.count() * if has_variance { 2 } else { 1 };
-        pixels * (planes * NUMBER) as f64
+        pixels * (planes * NUMBER_BYTES) as f64
     }
 
     /// Where there is room for what is made of it.
@@ -108,8 +105,7 @@ impl TiledCube {
     pub(super) fn write(&self, bands: &TileBands) -> Result<(), String> {
         let tile = bands.tile();
         let kept = &bands.samples()[..self.grid.planes * tile.len()];
-        let bytes: Vec<u8> = kept.iter().flat_map(|number| number.to_le_bytes()).collect();
-        self.scratch.write(self.grid.offset(tile.x0 as usize, tile.y0 as usize), &bytes)
+        write_numbers(&*self.scratch, self.grid.offset(tile.x0 as usize, tile.y0 as usize), kept)
     }
 
     /// A tile of the grid.
@@ -119,7 +115,7 @@ impl TiledCube {
     pub(super) fn tile(&self, tile: Tile) -> Result<TileBands, String> {
         let mut samples = vec![f32::NAN; 2 * self.bands.count() * tile.len()];
         let offset = self.grid.offset(tile.x0 as usize, tile.y0 as usize);
-        read(&*self.scratch, offset, &mut samples[..self.grid.planes * tile.len()])?;
+        read_numbers(&*self.scratch, offset, &mut samples[..self.grid.planes * tile.len()])?;
         Ok(TileBands::from_samples(tile, self.bands.count(), samples))
     }
 }
@@ -128,7 +124,7 @@ impl Grid {
     /// Where the piece of the tile from column `x`, row `y` on begins, bytes.
     fn offset(&self, x: usize, y: usize) -> u64 {
         let rows = self.side.min(self.height - y);
-        ((y * self.width + x * rows) * self.planes * NUMBER) as u64
+        ((y * self.width + x * rows) * self.planes * NUMBER_BYTES) as u64
     }
 }
 
@@ -152,7 +148,7 @@ impl BandReader for Reader {
                 let columns = side.min(width - x0);
                 let before = (self.first + band) * columns * (y1 - y0) + columns * (from - y0);
                 part.resize(columns * (to - from), 0.0);
-                read(&*self.scratch, self.grid.offset(x0, y0) + (before * NUMBER) as u64, &mut part)?;
+                read_numbers(&*self.scratch, self.grid.offset(x0, y0) + (before * NUMBER_BYTES) as u64, &mut part)?;
                 for (row, numbers) in part.chunks_exact(columns).enumerate() {
                     samples[(from - rows.start + row) * width + x0..][..columns].copy_from_slice(numbers);
                 }
@@ -171,12 +167,4 @@ impl BandReader for Unknown {
         samples.fill(f32::NAN);
         Ok(())
     }
-}
-
-fn read(scratch: &dyn Scratch, offset: u64, samples: &mut [f32]) -> Result<(), String> {
-    let mut bytes = vec![0; samples.len() * NUMBER];
-    scratch.read(offset, &mut bytes)?;
-    let (numbers, _) = bytes.as_chunks::<NUMBER>();
-    samples.iter_mut().zip(numbers).for_each(|(sample, number)| *sample = f32::from_le_bytes(*number));
-    Ok(())
 }

@@ -35,6 +35,19 @@ impl PixelFormat {
     pub fn is_bytes(self) -> bool {
         matches!(self, Self::Gray8 | Self::Rgb8 | Self::Rgba8)
     }
+
+    /// Bytes that a pixel takes in memory.
+    #[must_use]
+    pub fn bytes(self) -> u32 {
+        match self {
+            Self::Gray8 => 1,
+            Self::Gray16 => 2,
+            Self::Rgb8 => 3,
+            Self::Rgba8 => 4,
+            Self::Rgb32F => 12,
+            Self::Rgba32F => 16,
+        }
+    }
 }
 
 /// Takes rows of a picture; its error ends the reading.

@@ -1,20 +1,20 @@
-//! Looks at a frame: rendered twice, by different random numbers and with different numbers of samples.
+//! A frame rendered twice, by different random numbers and with different numbers of samples.
 
 use crate::Clock;
 use crate::pilot::seed;
 use crate::study::Request;
 use crate::way::{SAMPLE_KEYS, without_keys};
-use etendue::{CameraResults, Error, Job, JobRequest, Observer, RenderOptions};
+use etendue::{CameraResults, Error, Job, JobRequest, Observer, PlannedEffect, RenderOptions};
 use etendue_core::quantity::{Display, Quantity, WatchedSignal};
 use etendue_core::{KeptCube, Plane};
 
-/// Samples of the second look over those of the first.
+/// Samples of the second rendering over those of the first.
 pub(crate) const MORE: u32 = 3;
-/// Samples of the first look, at most.
-const MOST_SPP: f64 = 64.0;
+/// Samples of the first rendering, at most.
+const MAX_SPP: f64 = 64.0;
 
 /// A job whose samples and way to render are said by changes of keys, so that a trial's changes come after them.
-pub(crate) fn as_changes(job: &JobRequest, camera: &str) -> JobRequest {
+fn as_changes(job: &JobRequest, camera: &str) -> JobRequest {
     let mut own = without_keys(job, camera, &SAMPLE_KEYS);
     if let Some(integrator) = own.integrator.take() {
         own.set.push(format!("cameras.{camera}.render.integrator={:?}", integrator.name()));
@@ -22,13 +22,20 @@ pub(crate) fn as_changes(job: &JobRequest, camera: &str) -> JobRequest {
     own
 }
 
-/// Renders looks at a frame.
-pub(crate) struct Looks<'a> {
-    pub(crate) request: &'a Request,
-    pub(crate) camera: &'a str,
-    pub(crate) clock: &'a dyn Clock,
-    pub(crate) observer: &'a dyn Observer,
-    pub(crate) own_seed: u64,
+/// Renders the first frame of one of a job's cameras, as the job says or with changes.
+pub(crate) struct FrameRenderer<'a> {
+    request: &'a Request,
+    clock: &'a dyn Clock,
+    observer: &'a dyn Observer,
+    /// The job as it stands.
+    pub(crate) job: Job,
+    /// The camera.
+    pub(crate) camera: String,
+    /// The job's samples a pixel.
+    pub(crate) job_spp: f64,
+    seed: u64,
+    /// The job that changes are added to.
+    pub(crate) own: JobRequest,
 }
 
 /// Passes on the wish to stop, and no message: frames without this or that have much to warn of.
@@ -40,8 +47,8 @@ impl Observer for Quiet<'_> {
     }
 }
 
-/// One look: the frame with so many samples, and how long it took.
-pub(crate) struct Look {
+/// A frame with so many samples, and how long it took.
+pub(crate) struct FrameRender {
     seconds: f64,
     /// Mean electrons; of a camera without electronics its irradiance over all wavelengths, at the pupil the radiance.
     pub(crate) light: Option<(&'static str, Plane<WatchedSignal>)>,
@@ -50,14 +57,14 @@ pub(crate) struct Look {
     pub(crate) results: CameraResults,
 }
 
-/// Two looks by different random numbers.
-pub(crate) struct Pair {
-    pub(crate) few: Look,
-    pub(crate) many: Look,
+/// A frame rendered twice, by different random numbers.
+pub(crate) struct RenderPair {
+    pub(crate) few: FrameRender,
+    pub(crate) many: FrameRender,
     spp: u32,
 }
 
-impl Pair {
+impl RenderPair {
     /// The whole frame with so many samples, s.
     pub(crate) fn seconds(&self, spp: f64) -> f64 {
         let slope = (self.many.seconds - self.few.seconds) / f64::from((MORE - 1) * self.spp);
@@ -65,26 +72,48 @@ impl Pair {
     }
 }
 
-impl Looks<'_> {
-    /// Samples of the first look with which so many pairs take the study's time, by a look at one.
-    pub(crate) fn affordable_spp(&self, job: &JobRequest, pairs: usize) -> Result<u32, Error> {
+impl<'a> FrameRenderer<'a> {
+    /// Of the camera that is asked for, else of the first.
+    ///
+    /// # Errors
+    /// Where the job has faults or no such camera.
+    pub(crate) fn open(request: &'a Request, clock: &'a dyn Clock, observer: &'a dyn Observer) -> Result<Self, Error> {
+        let job = request.job.clone().open()?;
+        let camera = request.camera.clone().unwrap_or_else(|| job.plan().cameras[0].name.clone());
+        let settings = job.render_settings(&camera)?;
+        let own = as_changes(&request.job, &camera);
+        Ok(Self { request, clock, observer, job, camera, job_spp: settings.spp.into(), seed: settings.seed, own })
+    }
+
+    /// What the camera's plan says of its effects.
+    pub(crate) fn effects(&self) -> Vec<PlannedEffect> {
+        let effects = self.job.effects().into_iter().find(|(plan, _)| plan.name == self.camera);
+        effects.map(|(_, effects)| effects).unwrap_or_default()
+    }
+
+    /// Samples of the first rendering with which so many pairs take the study's time, by one rendering's.
+    pub(crate) fn affordable_spp(&self, pairs: usize) -> Result<u32, Error> {
         let from_s = self.clock.seconds();
-        self.look(job, 1, 3)?;
+        self.render(&self.own, 1, 3)?;
         let runs = f64::from(1 + MORE) * pairs as f64;
-        Ok((self.request.budget_s / (runs * (self.clock.seconds() - from_s))).clamp(1.0, MOST_SPP) as u32)
+        Ok((self.request.budget_s / (runs * (self.clock.seconds() - from_s))).clamp(1.0, MAX_SPP) as u32)
     }
 
     fn now_s(&self) -> f64 {
         self.clock.processor_seconds().unwrap_or_else(|| self.clock.seconds())
     }
 
-    pub(crate) fn pair(&self, job: &JobRequest, spp: u32) -> Result<Pair, Error> {
-        Ok(Pair { few: self.look(job, spp, 1)?, many: self.look(job, MORE * spp, 2)?, spp })
+    /// A frame of `job` by `spp` and by [`MORE`] times as many samples a pixel.
+    ///
+    /// # Errors
+    /// Where the job has faults, the observer cancels, or bands that are on the disk cannot be read.
+    pub(crate) fn pair(&self, job: &JobRequest, spp: u32) -> Result<RenderPair, Error> {
+        Ok(RenderPair { few: self.render(job, spp, 1)?, many: self.render(job, MORE * spp, 2)?, spp })
     }
 
-    fn look(&self, job: &JobRequest, spp: u32, k: u32) -> Result<Look, Error> {
+    fn render(&self, job: &JobRequest, spp: u32, k: u32) -> Result<FrameRender, Error> {
         let mut request = JobRequest { spp: Some(spp.into()), noise: None, ..job.clone() };
-        (request.camera, request.seed) = (Some(self.camera.to_owned()), Some(seed(self.own_seed, 3000 + k)));
+        (request.camera, request.seed) = (Some(self.camera.clone()), Some(seed(self.seed, 3000 + k)));
         let from_s = self.now_s();
         let job: Job = request.open()?;
         let options = RenderOptions { simd: self.request.simd, ..RenderOptions::default() };
@@ -99,7 +128,7 @@ impl Looks<'_> {
         let (raw, picture) = frame.map_or((None, None), |frame| {
             (Some(frame.raw.plane.samples().to_vec()), frame.picture.map(|developed| developed.display))
         });
-        Ok(Look { seconds, light: light(&results)?, raw, picture, results })
+        Ok(FrameRender { seconds, light: light(&results)?, raw, picture, results })
     }
 }
 
