@@ -80,3 +80,27 @@ fn an_effect_that_is_switched_off_changes_no_bit() {
     let (with, without) = (job(WIDTH, HEIGHT, "lens", off), job(WIDTH, HEIGHT, "lens", ""));
     assert_eq!(irradiance(&with), irradiance(&without));
 }
+
+/// Coma, whose function is half a pixel wide and to one side, by displaced samples and by the film.
+#[test]
+fn displaced_samples_put_light_where_the_film_puts_it() {
+    let small = |effects: &str| {
+        let job = job(WIDTH, HEIGHT, "lens", effects).replaced("pixel_pitch_um = 250", "pixel_pitch_um = 4");
+        let job = job.replaced("focal_length_mm = 6", "focal_length_mm = 0.096").replaced("spp = 64", "spp = 256");
+        irradiance(&job.replaced("position_m = [2, 0.9, 0.1]", "position_m = [2, 0.3, 0.1]"))
+    };
+    let coma = "wavefront = [{ noll = 8, rms_um = 0.08 }], patches = [1, 1], reach_mm = 0.02";
+    let of = |by: &str| small(&format!("effects = {{ margin = 0.5, psf = {{ {coma}, spread_by = \"{by}\" }} }}"));
+    let moments = |light: &[f32]| {
+        let sum: f64 = light.iter().map(|e| f64::from(*e)).sum();
+        let at = |i: usize| DVec2::new((i % WIDTH) as f64, (i / WIDTH) as f64);
+        let first: DVec2 = light.iter().enumerate().map(|(i, e)| f64::from(*e) * at(i)).sum();
+        (sum, first / sum)
+    };
+    let (samples, film, bare) = (of("samples"), of("film"), small(""));
+    let ((sum, at), (film_sum, film_at), (bare_sum, bare_at)) = (moments(&samples), moments(&film), moments(&bare));
+    // All light but what leaves the picture; 256 samples of a lamp that fills few pixels.
+    assert!((sum / film_sum - 1.0).abs() < 0.01 && (sum / bare_sum - 1.0).abs() < 0.02, "{sum} {film_sum} {bare_sum}");
+    assert!((film_at - bare_at).length() > 0.15, "coma is to one side: {film_at} {bare_at}");
+    assert!((at - film_at).length() < 0.05, "{at} for {film_at}, without {bare_at}");
+}

@@ -88,6 +88,8 @@ pub enum Draw {
     InScattering = 16,
     /// Which way light takes at the interfaces of a drop; sixteen sub-counters a vertex.
     DropInterface = 17,
+    /// How far the point spread displaces a sample; at sub-counter 1, by which wavelength and patch of it.
+    PointSpread = 18,
 }
 
 /// A bijection of 64-bit words that scatters its bits (the finaliser of splitmix64, Steele et al. 2014).

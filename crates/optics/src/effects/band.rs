@@ -11,11 +11,11 @@
 //! fitting, Deming & Stephan 1940). Sums that are negative are 0, and the others less in proportion, about the same centroid. Diffraction, whose modulation
 //! falls from the start, keeps it along both axes of the picture to 0.004 and loses up to 0.06 along the diagonals (at half a cycle a
 //! pixel, for patterns about as wide as a pixel). A Gaussian of 0.7 pixels keeps it to 0.02, of 0.4 pixels to 0.08: no film
-//! of whole pixels can do better without negative light. Of a spread that is narrow and beside the middle of a pixel
+//! of whole pixels can do better without negative light. Where samples come through the lens, such spreads displace these (`sample_spread.rs`). Of a spread that is narrow and beside the middle of a pixel
 //! even more is negative; it is shared bilinearly as a whole.
 
 use super::kernel::Kernel;
-use core::f64::consts::PI;
+use core::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use etendue_core::maths::f64::sin_cos;
 use glam::DVec2;
 
@@ -83,6 +83,33 @@ impl BandLimited {
         kernel
     }
 
+    /// Modulation that the kernel lacks or adds, at most: over frequencies up to half a cycle a pixel along rows, columns and both diagonals.
+    pub(crate) fn worst_error(self) -> f64 {
+        let frequencies = [0.125, 0.25, 0.375, 0.5].into_iter().flat_map(|f| {
+            [DVec2::X, DVec2::Y, DVec2::splat(FRAC_1_SQRT_2), DVec2::new(FRAC_1_SQRT_2, -FRAC_1_SQRT_2)]
+                .map(|along| along * f)
+        });
+        let frequencies: Vec<DVec2> = frequencies.collect();
+        let at = |i: usize| DVec2::new((i % SIDE) as f64, (i / SIDE) as f64) / FINE as f64 - (NEAR_PX + 1) as f64;
+        let exact = |frequency: DVec2| {
+            modulation(
+                self.fine
+                    .iter()
+                    .enumerate()
+                    .map(|(i, mass)| (at(i), *mass))
+                    .chain(self.far.taps().map(|(x, y, mass)| (DVec2::new(x as f64, y as f64), mass))),
+                frequency,
+            )
+        };
+        let all = self.fine.iter().sum::<f64>() + self.far.sum();
+        let exact: Vec<DVec2> = frequencies.iter().map(|f| exact(*f) / all).collect();
+        let kernel = self.kernel();
+        let found = |frequency: DVec2| {
+            modulation(kernel.taps().map(|(x, y, tap)| (DVec2::new(x as f64, y as f64), tap)), frequency)
+        };
+        frequencies.iter().zip(exact).map(|(f, exact)| (found(*f) - exact).length()).fold(0.0, f64::max)
+    }
+
     /// The kernel; its sum is one, its centroid that of the mass, and none of its taps negative.
     pub(crate) fn kernel(self) -> Kernel {
         let unit = |kernel: Kernel| {
@@ -98,6 +125,15 @@ impl BandLimited {
         let [columns, rows] = core::array::from_fn(|axis| wanted(&sums[axis], centroids[axis]));
         unit(fitted(band.positive(), &columns, &rows))
     }
+}
+
+/// Real and imaginary part.
+fn modulation(masses: impl Iterator<Item = (DVec2, f64)>, frequency: DVec2) -> DVec2 {
+    let wave = |(place, mass): (DVec2, f64)| {
+        let (sine, cosine) = sin_cos(TAU * frequency.dot(place));
+        mass * DVec2::new(cosine, sine)
+    };
+    masses.filter(|(_, mass)| *mass != 0.0).map(wave).sum()
 }
 
 fn negative(sums: &[f64]) -> f64 {
@@ -173,12 +209,11 @@ impl Shares {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use core::f64::consts::TAU;
-    use etendue_core::maths::f64::{exp, sin_cos};
+    use etendue_core::maths::f64::exp;
 
-    /// The modulation of a kernel along a direction.
+    /// The real modulation of a kernel along a direction.
     fn modulation(kernel: &Kernel, frequency: DVec2) -> f64 {
-        kernel.taps().map(|(x, y, tap)| tap * sin_cos(TAU * frequency.dot(DVec2::new(x as f64, y as f64))).1).sum()
+        super::modulation(kernel.taps().map(|(x, y, tap)| (DVec2::new(x as f64, y as f64), tap)), frequency).x
     }
 
     /// A Gaussian, in steps of an eighth of a pixel.

@@ -26,6 +26,11 @@ impl Canvas {
         self.film.sensor_mm(film_px)
     }
 
+    /// How far from the axis the film goes.
+    pub(super) fn max_radius_mm(&self) -> f64 {
+        self.film.max_radius_mm()
+    }
+
     pub(crate) fn pitch_mm(&self) -> DVec2 {
         self.film.pitch_mm()
     }

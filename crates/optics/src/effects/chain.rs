@@ -4,10 +4,13 @@ use super::Effect;
 use super::canvas::Canvas;
 use super::convolve::{Field, Region};
 use super::error::EffectsError;
+use super::film_part::FilmPart;
 use super::glare::Glare;
 use super::operation_counts::OperationCounts;
-use super::point_spread::{PointSpread, ReadySpread};
+use super::point_spread::{PointSpread, ReadySpread, SpreadWidth};
+use super::sample_spread::SampleSpread;
 use super::spread::Spread;
+use super::spread_by::SpreadBy;
 use crate::ghosts::GhostSettings;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
 use etendue_core::{Bands, EffectStatus, Plane};
@@ -20,6 +23,7 @@ pub const MARGIN_CAP: f64 = 0.25;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Effects {
     psf: Option<PointSpread>,
+    spread_by: Option<(SpreadBy, SpreadWidth)>,
     glare: Option<Glare>,
     ghosts: Option<GhostSettings>,
     margin_px: [usize; 2],
@@ -30,6 +34,8 @@ pub struct Effects {
 pub struct EffectsParameters {
     /// Diffraction and wavefront error, or a picture.
     pub psf: Option<PointSpread>,
+    /// By what the point-spread function spreads light where samples come through the lens; `None` for what keeps its modulation.
+    pub spread_by: Option<SpreadBy>,
     /// Light scattered in the lens.
     pub glare: Option<Glare>,
     /// Light that two surfaces reflect.
@@ -43,10 +49,14 @@ impl Effects {
     /// The effects behind a picture.
     ///
     /// # Errors
-    /// Where the margin is out of range or serves nothing.
+    /// Where the margin is out of range or serves nothing, or samples are asked for and the function is wide.
     pub fn new(parameters: EffectsParameters, picture: &Raster) -> Result<Self, EffectsError> {
-        let EffectsParameters { psf, glare, ghosts, margin } = parameters;
-        let mut effects = Self { psf, glare, ghosts, margin_px: [0, 0] };
+        let EffectsParameters { psf, spread_by: asked, glare, ghosts, margin } = parameters;
+        let mut effects = Self { psf, spread_by: None, glare, ghosts, margin_px: [0, 0] };
+        if let Some(psf) = &effects.psf {
+            let width = psf.width(&Canvas::new(picture, [0, 0]));
+            effects.spread_by = Some((SpreadBy::choose(asked, width)?, width));
+        }
         effects.margin_px = match margin {
             Some(margin) if !(0.0..=1.0).contains(&margin) => return Err(EffectsError::Margin { margin }),
             Some(_) if effects.is_idle() => return Err(EffectsError::IdleMargin),
@@ -101,6 +111,33 @@ impl Effects {
         self.psf.as_ref()
     }
 
+    /// By what the point-spread function spreads light where samples come through the lens, and how narrow it is; `None` where there is none.
+    #[must_use]
+    pub fn spread_by(&self) -> Option<(SpreadBy, SpreadWidth)> {
+        self.spread_by
+    }
+
+    /// By what samples are displaced that come through the lens to the film of a picture; `None` where the film spreads all light.
+    #[must_use]
+    pub fn sample_spread(&self, picture: &Raster, range_nm: (f64, f64)) -> Option<SampleSpread> {
+        self.displacing()?.sample_spread(&Canvas::new(picture, self.margin_px), range_nm)
+    }
+
+    /// The function that samples through the lens are displaced by, where they are.
+    #[must_use]
+    pub fn displacing(&self) -> Option<&PointSpread> {
+        self.psf.as_ref().filter(|_| self.spread_by.is_some_and(|(by, _)| by == SpreadBy::Samples))
+    }
+
+    /// What of the point-spread function is left to a film, whose samples came through the lens or did not.
+    #[must_use]
+    pub fn film_part(&self, through_lens: bool) -> FilmPart {
+        match self.spread_by {
+            Some((SpreadBy::Samples, _)) if through_lens => FilmPart::Tails,
+            _ => FilmPart::Whole,
+        }
+    }
+
     /// Veiling glare, as described.
     #[must_use]
     pub fn glare(&self) -> Option<&Glare> {
@@ -133,12 +170,13 @@ impl Effects {
         [(Effect::PointSpread, psf.unwrap_or_default()), (Effect::Glare, glare.unwrap_or_default())]
     }
 
-    /// The effects made ready for a picture and a range of wavelengths (nm): what does not depend on the band.
+    /// The effects made ready for a picture and a range of wavelengths (nm), with this part of the point-spread function: what does not depend
+    /// on the band.
     #[must_use]
-    pub fn prepared(&self, picture: &Raster, range_nm: (f64, f64)) -> Prepared {
+    pub fn prepared(&self, picture: &Raster, range_nm: (f64, f64), part: FilmPart) -> Prepared {
         let canvas = Canvas::new(picture, self.margin_px);
         let glare = self.needs_glare().map(|glare| Spread::new(&glare.kernel(&canvas), &canvas));
-        let psf = self.psf.as_ref().map(|psf| psf.ready(&canvas, range_nm));
+        let psf = self.psf.as_ref().map(|psf| psf.ready(&canvas, range_nm, part));
         Prepared { canvas, psf, glare }
     }
 }

@@ -42,6 +42,17 @@ pub enum EffectsError {
         /// The steepest that is held, µm.
         limit_um: f64,
     },
+    /// A function too wide for displaced samples.
+    #[error(
+        "only {core:.2} of the light falls near enough to displace samples by (all within a pixel, none beyond 2.5 px; {least} is the least): remove \
+         \"spread_by\", since the film keeps such a function"
+    )]
+    WideCore {
+        /// The share of the light.
+        core: f64,
+        /// The least.
+        least: f64,
+    },
     /// A picture whose samples do not fill its rows.
     #[error(
         "a picture of {count} samples is no whole number of rows of {width}: give one sample or more, in full rows"

@@ -20,26 +20,34 @@
 //! added behind them: they are out of focus, and what scatters of them is of second order.
 
 mod band;
+mod band_wavelengths;
 mod canvas;
 mod chain;
 mod convolve;
+mod core_table;
 mod error;
+mod film_part;
 mod fourier;
 pub mod glare;
 mod kernel;
 mod operation_counts;
 mod point_spread;
 pub mod psf;
+mod sample_spread;
 mod spread;
+mod spread_by;
 pub mod spread_image;
 
 pub(crate) use canvas::Canvas;
 pub use chain::{Effects, EffectsParameters, MARGIN_CAP, Prepared};
 pub use error::EffectsError;
+pub use film_part::FilmPart;
 pub use glare::{Glare, GlareParameters};
 pub use operation_counts::OperationCounts;
-pub use point_spread::PointSpread;
+pub use point_spread::{PointSpread, SpreadWidth};
 pub use psf::{Psf, PsfParameters, Zernike, ZernikeTerm};
+pub use sample_spread::{SampleSpread, SpreadDraw};
+pub use spread_by::SpreadBy;
 pub use spread_image::{SpreadImage, SpreadImageParameters};
 
 /// The effects that there are.

@@ -1,13 +1,31 @@
 //! The point-spread functions that there are.
 
 use super::Canvas;
+use super::band::BandLimited;
 use super::convolve::Field;
+use super::core_table::CoreBuilder;
+use super::film_part::FilmPart;
 use super::operation_counts::OperationCounts;
 use super::psf::{Psf, Ready};
+use super::sample_spread::SampleSpread;
 use super::spread_image::{ReadyImage, SpreadImage};
 use core::fmt;
 use etendue_core::{Bands, EffectStatus};
 use glam::DVec2;
+
+/// Where it is told how narrow a function is, nm.
+const GREEN_NM: f64 = 555.0;
+
+/// How narrow a point-spread function is on the pixels of a film, in the middle of the picture at 555 nm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpreadWidth {
+    /// Share of the light that samples can be displaced by: all of it within a pixel, none beyond 2.5 px, along rows and columns.
+    pub core: f64,
+    /// Modulation that a kernel on whole pixels lacks or adds, at most, at up to half a cycle a pixel.
+    pub film_error: f64,
+    /// Whether it is of another width at other wavelengths.
+    pub scales: bool,
+}
 
 /// A point-spread function.
 #[derive(Clone, PartialEq)]
@@ -54,11 +72,41 @@ impl PointSpread {
     }
 
     /// The function made ready for a film and the wavelengths of a range.
-    pub(super) fn ready(&self, canvas: &Canvas, range_nm: (f64, f64)) -> ReadySpread {
+    pub(super) fn ready(&self, canvas: &Canvas, range_nm: (f64, f64), part: FilmPart) -> ReadySpread {
         match self {
-            Self::Aperture(psf) => ReadySpread::Aperture(Box::new(psf.ready(canvas, range_nm))),
-            Self::Image(image) => ReadySpread::Image(Box::new(image.ready(canvas))),
+            Self::Aperture(psf) => ReadySpread::Aperture(Box::new(psf.ready(canvas, range_nm, part))),
+            Self::Image(image) => ReadySpread::Image(Box::new(image.ready(canvas, part))),
         }
+    }
+
+    /// The cores by which samples are displaced, for the wavelengths of a range; `None` where no light is in them.
+    pub(super) fn sample_spread(&self, canvas: &Canvas, range_nm: (f64, f64)) -> Option<SampleSpread> {
+        match self {
+            Self::Aperture(psf) => psf.sample_spread(canvas, range_nm),
+            Self::Image(image) => image.sample_spread(canvas, range_nm),
+        }
+    }
+
+    /// How narrow it is on the pixels of a film, in the middle of the picture.
+    pub(super) fn width(&self, canvas: &Canvas) -> SpreadWidth {
+        let mut core = CoreBuilder::default();
+        let (mut all, mut band) = (0.0, BandLimited::zeros(self.reach_px(canvas.pitch_mm())));
+        let add = |offset_px: DVec2, mass: f64| {
+            all += mass;
+            core.deposit(offset_px, mass);
+            band.deposit(offset_px, mass);
+        };
+        let scales = match self {
+            Self::Aperture(psf) => {
+                psf.deposit_middle(canvas, GREEN_NM, add);
+                true
+            }
+            Self::Image(image) => {
+                image.deposit(canvas.pitch_mm(), GREEN_NM, add);
+                image.parameters().wavelength_nm.is_some()
+            }
+        };
+        SpreadWidth { core: core.sum() / all, film_error: band.worst_error(), scales }
     }
 }
 

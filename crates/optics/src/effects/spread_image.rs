@@ -12,12 +12,15 @@
 //! Left out: a function that varies over the picture.
 
 use super::Canvas;
-use super::band::BandLimited;
+use super::band_wavelengths::mid_wavelengths;
 use super::convolve::{self, Field};
+use super::core_table::CoreBuilder;
 use super::error::{EffectsError, positive};
+use super::film_part::{FilmPart, KernelBuilder};
 use super::kernel::Kernel;
 use super::operation_counts::{OperationCounts, Uses};
-use super::psf::{MAX_PX, MM_PER_UM, VISIBLE_NM, mid_wavelengths};
+use super::psf::{MAX_PX, MM_PER_UM, VISIBLE_NM};
+use super::sample_spread::SampleSpread;
 use super::spread::Spread;
 use core::fmt;
 use etendue_core::{Bands, EffectStatus};
@@ -131,15 +134,35 @@ impl SpreadImage {
         (middle - 0.5 * DVec2::new(width as f64, height as f64)) * self.step_mm(nm)
     }
 
+    /// Adds where light of a wavelength lands, px, and how much.
+    pub(super) fn deposit(&self, pitch_mm: DVec2, nm: f64, mut to: impl FnMut(DVec2, f64)) {
+        for (index, light) in self.parameters.light.iter().enumerate().filter(|(_, light)| **light > 0.0) {
+            to(self.offset_mm(index, nm) / pitch_mm, f64::from(*light));
+        }
+    }
+
     /// The kernel of a band, its sum one.
-    fn kernel(&self, band_nm: (f64, f64), pitch_mm: DVec2) -> Kernel {
-        let mut kernel = BandLimited::zeros(self.reach_px_at(band_nm.1, pitch_mm));
+    fn kernel(&self, band_nm: (f64, f64), pitch_mm: DVec2, part: FilmPart) -> Kernel {
+        let mut kernel = KernelBuilder::new(part, self.reach_px_at(band_nm.1, pitch_mm));
         for nm in mid_wavelengths(band_nm) {
-            for (index, light) in self.parameters.light.iter().enumerate().filter(|(_, light)| **light > 0.0) {
-                kernel.deposit(self.offset_mm(index, nm) / pitch_mm, f64::from(*light));
-            }
+            self.deposit(pitch_mm, nm, |offset_px, light| kernel.deposit(offset_px, light));
         }
         kernel.kernel()
+    }
+
+    /// The cores by which samples are displaced, for the wavelengths of a range.
+    pub(super) fn sample_spread(&self, canvas: &Canvas, range_nm: (f64, f64)) -> Option<SampleSpread> {
+        // The same at all wavelengths: one table.
+        let parts = self.parameters.wavelength_nm.map_or(1, |_| mid_wavelengths(range_nm).count());
+        let step_nm = (range_nm.1 - range_nm.0) / parts as f64;
+        let core = |part: usize| {
+            let mut builder = CoreBuilder::default();
+            let nm = range_nm.0 + (part as f64 + 0.5) * step_nm;
+            self.deposit(canvas.pitch_mm(), nm, |offset_px, light| builder.deposit(offset_px, light));
+            builder.table()
+        };
+        let tables = (0..parts).map(core).collect::<Option<Vec<_>>>()?;
+        Some(SampleSpread::new([Vec::new(), Vec::new()], (range_nm.0, step_nm), vec![tables]))
     }
 
     /// What it has to do on so many pictures a band.
@@ -158,10 +181,10 @@ impl SpreadImage {
     }
 
     /// The function made ready for a film.
-    pub(super) fn ready(&self, canvas: &Canvas) -> ReadyImage {
+    pub(super) fn ready(&self, canvas: &Canvas, part: FilmPart) -> ReadyImage {
         let shared = self.parameters.wavelength_nm.is_none();
-        let shared = shared.then(|| Spread::new(&self.kernel(VISIBLE_NM, canvas.pitch_mm()), canvas));
-        ReadyImage { image: self.clone(), canvas: *canvas, shared }
+        let shared = shared.then(|| Spread::new(&self.kernel(VISIBLE_NM, canvas.pitch_mm(), part), canvas));
+        ReadyImage { image: self.clone(), canvas: *canvas, part, shared }
     }
 }
 
@@ -181,6 +204,7 @@ fn check_light(parameters: &SpreadImageParameters) -> Result<(), EffectsError> {
 pub(super) struct ReadyImage {
     image: SpreadImage,
     canvas: Canvas,
+    part: FilmPart,
     /// Where it is the same at all wavelengths.
     shared: Option<Spread>,
 }
@@ -191,7 +215,7 @@ impl ReadyImage {
         match &self.shared {
             Some(shared) => shared.apply(light, variance),
             None => {
-                let kernel = self.image.kernel(band_nm, self.canvas.pitch_mm());
+                let kernel = self.image.kernel(band_nm, self.canvas.pitch_mm(), self.part);
                 Spread::new(&kernel, &self.canvas).apply(light, variance)
             }
         }

@@ -17,5 +17,6 @@ mod prescription;
 mod psf;
 mod pupil_image;
 mod pupil_views;
+mod sample_spread;
 mod spots;
 mod spread_image;

@@ -2,7 +2,7 @@
 
 use etendue_core::Plane;
 use etendue_core::quantity::{Irradiance, Variance};
-use etendue_optics::effects::{PointSpread, Psf, PsfParameters};
+use etendue_optics::effects::{FilmPart, PointSpread, Psf, PsfParameters};
 use etendue_optics::effects::{Zernike, ZernikeTerm};
 use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens, PinholeParameters};
 use etendue_projection::Raster;
@@ -52,7 +52,7 @@ fn centroid(picture: &Plane<Irradiance>) -> DVec2 {
 fn a_point_keeps_its_light_and_its_place() {
     let raster = Raster::centred(121, 101, 0.003).expect("legal");
     let effects = effects(PsfParameters { reach_mm: Some(0.1), blades: 6, ..round() }, &lens(50.0, 8.0), &raster);
-    let picture = effects.prepared(&raster, BAND).apply(BAND, &point(&raster, 60, 50), None).0;
+    let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 60, 50), None).0;
     let sum: f64 = picture.samples().iter().map(|v| f64::from(*v)).sum();
     // 32-bit pixels; the pattern's lattice has one row more on the side of the picture's origin.
     assert!((sum - 1.0).abs() < 1e-6 && (centroid(&picture) - DVec2::new(60.0, 50.0)).length() < 1e-3, "{sum}");
@@ -66,7 +66,7 @@ fn a_uniform_irradiance_stays_uniform_whatever_the_patches() {
     let parameters = PsfParameters { wavefront: vec![coma], reach_mm: Some(0.05), ..round() };
     let effects = effects(PsfParameters { patches: Some([3, 2]), ..parameters }, &lens(0.4, 4.0), &raster);
     let film = Plane::filled(90, 70, 2.0);
-    let picture = effects.prepared(&raster, BAND).apply(BAND, &film, None).0;
+    let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &film, None).0;
     for y in 10..60 {
         for x in 10..80 {
             assert!((picture.at(x, y) - 2.0).abs() < 1e-6, "({x}, {y}): {}", picture.at(x, y));
@@ -78,7 +78,7 @@ fn a_uniform_irradiance_stays_uniform_whatever_the_patches() {
 fn a_spread_much_smaller_than_a_pixel_is_nearly_the_identity() {
     let raster = Raster::centred(31, 31, 0.5).expect("legal");
     let effects = effects(round(), &lens(50.0, 2.0), &raster);
-    let picture = effects.prepared(&raster, BAND).apply(BAND, &point(&raster, 15, 15), None).0;
+    let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 15, 15), None).0;
     // Mean |x| + |y| of the pattern in units of a pixel: λN = 1.1 µm, reach 140 µm of 500.
     assert!(picture.at(15, 15) > 0.99, "{}", picture.at(15, 15));
 }
@@ -88,7 +88,7 @@ fn away_from_the_axis_the_pattern_is_wider_towards_it() {
     // θ′ = 45° at the node on the right: cos³ and cos differ by two.
     let raster = Raster::new(61, 61, DVec2::splat(0.002), DVec2::new(-970.0, 30.5)).expect("legal");
     let effects = effects(PsfParameters { patches: Some([1, 1]), ..round() }, &lens(2.001, 8.0), &raster);
-    let picture = effects.prepared(&raster, BAND).apply(BAND, &point(&raster, 30, 30), None).0;
+    let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 30, 30), None).0;
     let half = |at: &dyn Fn(usize) -> f32| (0..30).map(at).take_while(|v| *v > 0.5 * picture.at(30, 30)).count();
     let (wide, tall) = (half(&|i| picture.at(30 + i, 30)), half(&|i| picture.at(30, 30 + i)));
     // The half width of Airy's pattern is 0.51 λN: 2.27 µm here, times 2.83 and 1.41: 3.2 and 1.6 pixels.
@@ -106,7 +106,7 @@ fn coma_points_outwards_and_turns_with_the_field() {
     let bright = |patches: [usize; 2], x: usize, y: usize| {
         let parameters = PsfParameters { wavefront: vec![coma(0.3)], patches: Some(patches), ..round() };
         let effects = effects(parameters, &lens(50.0, 8.0), &raster);
-        let picture = effects.prepared(&raster, BAND).apply(BAND, &point(&raster, x, y), None).0;
+        let picture = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, x, y), None).0;
         let brightest =
             (0..81 * 81).max_by(|a, b| picture.samples()[*a].total_cmp(&picture.samples()[*b])).expect("some");
         DVec2::new((brightest % 81) as f64, (brightest / 81) as f64) - DVec2::new(x as f64, y as f64)
@@ -123,7 +123,7 @@ fn variances_go_through_the_squared_function() {
     let effects = effects(PsfParameters { reach_mm: Some(0.05), ..round() }, &lens(50.0, 5.6), &raster);
     let film = point(&raster, 30, 30);
     let variance: Plane<Variance> = film.map(|v| v);
-    let (mean, variance) = effects.prepared(&raster, BAND).apply(BAND, &film, Some(&variance));
+    let (mean, variance) = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &film, Some(&variance));
     for (m, v) in mean.samples().iter().zip(variance.expect("given").samples()) {
         assert!((m * m - v).abs() < 1e-7, "{m} {v}");
     }
@@ -147,7 +147,7 @@ fn diffraction_has_the_modulation_of_a_circle_along_rows_and_columns() {
     for (pitch_mm, f_number) in [(0.003, 2.0), (0.003, 2.8), (0.0083, 2.8), (0.0083, 8.0), (0.0014, 2.8)] {
         let raster = Raster::centred(301, 301, pitch_mm).expect("legal");
         let effects = effects(PsfParameters { patches: Some([1, 1]), ..round() }, &lens(50.0, f_number), &raster);
-        let picture = effects.prepared(&raster, band).apply(band, &point(&raster, 150, 150), None).0;
+        let picture = effects.prepared(&raster, band, FilmPart::Whole).apply(band, &point(&raster, 150, 150), None).0;
         assert!(picture.samples().iter().all(|v| *v >= -1e-9), "no light is negative, to rounding");
         for f in [0.05, 0.1, 0.2, 0.3, 0.4, 0.45, 0.5] {
             let v = f * 550e-6 * f_number / pitch_mm;

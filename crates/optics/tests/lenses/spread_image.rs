@@ -2,7 +2,7 @@
 
 use etendue_core::Plane;
 use etendue_core::quantity::{Irradiance, Variance};
-use etendue_optics::effects::{PointSpread, SpreadImage, SpreadImageParameters};
+use etendue_optics::effects::{FilmPart, PointSpread, SpreadImage, SpreadImageParameters};
 use etendue_optics::{Effects, EffectsError, EffectsParameters};
 use etendue_projection::Raster;
 use glam::DVec2;
@@ -27,7 +27,7 @@ fn spread(
     let image = SpreadImage::new(parameters, &raster()).expect("legal");
     let psf = Some(PointSpread::Image(image));
     let effects = Effects::new(EffectsParameters { psf, margin: Some(0.0), ..Default::default() }, &raster());
-    effects.expect("legal").prepared(&raster(), band_nm).apply(band_nm, film, variance)
+    effects.expect("legal").prepared(&raster(), band_nm, FilmPart::Whole).apply(band_nm, film, variance)
 }
 
 fn film() -> Plane<Irradiance> {

@@ -28,7 +28,7 @@ impl Light {
         if let Some(shades) = dirt_shades(body) {
             irradiance.planes_mut().iter_mut().for_each(|plane| shaded(plane, &shades));
         }
-        let EffectsOutput { irradiance, ghosts, .. } = behind(body, irradiance, None);
+        let EffectsOutput { irradiance, ghosts, .. } = behind(body, body.effects.film_part(false), irradiance, None);
         Ok(Self {
             radiance: None,
             electrons: electrons(body, &irradiance),

@@ -26,6 +26,7 @@ use etendue_core::kept_cube::{BandReader, CubeOnDisk};
 use etendue_core::quantity::{ElectronRate, Irradiance, Quantity, Radiance, SolidAngle, Variance};
 use etendue_core::scratch::ScratchStore;
 use etendue_core::{Bands, KeptCube, Plane};
+use etendue_optics::effects::FilmPart;
 use etendue_optics::{BandEtendue, DepthOfField, PupilProjection, Resampling};
 use std::sync::Arc;
 
@@ -81,7 +82,11 @@ pub(super) fn seen(
             let film = (kept(cube, cube.mean()), variance);
             let light = Light { radiance, ..folded(camera, electron_rate) };
             match needs_irradiance(camera) {
-                true => with_irradiance(camera, effects_on(body, film, cube.store())?, light),
+                true => with_irradiance(
+                    camera,
+                    effects_on((body, body.effects.film_part(true)), film, cube.store())?,
+                    light,
+                ),
                 false => Ok(light),
             }
         }
@@ -101,8 +106,9 @@ fn at_pupil(
         return Ok(Light::of_stored(&camera.body, &stored, &camera.depth_of_field)?);
     }
     front_on_picture(&camera.body)?;
-    let film = through_lens(&camera.body, (projection, radiance), cube.store())?;
-    let output = effects_on(&camera.body, (film, None), cube.store())?;
+    let body = &camera.body;
+    let film = through_lens(body, (projection, radiance), cube.store())?;
+    let output = effects_on((body, body.effects.film_part(false)), (film, None), cube.store())?;
     with_irradiance(camera, output, Light::default())
 }
 
@@ -136,7 +142,7 @@ fn through_lens(
 
 /// What the effects of a camera leave of a film.
 fn effects_on(
-    body: &CameraBody,
+    (body, part): (&CameraBody, FilmPart),
     (film, variance): (KeptCube<Irradiance>, Option<KeptCube<Variance>>),
     store: &dyn ScratchStore,
 ) -> Result<KeptOutput, LightError> {
@@ -146,20 +152,20 @@ fn effects_on(
     if body.effects.ghosts().is_some() {
         let film = film.load().map_err(LightError::Scratch)?;
         let variance = variance.map(KeptCube::load).transpose().map_err(LightError::Scratch)?;
-        return Ok(behind(body, film, variance).into());
+        return Ok(behind(body, part, film, variance).into());
     }
-    by_band(body, &film, variance.as_ref(), store).map_err(LightError::Scratch)
+    by_band((body, part), &film, variance.as_ref(), store).map_err(LightError::Scratch)
 }
 
 /// Effects that take band after band.
 fn by_band(
-    body: &CameraBody,
+    (body, part): (&CameraBody, FilmPart),
     film: &KeptCube<Irradiance>,
     variance: Option<&KeptCube<Variance>>,
     store: &dyn ScratchStore,
 ) -> Result<KeptOutput, String> {
     let bands = film.bands();
-    let prepared = body.effects.prepared(&body.raster, (bands.low_nm(), bands.high_nm()));
+    let prepared = body.effects.prepared(&body.raster, (bands.low_nm(), bands.high_nm()), part);
     let room = || PlaneCube::new(store, bands, (body.raster.width(), body.raster.height()));
     let (means, variances) = (room()?, variance.map(|_| room()).transpose()?);
     for band in 0..bands.count() {

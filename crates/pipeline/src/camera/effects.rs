@@ -3,7 +3,7 @@
 use crate::plan::CameraBody;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
 use etendue_core::{Bands, Plane, SpectralCube};
-use etendue_optics::effects::Prepared;
+use etendue_optics::effects::{FilmPart, Prepared};
 use etendue_optics::{Lens, ghosts};
 use rayon::prelude::*;
 
@@ -16,9 +16,11 @@ pub(crate) struct EffectsOutput {
     pub(crate) ghosts: Option<SpectralCube<Irradiance>>,
 }
 
-/// The picture's irradiance and its variance, of the film's, on the caller's pool; the same where the camera has no effects.
+/// The picture's irradiance and its variance, of the film's, on the caller's pool; the same where the camera has no effects. `part` of the point spread
+/// is not yet in the film.
 pub(crate) fn behind(
     body: &CameraBody,
+    part: FilmPart,
     film: SpectralCube<Irradiance>,
     variance: Option<SpectralCube<Variance>>,
 ) -> EffectsOutput {
@@ -27,7 +29,7 @@ pub(crate) fn behind(
     }
     let ghosts = ghosts(body, &film);
     let bands = film.bands();
-    let prepared = body.effects.prepared(&body.raster, (bands.low_nm(), bands.high_nm()));
+    let prepared = body.effects.prepared(&body.raster, (bands.low_nm(), bands.high_nm()), part);
     let of_band = |band: usize| {
         let variance = variance.as_ref().map(|cube| &cube.planes()[band]);
         of_band(&prepared, (bands, band), &film.planes()[band], variance)

@@ -62,7 +62,8 @@ impl Light {
             mean: picture(body, mean),
             variance: picture(body, variance),
         });
-        let behind = film.cube.and_then(FilmCube::into_memory).map(|c| behind(body, c.mean, Some(c.variance)));
+        let part = body.effects.film_part(true);
+        let behind = film.cube.and_then(FilmCube::into_memory).map(|c| behind(body, part, c.mean, Some(c.variance)));
         let (irradiance, irradiance_variance, ghosts) = match behind {
             Some(EffectsOutput { irradiance, variance, ghosts }) => (Some(irradiance), variance, ghosts),
             None => (None, None, None),

@@ -2,10 +2,11 @@
 
 use super::context::Context;
 use super::picture::grey;
+use crate::plan::Route;
 use etendue_optics::effects::{
     Glare, GlareParameters, PointSpread, Psf, PsfParameters, SpreadImage, SpreadImageParameters,
 };
-use etendue_optics::effects::{MARGIN_CAP, Zernike, ZernikeTerm};
+use etendue_optics::effects::{MARGIN_CAP, SpreadBy, Zernike, ZernikeTerm};
 use etendue_optics::ghosts::GhostSettings;
 use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens};
 use etendue_projection::Raster;
@@ -36,9 +37,29 @@ pub(super) fn effects(
         Some(asked) if asked.value => Some(ghosts(record, asked, lens, context)?),
         _ => None,
     };
-    let parameters = EffectsParameters { psf, glare, ghosts, margin: record.margin.as_ref().map(|m| m.value) };
-    let place = record.margin.as_ref().map_or(&record.place, |m| &m.place);
-    context.accept(place, Effects::new(parameters, picture))
+    let asked = record.psf.as_ref().and_then(|psf| psf.spread_by.as_ref());
+    let spread_by = asked.map(|asked| match asked.value {
+        description::SpreadBy::Film => SpreadBy::Film,
+        description::SpreadBy::Samples => SpreadBy::Samples,
+    });
+    let margin = record.margin.as_ref().map(|m| m.value);
+    let effects = Effects::new(EffectsParameters { psf, spread_by, glare, ghosts, margin }, picture);
+    let place = match (&effects, asked) {
+        (Err(EffectsError::WideCore { .. }), Some(asked)) => &asked.place,
+        _ => record.margin.as_ref().map_or(&record.place, |m| &m.place),
+    };
+    context.accept(place, effects)
+}
+
+/// Refuses samples that are to be displaced and do not come through the lens.
+pub(super) fn check_spread_by(record: Option<&record::Effects>, route: &Route, context: &mut Context<'_>) {
+    let asked = record.and_then(|effects| effects.psf.as_ref()).and_then(|psf| psf.spread_by.as_ref());
+    if let (Some(asked), Route::Pupil(_)) = (asked, route)
+        && asked.value == description::SpreadBy::Samples
+    {
+        let problem = "samples are displaced on the sensor, and on the route at the pupil none come there";
+        context.fault(&asked.place, problem, "remove the key, or render with route = \"lens\"");
+    }
 }
 
 fn ghosts(

@@ -196,6 +196,7 @@ fn camera_plan(
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
     let delivered = (&setup.output, &mut products);
     let (settings, passes) = settings::settings(&setup.render, &body, &depth_of_field, delivered, choices, context)?;
+    effects::check_spread_by(setup.camera.effects.as_ref(), &settings.route, context);
     let index = index as u32;
     let path = camera_path(&setup.pose, frames, context)?;
     let timing = timing::timing((index, setup), description.sequence.as_ref(), &body, settings.seed, context);

@@ -2,13 +2,14 @@
 //!
 //! The light of a camera depends on where the camera stands, on its lens and what stands before it, on its film, on how light is
 //! sampled and kept, and, where pixels fold electrons, on their response to a second of light. It does not depend on
-//! the exposure (but where something moves or flickers), noise (but where samples are adaptive), converter, effects behind the lens (but for the margin that they need) or processing. Cameras of equal
+//! the exposure (but where something moves or flickers), noise (but where samples are adaptive), converter, effects behind the lens (but for the margin that they need, and a point spread that displaces samples) or processing. Cameras of equal
 //! light share one film: that of the first of them in the job, whose place is in the random addresses of all.
 
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Passes, Plan, Route, Settings, TimeDependence, Timing};
 use crate::render::spectrum_spread::SpectrumSpread;
 use crate::render::{Tolerance, tolerance};
 use etendue_core::CameraPath;
+use etendue_optics::effects::PointSpread;
 use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
 use etendue_sensor::{Cfa, Sensor};
@@ -43,6 +44,8 @@ struct LensKey<'a> {
     aperture_px: f64,
     /// The picture itself, over which the pitch of what a mirror shows is taken.
     mirrored: Option<&'a Raster>,
+    /// What displaces samples, and the film's margin, with which it varies over the film.
+    displacing: Option<(&'a PointSpread, [usize; 2])>,
 }
 
 /// How many samples, of which seed, and whether wavelengths are spread for replicates that tell a variance.
@@ -122,6 +125,7 @@ impl<'a> OpticsKey<'a> {
                 film: camera.body.film(),
                 aperture_px: *aperture_px,
                 mirrored: front.as_ref().map(|_| &camera.body.raster),
+                displacing: camera.body.effects.displacing().map(|psf| (psf, camera.body.effects.margin_px())),
             })),
         }
     }

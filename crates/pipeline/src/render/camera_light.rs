@@ -14,6 +14,7 @@ use crate::render::tile::Shard;
 use crate::render::tolerance::Tolerance;
 use etendue_core::PupilRay;
 use etendue_core::maths::f64::atan2;
+use etendue_optics::effects::SampleSpread;
 use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
 use etendue_sensor::Sensor;
@@ -154,12 +155,21 @@ fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, GatherE
     let mosaic = camera.summing_sensor().map(|sensor| Mosaic::of(sensor, &density).beyond(margin_px(camera)));
     let job = render_job((camera, rows), request, source, mosaic.as_ref());
     let scratch = if request.keeping == FilmKeeping::Memory { None } else { plan.scratch(camera) };
-    let job = RenderJob { sampling: Sampling { pass, ..job.sampling }, scratch, ..job };
+    let sample_spread = sample_spread(camera);
+    let sample_spread = sample_spread.as_ref();
+    let job = RenderJob { sampling: Sampling { pass, ..job.sampling }, sample_spread, scratch, ..job };
     match settings.wavelengths {
         1 => job.gather::<1>(&tracer, before, observer),
         8 => job.gather::<8>(&tracer, before, observer),
         _ => job.gather::<4>(&tracer, before, observer),
     }
+}
+
+/// What displaces a camera's samples on its film.
+fn sample_spread(camera: &CameraPlan) -> Option<SampleSpread> {
+    let CameraPlan { body, settings, .. } = camera;
+    let through_lens = settings.route == Route::Lens;
+    through_lens.then(|| body.effects.sample_spread(&body.raster, settings.range_nm)).flatten()
 }
 
 /// How the wavelengths of a camera's pixels are drawn.
@@ -254,6 +264,7 @@ pub(super) fn render_job<'a, S>(
         blocks: settings.blocks,
         tile_px: settings.tile_px,
         shard: request.shard,
+        sample_spread: None,
         scratch: None,
     }
 }

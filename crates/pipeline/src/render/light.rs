@@ -15,6 +15,7 @@ use crate::render::tolerance::Tolerance;
 use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_core::scratch::ScratchStore;
 use etendue_core::{FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
+use etendue_optics::effects::{SampleSpread, SpreadDraw};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -90,15 +91,27 @@ pub struct RenderJob<'a, S> {
     pub tile_px: u32,
     /// Which tiles to render; the others stay zero.
     pub shard: Shard,
+    /// What displaces samples on the film.
+    pub sample_spread: Option<&'a SampleSpread>,
     /// Where the bands are kept that are not kept in memory. It does not change the result.
     pub scratch: Option<&'a Arc<dyn ScratchStore>>,
+}
+
+/// A pixel of a block that light reaches.
+struct Reached<const N: usize> {
+    /// Its place in the block.
+    index: usize,
+    /// The weight of its ray.
+    weight_sr: f64,
+    /// Weights of the wavelengths, where the sample was displaced.
+    spread: Option<Spectral<N>>,
 }
 
 /// One sample of each pixel of a block, while it is answered.
 #[derive(Default)]
 pub(super) struct Asked<const N: usize> {
-    /// Pixels that light reaches, by their place in the block, and the weights of their rays.
-    pixels: Vec<(usize, f64)>,
+    /// Pixels that light reaches.
+    pixels: Vec<Reached<N>>,
     rays: Vec<FieldRay>,
     radiance: Vec<Spectral<N>>,
 }
@@ -280,24 +293,40 @@ impl<S: RaySource> RenderJob<'_, S> {
         let time_u = self.time_number(&streams[0].with_sample(sample));
         for (index, (stream, pixel)) in streams.iter().zip(block).enumerate() {
             let stream = stream.with_sample(sample);
-            if let Some(pupil_ray) = self.pupil_ray(*pixel, &stream, wavelengths.nm[0]) {
-                asked.pixels.push((index, pupil_ray.weight_sr));
+            let (displaced_px, spread) = self.displaced(*pixel, &stream, &wavelengths);
+            if let Some(pupil_ray) = self.pupil_ray(*pixel, displaced_px, &stream, wavelengths.nm[0]) {
+                asked.pixels.push(Reached { index, weight_sr: pupil_ray.weight_sr, spread });
                 let moment_s = self.exposure.moment_s(pixel.y, time_u);
                 let (ray, lit) = (self.exposure.to_render(&pupil_ray, moment_s), self.exposure.lit(pixel.y, moment_s));
                 asked.rays.push(FieldRay { ray, stream, lit });
             }
         }
         field.radiance_of_group(&asked.rays, &wavelengths, &mut asked.radiance);
-        for ((index, weight_sr), radiance) in asked.pixels.iter().zip(&asked.radiance) {
-            sums[*index].add(*weight_sr, *radiance, &wavelengths, site.map(|s| &s.responsivity));
+        for (Reached { index, weight_sr, spread }, radiance) in asked.pixels.iter().zip(&asked.radiance) {
+            let radiance = spread.map_or(*radiance, |spread| *radiance * spread);
+            sums[*index].add(*weight_sr, radiance, &wavelengths, site.map(|s| &s.responsivity));
         }
     }
 
+    /// How far the point spread displaces a sample, px, and the weights of its wavelengths.
+    fn displaced<const N: usize>(
+        &self,
+        pixel: Pixel,
+        stream: &PathStream,
+        wavelengths: &Wavelengths<N>,
+    ) -> (DVec2, Option<Spectral<N>>) {
+        let Some(spread) = self.sample_spread else { return (DVec2::ZERO, None) };
+        let choice = stream.one(Draw::PointSpread, 1).into();
+        let place = stream.two(Draw::PointSpread, 0).as_dvec2();
+        let (offset_px, weights) = spread.draw(pixel, &wavelengths.nm, SpreadDraw { choice, place });
+        (offset_px, Some(Spectral(weights)))
+    }
+
     /// The ray of a sample; `None` where the lens stops it.
-    fn pupil_ray(&self, pixel: Pixel, stream: &PathStream, hero_nm: f32) -> Option<PupilRay> {
+    fn pupil_ray(&self, pixel: Pixel, displaced_px: DVec2, stream: &PathStream, hero_nm: f32) -> Option<PupilRay> {
         let area = stream.two(Draw::PixelArea, 0).as_dvec2() - 0.5;
         let raster = DVec2::new(f64::from(pixel.x), f64::from(pixel.y)) + 0.5 + area * self.aperture_px;
-        self.source.ray(raster, stream.two(Draw::Pupil, 0).as_dvec2(), f64::from(hero_nm))
+        self.source.ray(raster - displaced_px, stream.two(Draw::Pupil, 0).as_dvec2(), f64::from(hero_nm))
     }
 
     /// A pixel that folds its responsivity draws wavelengths by it.

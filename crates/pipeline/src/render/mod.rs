@@ -19,6 +19,8 @@ pub mod boxes;
 mod camera_light;
 #[cfg(test)]
 mod disk_tests;
+#[cfg(test)]
+mod displaced_tests;
 pub mod exposure;
 pub mod film;
 pub mod foretold_gain;

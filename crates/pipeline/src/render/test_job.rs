@@ -48,6 +48,7 @@ pub(super) fn still_job<S>(
         blocks: Blocks::SINGLE,
         tile_px: 16,
         shard: Shard::WHOLE,
+        sample_spread: None,
         scratch: None,
     }
 }

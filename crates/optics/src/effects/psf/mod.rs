@@ -16,34 +16,39 @@
 //! Left out: the pupil's being cut by rims away from the axis; what the lens's own rays make of a wavefront (a traced lens
 //! has its aberrations already); light beyond the pattern's end, which is shared out over it.
 
+mod hat;
 mod outline;
 mod pattern;
+mod patterns;
 mod zernike;
 
 pub use zernike::Zernike;
 
 use super::Canvas;
-use super::band::BandLimited;
-use super::convolve::{self, Convolver, Field, Region};
+use super::band_wavelengths::{MM_PER_NM, NM_PER_UM, mid_wavelengths};
+use super::convolve::{self, Region};
 use super::error::EffectsError;
-use super::kernel::Kernel;
+use super::film_part::FilmPart;
 use super::operation_counts::{OperationCounts, Uses};
+use super::sample_spread::SampleSpread;
 use crate::lens::Lens;
 use etendue_core::{Bands, EffectStatus};
 use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
 use outline::Outline;
-use pattern::{CELLS, Pattern, Pupil};
+use pattern::{CELLS, Pupil};
+use patterns::{Extent, Patch, Patterns};
+use rayon::prelude::*;
 
-const MM_PER_NM: f64 = 1e-6;
+pub(super) use hat::Hat;
+pub(super) use patterns::Ready;
+
 pub(super) const MM_PER_UM: f64 = 1e-3;
-const NM_PER_UM: f64 = 1e3;
-/// Wavelengths of a band are at most this far apart, nm.
-const STEP_NM: f64 = 10.0;
-/// The farthest that a function reaches, px.
-pub(super) const MAX_PX: usize = 512;
+pub(super) use patterns::MAX_PX;
 /// Wavelengths for which the pupil's lattice must hold the wavefront, nm.
 pub(super) const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
+/// Steps of the pattern in λN, or in px where that is more, of what samples are displaced by.
+const CORE_STEPS: f64 = 16.0;
 /// Patches where the function varies and nothing is said.
 const PATCHES: [usize; 2] = [5, 3];
 /// A pattern that is wider by less in the picture's corner counts as the same everywhere.
@@ -166,7 +171,7 @@ impl Psf {
     /// Columns and rows that light is spread over.
     pub(super) fn reach_px(&self, pitch_mm: DVec2) -> [usize; 2] {
         let fineness = self.fineness(VISIBLE_NM.1, pitch_mm.min_element());
-        let reach = self.reach_px_of(VISIBLE_NM.1, fineness, pitch_mm.min_element(), 1.0);
+        let reach = self.extent(fineness).reach_px(VISIBLE_NM.1, pitch_mm.min_element(), 1.0);
         [reach, reach]
     }
 
@@ -181,11 +186,8 @@ impl Psf {
         2.0 * steps.min(16.0) * self.outline().radius()
     }
 
-    /// How far the pattern reaches, px.
-    fn reach_px_of(&self, longest_nm: f64, fineness: f64, pitch_mm: f64, stretch: f64) -> usize {
-        let computed = 0.5 * CELLS as f64 * longest_nm * MM_PER_NM * self.f_number / fineness * stretch;
-        let reach = self.parameters.reach_mm.map_or(computed, |mm| mm.min(computed));
-        ((reach / pitch_mm).ceil() as usize + 1).min(MAX_PX)
+    fn extent(&self, fineness: f64) -> Extent {
+        Extent { f_number: self.f_number, reach_mm: self.parameters.reach_mm, fineness }
     }
 
     /// How much wider the pattern is along the radius and across it, at a distance from the axis on the sensor.
@@ -235,7 +237,7 @@ impl Psf {
         let patch = |i: usize| {
             let [x, y] = self.hats(canvas, i % self.patches[0], i / self.patches[0]);
             let widest = self.stretch(canvas.sensor_mm(DVec2::new(x.middle, y.middle)).length())[0];
-            let reach = self.reach_px_of(band_nm.1, fineness, pitch_mm, widest);
+            let reach = self.extent(fineness).reach_px(band_nm.1, pitch_mm, widest);
             let region = Region { x: x.range(), y: y.range() };
             let uses = Uses { ready: pictures, applied: pictures };
             let kernel = OperationCounts {
@@ -256,13 +258,43 @@ impl Psf {
     }
 
     /// The function made ready for a film and the wavelengths of a range.
-    pub(super) fn ready(&self, canvas: &Canvas, range_nm: (f64, f64)) -> Ready {
+    pub(super) fn ready(&self, canvas: &Canvas, range_nm: (f64, f64), part: FilmPart) -> Ready {
         let fineness = self.fineness(range_nm.1, canvas.pitch_mm().min_element());
+        Ready { part, patterns: self.patterns(canvas, fineness) }
+    }
+
+    fn patterns(&self, canvas: &Canvas, fineness: f64) -> Patterns {
         let pupil = Pupil::new(&self.outline(), fineness);
         let [columns, rows] = self.patches;
         let patches = (0..columns * rows).map(|i| self.patch(canvas, &pupil, i % columns, i / columns)).collect();
         let shared = self.parameters.wavefront.is_empty().then(|| pupil.pattern(None));
-        Ready { psf: self.clone(), canvas: *canvas, fineness, pupil, shared, patches }
+        Patterns { extent: self.extent(fineness), canvas: *canvas, pupil, shared, patches }
+    }
+
+    /// Adds where light of a wavelength lands by the function in the middle of the picture, px, and how much.
+    pub(super) fn deposit_middle(&self, canvas: &Canvas, nm: f64, to: impl FnMut(DVec2, f64)) {
+        let [columns, rows] = self.patches;
+        let only = Self { patches: [1, 1], ..self.clone() };
+        let of = if columns * rows == 1 { self } else { &only };
+        let patterns = of.patterns(canvas, self.fineness(nm, canvas.pitch_mm().min_element()));
+        patterns.deposit(nm, &patterns.patches[0], f64::INFINITY, to);
+    }
+
+    /// The cores by which samples are displaced, for the wavelengths of a range.
+    pub(super) fn sample_spread(&self, canvas: &Canvas, range_nm: (f64, f64)) -> Option<SampleSpread> {
+        let pitch_mm = canvas.pitch_mm().min_element();
+        let widest_px = range_nm.1 * MM_PER_NM * self.f_number / pitch_mm * self.stretch(canvas.max_radius_mm())[0];
+        let patterns = self.patterns(canvas, CORE_STEPS * widest_px.ceil().max(1.0) * self.outline().radius());
+        let wavelengths: Vec<f64> = mid_wavelengths(range_nm).collect();
+        let of_patch = |patch| wavelengths.par_iter().map(|nm| patterns.core(*nm, patch)).collect::<Option<Vec<_>>>();
+        let tables = patterns.patches.iter().map(of_patch).collect::<Option<Vec<_>>>()?;
+        let [columns, rows] = self.patches;
+        let hats = [
+            (0..columns).map(|column| self.hats(canvas, column, 0)[0].clone()).collect(),
+            (0..rows).map(|row| self.hats(canvas, 0, row)[1].clone()).collect(),
+        ];
+        let step_nm = (range_nm.1 - range_nm.0) / wavelengths.len() as f64;
+        Some(SampleSpread::new(hats, (range_nm.0, step_nm), tables))
     }
 
     fn patch(&self, canvas: &Canvas, pupil: &Pupil, column: usize, row: usize) -> Patch {
@@ -276,111 +308,5 @@ impl Psf {
         let error = !self.parameters.wavefront.is_empty();
         let wavefront_um = error.then(|| pupil.map(|u| self.wavefront_um(radius_mm, outwards, u)));
         Patch { x, y, stretch, widest: along, wavefront_um }
-    }
-}
-
-/// Weights of a patch along one axis: linear to its neighbours, even outside of the outermost.
-#[derive(Clone, Debug)]
-struct Hat {
-    middle: f64,
-    first: usize,
-    weights: Vec<f64>,
-}
-
-impl Hat {
-    fn new(index: usize, count: usize, picture: &core::ops::Range<usize>, size: usize) -> Self {
-        let step = picture.len() as f64 / count as f64;
-        let middle = picture.start as f64 + (index as f64 + 0.5) * step;
-        let weight = |pixel: usize| {
-            let away = (pixel as f64 + 0.5 - middle) / step;
-            let outer = (index == 0 && away < 0.0) || (index + 1 == count && away > 0.0);
-            if outer { 1.0 } else { (1.0 - away.abs()).max(0.0) }
-        };
-        let first = (0..size).find(|p| weight(*p) > 0.0).unwrap_or(0);
-        let weights = (first..size).map(weight).take_while(|w| *w > 0.0).collect();
-        Self { middle, first, weights }
-    }
-
-    fn range(&self) -> core::ops::Range<usize> {
-        self.first..self.first + self.weights.len()
-    }
-}
-
-/// A part of the picture with a function of its own.
-#[derive(Clone, Debug)]
-struct Patch {
-    x: Hat,
-    y: Hat,
-    stretch: DMat2,
-    widest: f64,
-    wavefront_um: Option<Vec<f64>>,
-}
-
-/// The function of a film.
-#[derive(Debug)]
-pub(super) struct Ready {
-    psf: Psf,
-    canvas: Canvas,
-    fineness: f64,
-    pupil: Pupil,
-    /// The pattern that all patches and wavelengths share, where there is no wavefront error.
-    shared: Option<Pattern>,
-    patches: Vec<Patch>,
-}
-
-impl Ready {
-    /// The film's light and variance in a band.
-    pub(super) fn apply(&self, band_nm: (f64, f64), light: &Field, variance: Option<&Field>) -> (Field, Option<Field>) {
-        let size = self.canvas.size();
-        let mut spread = Field::zeros(size[0], size[1]);
-        let mut spread_variance = variance.map(|_| Field::zeros(size[0], size[1]));
-        for patch in &self.patches {
-            let kernel = self.kernel(band_nm, patch);
-            let region = Region { x: patch.x.range(), y: patch.y.range() };
-            add(&Convolver::new(&kernel, size, region.clone()).apply(light), patch, &mut spread);
-            if let (Some(from), Some(to)) = (variance, &mut spread_variance) {
-                add(&Convolver::new(&kernel.squared(), size, region).apply(from), patch, to);
-            }
-        }
-        (spread, spread_variance)
-    }
-
-    /// The kernel of a patch, its sum one.
-    fn kernel(&self, band_nm: (f64, f64), patch: &Patch) -> Kernel {
-        let pitch = self.canvas.pitch_mm();
-        let reach = self.psf.reach_px_of(band_nm.1, self.fineness, pitch.min_element(), patch.widest);
-        let mut kernel = BandLimited::zeros([reach, reach]);
-        for nm in mid_wavelengths(band_nm) {
-            let own = patch.wavefront_um.as_ref().map(|wavefront| {
-                let waves: Vec<f64> = wavefront.iter().map(|um| um * NM_PER_UM / nm).collect();
-                self.pupil.pattern(Some(&waves))
-            });
-            let Some(pattern) = own.as_ref().or(self.shared.as_ref()) else { continue };
-            let step = nm * MM_PER_NM * self.psf.f_number / self.fineness;
-            let end = self.psf.parameters.reach_mm.unwrap_or(f64::INFINITY);
-            for (place, share) in pattern.points() {
-                let offset = patch.stretch * place * step;
-                if offset.length_squared() <= end * end {
-                    kernel.deposit(offset / pitch, share);
-                }
-            }
-        }
-        kernel.kernel()
-    }
-}
-
-/// The middles of the equal parts of a band, none wider than the step.
-pub(super) fn mid_wavelengths((low_nm, high_nm): (f64, f64)) -> impl Iterator<Item = f64> {
-    let parts = ((high_nm - low_nm) / STEP_NM).ceil().max(1.0);
-    (0..parts as usize).map(move |part| low_nm + (high_nm - low_nm) * (part as f64 + 0.5) / parts)
-}
-
-/// Adds a patch's part by its weights.
-fn add(part: &Field, patch: &Patch, to: &mut Field) {
-    for (row, (y, tall)) in patch.y.range().zip(&patch.y.weights).enumerate() {
-        let target = &mut to.row_mut(y)[patch.x.range()];
-        for ((to, from), wide) in target.iter_mut().zip(part.row(row)).zip(&patch.x.weights) {
-            *to += tall * wide * from;
-        }
     }
 }

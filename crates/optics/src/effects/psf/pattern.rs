@@ -87,9 +87,20 @@ fn open(outline: &Outline, centre: DVec2, step: f64) -> f64 {
 
 impl Pattern {
     /// Places, in steps of λN/Q, and shares of the light.
+    #[cfg(test)]
     pub(super) fn points(&self) -> impl Iterator<Item = (DVec2, f64)> {
-        let signed = |i: usize| if i < CELLS / 2 { i as f64 } else { i as f64 - CELLS as f64 };
-        self.values.iter().enumerate().map(move |(i, v)| (DVec2::new(signed(i % CELLS), signed(i / CELLS)), *v))
+        self.points_within(CELLS / 2)
+    }
+
+    /// The places at most `steps` from the middle along rows and columns.
+    pub(super) fn points_within(&self, steps: usize) -> impl Iterator<Item = (DVec2, f64)> {
+        let near = steps.min(CELLS / 2) as isize;
+        let range = move || -near..(near + 1).min(CELLS as isize / 2);
+        let index = |i: isize| i.rem_euclid(CELLS as isize) as usize;
+        range().flat_map(move |y| {
+            let row = &self.values[index(y) * CELLS..][..CELLS];
+            range().map(move |x| (DVec2::new(x as f64, y as f64), row[index(x)]))
+        })
     }
 }
 

@@ -1,0 +1,139 @@
+//! The patterns of an aperture on the pixels of a film, patch by patch.
+
+use super::hat::Hat;
+use super::pattern::{CELLS, Pattern, Pupil};
+use crate::effects::Canvas;
+use crate::effects::band_wavelengths::{MM_PER_NM, NM_PER_UM, mid_wavelengths};
+use crate::effects::convolve::{Convolver, Field, Region};
+use crate::effects::core_table::{CORE_PX, CoreBuilder, CoreTable};
+use crate::effects::film_part::{FilmPart, KernelBuilder};
+use crate::effects::kernel::Kernel;
+use glam::{DMat2, DVec2};
+
+/// A part of the picture with a function of its own.
+#[derive(Clone, Debug)]
+pub(super) struct Patch {
+    pub(super) x: Hat,
+    pub(super) y: Hat,
+    pub(super) stretch: DMat2,
+    pub(super) widest: f64,
+    pub(super) wavefront_um: Option<Vec<f64>>,
+}
+
+/// The farthest that a function reaches, px.
+pub(in crate::effects) const MAX_PX: usize = 512;
+
+/// How far patterns reach, and in what steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    pub(super) f_number: f64,
+    /// Where the function ends; `None` for as far as it is computed.
+    pub(super) reach_mm: Option<f64>,
+    /// Steps of the pattern in λN.
+    pub(super) fineness: f64,
+}
+
+impl Extent {
+    /// A step on the axis at a wavelength.
+    fn step_mm(&self, nm: f64) -> f64 {
+        nm * MM_PER_NM * self.f_number / self.fineness
+    }
+
+    /// How far the pattern reaches, px, where it is so many times as wide as on the axis.
+    pub(super) fn reach_px(&self, longest_nm: f64, pitch_mm: f64, stretch: f64) -> usize {
+        let computed = 0.5 * CELLS as f64 * self.step_mm(longest_nm) * stretch;
+        let reach = self.reach_mm.map_or(computed, |mm| mm.min(computed));
+        ((reach / pitch_mm).ceil() as usize + 1).min(MAX_PX)
+    }
+}
+
+/// The patterns of the patches of a film.
+#[derive(Debug)]
+pub(super) struct Patterns {
+    pub(super) extent: Extent,
+    pub(super) canvas: Canvas,
+    pub(super) pupil: Pupil,
+    /// The pattern that all patches and wavelengths share, where there is no wavefront error.
+    pub(super) shared: Option<Pattern>,
+    pub(super) patches: Vec<Patch>,
+}
+
+impl Patterns {
+    /// Adds where light of a wavelength lands, px, and how much; at least of what lands within `reach_px` along rows and columns.
+    pub(super) fn deposit(&self, nm: f64, patch: &Patch, reach_px: f64, mut to: impl FnMut(DVec2, f64)) {
+        let own = patch.wavefront_um.as_ref().map(|wavefront| {
+            let waves: Vec<f64> = wavefront.iter().map(|um| um * NM_PER_UM / nm).collect();
+            self.pupil.pattern(Some(&waves))
+        });
+        let Some(pattern) = own.as_ref().or(self.shared.as_ref()) else { return };
+        let step = self.extent.step_mm(nm);
+        let end = self.extent.reach_mm.unwrap_or(f64::INFINITY);
+        let pitch = self.canvas.pitch_mm();
+        // No pattern is narrower than on the axis.
+        let steps = reach_px * core::f64::consts::SQRT_2 * pitch.max_element() / step;
+        for (place, share) in pattern.points_within(steps.ceil() as usize) {
+            let offset = patch.stretch * place * step;
+            if offset.length_squared() <= end * end {
+                to(offset / pitch, share);
+            }
+        }
+    }
+
+    /// The core of a patch at a wavelength; `None` where no light is in it.
+    pub(super) fn core(&self, nm: f64, patch: &Patch) -> Option<CoreTable> {
+        let mut builder = CoreBuilder::default();
+        self.deposit(nm, patch, CORE_PX, |offset_px, mass| builder.deposit(offset_px, mass));
+        builder.table()
+    }
+}
+
+/// The function of a film, or its tails.
+#[derive(Debug)]
+pub(in crate::effects) struct Ready {
+    pub(super) part: FilmPart,
+    pub(super) patterns: Patterns,
+}
+
+impl Ready {
+    /// The film's light and variance in a band.
+    pub(in crate::effects) fn apply(
+        &self,
+        band_nm: (f64, f64),
+        light: &Field,
+        variance: Option<&Field>,
+    ) -> (Field, Option<Field>) {
+        let size = self.patterns.canvas.size();
+        let mut spread = Field::zeros(size[0], size[1]);
+        let mut spread_variance = variance.map(|_| Field::zeros(size[0], size[1]));
+        for patch in &self.patterns.patches {
+            let kernel = self.kernel(band_nm, patch);
+            let region = Region { x: patch.x.range(), y: patch.y.range() };
+            add(&Convolver::new(&kernel, size, region.clone()).apply(light), patch, &mut spread);
+            if let (Some(from), Some(to)) = (variance, &mut spread_variance) {
+                add(&Convolver::new(&kernel.squared(), size, region).apply(from), patch, to);
+            }
+        }
+        (spread, spread_variance)
+    }
+
+    /// The kernel of a patch, its sum one.
+    fn kernel(&self, band_nm: (f64, f64), patch: &Patch) -> Kernel {
+        let Patterns { extent, canvas, .. } = &self.patterns;
+        let reach = extent.reach_px(band_nm.1, canvas.pitch_mm().min_element(), patch.widest);
+        let mut kernel = KernelBuilder::new(self.part, [reach, reach]);
+        for nm in mid_wavelengths(band_nm) {
+            self.patterns.deposit(nm, patch, f64::INFINITY, |offset_px, share| kernel.deposit(offset_px, share));
+        }
+        kernel.kernel()
+    }
+}
+
+/// Adds a patch's part by its weights.
+fn add(part: &Field, patch: &Patch, to: &mut Field) {
+    for (row, (y, tall)) in patch.y.range().zip(&patch.y.weights).enumerate() {
+        let target = &mut to.row_mut(y)[patch.x.range()];
+        for ((to, from), wide) in target.iter_mut().zip(part.row(row)).zip(&patch.x.weights) {
+            *to += tall * wide * from;
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! A narrow point spread without a film's lattice: each sample's place on the sensor is displaced by a draw of the spread's core.
+//!
+//! Light at x of the sensor is ∫ P(u) E(x − u) du: a sample at x looks where the light of x − u comes from, u drawn from P. This is exact
+//! however narrow P is, where a kernel on whole pixels must choose between too little contrast and negative light (`band.rs`).
+//! The wavelengths of a path share its place: it is drawn from the density of one of them, and each is weighted by its own density over the mean of all of
+//! them (the balance heuristic, Veach 1997, eq. 9.8). The sum of the weights is the number of wavelengths, so that light over the whole spectrum gets no
+//! noise by it. Narrow bands of even light do where the spread is wider for longer wavelengths: of diffraction some 0.37 of a band's light, divided by the
+//! root of the samples of a pixel. Where the spread is the same for all wavelengths, the weights are 1.
+//!
+//! Light near a lamp is drawn, so that only a core of 2.5 px is: the rest, smooth and faint, is the film's ([`FilmPart::Tails`](super::FilmPart)).
+//!
+//! Where the function varies over the picture, a pixel takes one patch's at random, by the weights that the film's pixels take them with.
+
+use super::core_table::CoreTable;
+use super::psf::Hat;
+use etendue_core::random::Pixel;
+use glam::DVec2;
+
+/// Random numbers of a draw, in [0, 1).
+#[derive(Clone, Copy, Debug)]
+pub struct SpreadDraw {
+    /// Which wavelength, and which patch.
+    pub choice: f64,
+    /// Where.
+    pub place: DVec2,
+}
+
+/// The cores over a film.
+#[derive(Clone, Debug)]
+pub struct SampleSpread {
+    low_nm: f64,
+    step_nm: f64,
+    /// Columns of patches; one, without weights, where the function is the same everywhere.
+    columns: Vec<Hat>,
+    rows: Vec<Hat>,
+    /// Of each patch, row by row, the tables by wavelength.
+    tables: Vec<Vec<CoreTable>>,
+}
+
+impl SampleSpread {
+    /// Of patches' tables, row by row, which each have wavelengths in equal steps of `step_nm` from `low_nm` on.
+    pub(super) fn new(
+        [columns, rows]: [Vec<Hat>; 2],
+        (low_nm, step_nm): (f64, f64),
+        tables: Vec<Vec<CoreTable>>,
+    ) -> Self {
+        Self { low_nm, step_nm, columns, rows, tables }
+    }
+
+    /// How far from a pixel (of the film) its sample's light would fall, px; and the weights of the path's wavelengths.
+    #[must_use]
+    pub fn draw<const N: usize>(&self, pixel: Pixel, wavelengths_nm: &[f32; N], draw: SpreadDraw) -> (DVec2, [f32; N]) {
+        let choice = draw.choice * N as f64;
+        let drawn = (choice as usize).min(N - 1);
+        let tables = &self.tables[self.patch(pixel, choice - drawn as f64)];
+        let of = wavelengths_nm.map(|nm| &tables[self.index(f64::from(nm)).min(tables.len() - 1)]);
+        let offset_px = of[drawn].draw(draw.place);
+        if tables.len() == 1 {
+            return (offset_px, [1.0; N]);
+        }
+        let densities = of.map(|table| table.density(offset_px));
+        let mean = densities.iter().sum::<f64>() / N as f64;
+        (offset_px, densities.map(|density| if mean > 0.0 { (density / mean) as f32 } else { 1.0 }))
+    }
+
+    fn index(&self, nm: f64) -> usize {
+        ((nm - self.low_nm) / self.step_nm).max(0.0) as usize
+    }
+
+    fn patch(&self, pixel: Pixel, u: f64) -> usize {
+        if self.tables.len() == 1 {
+            return 0;
+        }
+        let (column, u) = choose(&self.columns, pixel.x as usize, u);
+        let (row, _) = choose(&self.rows, pixel.y as usize, u);
+        row * self.columns.len() + column
+    }
+}
+
+/// One of the patches of a pixel's column or row, by its weight there, and what is left of `u`.
+fn choose(hats: &[Hat], at: usize, u: f64) -> (usize, f64) {
+    let mut left = u;
+    let mut last = (0, 0.0);
+    for (index, weight) in hats.iter().map(|hat| hat.weight(at)).enumerate().filter(|(_, weight)| *weight > 0.0) {
+        if left < weight {
+            return (index, left / weight);
+        }
+        left -= weight;
+        last = (index, 1.0 - f64::EPSILON);
+    }
+    last
+}
