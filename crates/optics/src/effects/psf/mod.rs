@@ -41,10 +41,9 @@ use patterns::{Extent, Patch, Patterns};
 use rayon::prelude::*;
 
 pub(super) use hat::Hat;
-pub(super) use patterns::Ready;
+pub(super) use patterns::{MAX_PX, Ready};
 
 pub(super) const MM_PER_UM: f64 = 1e-3;
-pub(super) use patterns::MAX_PX;
 /// Wavelengths for which the pupil's lattice must hold the wavefront, nm.
 pub(super) const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
 /// Steps of the pattern in λN, or in px where that is more, of what samples are displaced by.
