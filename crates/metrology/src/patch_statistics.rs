@@ -11,7 +11,9 @@
 //! whose paths are shared by blocks of b × b pixels have correlations of up to b − 1 pixels, and nearly equal errors within a block. There the
 //! sum reaches so far, and as the mean is that of the same pixels, it is divided by what it misses, 1 − m/n with m = (2 max(3, b − 1) + 1)²
 //! distances; patches of fewer than 2 m pixels get the bound, Σ ρ = b². Premise: no
-//! correlations beyond. Noise that whole rows or columns share, and light or dirt that is uneven, are not in it; a slope within
+//! correlations beyond, but for the noise that whole rows or columns share: with τ² the mean product of deviations in one row at distances beyond that reach (the next
+//! six), less the same off rows and columns (light that is uneven), of h rows u²(mean) has τ²/h more, as far as τ² is not negative, and Σ ρ has as much less of it. Where τ² is four standard deviations of
+//! independent noise, what neighbouring rows share of it (after demosaicking) is in it. Columns likewise; neither where paths are shared by blocks. u²(σ²) does not know of rows and columns. A slope within
 //! the patch counts as noise.
 
 use crate::{Estimate, Image};
@@ -19,6 +21,9 @@ use etendue_stats::Moments;
 
 /// How far neighbours are looked at, px.
 const REACH: usize = 3;
+/// Distances beyond the reach at which pixels of a line are compared, and how many standard deviations tell that lines have something in common.
+const BEYOND: usize = 6;
+const SIGNIFICANT: f64 = 4.0;
 /// Correlations are taken from the middle of large patches, px: tens of thousands of pixels tell them to a few per cent.
 const ENOUGH: usize = 256;
 
@@ -36,50 +41,107 @@ pub struct PatchStatistics {
 pub fn patch_statistics(patch: &Image, shared_px: usize) -> PatchStatistics {
     let moments = Moments::of(patch.samples().iter().map(|s| f64::from(*s)));
     let (count, variance) = (moments.count() as f64, moments.variance().unwrap_or(0.0));
-    let alike = if shared_px > 1 { alike_in_blocks(patch, shared_px) } else { alike(patch, REACH) };
+    let deviations = Deviations::of(patch);
+    // Few blocks look like lines: rendered ones have none but the sensor's.
+    let lines = if shared_px > 1 { Lines::default() } else { Lines::of(&deviations) };
+    let alike =
+        if shared_px > 1 { alike_in_blocks(patch, &deviations, shared_px) } else { alike(&deviations, REACH, lines) };
+    let of_lines = lines.rows.max(0.0) / patch.height() as f64 + lines.columns.max(0.0) / patch.width() as f64;
     PatchStatistics {
-        mean: Estimate::new(moments.mean(), (variance / count * alike).sqrt()),
+        mean: Estimate::new(moments.mean(), (variance * (alike / count + of_lines)).sqrt()),
         variance: Estimate::new(variance, variance * (2.0 / (count - 1.0) * alike).sqrt()),
     }
 }
 
 /// Σ ρ where errors are alike in blocks.
-fn alike_in_blocks(patch: &Image, shared_px: usize) -> f64 {
+fn alike_in_blocks(patch: &Image, deviations: &Deviations, shared_px: usize) -> f64 {
     let reach = REACH.max(shared_px - 1);
     let distances = ((2 * reach + 1) * (2 * reach + 1)) as f64;
     let count = (patch.width().min(ENOUGH) * patch.height().min(ENOUGH)) as f64;
     if count < 2.0 * distances || patch.width().min(patch.height()) <= 2 * reach {
         return (shared_px * shared_px) as f64;
     }
-    alike(patch, reach) / (1.0 - distances / count)
+    alike(deviations, reach, Lines::default()) / (1.0 - distances / count)
 }
 
-/// Σ ρ over neighbours up to a reach, 1 or more: how many pixels say what one independent one would.
-fn alike(patch: &Image, reach: usize) -> f64 {
-    let middle = |length: usize| (length.saturating_sub(ENOUGH) / 2, length.min(ENOUGH));
-    let ((left, width), (top, height)) = (middle(patch.width()), middle(patch.height()));
-    let part = patch.part(left, top, width, height);
-    let mean = Moments::of(part.samples().iter().map(|s| f64::from(*s))).mean();
-    let deviations: Vec<f64> = part.samples().iter().map(|s| f64::from(*s) - mean).collect();
-    let pairs = |dx: usize, dy: usize, back: bool| -> f64 {
-        let columns = width.saturating_sub(dx);
-        let [a, b] = if back { [dx, 0] } else { [0, dx] };
-        let row = |y: usize| {
-            let (first, second) =
-                (&deviations[y * width + a..][..columns], &deviations[(y + dy) * width + b..][..columns]);
-            first.iter().zip(second).map(|(p, q)| p * q).sum::<f64>()
-        };
-        (0..height.saturating_sub(dy)).map(row).sum()
-    };
-    let own = pairs(0, 0, false);
-    if own <= 0.0 || width <= 2 * reach || height <= 2 * reach {
+/// Σ ρ over neighbours up to a reach, 1 or more, without what lines share: how many pixels say what one independent one would.
+fn alike(deviations: &Deviations, reach: usize, lines: Lines) -> f64 {
+    let own = deviations.products(0, 0);
+    if own <= 0.0 || deviations.width <= 2 * reach || deviations.height <= 2 * reach {
         return 1.0;
     }
+    let far = reach as isize;
     // Each distance and its opposite.
-    let along = (1..=reach).map(|dx| pairs(dx, 0, false)).sum::<f64>();
-    let across = (1..=reach)
-        .map(|dy| pairs(0, dy, false) + (1..=reach).map(|dx| pairs(dx, dy, false) + pairs(dx, dy, true)).sum::<f64>());
-    (1.0 + 2.0 * (along + across.sum::<f64>()) / own).max(1.0)
+    let along = (1..=far).map(|dx| deviations.products(dx, 0)).sum::<f64>();
+    let across = (1..=far).flat_map(|dy| (-far..=far).map(move |dx| (dx, dy)));
+    let sum = along + across.map(|(dx, dy)| deviations.products(dx, dy)).sum::<f64>();
+    let of_lines = (2 * reach + 1) as f64 * (lines.rows.max(0.0) + lines.columns.max(0.0));
+    (1.0 + 2.0 * sum / own - of_lines).max(1.0)
+}
+
+/// What the pixels of a row, and those of a column, share, of the variance of a pixel.
+#[derive(Clone, Copy, Debug, Default)]
+struct Lines {
+    rows: f64,
+    columns: f64,
+}
+
+impl Lines {
+    /// 0 where the patch is too small to tell.
+    fn of(deviations: &Deviations) -> Self {
+        let own = deviations.mean_product(0, 0);
+        if own <= 0.0 || deviations.width.min(deviations.height) < 2 * (REACH + BEYOND) {
+            return Self::default();
+        }
+        let beyond = || (REACH + 1..=REACH + BEYOND).map(|d| d as isize);
+        let mean = |all: &[f64]| all.iter().sum::<f64>() / (all.len() as f64 * own);
+        let products = |places: &mut dyn Iterator<Item = (isize, isize)>| {
+            mean(&places.map(|(dx, dy)| deviations.mean_product(dx, dy)).collect::<Vec<_>>())
+        };
+        let uneven = products(&mut beyond().flat_map(|d| [(d, d), (-d, d)]));
+        let least = SIGNIFICANT / ((deviations.width * deviations.height * BEYOND) as f64).sqrt();
+        let shared = |place: fn(isize, isize) -> (isize, isize)| {
+            let at = |apart: isize| products(&mut beyond().map(|d| place(d, apart))) - uneven;
+            let own = at(0);
+            let beside = || (1..=REACH as isize).map(|apart| at(apart) + at(-apart)).sum::<f64>();
+            if own > least { own + beside() } else { own }
+        };
+        Self { rows: shared(|d, apart| (d, apart)), columns: shared(|d, apart| (apart, d)) }
+    }
+}
+
+/// Deviations from the mean in the middle of a patch.
+struct Deviations {
+    width: usize,
+    height: usize,
+    values: Vec<f64>,
+}
+
+impl Deviations {
+    fn of(patch: &Image) -> Self {
+        let middle = |length: usize| (length.saturating_sub(ENOUGH) / 2, length.min(ENOUGH));
+        let ((left, width), (top, height)) = (middle(patch.width()), middle(patch.height()));
+        let part = patch.part(left, top, width, height);
+        let mean = Moments::of(part.samples().iter().map(|s| f64::from(*s))).mean();
+        Self { width, height, values: part.samples().iter().map(|s| f64::from(*s) - mean).collect() }
+    }
+
+    /// The sum of the products of deviations so many columns and rows apart.
+    fn products(&self, dx: isize, dy: isize) -> f64 {
+        let (right, down, up) = (dx.unsigned_abs(), dy.max(0).unsigned_abs(), dy.min(0).unsigned_abs());
+        let (columns, rows) = (self.width.saturating_sub(right), self.height.saturating_sub(down + up));
+        let (from, to) = if dx < 0 { (right, 0) } else { (0, right) };
+        let row = |y: usize| {
+            let (a, b) = ((y + up) * self.width + from, (y + down) * self.width + to);
+            self.values[a..a + columns].iter().zip(&self.values[b..b + columns]).map(|(p, q)| p * q).sum::<f64>()
+        };
+        if columns == 0 { 0.0 } else { (0..rows).map(row).sum() }
+    }
+
+    fn mean_product(&self, dx: isize, dy: isize) -> f64 {
+        let pairs = self.width.saturating_sub(dx.unsigned_abs()) * self.height.saturating_sub(dy.unsigned_abs());
+        self.products(dx, dy) / pairs.max(1) as f64
+    }
 }
 
 #[cfg(test)]
@@ -93,7 +155,7 @@ mod tests {
         let of =
             |f: &dyn Fn(usize) -> f32| Image::from_samples(96, 96, (0..96 * 96).map(f).collect()).expect("a square");
         let (single, double) = (of(&|i| noise(i % 96, i / 96)), of(&|i| noise(i % 96 / 2, i / 96 / 2)));
-        let [one, four] = [alike(&single, REACH), alike(&double, REACH)];
+        let [one, four] = [&single, &double].map(|image| alike(&Deviations::of(image), REACH, Lines::default()));
         assert!((four / one - 4.0).abs() < 1.0, "{four} {one}");
         let [a, b] = [patch_statistics(&single, 1), patch_statistics(&double, 1)].map(|e| e.mean.standard_uncertainty);
         assert!((b / a - 2.0).abs() < 0.3, "{a} {b}");

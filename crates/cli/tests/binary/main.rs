@@ -6,6 +6,7 @@ mod adaptive_sampling;
 mod bad_fronts;
 mod bad_input;
 mod bad_lights;
+mod bad_pictures;
 mod bad_processing;
 mod bad_results;
 mod bad_sensors;

@@ -241,3 +241,53 @@ fn slanted_edges_and_stars_give_the_pixels_aperture() {
     rows(&report, "edges").iter().for_each(checked);
     assert_eq!(rows(&report, "planes")[0]["plane"], "every direction");
 }
+
+/// A raw picture of a shot, each pixel from another place: its file, in a folder of its own.
+fn redrawn(shot: &Shot, name: &str, size: [usize; 2], of: impl Fn([usize; 2], usize, usize) -> [usize; 2]) -> String {
+    let picture = etendue_io::picture::read_picture(&PathBuf::from(shot.picture("camera/raw.0000.png"))).expect("a picture");
+    let whole = [picture.width, picture.height].map(|n| n as usize);
+    let etendue_scene::asset::ImagePixels::Gray16(readings) = &picture.pixels else { panic!("16 bits of grey") };
+    let at = |i: usize| {
+        let [x, y] = of(whole, i % size[0], i / size[0]);
+        u32::from(readings[y * whole[0] + x])
+    };
+    let samples = (0..size[0] * size[1]).map(at).collect();
+    let plane = etendue_core::Plane::<etendue_core::quantity::DigitalNumber>::from_samples(size[0], size[1], samples);
+    let file = shot.path(name);
+    std::fs::write(&file, etendue_io::png::encode_raw16(&plane.expect("a rectangle")).expect("a picture")).expect("written");
+    text(&file)
+}
+
+#[test]
+fn pictures_that_are_mirrored_turned_or_of_another_chart_are_named_as_such() {
+    let options = ["--columns", "4", "--decades", "1.5"];
+    let shot = Shot::of("contrast-patches", MONO, &options, &["--spp", "64"]);
+    let cdp = |picture: &str| etendue(["measure", "cdp", picture, "--truth", &shot.truth()]);
+    let size = [160, 120];
+    cdp(&redrawn(&shot, "same.png", size, |_, x, y| [x, y])).ok();
+    let mirrored = redrawn(&shot, "mirrored.png", size, |[w, _], x, y| [w - 1 - x, y]);
+    cdp(&mirrored).refused(&["mirrored.png: is mirrored left to right", "truth.json"]);
+    let flipped = redrawn(&shot, "flipped.png", size, |[_, h], x, y| [x, h - 1 - y]);
+    cdp(&flipped).refused(&["flipped.png: is mirrored top to bottom"]);
+    let turned = redrawn(&shot, "turned.png", size, |[w, h], x, y| [w - 1 - x, h - 1 - y]);
+    cdp(&turned).refused(&["turned.png: is turned by 180°"]);
+    let quarter = redrawn(&shot, "quarter.png", [120, 160], |_, x, y| [y, x]);
+    cdp(&quarter).refused(&["quarter.png: 120 × 160 pixels", "nor turned by 90°"]);
+    let other = Shot::of("siemens-star", MONO, &[], &["--spp", "16"]);
+    cdp(&other.picture("camera/raw.0000.png")).refused(&["does not show this chart"]);
+    let frames: Vec<&str> = [mirrored.as_str(); 8].to_vec();
+    let noise = ["measure", "noise"].into_iter().chain(frames).chain(["--truth"]);
+    etendue(noise.map(str::to_owned).chain([shot.truth()])).refused(&["mirrored left to right"]);
+}
+
+#[test]
+fn a_colour_chart_that_is_turned_is_named_as_such() {
+    let shot = Shot::of("colorchecker", BAYER, &[], &["--spp", "64"]);
+    let turned = redrawn(&shot, "turned.png", [160, 120], |[w, h], x, y| [w - 1 - x, h - 1 - y]);
+    // Of a mosaic that is turned the tile is, too.
+    let run = ["measure", "colour", &turned, "--cfa", "BGGR", "--truth", &shot.truth()];
+    etendue(run).refused(&["turned.png: is turned by 180°"]);
+    let steps = Shot::of("oecf-steps", MONO, &["--steps", "8", "--density", "1.5"], &["--spp", "64"]);
+    let mirrored = redrawn(&steps, "mirrored.png", [160, 120], |[w, _], x, y| [w - 1 - x, y]);
+    etendue(["measure", "oecf", &mirrored, "--truth", &steps.truth()]).refused(&["mirrored left to right"]);
+}

@@ -90,6 +90,7 @@ fn places(pair: &Pair) -> String {
 fn pairs(request: &CdpRequest, readings: &Readings) -> Result<Vec<Pair>, Error> {
     if let Some(truth) = request.input.truth(&CHARTS, &request.picture, readings)? {
         let (mut patches, _) = truth.patches(readings)?;
+        truth.shown(&request.picture, &patches, readings)?;
         patches.sort_by(|a, b| a.luminance_cd_m2.total_cmp(&b.luminance_cd_m2));
         let pair = |two: &[super::truth::place::Patch]| Pair {
             darker: two[0].at,

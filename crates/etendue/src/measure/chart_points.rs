@@ -120,6 +120,9 @@ impl ChartInput {
         let sought = self.sought(told.as_ref().map(|(_, told)| told));
         let grids = planes.iter().map(|plane| self.grid(file, plane, sought));
         let grid = Grid::mean(&grids.collect::<Result<Vec<_>, _>>()?);
+        if grid.orientation().is_some_and(|seen| seen.mirrored) {
+            return Err(refused(file, MIRRORED).into());
+        }
         Ok(Seen { file: file.to_owned(), size_px: [width, height], grid, stated: Some(photograph.stated.clone()) })
     }
 
@@ -140,6 +143,10 @@ impl ChartInput {
         Ok(grid)
     }
 }
+
+/// What is wrong with a picture whose chart's marks have changed their hand.
+const MIRRORED: &str = "shows its chart mirrored, as the three dots that are left out of it say: an axis of the picture runs the wrong way; give the picture as the \
+                        camera takes it, or mirror it back";
 
 /// Why a picture gives no points.
 enum Unseen {

@@ -13,7 +13,7 @@ use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
 use etendue_spectra::chart::colorchecker;
 use etendue_spectra::{colour, illuminant, observer};
 use glam::DVec2;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// `etendue measure colour`
 #[derive(Clone, Debug)]
@@ -48,7 +48,7 @@ pub fn colour(request: &ColourRequest) -> Result<Report, Error> {
         return Err(refused(&request.picture, expected));
     };
     let (patches, white) = match request.input.truth(&[ColorChecker::NAME], &request.picture, &colours[1])? {
-        Some(truth) => (told(&truth, &colours)?, truth.white_xyz()),
+        Some(truth) => (told(&truth, &request.picture, &colours)?, truth.white_xyz()),
         None => (between_corners(request, &colours)?, colour::D65_WHITE),
     };
     let levels = &request.input.levels;
@@ -61,8 +61,10 @@ pub fn colour(request: &ColourRequest) -> Result<Report, Error> {
 }
 
 /// The patches that a chart's truth places and describes, in its own light.
-fn told(truth: &Truth, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Error> {
+fn told(truth: &Truth, picture: &Path, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Error> {
     let lists: Vec<Vec<Patch>> = colours.iter().map(|one| Ok(truth.patches(one)?.0)).collect::<Result<_, Error>>()?;
+    // Green rises with luminance.
+    truth.shown(picture, &lists[1], &colours[1])?;
     let one = |patch: &Patch| {
         let pixels = |c: usize| {
             let place = lists[c].iter().find(|other| other.name == patch.name)?;

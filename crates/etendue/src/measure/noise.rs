@@ -72,7 +72,7 @@ pub fn noise(request: &NoiseRequest) -> Result<Report, Error> {
         let readings = input.linear(file)?;
         let truth = input.truth(&CHARTS, file, &readings)?;
         if i == 0 {
-            surfaces = sought(truth.as_ref(), &readings)?;
+            surfaces = sought(truth.as_ref(), file, &readings)?;
         }
         readings.independent(file, 1)?;
         encodings.push(readings.stated.clone());
@@ -88,13 +88,15 @@ pub fn noise(request: &NoiseRequest) -> Result<Report, Error> {
     Ok(report)
 }
 
-fn sought(truth: Option<&Truth>, readings: &Readings) -> Result<Vec<Surface>, Error> {
+fn sought(truth: Option<&Truth>, file: &Path, readings: &Readings) -> Result<Vec<Surface>, Error> {
     match truth {
         None => Ok(vec![Surface::new(None, None)]),
         Some(truth) if EVEN.contains(&truth.chart()) => Ok(vec![Surface::new(None, Some(truth.middle(readings)?))]),
         Some(truth) => {
             let place = |patch: Patch| Surface::new(Some(patch.clone()), Some(patch.at));
-            Ok(truth.patches(readings)?.0.into_iter().map(place).collect())
+            let (patches, _) = truth.patches(readings)?;
+            truth.shown(file, &patches, readings)?;
+            Ok(patches.into_iter().map(place).collect())
         }
     }
 }

@@ -190,6 +190,7 @@ fn patches(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
     let readings = request.input.selection.stored(picture)?;
     truth.fits(picture, &readings)?;
     let (patches, left_out) = truth.patches(&readings)?;
+    truth.shown(picture, &patches, &readings)?;
     let levels = &request.input.levels;
     let point = |patch: &super::truth::place::Patch| {
         let surface = readings.part(patch.at, &patch.name)?;

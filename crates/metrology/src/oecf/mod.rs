@@ -17,6 +17,7 @@
 //!
 //! Refused: fewer than three exposures, exposures that are no positive numbers or equal, readings that fall.
 
+pub mod noisy_mean;
 pub mod response;
 #[cfg(test)]
 mod tests;

@@ -36,7 +36,8 @@ impl Edge {
         let gradients: Vec<Gradient> = gradients(&calmed(image)).collect();
         let sum = |f: fn(&Gradient) -> f64| gradients.iter().map(f).sum::<f64>();
         let (xx, yy, xy) = (sum(|g| g.x * g.x), sum(|g| g.y * g.y), sum(|g| g.x * g.y));
-        if xx + yy <= 0.0 {
+        // Readings near the largest number leave gradients that are none.
+        if (xx + yy).is_nan() || xx + yy <= 0.0 {
             return Err(SfrError::NoEdge("the picture is even"));
         }
         let spread = ((xx - yy) * (xx - yy) + 4.0 * xy * xy).sqrt();

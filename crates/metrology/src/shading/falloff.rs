@@ -1,18 +1,20 @@
-//! The fall-off over the field: an even polynomial of the distance from the centre.
+//! The fall-off over the field: an even polynomial of the distance from the centre over the square of 1 + c r².
 
+use super::basis::{Basis, TERMS};
 use super::error::ShadingError;
 use super::report::Ring;
 use super::settings::ShadingSettings;
 use super::sums::Sums;
-use super::sums::{TERMS, powers};
 use crate::Estimate;
 use crate::linear::Matrix;
 use crate::linear::matrix::dot;
 use crate::solve::Normal;
 
-/// I₀ (1 + a₂ r² + …) as b₀ + b₁ r² + ….
+/// I₀ (1 + …) as Σ b_k φ_k(r²) of a [`Basis`], φ₀ 1 at the centre and the others 0.
 pub(super) struct Falloff {
+    pub(super) basis: Basis,
     pub(super) b: Vec<f64>,
+    /// Of the coefficients, what the fit misses of the rings' means included.
     pub(super) covariance: Matrix,
     /// The covariance of b₀ with each coefficient by the rings' own noise.
     pub(super) own_of_centre: Vec<f64>,
@@ -31,26 +33,27 @@ pub(super) fn weight(ring: &Sums) -> f64 {
 
 impl Falloff {
     /// By the rings, whose means have a covariance by lines beside their own noise.
-    pub(super) fn fitted(rings: &[Sums], shared: &Matrix) -> Result<Self, ShadingError> {
+    pub(super) fn fitted(rings: &[Sums], basis: Basis, shared: &Matrix) -> Result<Self, ShadingError> {
         let mut normal = Normal::new(TERMS);
         for ring in rings {
-            normal.add(&ring.mean_powers(), ring.mean(), weight(ring));
+            normal.add(&ring.mean_terms(), ring.mean(), weight(ring));
         }
         let none = ShadingError::NotFlat { percent: f64::NAN, blocks: 0 };
         let (b, own) = normal.solve().zip(normal.inverse()).ok_or(none)?;
         // How each coefficient depends on the means of the rings.
-        let lever = |ring: &Sums| own.times(&ring.mean_powers().map(|p| p * weight(ring)));
+        let lever = |ring: &Sums| own.times(&ring.mean_terms().map(|p| p * weight(ring)));
         let levers = Matrix::from_rows(TERMS, rings.iter().map(lever));
         let column = |k: usize| (0..rings.len()).map(|i| levers.at(i, k)).collect::<Vec<f64>>();
         let pulled: Vec<Vec<f64>> = (0..TERMS).map(|k| shared.times(&column(k))).collect();
         let own_of_centre = own.row(0).to_vec();
-        let mut covariance = own;
+        let misfit = misfit(rings, &b, &own, shared);
+        let mut covariance = own.scaled(misfit);
         for (i, pulled) in pulled.iter().enumerate() {
             (0..TERMS).for_each(|j| *covariance.at_mut(i, j) += dot(pulled, &column(j)));
         }
         let mut with_lines = vec![[0.0; 2]; rings.iter().map(|ring| ring.number + 1).max().unwrap_or(0)];
         rings.iter().enumerate().for_each(|(i, ring)| with_lines[ring.number] = [pulled[0][i], shared.at(i, i)]);
-        Ok(Self { b, covariance, own_of_centre, with_lines })
+        Ok(Self { basis, b, covariance, own_of_centre, with_lines })
     }
 
     pub(super) fn centre(&self, settings: &ShadingSettings) -> Result<Estimate, ShadingError> {
@@ -61,12 +64,12 @@ impl Falloff {
 
     /// The reading at a squared position.
     pub(super) fn at(&self, square: f64) -> f64 {
-        powers(square).iter().zip(&self.b).map(|(p, b)| p * b).sum()
+        self.basis.at(square).iter().zip(&self.b).map(|(p, b)| p * b).sum()
     }
 
     /// The fall-off's mean over a ring or block.
     pub(super) fn mean(&self, pixels: &Sums) -> f64 {
-        pixels.mean_powers().iter().zip(&self.b).map(|(p, b)| p * b).sum()
+        pixels.mean_terms().iter().zip(&self.b).map(|(p, b)| p * b).sum()
     }
 
     /// A ring over the centre, which depends on the ring itself by its share in the fit.
@@ -74,7 +77,7 @@ impl Falloff {
         let there = self.at(ring.square_position());
         let curved = self.mean(ring) - there;
         let (value, u) = ((ring.mean() - curved) / self.b[0], ring.standard_uncertainty());
-        let along: f64 = self.own_of_centre.iter().zip(ring.mean_powers()).map(|(c, p)| c * p).sum();
+        let along: f64 = self.own_of_centre.iter().zip(ring.mean_terms()).map(|(c, p)| c * p).sum();
         let [with_centre, of_lines] = self.with_lines[ring.number];
         let common = u * u * along * weight(ring) + with_centre;
         let variance = u * u + of_lines + value * value * self.covariance.at(0, 0) - 2.0 * value * common;
@@ -90,11 +93,41 @@ impl Falloff {
         Estimate::new(value, self.covariance.form(&slopes).max(0.0).sqrt())
     }
 
-    pub(super) fn ratio(&self, k: usize) -> Estimate {
-        self.over_centre(core::array::from_fn(|i| f64::from(u8::from(i == k))))
+    /// a₂ … a₈ of the polynomial 1 + a₂ r² + … + a₈ r⁸ that is nearest to the fall-off over the picture's circle.
+    pub(super) fn polynomial(&self) -> [Estimate; TERMS - 1] {
+        self.basis.nearest_polynomial().map(|(form, constant)| {
+            let found = self.over_centre(form);
+            Estimate::new(found.value - constant, found.standard_uncertainty)
+        })
     }
 
     pub(super) fn corner(&self) -> Estimate {
-        self.over_centre([1.0; TERMS])
+        self.over_centre(self.basis.at(1.0))
     }
+
+    /// Coefficients over that of the centre.
+    pub(super) fn shape(&self) -> [f64; TERMS] {
+        core::array::from_fn(|k| self.b[k] / self.b[0])
+    }
+}
+
+/// By how much the rings' squared residuals exceed what their noise and what lines share let expect of them, at least 1: the fit's own error,
+/// which its covariance does not know (Birge 1932). With W the weights, A the rings' terms, C the covariance of the fit and S that of the lines
+/// the residuals' sum of squares is expected to be ν + tr((W − W A C Aᵀ W) S), ν the rings less the coefficients.
+fn misfit(rings: &[Sums], b: &[f64], own: &Matrix, shared: &Matrix) -> f64 {
+    if rings.len() <= TERMS {
+        return 1.0;
+    }
+    let weights: Vec<f64> = rings.iter().map(weight).collect();
+    let terms: Vec<[f64; TERMS]> = rings.iter().map(Sums::mean_terms).collect();
+    let residual = |i: usize| rings[i].mean() - dot(&terms[i], b);
+    let squares: f64 = (0..rings.len()).map(|i| weights[i] * residual(i) * residual(i)).sum();
+    let levers: Vec<Vec<f64>> = terms.iter().map(|row| own.times(row)).collect();
+    let of_lines = |(i, j): (usize, usize)| {
+        let own = if i == j { weights[i] } else { 0.0 };
+        (own - weights[i] * weights[j] * dot(&terms[i], &levers[j])) * shared.at(j, i)
+    };
+    let pairs = (0..rings.len()).flat_map(|i| (0..rings.len()).map(move |j| (i, j)));
+    let expected = (rings.len() - TERMS) as f64 + pairs.map(of_lines).sum::<f64>().max(0.0);
+    (squares / expected).max(1.0)
 }

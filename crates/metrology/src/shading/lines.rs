@@ -9,28 +9,36 @@
 //! ```
 //!
 //! and a covariance of the rings' means follows, τ² Σ_x a_kx a_lx with a_kx = m_k n_kx/n_k, m_k the ring's mean, n_kx the pixels of ring k in column x; of rows likewise.
-//! Light that changes evenly from column to column is not in it.
+//! Light that changes evenly from column to column is not in it. Where neighbours share noise (`correlation.rs`), what it does to neighbouring columns stands in
+//! the place of σ²/h.
 
+use super::correlation::Correlation;
 use super::{ShadingSettings, Sums, readings, ring_at, square_position};
 use crate::Image;
 use crate::linear::Matrix;
 use crate::linear::matrix::dot;
 
-/// The covariance of the rings' means about a fall-off over squared positions.
+/// Readings over a fall-off over squared positions.
+pub(super) fn relative(image: &Image, settings: &ShadingSettings, falloff: impl Fn(f64) -> f64) -> Vec<f64> {
+    let square = square_position(image, settings);
+    readings(image, settings).map(|(x, y, reading)| reading / falloff(square(x, y))).collect()
+}
+
+/// The covariance of the rings' means by readings over their fall-off, and by what neighbours share.
 pub(super) fn shared(
     image: &Image,
     settings: &ShadingSettings,
     rings: &[Sums],
-    falloff: impl Fn(f64) -> f64,
+    relative: &[f64],
+    correlation: Option<&Correlation>,
 ) -> Matrix {
-    let square = square_position(image, settings);
-    let relative: Vec<f64> = readings(image, settings).map(|(x, y, reading)| reading / falloff(square(x, y))).collect();
     let (width, height) = (image.width(), image.height());
-    let white = white_variance(&relative, width);
+    let white = white_variance(relative, width);
     let mut covariance = Matrix::zeros(rings.len(), rings.len());
     for (columns, lines, length) in [(true, width, height), (false, height, width)] {
         let line = |i: usize| if columns { i % width } else { i / width };
-        let variance = line_variance(&means(&relative, lines, line)) - white / length as f64;
+        let own = correlation.map_or(white, |c| c.of_lines(columns));
+        let variance = line_variance(&means(relative, lines, line)) - own / length as f64;
         if variance > 0.0 {
             add(&mut covariance, variance, &shares(image, settings, rings, lines, line));
         }

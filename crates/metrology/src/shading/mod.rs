@@ -6,17 +6,22 @@
 //! ```text
 //! profile: mean of y − b over rings of equal width, at √⟨r²⟩, less what the fitted fall-off's mean over the ring is more than its value there,
 //!          over the centre's value
-//! centre:  I₀ of I₀ (1 + a₂ r² + a₄ r⁴ + a₆ r⁶ + a₈ r⁸), fitted to the rings by weighted least squares; r = 1 in the corner
+//! centre:  I₀ of I₀ (1 + b₁ r² + b₂ r⁴ + b₃ r⁶ + b₄ r⁸)/(1 + c r²)², fitted to the rings by weighted least squares; r = 1 in the corner; c that of a first fit
+//!          without it (`basis.rs`)
+//! a₂ … a₈: of the polynomial 1 + a₂ r² + … + a₈ r⁸ that is nearest to the fit over the circle
 //! map:     means of blocks over the mean of the block in the centre (odd numbers of blocks)
 //! ```
 //!
 //! Uncertainty: from each ring's and block's own noise (from the second differences of neighbours, PRNU among it, over the number of
-//! pixels), and for the profile that of I₀, which all rings share, and of what whole rows and columns of the sensor have in common
-//! (`lines.rs`). The unevenness of the light itself is not in it, nor is that of rows and columns in the map's.
+//! pixels, and what neighbours share of it: `correlation.rs`), and for the profile that of I₀, which all rings share, and of what whole rows and columns of the sensor have in common
+//! (`lines.rs`). Where the rings differ from the fit by more than all that, the fit's covariance is larger by as much (Birge 1932). The unevenness of the light itself
+//! is not in it, nor is that of rows and columns in the map's.
 //!
 //! Refused: saturated fields, fields no brighter than black, pictures that no smooth fall-off describes.
 
+mod basis;
 mod colour;
+mod correlation;
 mod error;
 mod falloff;
 mod lines;
@@ -29,6 +34,8 @@ mod tests;
 use crate::flat::{SATURATED_SHARE, neighbour_variances, saturated_fraction};
 use crate::linear::Matrix;
 use crate::{Estimate, Image};
+use basis::Basis;
+use correlation::Correlation;
 use falloff::Falloff;
 use sums::{Sums, readings, ring_at, square_position};
 
@@ -43,20 +50,30 @@ pub use settings::ShadingSettings;
 /// Where it is saturated, dark, not flat, or too small.
 pub fn measure_shading(image: &Image, settings: &ShadingSettings) -> Result<Shading, ShadingError> {
     check(image, settings)?;
-    let rings = Sums::rings(image, settings);
-    let first = Falloff::fitted(&rings, &Matrix::zeros(rings.len(), rings.len()))?;
-    let shared = lines::shared(image, settings, &rings, |square| first.at(square));
-    let fit = Falloff::fitted(&rings, &shared)?;
+    let none = |rings: &[Sums]| Matrix::zeros(rings.len(), rings.len());
+    let rings = Sums::rings(image, settings, Basis::default());
+    let polynomial = Falloff::fitted(&rings, Basis::default(), &none(&rings))?;
+    let basis = Basis::of_corner(polynomial.corner().value);
+    let mut rings = Sums::rings(image, settings, basis);
+    let first = Falloff::fitted(&rings, basis, &none(&rings))?;
+    let relative = lines::relative(image, settings, |square| first.at(square));
+    let correlation = Correlation::of(&relative, image.width());
+    let spread = correlation.as_ref().map_or(1.0, Correlation::mean_over_differences);
+    rings.iter_mut().for_each(|ring| ring.variance *= spread);
+    let shared = lines::shared(image, settings, &rings, &relative, correlation.as_ref());
+    let fit = Falloff::fitted(&rings, basis, &shared)?;
     let centre = fit.centre(settings)?;
-    let blocks = block_sums(image, settings);
+    let mut blocks = block_sums(image, settings, basis);
+    blocks.iter_mut().for_each(|block| block.variance *= spread);
     let map = relative_map(&blocks, settings)?;
     flatness(&blocks, &fit, settings)?;
     Ok(Shading {
         profile: rings.iter().map(|ring| fit.ring(ring)).collect(),
         centre,
-        coefficients: [1, 2, 3, 4].map(|k| fit.ratio(k)),
+        coefficients: fit.polynomial(),
         corner: fit.corner(),
         map,
+        fitted: (basis, fit.shape()),
     })
 }
 
@@ -70,16 +87,20 @@ fn check(image: &Image, settings: &ShadingSettings) -> Result<(), ShadingError> 
         return Err(ShadingError::NotFinite);
     }
     let share = saturated_fraction(image.samples(), settings.full_scale);
-    if share > SATURATED_SHARE { Err(ShadingError::Saturated { percent: 100.0 * share }) } else { Ok(()) }
+    if share > SATURATED_SHARE {
+        return Err(ShadingError::Saturated { percent: 100.0 * share });
+    }
+    let reading = image.samples().iter().map(|s| f64::from(*s)).sum::<f64>() / image.samples().len() as f64;
+    if reading > settings.black { Ok(()) } else { Err(ShadingError::Dark { reading, black: settings.black }) }
 }
 
 /// Sums of the map's blocks, row by row.
-fn block_sums(image: &Image, settings: &ShadingSettings) -> Vec<Sums> {
+fn block_sums(image: &Image, settings: &ShadingSettings, basis: Basis) -> Vec<Sums> {
     let (n, width, height) = (settings.blocks, image.width(), image.height());
     let block = |x: usize, y: usize| (y * n / height) * n + x * n / width;
     let square = square_position(image, settings);
     let mut blocks = vec![Sums::default(); n * n];
-    readings(image, settings).for_each(|(x, y, reading)| blocks[block(x, y)].add(reading, square(x, y)));
+    readings(image, settings).for_each(|(x, y, reading)| blocks[block(x, y)].add(reading, square(x, y), basis));
     for (x, y, variance) in neighbour_variances(image) {
         let block = &mut blocks[block(x, y)];
         block.variance += variance;

@@ -1,5 +1,6 @@
 //! What is found of the shading of a picture.
 
+use super::basis::{Basis, TERMS};
 use crate::Estimate;
 
 /// A ring of the profile.
@@ -18,19 +19,21 @@ pub struct Shading {
     pub profile: Vec<Ring>,
     /// The centre's reading less black.
     pub centre: Estimate,
-    /// a₂, a₄, a₆, a₈ of the fitted fall-off, positions as shares.
+    /// a₂, a₄, a₆, a₈ of the polynomial that is nearest to the fitted fall-off over the circle, positions as shares.
     pub coefficients: [Estimate; 4],
     /// Fitted illumination at the farthest corner relative to the centre.
     pub corner: Estimate,
     /// Block means relative to the central one, rows from the top.
     pub map: Vec<Vec<Estimate>>,
+    /// The fitted fall-off: its terms, and their coefficients over that of the centre.
+    pub(super) fitted: (Basis, [f64; TERMS]),
 }
 
 impl Shading {
     /// The fitted fall-off at a radial field position (1 at the farthest corner).
     #[must_use]
     pub fn falloff(&self, position: f64) -> f64 {
-        let square = position * position;
-        self.coefficients.iter().rev().fold(0.0, |sum, a| (sum + a.value) * square) + 1.0
+        let (basis, shape) = self.fitted;
+        basis.at(position * position).iter().zip(shape).map(|(term, b)| term * b).sum()
     }
 }

@@ -1,5 +1,6 @@
 //! Readings of a picture, and their sums over rings and blocks.
 
+use super::basis::{Basis, TERMS};
 use super::settings::ShadingSettings;
 use crate::Image;
 use crate::flat::neighbour_variances;
@@ -9,8 +10,10 @@ use crate::flat::neighbour_variances;
 pub(super) struct Sums {
     pub(super) count: f64,
     pub(super) reading: f64,
-    /// Of the positions: Σ 1, Σ r², … Σ r⁸.
-    pub(super) powers: [f64; TERMS],
+    /// Σ r².
+    square: f64,
+    /// Of the fall-off's terms, over the pixels.
+    terms: [f64; TERMS],
     pub(super) variance: f64,
     pub(super) pairs: f64,
     /// Which ring it is of those asked for.
@@ -18,10 +21,11 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    pub(super) fn add(&mut self, reading: f64, square_position: f64) {
+    pub(super) fn add(&mut self, reading: f64, square_position: f64, basis: Basis) {
         self.count += 1.0;
         self.reading += reading;
-        self.powers.iter_mut().zip(powers(square_position)).for_each(|(sum, power)| *sum += power);
+        self.square += square_position;
+        self.terms.iter_mut().zip(basis.at(square_position)).for_each(|(sum, term)| *sum += term);
     }
 
     pub(super) fn mean(&self) -> f64 {
@@ -29,12 +33,12 @@ impl Sums {
     }
 
     pub(super) fn square_position(&self) -> f64 {
-        self.powers[1] / self.count
+        self.square / self.count
     }
 
-    /// Means of 1, r², … r⁸.
-    pub(super) fn mean_powers(&self) -> [f64; TERMS] {
-        self.powers.map(|sum| sum / self.count)
+    /// Means of the fall-off's terms.
+    pub(super) fn mean_terms(&self) -> [f64; TERMS] {
+        self.terms.map(|sum| sum / self.count)
     }
 
     /// Of the mean.
@@ -43,13 +47,13 @@ impl Sums {
     }
 
     /// Rings that hold pixels.
-    pub(super) fn rings(image: &Image, settings: &ShadingSettings) -> Vec<Self> {
+    pub(super) fn rings(image: &Image, settings: &ShadingSettings, basis: Basis) -> Vec<Self> {
         let mut rings: Vec<Self> = (0..settings.rings).map(|number| Self { number, ..Self::default() }).collect();
         let square = square_position(image, settings);
         let ring = |square: f64| ring_at(square, settings);
         for (x, y, reading) in readings(image, settings) {
             let square = square(x, y);
-            rings[ring(square)].add(reading, square);
+            rings[ring(square)].add(reading, square, basis);
         }
         for (x, y, variance) in neighbour_variances(image) {
             let ring = &mut rings[ring(square(x, y))];
@@ -81,13 +85,4 @@ pub(super) fn square_position(image: &Image, settings: &ShadingSettings) -> impl
         let (x, y) = (x as f64 + 0.5 - cx, y as f64 + 0.5 - cy);
         (x * x + y * y) / whole
     }
-}
-
-/// Coefficients of the fall-off: of 1, r², … r⁸.
-pub(super) const TERMS: usize = 5;
-
-pub(super) fn powers(square: f64) -> [f64; TERMS] {
-    let mut powers = [1.0; TERMS];
-    (1..TERMS).for_each(|k| powers[k] = powers[k - 1] * square);
-    powers
 }

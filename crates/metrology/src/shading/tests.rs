@@ -12,6 +12,15 @@ fn falloff(position: f64) -> f64 {
     1.0 / ((1.0 + square) * (1.0 + square))
 }
 
+/// What is measured of a picture, at five rings and the corner, and what is there.
+fn rings_of(image: &Image) -> crate::coverage::Run {
+    let found = measure_shading(image, &settings()).expect("a flat field");
+    let ring = |name, k: usize| (name, found.profile[k].relative, falloff(found.profile[k].position));
+    let names = ["ring 5 of 20", "ring 9", "ring 13", "ring 17", "ring 20"];
+    let rings = [4, 8, 12, 16, 19].into_iter().zip(names).map(|(k, name)| ring(name, k));
+    rings.chain([("corner", found.corner, falloff(1.0))]).collect()
+}
+
 fn field(seed: u64, noise: f64) -> Image {
     let (width, height) = SIZE;
     let square = square_position(&Image::new(width, height), &ShadingSettings::default());
@@ -46,13 +55,7 @@ fn a_fall_off_without_noise_comes_back() {
 
 #[test]
 fn stated_intervals_cover_the_fall_off() {
-    crate::coverage::covers("vignetting", |seed| {
-        let found = measure_shading(&field(seed, 16.0), &settings()).expect("a flat field");
-        let ring = |name, k: usize| (name, found.profile[k].relative, falloff(found.profile[k].position));
-        let names = ["ring 5 of 20", "ring 9", "ring 13", "ring 17", "ring 20"];
-        let rings = [4, 8, 12, 16, 19].into_iter().zip(names).map(|(k, name)| ring(name, k));
-        rings.chain([("corner", found.corner, falloff(1.0))]).collect()
-    });
+    crate::coverage::covers("vignetting", |seed| rings_of(&field(seed, 16.0)));
 }
 
 /// Amplifiers of columns whose gains differ by 0.3 %, of rows by 0.1 %, beside noise of 2 %: the light is even, the rings' errors are shared.
@@ -73,12 +76,68 @@ fn stated_intervals_cover_the_fall_off_under_patterns_of_columns_and_rows() {
         };
         let samples = flat.samples().iter().enumerate().map(gained).collect();
         let image = Image::from_samples(SIZE.0, SIZE.1, samples).expect("a rectangle");
-        let found = measure_shading(&image, &settings()).expect("a flat field");
-        let ring = |name, k: usize| (name, found.profile[k].relative, falloff(found.profile[k].position));
-        let names = ["ring 5 of 20", "ring 9", "ring 13", "ring 17", "ring 20"];
-        let rings = [4, 8, 12, 16, 19].into_iter().zip(names).map(|(k, name)| ring(name, k));
-        rings.chain([("corner", found.corner, falloff(1.0))]).collect()
+        rings_of(&image)
     });
+}
+
+/// Green of a developed picture: noise that bilinear demosaicing has spread from every other pixel to its neighbours.
+#[test]
+fn stated_intervals_cover_the_fall_off_in_developed_pictures() {
+    crate::coverage::covers("vignetting, developed pictures", |seed| {
+        let (clean, noisy) = (field(seed, 0.0), field(seed, 16.0));
+        let (width, height) = SIZE;
+        let at = |x: usize, y: usize| f64::from(noisy.at(x, y) - clean.at(x, y));
+        let noise = |x: usize, y: usize| {
+            if (x + y) % 2 == 0 {
+                return at(x, y);
+            }
+            // Mirrored at the border, where the neighbours beyond it have the colour of those within.
+            let (left, right) = (if x == 0 { 1 } else { x - 1 }, if x + 1 == width { x - 1 } else { x + 1 });
+            let (up, down) = (if y == 0 { 1 } else { y - 1 }, if y + 1 == height { y - 1 } else { y + 1 });
+            0.25 * (at(left, y) + at(right, y) + at(x, up) + at(x, down))
+        };
+        let sample = |i: usize| (f64::from(clean.samples()[i]) + noise(i % width, i / width)) as f32;
+        rings_of(&Image::from_samples(width, height, (0..width * height).map(sample).collect()).expect("a rectangle"))
+    });
+}
+
+/// A wide lens: cos⁴ down to 37 % in the corner, less a tenth, seen about a centre beside the middle. A polynomial of the same number of terms misses its corner by
+/// two thousandths; what is asked is a twentieth of that.
+#[test]
+fn the_corner_of_a_wide_lens_is_that_of_the_lens() {
+    let (width, height) = (388, 292);
+    let settings = ShadingSettings { centre_px: Some((197.25, 143.5)), ..ShadingSettings::default() };
+    let square = square_position(&Image::new(width, height), &settings);
+    let wide = |square: f64| 1.0 / ((1.0 + 0.644 * square) * (1.0 + 0.644 * square));
+    // Pixels that see light from aside by a part less: what is beyond cos⁴ is smooth.
+    let light = |square: f64| 1000.0 * wide(square) * (1.0 - 0.1 * square);
+    let samples = (0..width * height).map(|i| light(square(i % width, i / width)) as f32).collect();
+    let image = Image::from_samples(width, height, samples).expect("a rectangle");
+    let found = measure_shading(&image, &settings).expect("a flat field");
+    assert!((found.corner.value - 0.9 * wide(1.0)).abs() < 1e-4, "{:?}", found.corner);
+    assert!((found.centre.value / 1000.0 - 1.0).abs() < 1e-4, "{:?}", found.centre);
+    for ring in &found.profile {
+        let square = ring.position * ring.position;
+        assert!((ring.relative.value - light(square) / 1000.0).abs() < 1e-4, "{ring:?}");
+        assert!((found.falloff(ring.position) - light(square) / 1000.0).abs() < 1e-4, "{ring:?}");
+    }
+}
+
+/// Pixels that see light only from within a cone: a bend in the fall-off that no smooth curve follows. The corner is off by about what is stated (2.1 times here, where noise
+/// alone states a hundredth of it).
+#[test]
+fn what_the_fit_misses_is_in_its_uncertainty() {
+    let (width, height) = (388, 292);
+    let square = square_position(&Image::new(width, height), &ShadingSettings::default());
+    let bent = |square: f64| 1.0 - 0.05 * square - 0.3 * (square.sqrt() - 0.55).max(0.0);
+    let samples = (0..width * height).map(|i| (1000.0 * bent(square(i % width, i / width))) as f32).collect();
+    let image = Image::from_samples(width, height, samples).expect("a rectangle");
+    let found = measure_shading(&image, &ShadingSettings::default()).expect("a flat field");
+    let corner = found.corner;
+    let error = (corner.value - bent(1.0)).abs();
+    assert!(error < 2.5 * corner.standard_uncertainty && error > 2e-4, "{corner:?} {}", bent(1.0));
+    let centre = found.centre;
+    assert!((centre.value - 1000.0).abs() < 2.5 * centre.standard_uncertainty, "{centre:?}");
 }
 
 #[test]
@@ -105,6 +164,7 @@ fn what_is_no_flat_field_is_refused() {
     assert!(matches!(clipped(ShadingSettings { full_scale: None, ..settings() }), Err(ShadingError::Saturated { .. })));
     let measure = |image: &Image| measure_shading(image, &settings());
     assert!(matches!(measure(&Image::filled(120, 90, 39.0)), Err(ShadingError::Dark { .. })));
+    assert!(matches!(measure(&Image::filled(120, 90, 40.0)), Err(ShadingError::Dark { .. })));
     assert!(matches!(measure(&Image::filled(30, 90, 39.0)), Err(ShadingError::TooSmall { .. })));
     let stripes = (0..120 * 90).map(|i| if i % 120 / 20 % 2 == 0 { 100.0 } else { 700.0 }).collect();
     let stripes = Image::from_samples(120, 90, stripes).expect("a rectangle");

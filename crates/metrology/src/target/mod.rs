@@ -11,6 +11,8 @@
 //!
 //! A staggered grid of discs is a square one that stands on its corner: its steps are the distances of nearest neighbours.
 //!
+//! Of a chart of dots three that are left out tell which way it is seen (`orientation.rs`).
+//!
 //! Left out: charts that number their points (a grid that is seen in part is found, its place on the chart is not), rings.
 
 mod centroid;
@@ -24,6 +26,7 @@ mod grid;
 mod lattice;
 mod least;
 mod neighbours;
+mod orientation;
 mod saddle;
 mod sampling;
 mod threshold;
@@ -33,6 +36,7 @@ use least::LEAST;
 
 pub use error::TargetError;
 pub use grid::{Grid, Node};
+pub use orientation::Orientation;
 
 /// Kinds of charts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Faults of places: distortion, centre, focal length, axes, channels.
 
 use super::{Bench, CAMERA, COLOUR, Compared, flagged, sound};
-use crate::support::text;
+use crate::support::{etendue, text};
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
 use etendue_io::photograph::Encoding;
@@ -59,12 +59,19 @@ fn faults_of_distortion_centre_focal_length_and_axes_are_flagged() {
     flagged("focal length + 0.3 %", "`lens.focal_length_mm` 2.4072 for 2.4", "fx_px", &faulty, &length);
 
     let mirrored = redrawn(&bench, &healthy, "mirrored.png", |p| p.size, |p, x, y| p.at(p.size[0] - 1 - x, y));
-    let seeded = "the picture mirrored left to right";
-    flagged("mirrored axis", seeded, "forward_centre_x_px", &distortion(&bench, &mirrored), &curve);
+    refused("mirrored axis", "the picture mirrored left to right", &mirrored);
     let exchanged = |p: &Picture| [p.size[1], p.size[0]];
     let transposed = redrawn(&bench, &healthy, "transposed.png", exchanged, |p, x, y| p.at(y, x));
-    let seeded = "columns and rows of the picture exchanged";
-    flagged("transposed axis", seeded, "forward_centre_x_px", &distortion(&bench, &transposed), &curve);
+    refused("transposed axis", "columns and rows of the picture exchanged", &transposed);
+    let turned = redrawn(&bench, &healthy, "turned.png", |p| p.size, |p, x, y| p.at(p.size[0] - 1 - x, p.size[1] - 1 - y));
+    let seeded = "the picture turned by 180°";
+    flagged("both axes turned", seeded, "forward_centre_x_px", &distortion(&bench, &turned), &curve);
+}
+
+/// The chart's marks say that an axis is mirrored, wherever the centre lies.
+fn refused(fault: &str, seeded: &str, picture: &Path) {
+    etendue(["measure", "distortion", &text(picture), "--target", "dots"]).refused(&["shows its chart mirrored", "dots"]);
+    super::row(fault, &format!("| {fault} | {seeded} | the chart's marks: refused | – | – | – |"));
 }
 
 /// Half a pixel: each red value is the mean of its own and the next.

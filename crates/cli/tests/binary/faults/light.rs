@@ -27,9 +27,7 @@ fn fall_off(bench: &Bench, chart: &Path, over: f64) -> Compared {
         "cameras.camera.lens={{ type = \"calibrated\", f_number = 2, focus_distance_m = 10, projection = {{ type = \"opencv\", \
          focal_length_mm = {PRINCIPAL_MM} }}, relative_illumination = {{ radius_mm = {radii:?}, ratio = {ratios:?} }} }}"
     );
-    // With the light's spectrum in the density of wavelengths noise falls by a third, below what the fall-off that is measured is off by, 0.1 of 37 %.
-    let density = "render.wavelength_density=\"response\"";
-    let options = ["--set", "render.spp=16", "--seed", "2", "--set", density, "--set", &lens];
+    let options = ["--set", "render.spp=16", "--seed", "2", "--set", &lens];
     let folder = bench.rendered(chart, &format!("over-{over}"), &options);
     let straight = ["--set", "lens.distortion.k1=0", "--set", "lens.distortion.k2=0"];
     bench.beside(&["vignetting", &text(&folder.join("raw.0000.png"))], CAMERA, &straight)

@@ -9,8 +9,8 @@
 //! exposures of such a camera are seconds. Under filters it is that of the column's mean pixel, colours of the light and all: of raw readings of one colour
 //! s̄/L of that colour (L its response to the light, s̄ that of the mean pixel of its columns), of a developed picture what white balance w and colour matrix M
 //! make of all of them, Σ_c M_c w_c s̄_c/Σ_c M_c w_c L_c in the row of the channel that was measured.
-//! Readings of a picture are the curve of noisy light, and their mean is not the curve of its mean: with σ the noise of the measured readings (that of
-//! rounding taken off) the declared mean is y + y″ σ²/2y′² (second order), y′ and y″ the slopes of the picture's number over light. It matters in the dark.
+//! Readings are the curve of noisy light, and their mean is not the curve of its mean: with the noise of the measured readings (that of rounding taken off) the declared mean
+//! is that of light which scatters so that its readings do ([`noisy_mean`](etendue_metrology::oecf::noisy_mean)). It matters in the dark, where a tone curve bends, and next to saturation.
 //! How bright the surface was is no fact of the camera: s is what brings the readings between 5 % and 95 % of the range nearest
 //! (least squares of s H on the light that the declared curve reads from them). So the form is compared, and its ends, not the sensitivity.
 
@@ -20,6 +20,7 @@ use super::light::{spectrum, weighed};
 use super::side::Side;
 use etendue_isp::WhiteBalance;
 use etendue_metrology::Estimate;
+use etendue_metrology::oecf::noisy_mean::noisy_mean;
 use etendue_pipeline::plan::{CameraBody, Development};
 use etendue_sensor::Sensor;
 use etendue_sensor::effects::response::Response;
@@ -100,9 +101,6 @@ fn developed(
     }
 }
 
-/// Of the light, for slopes of the tone curve.
-const STEP: f64 = 0.05;
-
 impl<'a> Tone<'a> {
     fn of(body: &'a CameraBody, measured: &Side, light: &str) -> Result<Self, String> {
         let sensor = body.sensor.as_ref().ok_or("the camera has no electronics, whose readings were measured")?;
@@ -145,16 +143,7 @@ impl<'a> Tone<'a> {
 
     /// The mean of readings with this noise at a share of saturation.
     fn mean_reading(&self, share: f64, noise: f64) -> f64 {
-        let reading = self.reading(share);
-        let step = STEP * share;
-        let near = share > 0.0 && share + step < 1.0;
-        let variance = noise * noise - 1.0 / 12.0;
-        if self.development.is_none() || !near || variance <= 0.0 {
-            return reading;
-        }
-        let (below, above) = (self.reading(share - step), self.reading(share + step));
-        let (slope, bend) = (0.5 * (above - below) / step, (above - 2.0 * reading + below) / (step * step));
-        if slope > 0.0 { reading + 0.5 * bend * variance / (slope * slope) } else { reading }
+        noisy_mean(|share| self.reading(share), share, (noise * noise - 1.0 / 12.0).max(0.0).sqrt())
     }
 
     /// Share of saturation of a reading.

@@ -1,5 +1,6 @@
 //! What the truth.json of a chart says of a picture of it.
 
+mod orientation;
 mod outline;
 pub(crate) mod place;
 pub(crate) mod points;
@@ -89,9 +90,10 @@ impl Truth {
         if (width, height) == (columns, rows) {
             return Ok(());
         }
+        let turned = if (height, width) == (columns, rows) { ", nor turned by 90°" } else { "" };
         Err(Error::input(format!(
             "{}: {width} × {height} pixels, where the camera '{}' of {} takes {columns} × {rows}: give its whole picture, neither \
-             cut nor scaled",
+             cut nor scaled{turned}",
             picture.display(),
             camera.name,
             self.file.display()
@@ -150,6 +152,13 @@ impl Truth {
             return Err(self.refused("no patch is whole in the picture and large enough to be measured"));
         }
         Ok((found, left_out))
+    }
+
+    /// Refuses a picture that shows these patches mirrored or turned, or does not show them.
+    pub(crate) fn shown(&self, picture: &Path, patches: &[Patch], readings: &Readings) -> Result<(), Error> {
+        orientation::wrong(patches, readings).map_or(Ok(()), |what| {
+            Err(Error::input(format!("{}: {what} ({})", picture.display(), self.file.display())))
+        })
     }
 
     /// Frequency (Hz) and duty of a lamp whose light goes up and down, by its patch's name.

@@ -51,7 +51,7 @@ fn flare() {
 }
 
 /// A patch as bilinear demosaicking leaves a channel that every other pixel has: the others are means of their neighbours.
-fn developed(mean: f64, sigma: f64, mut normal: impl FnMut() -> f64) -> Image {
+pub(super) fn developed(mean: f64, sigma: f64, mut normal: impl FnMut() -> f64) -> Image {
     const SIDE: usize = 24;
     let own: Vec<f64> = (0..(SIDE + 2) * (SIDE + 2)).map(|_| mean + sigma * normal()).collect();
     let at = |x: usize, y: usize| own[y * (SIDE + 2) + x];
@@ -76,6 +76,30 @@ fn patches_of_developed_pictures() {
             ("flare of a trap", flare, 5.0 / 880.0),
             ("contrast", contrast.measured, 0.5),
             ("reading of an exposure", point.reading, 1000.0),
+        ]
+    });
+}
+
+/// An even patch of raw readings whose rows have noise in common, half as large as in a pixel.
+fn with_rows(mean: f64, sigma: f64, mut normal: impl FnMut() -> f64) -> Image {
+    const SIDE: usize = 32;
+    let rows: Vec<f64> = (0..SIDE).map(|_| 0.5 * sigma * normal()).collect();
+    picture(SIDE, SIDE, |i| mean + rows[i / SIDE] + sigma * normal())
+}
+
+#[test]
+fn patches_whose_rows_share_noise() {
+    covers("noise of rows", |seed| {
+        let mut normal = normals(seed, 0);
+        let [white, trap] = [(900.0, 30.0), (25.0, 3.0)].map(|(m, s)| with_rows(m, s, &mut normal));
+        let flare = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
+        let [dark, bright] = [(1000.0, 100.0), (1500.0, 120.0)].map(|(m, s)| with_rows(m, s, &mut normal));
+        let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
+        let contrast = measure_contrast(&dark, &bright, 0.5, &settings).expect("patches");
+        vec![
+            ("flare of a trap", flare, 5.0 / 880.0),
+            ("contrast", contrast.measured, 0.5),
+            ("reading of an exposure", ExposurePoint::of(1.0, &dark, None, 1).reading, 1000.0),
         ]
     });
 }

@@ -1,9 +1,12 @@
 //! The camera's response from exposures known relatively.
 
+use super::patches::developed;
 use super::{normals, picture};
 use crate::coverage::covers;
 use etendue_core::maths::f64::pow;
-use etendue_metrology::Image;
+use etendue_metrology::oecf::ExposurePoint;
+use etendue_metrology::oecf::noisy_mean::noisy_mean;
+use etendue_metrology::{Estimate, Image};
 use etendue_metrology::oecf::response::{ResponseSettings, camera_response};
 
 /// A response that is a polynomial of the reading: light = 0.3 M + 0.7 M².
@@ -24,5 +27,38 @@ fn response() {
         let found = camera_response(&given, &settings).expect("four pictures");
         let at = |name, m: f64| (name, found.estimate(m), 0.3 * m + 0.7 * m * m);
         vec![at("light at 25 %", 0.25), at("light at 50 %", 0.5), at("light at 75 %", 0.75)]
+    });
+}
+
+/// Pictures of eight bits behind a tone curve that begins straight and bends at 0.3 %, of a mosaic of 20 000 electrons: what is read beside what the curve makes of
+/// light that is as noisy.
+#[test]
+fn tone_curve_of_developed_pictures() {
+    let encoded = |light: f64| {
+        let light = light.clamp(0.0, 1.0);
+        255.0 * if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * pow(light, 1.0 / 2.4) - 0.055 }
+    };
+    covers("tone curve of developed pictures", |seed| {
+        let mut normal = normals(seed, 0);
+        // Where in a step of the converter a mean falls is not the same in any two runs.
+        let shift = 1.0 + 0.1 * super::unit(seed);
+        let mut error = |name, light: f64| {
+            let light = light * shift;
+            let sigma = (20_000.0 * light + 100.0).sqrt() / 20_000.0;
+            let linear = developed(light, sigma, &mut normal);
+            let samples = linear.samples().iter().map(|l| encoded(f64::from(*l)).round());
+            let patch = Image::from_samples(24, 24, samples.map(|v| v as f32).collect()).expect("a square");
+            let point = ExposurePoint::of(light, &patch, Some(255.0), 1);
+            let own = (point.noise.expect("of the patch") * point.noise.expect("of the patch") - 1.0 / 12.0).max(0.0);
+            let declared = noisy_mean(encoded, light, own.sqrt());
+            (name, Estimate::new(point.reading.value - declared, point.reading.standard_uncertainty), 0.0)
+        };
+        vec![
+            error("at 0.3 % of the light", 0.003),
+            error("at 0.6 %", 0.006),
+            error("at 2 %", 0.02),
+            error("at 20 %", 0.2),
+            error("at 80 %", 0.8),
+        ]
     });
 }
