@@ -37,7 +37,7 @@ impl Drop for Running {
 fn a_second_run_into_a_folder_is_refused_until_the_first_has_ended_however_it_does() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (out, shard) = (place.path().join("out"), text(&place.path().join("shard")));
-    let (folder, job, camera) = (text(&out), small(), "scenes/cameras/laboratory.toml");
+    let (folder, job, camera) = (text(&out), small(), "scenes/cameras/web.toml");
     etendue(["render", &job, "-o", &shard, "--spp", "2", "--shard", "0/1"]).ok();
     let first = Running::render_into(&out);
     let taken = format!("another run (process {}) writes into this folder", first.0.id());
@@ -71,7 +71,7 @@ fn runs_that_write_into_folders_of_cameras_go_side_by_side() {
     let light = ["--wavelength-nm", "525", "--irradiance-w-m2", "0.002"];
     let cameras = ["a", "b", "c"].map(|name| {
         let file = place.path().join(format!("{name}.toml"));
-        std::fs::copy(root().join("scenes/cameras/laboratory.toml"), &file).expect("copied");
+        std::fs::copy(root().join("scenes/cameras/web.toml"), &file).expect("copied");
         text(&file)
     });
     let out = text(&place.path().join("out"));
