@@ -54,3 +54,15 @@ tradeoff *names:
 # Efficiency beside Mitsuba 3 and Cycles (needs Python 3.11, PyPI, libllvm19)
 peers *arguments:
     benches/peers/run {{arguments}}
+
+# Kill small runs at so many random moments, and resume or rerun them: writes target/kills.md
+kills count="1000" seed="1":
+    ETENDUE_KILLS={{count}} ETENDUE_KILLS_SEED={{seed}} cargo test --release -p etendue-cli --test binary killed::
+
+# Licences, sources and advisories of everything that is used (needs cargo-deny and a network)
+policy:
+    cargo deny --all-features check
+
+# The bill of materials of the program, CycloneDX as JSON on stdout (needs Python 3.11)
+sbom:
+    @.ci/sbom

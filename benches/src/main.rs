@@ -24,6 +24,8 @@
 //! | `frames` | raw and picture of a frame of two megapixels |
 //! | `sensor` | mean electrons to digital numbers: all noises, all effects, each alone; time and memory |
 //! | `files` | megabytes a second into a spectral EXR |
+//! | `inputs` | time and peak memory of reading the largest inputs |
+//! | `soak` | memory of a thousand renders in one process |
 //!
 //! Times are processor times of one thread, medians of several runs that take turns, so that a busy machine disturbs
 //! little. Only the speed-up by a second thread is looked at by the clock.
@@ -32,15 +34,15 @@
 
 use etendue_benches::table::Table;
 use etendue_benches::{
-    adaptive, defocus, files, films, frames, instances, lamps, lenses, machine, memory, motion, obj, paths, peer, rays,
-    road, sensor, textures, trees, views,
+    adaptive, defocus, files, films, frames, inputs, instances, lamps, lenses, machine, memory, motion, obj, paths,
+    peer, rays, road, sensor, soak, textures, trees, views,
 };
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 19] = [
+const BENCHMARKS: [Benchmark; 21] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
@@ -60,6 +62,8 @@ const BENCHMARKS: [Benchmark; 19] = [
     ("frames", frames::table),
     ("sensor", sensor::table),
     ("files", files::table),
+    ("inputs", inputs::table),
+    ("soak", soak::table),
 ];
 
 fn main() -> ExitCode {
@@ -83,6 +87,14 @@ fn main() -> ExitCode {
         }
         [flag, folder, job] if flag == films::CHILD => {
             println!("{}", films::child(folder, job));
+            ExitCode::SUCCESS
+        }
+        [flag, input, path] if flag == inputs::CHILD => {
+            println!("{}", inputs::child(input, path));
+            ExitCode::SUCCESS
+        }
+        [flag, renders] if flag == soak::CHILD => {
+            println!("{}", soak::child(renders));
             ExitCode::SUCCESS
         }
         [flag, order @ ..] if flag == peer::FLAG => answer(peer::rendered(order)),

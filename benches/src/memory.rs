@@ -38,8 +38,17 @@ pub fn child(scene: &str) -> String {
 /// Most memory that this process had resident, MB.
 #[must_use]
 pub fn peak_mb() -> String {
-    let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let peak =
-        text.lines().find_map(|line| line.strip_prefix("VmHWM:")?.split_whitespace().next()?.parse::<f64>().ok());
-    peak.map_or_else(|| "unknown".to_owned(), |kib| format!("{:.0}", kib * 1024.0 / 1e6))
+    status_mb("VmHWM:").map_or_else(|| "unknown".to_owned(), |mb| format!("{mb:.0}"))
+}
+
+/// Memory that this process has resident now, MB.
+#[must_use]
+pub fn resident_mb() -> String {
+    status_mb("VmRSS:").map_or_else(|| "unknown".to_owned(), |mb| format!("{mb:.1}"))
+}
+
+fn status_mb(of: &str) -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/self/status").ok()?;
+    let kib = text.lines().find_map(|line| line.strip_prefix(of)?.split_whitespace().next()?.parse::<f64>().ok());
+    kib.map(|kib| kib * 1024.0 / 1e6)
 }

@@ -7,6 +7,7 @@ mod args;
 mod display;
 mod machine;
 mod output;
+mod panics;
 mod progress;
 mod subcommands;
 mod verbs;
@@ -40,19 +41,10 @@ impl Arguments {
     }
 }
 
-/// Panics print their message, but for those of decoders, which become errors of the file.
-fn quieten_decoders() {
-    let print = std::panic::take_hook();
-    std::panic::set_hook(Box::new(move |info| {
-        if !etendue::is_decoding() {
-            print(info);
-        }
-    }));
-}
-
 fn main() -> ExitCode {
-    quieten_decoders();
-    match Arguments::parse().run() {
+    panics::quieten_decoders();
+    let arguments = Arguments::parse();
+    match panics::caught(|| arguments.run()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             output::print_message(&error.to_string());

@@ -22,7 +22,7 @@ pub fn datasheet(
     let made = imported(&record, &stem).map_err(Error::inputs)?;
     let camera = (format!("{stem}.toml"), made.camera);
     let files: Vec<_> = std::iter::once(camera).chain(made.tables).collect();
-    let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+    let mut folder = OutputFolder::open_beside(folder, existing).map_err(Error::input)?;
     folder.claim(files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
     for (name, text) in &files {
         folder.write(name, text.as_bytes()).map_err(Error::run)?;

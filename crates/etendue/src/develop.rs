@@ -46,8 +46,9 @@ pub fn develop(request: &DevelopRequest, (folder, existing): (&Path, Existing)) 
         let file = request.camera.display();
         Error::input(format!("{file}: the camera has no [isp], so nothing says how a picture is made: add it"))
     })?;
-    let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
-    let mut writer = ResultWriter { prefix: stem(&request.camera), folder: &mut folder };
+    let name = stem(&request.camera);
+    let mut folder = OutputFolder::open_part(folder, &name, existing).map_err(Error::input)?;
+    let mut writer = ResultWriter { prefix: name, folder: &mut folder };
     writer.claim(Files::DEVELOPMENT)?;
     all(&camera, request, &mut writer)?;
     folder.commit().map_err(Error::run)

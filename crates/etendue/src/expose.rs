@@ -57,8 +57,8 @@ pub fn expose(
     let body = open_camera(&request.camera, &request.set)?;
     let stored = StoredRadiance::open(&request.radiance)?;
     check_shutter(&body, &stored, request, observer)?;
-    let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     let name = stem(&request.camera);
+    let mut folder = OutputFolder::open_part(folder, &name, existing).map_err(Error::input)?;
     let files = Files::of(&products(&body), &body, &request.frames);
     let claimed = files.keys().map(String::as_str).chain([Files::SIDECAR]);
     let claimed: Vec<String> = claimed.map(|file| format!("{name}/{file}")).collect();

@@ -101,7 +101,7 @@ pub fn flat(
     request.check()?;
     let body = body(request)?;
     let name = stem(&request.camera);
-    let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+    let mut folder = OutputFolder::open_part(folder, &name, existing).map_err(Error::input)?;
     let task = Task { request, body: &body, sensor: body.sensor.as_ref().expect("checked above"), observer };
     let mut writer = ResultWriter { prefix: name, folder: &mut folder };
     match request.source {

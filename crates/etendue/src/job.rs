@@ -9,9 +9,9 @@ use crate::memory::MemoryFiles;
 use crate::observer::{Message, Observer};
 use crate::plan_report::PlanReport;
 use crate::quality::Quality;
-use crate::refine::{Progress, timed};
+use crate::refine::{Progress, state, timed};
 use crate::render_options::RenderOptions;
-use crate::results::{CameraResults, DoneFrames, Results, Sequence, file_names};
+use crate::results::{CameraResults, DoneFrames, Kept, Results, Sequence, file_names};
 use crate::rig;
 use crate::shard_spec::ShardSpec;
 use etendue_io::{Existing, OutputFolder, Sandbox, TextureMemory, complete_assets};
@@ -341,13 +341,15 @@ impl Job {
             Existing::Resume => DoneFrames::in_folder(root, plan, &options.frames),
             Existing::Refuse | Existing::Replace => Ok(DoneFrames::default()),
         };
+        let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
         if self.request.time_s.is_none() {
             done(&self.plan)?;
         }
-        let progress = RefCell::new(Progress::of(self.request.progressive, (root, existing))?);
-        let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
+        state::check(root, existing)?;
         folder.claim(self.file_names(&options.frames).iter().map(String::as_str)).map_err(Error::input)?;
         let mut folder = if self.request.progressive { folder.refining() } else { folder };
+        let progress = RefCell::new(Progress::of(self.request.progressive, (&folder, existing))?);
+        let kept = Kept::of_run(&folder, observer);
         let (sequence, mut written) = (RefCell::new(Sequence::default()), Vec::new());
         let done_and_noted = |plan: &Arc<Plan>| {
             let done = done(plan)?;
@@ -358,6 +360,7 @@ impl Job {
             sequence.borrow_mut().write(&camera, &mut folder, observer)?;
             if camera.has_own_light() {
                 written.extend(folder.publish().map_err(Error::run)?);
+                kept.frame();
                 progress.borrow().forget(camera.camera(), camera.frame_numbers().start)?;
             }
             Ok(())
@@ -367,6 +370,7 @@ impl Job {
         rig::write(&rig::asked_files(&self.plan, &options.frames), &mut folder, observer)?;
         written.extend(folder.commit().map_err(Error::run)?);
         progress.into_inner().finish(root)?;
+        kept.all();
         Ok(written)
     }
 

@@ -83,7 +83,7 @@ pub use develop::{DevelopRequest, develop};
 pub use display_picture::display_jpeg;
 pub use error::Error;
 pub use etendue_io::inspect::{Shown, inspect, inspect_showing};
-pub use etendue_io::{Existing, TextureMemory, is_decoding};
+pub use etendue_io::{Existing, OutputFolder, TextureMemory, is_decoding};
 pub use etendue_pipeline::plan::effects::{EffectGroup, PlannedEffect};
 pub use etendue_pipeline::truth::GroundTruth;
 pub use etendue_sensor::TemporalNoise;

@@ -4,7 +4,7 @@ use crate::delivery::{SoFar, deliver};
 use crate::error::Error;
 use crate::observer::Observer;
 use crate::render_options::RenderOptions;
-use crate::results::{DoneFrames, Sequence};
+use crate::results::{DoneFrames, Kept, Sequence};
 use crate::rig;
 use crate::shard::{self, Manifest};
 use etendue_io::{Existing, OutputFolder};
@@ -37,6 +37,7 @@ pub fn merge(
     check_same_plan(job.plan(), &manifest)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     folder.claim(job.file_names(&manifest.frames).iter().map(String::as_str)).map_err(Error::input)?;
+    let kept = Kept::of_run(&folder, observer);
     let options = RenderOptions { frames: manifest.frames.clone(), simd };
     let mut sequence = Sequence::default();
     let film_of = |group: &[&CameraPlan], shot, _: SoFar<'_>| joined(group[0], shot, &shards);
@@ -45,7 +46,9 @@ pub fn merge(
     })?;
     sequence.finish(&mut folder)?;
     rig::write(&rig::asked_files(job.plan(), &manifest.frames), &mut folder, observer)?;
-    folder.commit().map_err(Error::run)
+    let written = folder.commit().map_err(Error::run)?;
+    kept.all();
+    Ok(written)
 }
 
 /// Every shard of one run, each once.

@@ -12,7 +12,7 @@ pub fn write_file(path: &Path, bytes: &[u8], existing: Existing) -> Result<(), E
     let name = path.file_name().and_then(|name| name.to_str());
     let name = name.ok_or_else(|| Error::input(format!("{}: expected the name of a file", path.display())))?;
     let parent = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut folder = OutputFolder::open(parent, existing).map_err(Error::input)?;
+    let mut folder = OutputFolder::open_beside(parent, existing).map_err(Error::input)?;
     folder.write(name, bytes).map_err(Error::input)?;
     folder.commit().map_err(|error| Error::Run(error.to_string())).map(|_| ())
 }

@@ -9,8 +9,8 @@ use crate::error::Error;
 use crate::film_file::{self, film_name};
 use crate::job::{Job, JobRequest};
 use crate::observer::Observer;
-use crate::results::metadata;
 use crate::results::writer::write_exr;
+use crate::results::{Kept, metadata};
 use crate::shard_spec::ShardSpec;
 use etendue_io::{Existing, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
@@ -50,16 +50,20 @@ impl Job {
                 "a shard is rendered in the passes of its job: give them by the key render.passes in the place of --progressive or --time",
             ));
         }
+        let (request, plan_hash, tile_px) = (self.request().clone(), self.plan().hash_text(), tile_sides(self.plan()));
+        let ShardSpec { index, count } = spec;
+        let manifest = Manifest { request, frames: frames.clone(), index, count, plan_hash, tile_px }.encoded()?;
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
         folder.claim(self.shard_names(&frames).iter().map(String::as_str)).map_err(Error::input)?;
+        let kept = Kept::of_run(&folder, observer);
         self.render_shard((spec, &frames), simd, observer, |camera, shot, film| {
             let facts = metadata::provenance(self.plan(), camera, shot.frame);
             write_exr(&mut folder, &film_name(camera, shot), film_file::image(&film, &facts))
         })?;
-        let (request, plan_hash, tile_px) = (self.request().clone(), self.plan().hash_text(), tile_sides(self.plan()));
-        let ShardSpec { index, count } = spec;
-        Manifest { request, frames, index, count, plan_hash, tile_px }.write(&mut folder)?;
-        folder.commit().map_err(Error::run)
+        folder.write(MANIFEST, &manifest).map_err(Error::run)?;
+        let written = folder.commit().map_err(Error::run)?;
+        kept.all();
+        Ok(written)
     }
 }
 
@@ -100,10 +104,14 @@ impl Manifest {
             .map_err(|error| explain(format!("this is no shard manifest of this version ({error})")))
     }
 
-    /// Writes the manifest.
-    fn write(&self, folder: &mut OutputFolder) -> Result<(), Error> {
-        let bytes = sidecar::encode(self).map_err(|error| Error::Run(error.to_string()))?;
-        folder.write(MANIFEST, &bytes).map_err(Error::run)
+    /// The bytes of the file; refused where a path is no text.
+    fn encoded(&self) -> Result<Vec<u8>, Error> {
+        sidecar::encode(self).map_err(|error| {
+            let job = self.request.job.display();
+            Error::input(format!(
+                "{job}: the manifest of a shard is text: {error}; expected paths in UTF-8: rename the folder or file"
+            ))
+        })
     }
 }
 

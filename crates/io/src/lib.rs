@@ -32,6 +32,7 @@ pub mod correspondence;
 pub mod emva_descriptor;
 pub mod error;
 pub mod exr;
+mod folder_lock;
 mod guard;
 pub mod hash;
 pub mod inspect;

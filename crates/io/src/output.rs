@@ -4,12 +4,18 @@
 //! (`.NAME.PID-N.part`), flushed to the disk, and renamed by [`OutputFolder::commit`]. Dropped without commit, a folder
 //! removes its temporaries and the folders it made itself. A run that is killed outright may leave `.part` files, which the
 //! next run in the folder removes; it leaves no half-written file under a final name.
+//!
+//! One run at a time writes into a folder ([`OutputFolder::open`]), or into a part of it ([`OutputFolder::open_part`]). Symbolic links are not followed: one in
+//! the place of a file is that file's name, replaced or refused as any; one in the place of a folder within the output folder is refused. The output folder itself
+//! may be one.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 use crate::Error;
+use crate::folder_lock::FolderLock;
 use crate::run_mark::RunMark;
 
 /// What to do with files that are already there under the names to be written.
@@ -32,6 +38,8 @@ pub struct OutputFolder {
     pending: Vec<Pending>,
     /// From opening to the end.
     mark: Option<RunMark>,
+    /// Those of the folder and its part; several of one run share them.
+    locks: Arc<Vec<FolderLock>>,
 }
 
 #[derive(Debug)]
@@ -41,14 +49,47 @@ struct Pending {
 }
 
 impl OutputFolder {
-    /// Opens `root`, making it where it is missing, and proves that it can be written to, so that a long run cannot
-    /// fail at its end for want of permission.
+    /// Opens `root` for one run alone, making it where it is missing, and proves that it can be written to, so that a long run cannot
+    /// fail at its end for want of permission. Refused while another run writes into it.
     pub fn open(root: &Path, existing: Existing) -> Result<Self, Error> {
-        let mut folder = Self { root: root.to_path_buf(), existing, made: Vec::new(), pending: Vec::new(), mark: None };
+        let mut folder = Self::made(root, existing)?;
+        folder.locks = Arc::new(vec![FolderLock::alone(root)?]);
+        folder.marked()
+    }
+
+    /// The same for a run all of whose files are in the folder `part` of `root`: runs of other parts may write beside it.
+    pub fn open_part(root: &Path, part: &str, existing: Existing) -> Result<Self, Error> {
+        let mut folder = Self::made(root, existing)?;
+        let whole = FolderLock::shared(root)?;
+        let part = folder.resolve(part)?;
+        folder.make_folder(&part)?;
+        folder.locks = Arc::new(vec![whole, FolderLock::part(root, &part)?]);
+        folder.marked()
+    }
+
+    /// The same for single files, each whole by itself, in a folder that may be another run's.
+    pub fn open_beside(root: &Path, existing: Existing) -> Result<Self, Error> {
+        Self::made(root, existing)?.marked()
+    }
+
+    /// The same folder once more, for files of the same run that get their names at other times.
+    pub fn again(&self, existing: Existing) -> Result<Self, Error> {
+        let mut folder = Self::made(&self.root, existing)?;
+        folder.locks = Arc::clone(&self.locks);
+        folder.marked()
+    }
+
+    fn made(root: &Path, existing: Existing) -> Result<Self, Error> {
+        let (made, pending, locks) = (Vec::new(), Vec::new(), Arc::default());
+        let mut folder = Self { root: root.to_path_buf(), existing, made, pending, mark: None, locks };
         folder.make_folder(root)?;
-        let mark = RunMark::set(root).map_err(|cause| unwritable(root, &cause))?;
-        folder.mark = Some(mark);
         Ok(folder)
+    }
+
+    fn marked(mut self) -> Result<Self, Error> {
+        let mark = RunMark::set(&self.root).map_err(|cause| unwritable(&self.root, &cause))?;
+        self.mark = Some(mark);
+        Ok(self)
     }
 
     /// The folder's path.
@@ -131,8 +172,13 @@ impl OutputFolder {
         let mut names = Vec::with_capacity(self.pending.len());
         while !self.pending.is_empty() {
             let file = &self.pending[0];
-            fs::rename(&file.temporary, &file.name)
-                .map_err(|cause| Error::new(&file.name, format!("cannot take its final name: {cause}")))?;
+            fs::rename(&file.temporary, &file.name).map_err(|cause| {
+                let kept = match names.len() {
+                    0 => String::new(),
+                    n => format!(" (the {n} files before it have theirs, and are whole)"),
+                };
+                Error::new(&file.name, format!("cannot take its final name: {cause}{kept}"))
+            })?;
             names.push(self.pending.remove(0).name);
         }
         self.made.clear();
@@ -149,17 +195,41 @@ impl OutputFolder {
     }
 
     fn check_free(&self, target: &Path) -> Result<(), Error> {
-        if target.is_dir() {
+        self.check_folders(target)?;
+        // Of a link itself, not of where it leads.
+        let there = match fs::symlink_metadata(target) {
+            Ok(there) => there,
+            Err(cause) if cause.kind() == io::ErrorKind::NotFound => return Ok(()),
+            Err(cause) => return Err(Error::new(target, format!("cannot be written: {cause}"))),
+        };
+        if there.is_dir() {
             return Err(Error::new(
                 target,
                 "a folder of this name is in the way of a result; remove it or choose another output folder",
             ));
         }
-        if self.existing == Existing::Refuse && target.exists() {
+        if self.existing == Existing::Refuse {
             return Err(Error::new(
                 target,
                 "already there; choose another output folder, or allow it with --overwrite",
             ));
+        }
+        Ok(())
+    }
+
+    /// Refuses what is in the place of a folder within the output folder and is none, or leads elsewhere.
+    fn check_folders(&self, target: &Path) -> Result<(), Error> {
+        let within = target.ancestors().skip(1).take_while(|folder| *folder != self.root);
+        for folder in within {
+            if folder.is_symlink() {
+                return Err(Error::new(
+                    folder,
+                    "a symbolic link is in the place of a folder of results, which stay in the output folder; remove it, or choose another output folder",
+                ));
+            }
+            if folder.is_file() {
+                return Err(no_folder(folder));
+            }
         }
         Ok(())
     }
@@ -174,8 +244,12 @@ impl OutputFolder {
         if folder.as_os_str().is_empty() || folder.is_dir() {
             return Ok(());
         }
-        Err(Error::new(folder, "expected a folder for the results, but this is a file; choose another name"))
+        Err(no_folder(folder))
     }
+}
+
+fn no_folder(path: &Path) -> Error {
+    Error::new(path, "expected a folder for the results, but this is a file; choose another name")
 }
 
 impl Drop for OutputFolder {
@@ -196,7 +270,9 @@ fn unwritable(root: &Path, cause: &io::Error) -> Error {
 }
 
 fn write_flushed(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
-    let mut file = BufWriter::new(File::create(path)?);
+    // The name is the run's own; what a killed process of the same number may have left under it, or a link, is not written into.
+    let _ = fs::remove_file(path);
+    let mut file = BufWriter::new(File::create_new(path)?);
     write(&mut file)?;
     file.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
 }
@@ -258,6 +334,7 @@ mod tests {
             told.ends_with("x.txt: already there; choose another output folder, or allow it with --overwrite"),
             "{told}"
         );
+        drop(refusing);
         let mut replacing = OutputFolder::open(place.path(), Existing::Replace).expect("open");
         replacing.claim(["x.txt"]).expect("allowed");
         replacing.write("x.txt", b"new").expect("write");
@@ -275,6 +352,65 @@ mod tests {
         out.commit().expect_err("refused");
         assert_eq!(fs::read(place.path().join("x.txt")).expect("file"), b"theirs");
         assert_eq!(listing(place.path()), ["x.txt"]);
+    }
+
+    #[test]
+    fn one_run_at_a_time_has_a_folder() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let first = OutputFolder::open(place.path(), Existing::Refuse).expect("free");
+        let told = OutputFolder::open(place.path(), Existing::Replace).expect_err("taken").to_string();
+        assert!(told.contains("another run of this process writes into this folder"), "{told}");
+        OutputFolder::open_part(place.path(), "a", Existing::Refuse).expect_err("taken");
+        let again = first.again(Existing::Replace).expect("the same run");
+        drop(first);
+        OutputFolder::open(place.path(), Existing::Refuse).expect_err("the run goes on");
+        let mut beside = OutputFolder::open_beside(place.path(), Existing::Refuse).expect("single files");
+        beside.write("x.txt", b"x").expect("write");
+        beside.commit().expect("commit");
+        drop(again);
+        let parts = ["a", "b"].map(|part| OutputFolder::open_part(place.path(), part, Existing::Refuse).expect("free"));
+        OutputFolder::open_part(place.path(), "b", Existing::Refuse).expect_err("taken");
+        drop(parts);
+        assert_eq!(listing(place.path()), ["x.txt"], "folders without results go");
+        OutputFolder::open(place.path(), Existing::Refuse).expect("free");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_not_followed() {
+        use std::os::unix::fs::symlink;
+        let place = tempfile::tempdir().expect("temporary folder");
+        let (root, foreign) = (place.path().join("out"), place.path().join("foreign"));
+        [&root, &foreign].iter().for_each(|folder| fs::create_dir(folder).expect("folder"));
+        fs::write(foreign.join("x.txt"), b"theirs").expect("write");
+        for (name, to) in [("x.txt", "x.txt"), ("y.txt", "none")] {
+            symlink(foreign.join(to), root.join(name)).expect("link");
+        }
+        symlink(&foreign, root.join("deep")).expect("link");
+        let refusing = OutputFolder::open(&root, Existing::Refuse).expect("open");
+        for name in ["x.txt", "y.txt"] {
+            let told = refusing.claim([name]).expect_err("a link is there").to_string();
+            assert!(told.contains("already there"), "{told}");
+        }
+        drop(refusing);
+        let mut replacing = OutputFolder::open(&root, Existing::Replace).expect("open");
+        for told in [replacing.claim(["deep/z.txt"]), replacing.write("deep/z.txt", b"")] {
+            let told = told.expect_err("a link in the place of a folder").to_string();
+            assert!(told.contains("a symbolic link is in the place of a folder of results"), "{told}");
+        }
+        ["x.txt", "y.txt"].iter().for_each(|name| replacing.write(name, b"ours").expect("write"));
+        replacing.commit().expect("commit");
+        assert!(["x.txt", "y.txt"].iter().all(|name| !root.join(name).is_symlink()));
+        assert_eq!(fs::read(foreign.join("x.txt")).expect("file"), b"theirs");
+        assert_eq!(listing(&foreign), ["x.txt"]);
+    }
+
+    #[test]
+    fn a_name_that_is_too_long_is_refused_before_anything_is_made() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let out = OutputFolder::open(place.path(), Existing::Replace).expect("open");
+        let told = out.claim([format!("{}/x.txt", "n".repeat(300)).as_str()]).expect_err("too long").to_string();
+        assert!(told.contains("cannot be written: "), "{told}");
     }
 
     #[test]

@@ -31,11 +31,15 @@ impl RunMark {
             let path = root.join(format!("{HEAD}{run}{TAIL}"));
             // Processes of several machines or containers may have one number.
             match File::options().write(true).create_new(true).open(&path) {
-                Ok(list) => {
+                Ok(list) => match list.try_lock() {
+                    // Another run took it for a leftover before it was locked.
+                    Err(TryLockError::WouldBlock) => {}
+                    Ok(()) if !path.exists() => {}
                     // Without a lock the run works; only its leftovers would not be known for such.
-                    let _ = list.try_lock();
-                    return Ok(Self { root: root.to_path_buf(), path, run, list });
-                }
+                    Ok(()) | Err(TryLockError::Error(_)) => {
+                        return Ok(Self { root: root.to_path_buf(), path, run, list });
+                    }
+                },
                 Err(cause) if cause.kind() == ErrorKind::AlreadyExists => {}
                 Err(cause) => return Err(cause),
             }
@@ -61,15 +65,32 @@ impl Drop for RunMark {
     }
 }
 
+/// The number of a process that runs and has marked `root`, where one is known.
+pub(crate) fn running(root: &Path) -> Option<u32> {
+    marks(root).into_iter().find_map(|(path, run)| {
+        let is_held = matches!(File::open(path).ok()?.try_lock(), Err(TryLockError::WouldBlock));
+        is_held.then(|| run.split_once('-')?.0.parse().ok()).flatten()
+    })
+}
+
+/// The marks in a folder, with what tells their runs from others.
+fn marks(root: &Path) -> Vec<(PathBuf, String)> {
+    let folder = if root.as_os_str().is_empty() { Path::new(".") } else { root };
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    // Neither links nor pipes that have such a name.
+    let files = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_file()));
+    let of_run = |entry: fs::DirEntry| {
+        let name = entry.file_name();
+        let run = name.to_str()?.strip_prefix(HEAD)?.strip_suffix(TAIL)?.to_owned();
+        Some((entry.path(), run))
+    };
+    files.filter_map(of_run).collect()
+}
+
 /// Removes what the marks of killed runs list. Failures are passed over: leftovers are in nobody's way.
 fn remove_leftovers(root: &Path) {
-    let folder = if root.as_os_str().is_empty() { Path::new(".") } else { root };
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let name = entry.file_name();
-        let run = name.to_str().and_then(|name| name.strip_prefix(HEAD)?.strip_suffix(TAIL));
-        if let Some(run) = run {
-            let _ = remove_run(root, &entry.path(), run);
-        }
+    for (mark, run) in marks(root) {
+        let _ = remove_run(root, &mark, &run);
     }
 }
 
@@ -84,7 +105,7 @@ fn remove_run(root: &Path, mark: &Path, run: &str) -> io::Result<()> {
     for name in names.lines().filter(|name| is_temporary(Path::new(name), run)) {
         let _ = fs::remove_file(root.join(name));
     }
-    drop(list);
+    // While it is locked: nobody takes it for a mark of its own any more.
     fs::remove_file(mark)
 }
 

@@ -13,14 +13,22 @@ const LIST: &str = "ETENDUE_SKIPPED";
 #[must_use]
 pub fn all_here(test: &str, needed: &[&Path]) -> bool {
     let Some(missing) = needed.iter().find(|path| !path.exists()) else { return true };
-    let line = format!("skipped: {test}: {} is not here\n", missing.display());
+    skipped(test, &format!("{} is not here", missing.display()));
+    false
+}
+
+/// Says on stderr and in the list that CI prints that a test is skipped, and why.
+///
+/// # Panics
+/// Where the list cannot be written.
+pub fn skipped(test: &str, why: &str) {
+    let line = format!("skipped: {test}: {why}\n");
     // Cargo shows what a test prints when asked (--nocapture).
     std::io::stderr().write_all(line.as_bytes()).expect("stderr");
     if let Some(list) = std::env::var_os(LIST) {
         let file = std::fs::OpenOptions::new().append(true).create(true).open(list);
         file.and_then(|mut file| file.write_all(line.as_bytes())).expect("the list of skipped tests");
     }
-    false
 }
 
 #[cfg(test)]

@@ -6,12 +6,12 @@ use crate::machine;
 use crate::output::{print, print_paths};
 use crate::progress::Terminal;
 use clap::Args;
-use etendue::{Error, Existing, JobRequest, write_file};
+use etendue::{Error, Existing, JobRequest, OutputFolder};
 use etendue_study::{
     Clock, Dropped, Request, Varied, ablation, ablation_table, job_file, pictures, plot, study, table, variation_table,
     variations,
 };
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 /// `etendue tradeoff`
@@ -92,6 +92,7 @@ impl Tradeoff {
         self.job.open(&pool)?;
         let (folder, existing) = self.output.folder();
         self.refuse_to_replace()?;
+        let mut output = OutputFolder::open(folder, existing).map_err(Error::input)?;
         let job = JobRequest::from(&self.job);
         let request = Request { job, camera: self.job.camera.clone(), budget_s: self.time, simd };
         let findings = pool.install(|| match (self.ablate, self.vary.as_slice()) {
@@ -99,12 +100,8 @@ impl Tradeoff {
             (false, []) => studied(&request, folder),
             (false, changes) => varied(&request, changes),
         })?;
-        let write = |(name, bytes): &(String, Vec<u8>)| -> Result<PathBuf, Error> {
-            let path = folder.join(name);
-            write_file(&path, bytes, existing)?;
-            Ok(path)
-        };
-        let written = findings.files.iter().map(write).collect::<Result<Vec<_>, _>>()?;
+        findings.files.iter().try_for_each(|(name, bytes)| output.write(name, bytes).map_err(Error::run))?;
+        let written = output.commit().map_err(Error::run)?;
         if self.json {
             print(&findings.json);
         } else {

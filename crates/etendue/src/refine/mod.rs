@@ -7,7 +7,7 @@
 
 mod pace;
 pub(crate) mod progress;
-mod state;
+pub(crate) mod state;
 pub(crate) mod timed;
 
 pub(crate) use progress::Progress;

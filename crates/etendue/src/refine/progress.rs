@@ -31,15 +31,14 @@ impl Progress {
     /// Of a run into a folder. One that replaces what is there begins anew.
     ///
     /// # Errors
-    /// Where the folder cannot be written, or holds the state of another run, which stays.
-    pub(crate) fn of(is_progressive: bool, (folder, existing): (&Path, Existing)) -> Result<Self, Error> {
-        state::check(folder, existing)?;
-        let open = || OutputFolder::open(folder, Existing::Replace).map_err(Error::input);
+    /// Where the folder cannot be written.
+    pub(crate) fn of(is_progressive: bool, (folder, existing): (&OutputFolder, Existing)) -> Result<Self, Error> {
+        let open = || folder.again(Existing::Replace).map_err(Error::input);
         let refined = is_progressive.then(open).transpose()?;
         if existing == Existing::Replace {
-            state::remove(folder).map_err(Error::run)?;
+            state::remove(folder.path()).map_err(Error::run)?;
         }
-        let resumed = (existing == Existing::Resume).then(|| folder.to_path_buf());
+        let resumed = (existing == Existing::Resume).then(|| folder.path().to_path_buf());
         Ok(Self { refined, resumed })
     }
 

@@ -113,9 +113,20 @@ impl Rule for NameOf {
     }
 }
 
-/// A text that can be part of a file's name on every system: letters, digits, `-` and `_`.
+/// A text that can be part of a file's name on every system: 1 to [`MAX_FILE_NAME`] letters, digits, `-` and `_`, and no word that some system
+/// keeps for a device.
 pub(crate) const fn file_name(what: &'static str) -> FileName {
     FileName { what }
+}
+
+/// Most characters: names of files, of 255 bytes at most, hold more than this one.
+const MAX_FILE_NAME: usize = 100;
+
+/// Whether some system (Windows) keeps a name for a device, however it is written.
+fn is_device(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    let is_numbered = |port: &str| matches!(name.strip_prefix(port).map(str::as_bytes), Some([b'0'..=b'9']));
+    ["con", "prn", "aux", "nul"].contains(&name.as_str()) || is_numbered("com") || is_numbered("lpt")
 }
 
 /// See [`file_name`].
@@ -130,14 +141,15 @@ impl Rule for FileName {
         kind == Kind::Text
     }
     fn expected(&self) -> String {
-        format!("{} (letters, digits, - and _)", self.what)
+        format!("{} ({MAX_FILE_NAME} letters, digits, - and _ at most, no device such as CON)", self.what)
     }
     fn schema(&self) -> Json {
-        json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]+$" })
+        json!({ "type": "string", "maxLength": MAX_FILE_NAME, "pattern": "^[A-Za-z0-9_-]+$" })
     }
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<String>> {
-        let plain = |t: &&str| !t.is_empty() && t.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
-        match node.as_text().filter(plain) {
+        let is_plain = |t: &str| t.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+        let is_legal = |t: &&str| (1..=MAX_FILE_NAME).contains(&t.len()) && is_plain(t) && !is_device(t);
+        match node.as_text().filter(is_legal) {
             Some(v) => Some(Placed::new(v.to_owned(), node.place.clone())),
             None => self.refuse(node, faults),
         }

@@ -33,7 +33,7 @@ record! {
 record! {
     /// A camera of a job.
     pub struct CameraEntry {
-        /// The name, which becomes part of file names.
+        /// The name, which becomes part of file names: 100 characters at most, and no device of any system, such as CON.
         required name: Placed<String> = file_name("the name of the camera");
         /// The camera.
         inside camera: CameraSource;

@@ -1,0 +1,175 @@
+//! Output folders that cannot be used, links in them, and names that do not suit files.
+
+use crate::bad_input::Spoilt;
+use crate::support::{contents, etendue, rendered, small, text};
+use serde_json::Value;
+use std::fs;
+use std::os::unix::ffi::OsStringExt;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::Path;
+
+const LIGHT: [&str; 2] = ["--spp", "2"];
+
+/// What cannot be written is refused before anything is rendered, with the path.
+#[test]
+fn folders_that_cannot_be_are_refused_before_the_work() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let file = place.path().join("file");
+    fs::write(&file, b"theirs").expect("written");
+    let endless = ["--spp", "1000000"];
+    let refused = |out: &Path, why: &str| {
+        let out = text(out);
+        etendue(["render", &small(), "-o", &out].iter().chain(&endless)).refused(&[&out, why]);
+    };
+    refused(&file, "expected a folder for the results, but this is a file");
+    etendue(["render", &small(), "-o", &text(&file.join("deep"))].iter().chain(&endless)).refused(&[&text(&file)]);
+    assert_eq!(fs::read(&file).expect("a file"), b"theirs");
+    // The kernel's own folder takes nothing, not even of root.
+    if cfg!(target_os = "linux") {
+        refused(Path::new("/proc/etendue"), "this output folder cannot be made");
+        refused(Path::new("/proc"), "this output folder cannot be written to");
+    }
+    refused(&place.path().join("n".repeat(300)), "this output folder cannot be made: File name too long");
+    // A file where a camera's folder shall be, and a folder where a file shall be.
+    let out = place.path().join("out");
+    fs::create_dir_all(out.join("front/radiance.exr")).expect("made");
+    etendue(["render", &small(), "-o", &text(&out), "--overwrite"].iter().chain(&endless))
+        .refused(&["radiance.exr", "a folder of this name is in the way"]);
+    fs::remove_dir_all(out.join("front")).expect("removed");
+    fs::write(out.join("front"), b"").expect("written");
+    etendue(["render", &small(), "-o", &text(&out), "--overwrite"].iter().chain(&endless))
+        .refused(&["front", "expected a folder for the results, but this is a file"]);
+}
+
+/// Permission bits stop nobody who is root: this is looked at where the tests run as another.
+#[test]
+fn a_read_only_folder_is_refused_before_the_work() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = place.path().join("out");
+    fs::create_dir(&out).expect("made");
+    fs::set_permissions(&out, fs::Permissions::from_mode(0o555)).expect("set");
+    if fs::write(out.join("probe"), b"").is_ok() {
+        etendue_testkit::skip::skipped("a read-only folder", "the tests run as root, whom permissions do not stop");
+        return;
+    }
+    etendue(["render", &small(), "-o", &text(&out), "--spp", "1000000"])
+        .refused(&[&text(&out), "this output folder cannot be written to"]);
+    fs::set_permissions(&out, fs::Permissions::from_mode(0o755)).expect("set");
+}
+
+#[test]
+fn links_are_replaced_and_never_written_through() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let foreign = place.path().join("foreign");
+    fs::create_dir(&foreign).expect("made");
+    fs::write(foreign.join("theirs.exr"), b"theirs").expect("written");
+    let (out, real) = (place.path().join("out"), place.path().join("real"));
+    fs::create_dir_all(real.join("front")).expect("made");
+    // The output folder itself may be a link.
+    symlink(&real, &out).expect("link");
+    symlink(foreign.join("theirs.exr"), real.join("front/radiance.exr")).expect("link");
+    symlink(foreign.join("none.png"), real.join("front/picture.0000.png")).expect("link");
+    let render =
+        |options: &[&str]| etendue(["render", &small(), "-o", &text(&out)].iter().chain(&LIGHT).chain(options));
+    render(&[]).refused(&["front/", "already there"]);
+    render(&["--overwrite"]).ok();
+    assert!(contents(&real) == rendered(&small(), &LIGHT), "the files of a folder without links");
+    assert!(!real.join("front/radiance.exr").is_symlink());
+    assert_eq!(contents(&foreign).keys().collect::<Vec<_>>(), ["theirs.exr"]);
+    assert_eq!(fs::read(foreign.join("theirs.exr")).expect("a file"), b"theirs");
+    fs::remove_dir_all(real.join("front")).expect("removed");
+    symlink(&foreign, real.join("front")).expect("link");
+    render(&["--overwrite"]).refused(&["front", "a symbolic link is in the place of a folder of results"]);
+    assert_eq!(contents(&foreign).len(), 1);
+}
+
+#[test]
+fn names_of_cameras_are_names_of_files_on_every_system() {
+    let long = "n".repeat(101);
+    let names = [
+        "",
+        ".",
+        "..",
+        "../x",
+        "/x",
+        "a/b",
+        "a\\\\b",
+        "a b",
+        "a\\nb",
+        "a\\u0000b",
+        "straße",
+        "CON",
+        "com1",
+        "nul",
+        &long,
+    ];
+    for name in names {
+        let spoilt = Spoilt::new();
+        spoilt.spoil("small.toml", "name = \"front\"", &format!("name = \"{name}\""));
+        spoilt.render(&LIGHT).refused(&["small.toml:", "name", "letters, digits, - and _"]);
+    }
+    let spoilt = Spoilt::new();
+    let long = "n".repeat(100);
+    spoilt.spoil("small.toml", "name = \"front\"", &format!("name = \"{long}\""));
+    let out = spoilt.folder().join("results");
+    etendue(["render", &spoilt.job(), "-o", &text(&out)].iter().chain(&LIGHT)).ok();
+    assert!(out.join(&long).join("radiance.exr").exists());
+}
+
+/// Names of objects are in no file's name: whatever they are, the side-car tells them as they are.
+#[test]
+fn names_of_objects_may_be_anything() {
+    let strange = ["../../x", ".", "-rf", "two\nlines \"and\" quotes", "nul\0", "\u{202e}straße 🚗", &"n".repeat(5000)];
+    let objects: String = strange
+        .iter()
+        .map(|name| {
+            let name = serde_json::to_string(name).expect("text").replace("\\u0000", "\\u0000");
+            format!(
+                "[[scene.objects]]\nname = {name}\nshape = {{ type = \"sphere\", radius_m = 0.1 }}\nposition_m = [4, 0, 1]\nmaterial = \"grey\"\n"
+            )
+        })
+        .collect();
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let job = place.path().join("job.toml");
+    fs::write(&job, format!("{}{objects}", crate::support::BALL)).expect("written");
+    let set = ["--set", "cameras.front.output.boxes=true"];
+    let files = rendered(&text(&job), &[&LIGHT[..], &set].concat());
+    let facts: Value = serde_json::from_slice(&files["front/camera.json"]).expect("JSON");
+    let told = facts.to_string();
+    for name in strange {
+        assert!(told.contains(&Value::from(name).to_string()), "{name:?}");
+    }
+    assert!(files.keys().all(|name| name.starts_with("front/")), "{:?}", files.keys());
+}
+
+#[test]
+fn names_of_folders_may_be_anything_that_the_system_takes() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let expected = rendered(&small(), &LIGHT);
+    let name = std::ffi::OsString::from_vec;
+    for strange in
+        [b"two\nlines".to_vec(), "straße 🚗".into(), b"-rf".to_vec(), b"not \xff UTF-8".to_vec(), b". ".to_vec()]
+    {
+        let out = place.path().join(name(strange));
+        let arguments = ["render".into(), small().into(), "-o".into(), out.clone().into_os_string()];
+        etendue(arguments.into_iter().chain(LIGHT.map(std::ffi::OsString::from))).ok();
+        assert!(contents(&out) == expected, "{out:?}");
+    }
+}
+
+/// The manifest of a shard is text.
+#[test]
+fn a_shard_of_a_job_whose_path_is_no_text_is_refused_before_the_work() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let folder = place.path().join(std::ffi::OsString::from_vec(b"not \xff UTF-8".to_vec()));
+    fs::create_dir(&folder).expect("made");
+    let job = folder.join("job.toml");
+    fs::write(&job, crate::support::BALL).expect("written");
+    let out = place.path().join("out");
+    let run = |options: &[&str]| {
+        let arguments = ["render".into(), job.clone().into_os_string(), "-o".into(), out.clone().into_os_string()];
+        etendue(arguments.into_iter().chain(options.iter().map(std::ffi::OsString::from)))
+    };
+    run(&["--spp", "1000000", "--shard", "0/2"]).refused(&["job.toml", "UTF-8"]);
+    run(&LIGHT).ok();
+}

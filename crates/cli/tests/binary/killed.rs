@@ -1,0 +1,186 @@
+//! Runs that are killed at random moments, again and again, and then rerun or resumed: what has its final name is whole at every moment, and in the end there are the
+//! bytes of a run that nobody disturbed and nothing else.
+//!
+//! `ETENDUE_KILLS=1000` kills that often in all, in the place of some times, and writes the figures to `target/kills.md` (`just kills`; docs/limits.md has them);
+//! `ETENDUE_KILLS_SEED` gives other moments.
+
+use crate::support::{assert_same, contents, etendue, root, small, tests, text};
+use etendue_io::exr::read_exr;
+use etendue_io::picture::read_picture;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Kills of the quick part, of all kinds of runs.
+const FEW: usize = 12;
+
+/// A kind of run.
+struct Kind {
+    name: &'static str,
+    arguments: Vec<String>,
+    /// What a run that follows on a killed one is told.
+    again: &'static str,
+    /// Whether files are replaced by better ones while it runs.
+    refines: bool,
+}
+
+impl Kind {
+    fn new(name: &'static str, arguments: &[&str], again: &'static str) -> Self {
+        let arguments: Vec<String> = arguments.iter().map(|word| (*word).to_owned()).collect();
+        let refines = arguments.iter().any(|word| word == "--progressive");
+        Self { name, arguments, again, refines }
+    }
+
+    fn all(shards: [&str; 2]) -> Vec<Self> {
+        let (small, moving) = (small(), text(&tests().join("jobs/moving/moving.toml")));
+        vec![
+            Self::new("render", &["render", &small, "--spp", "2"], "--overwrite"),
+            Self::new("passes", &["render", &small, "--spp", "24", "--progressive"], "--resume"),
+            Self::new("frames", &["render", &moving, "--spp", "2", "--frames", "0..2"], "--resume"),
+            Self::new(
+                "frames in passes",
+                &["render", &moving, "--spp", "12", "--frames", "0..2", "--progressive"],
+                "--resume",
+            ),
+            Self::new("shard", &["render", &small, "--spp", "2", "--shard", "1/2"], "--overwrite"),
+            Self::new("merge", &["merge", shards[0], shards[1]], "--overwrite"),
+        ]
+    }
+
+    fn arguments(&self, out: &Path, is_again: bool) -> Vec<String> {
+        let output = ["-o".to_owned(), text(out)];
+        self.arguments.iter().cloned().chain(output).chain(is_again.then(|| self.again.to_owned())).collect()
+    }
+}
+
+/// A generator of moments: SplitMix64 (Steele, Lea and Flood 2014).
+struct Moments(u64);
+
+impl Moments {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// From 0 to 1.
+    fn share(&mut self) -> f64 {
+        self.next() as f64 / u64::MAX as f64
+    }
+}
+
+/// What kills of one kind of run found.
+#[derive(Default)]
+struct Count {
+    killed: usize,
+    /// Runs that ended before their moment.
+    too_late: usize,
+    /// Kills after which nothing had its final name, some files had, or temporary files were left.
+    nothing: usize,
+    some: usize,
+    leftovers: usize,
+    completed: usize,
+}
+
+/// Whether a file is as its writer made it, as far as its format tells.
+fn is_readable(path: &Path, bytes: &[u8]) -> bool {
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some("exr") => read_exr(path).is_ok(),
+        Some("png") => read_picture(path).is_ok(),
+        Some("json") => serde_json::from_slice::<serde_json::Value>(bytes).is_ok(),
+        _ => false,
+    }
+}
+
+/// Kills a run of a kind after a time; whether it was still running.
+fn kill(kind: &Kind, out: &Path, is_again: bool, after: Duration) -> bool {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
+    command.current_dir(root()).args(kind.arguments(out, is_again)).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut run = command.spawn().expect("it starts");
+    std::thread::sleep(after);
+    let is_running = run.try_wait().expect("a child").is_none();
+    let _ = run.kill();
+    run.wait().expect("it ends");
+    is_running
+}
+
+/// Every file that has its final name is whole.
+#[track_caller]
+fn check(kind: &Kind, out: &Path, expected: &BTreeMap<String, Vec<u8>>, count: &mut Count) {
+    let (mut finals, mut hidden) = (0, 0);
+    for (name, bytes) in contents(out) {
+        let file = Path::new(&name).file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if file.starts_with('.') {
+            assert!(file.ends_with(".part"), "{}: {name}", kind.name);
+            hidden += 1;
+            continue;
+        }
+        finals += 1;
+        let is_whole = expected.get(&name) == Some(&bytes) || (kind.refines && is_readable(&out.join(&name), &bytes));
+        assert!(is_whole, "{}: {name} is not whole after a kill", kind.name);
+    }
+    count.nothing += usize::from(finals == 0);
+    count.some += usize::from(finals > 0);
+    count.leftovers += usize::from(hidden > 0);
+}
+
+/// Kills runs of a kind at `kills` moments within them.
+fn disturb(kind: &Kind, kills: usize, moments: &mut Moments) -> Count {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let whole = place.path().join("whole");
+    let begin = Instant::now();
+    etendue(kind.arguments(&whole, false)).ok();
+    let takes = begin.elapsed();
+    let expected = contents(&whole);
+    let (out, mut count, mut is_again) = (place.path().join("out"), Count::default(), false);
+    while count.killed < kills {
+        assert!(count.too_late < 20 + 4 * kills, "{}: no moment is within a run", kind.name);
+        match kill(kind, &out, is_again, takes.mul_f64(moments.share())) {
+            true => count.killed += 1,
+            false => count.too_late += 1,
+        }
+        check(kind, &out, &expected, &mut count);
+        // A run that had ended leaves nothing to go on with; others are killed again in half of all cases.
+        is_again = true;
+        if count.killed == kills || moments.next().is_multiple_of(2) {
+            etendue(kind.arguments(&out, true)).ok();
+            assert_same(&expected, &contents(&out), kind.name);
+            count.completed += 1;
+            std::fs::remove_dir_all(&out).expect("removed");
+            is_again = false;
+        }
+    }
+    count
+}
+
+fn setting(name: &str) -> Option<u64> {
+    std::env::var(name).ok()?.parse().ok()
+}
+
+#[test]
+fn runs_that_are_killed_at_random_moments_end_in_the_bytes_of_undisturbed_ones() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let shards = ["0", "1"].map(|index| text(&place.path().join(index)));
+    for (index, shard) in shards.iter().enumerate() {
+        etendue(["render", &small(), "--spp", "2", "--shard", &format!("{index}/2"), "-o", shard]).ok();
+    }
+    let many = setting("ETENDUE_KILLS").map(|kills| kills as usize);
+    let kinds = Kind::all(shards.each_ref().map(String::as_str));
+    let mut moments = Moments(setting("ETENDUE_KILLS_SEED").unwrap_or(1));
+    let mut table =
+        "| run | killed | nothing had its name | some files had | temporary files were left | rerun or resumed |\n\
+                     | --- | ---: | ---: | ---: | ---: | ---: |\n"
+            .to_owned();
+    for kind in &kinds {
+        let count = disturb(kind, many.unwrap_or(FEW).div_ceil(kinds.len()), &mut moments);
+        let Count { killed, nothing, some, leftovers, completed, .. } = count;
+        writeln!(table, "| {} | {killed} | {nothing} | {some} | {leftovers} | {completed} |", kind.name)
+            .expect("memory");
+    }
+    if many.is_some() {
+        std::fs::write(root().join("target/kills.md"), table).expect("written");
+    }
+}

@@ -1,0 +1,118 @@
+//! A panic on a worker thread, here of the caller's observer: no file is half-written, what is whole is told and kept, and a run that resumes ends as if nothing had been.
+
+use etendue::{
+    Existing, Job, JobRequest, MemoryFiles, Message, Observer, OutputFolder, Progress, RenderOptions, Unobserved,
+};
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::Mutex;
+
+/// A ball that moves, seen in frames of four tiles.
+const JOB: &str = "format = 1\n[sequence]\nframe_rate_hz = 10\n\
+    [[cameras]]\nname = \"front\"\nposition_m = [0, 0, 0]\nlook_at_m = [1, 0, 0]\n\
+    lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 4 }\nsensor = { width_px = 32, height_px = 32, pixel_pitch_um = 100 }\n\
+    [render]\nspp = 8\nreplicates = 1\nintegrator = \"flat\"\ntile_px = 16\n\
+    [scene.environment]\ntype = \"uniform\"\nluminance_cd_m2 = 100\nilluminant = \"D65\"\n\
+    [[scene.materials]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
+    [[scene.objects]]\nname = \"ball\"\nmaterial = \"grey\"\nshape = { type = \"sphere\", radius_m = 0.5 }\n\
+    keys = [{ time_s = 0, position_m = [3, 0, 0] }, { time_s = 1, position_m = [3, 1, 0] }]\n";
+
+/// Panics when this many tiles are done, and remembers what it was told.
+struct Faulty {
+    tiles: usize,
+    told: Mutex<Vec<String>>,
+}
+
+impl Observer for Faulty {
+    fn progress(&self, progress: Progress<'_>) {
+        assert_ne!(progress.done, self.tiles, "a test's panic");
+    }
+
+    fn message(&self, message: Message<'_>) {
+        let (Message::Note(text) | Message::Warning(text)) = message;
+        self.told.lock().expect("no panic holds it").push(text.to_owned());
+    }
+}
+
+fn job(is_progressive: bool) -> Job {
+    let mut files = MemoryFiles::new();
+    files.add_text("job.toml", JOB);
+    let request = JobRequest { progressive: is_progressive, ..JobRequest::new("job.toml") };
+    request.open_in(&files).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn options() -> RenderOptions {
+    RenderOptions { frames: 0..3, ..RenderOptions::default() }
+}
+
+/// Files of a folder and of folders in it.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(path) = folders.pop() {
+        for entry in std::fs::read_dir(&path).expect("a folder").map(|entry| entry.expect("an entry").path()) {
+            match entry.is_dir() {
+                true => folders.push(entry),
+                false => {
+                    let name = entry.strip_prefix(folder).expect("below").to_string_lossy().into_owned();
+                    found.insert(name, std::fs::read(&entry).expect("a file"));
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Renders until the observer panics at a tile; what was told.
+fn panicked(job: &Job, folder: &Path, tiles: usize) -> String {
+    let observer = Faulty { tiles, told: Mutex::default() };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
+    let run = || pool.install(|| job.save(&options(), (folder, Existing::Refuse), &observer));
+    catch_unwind(AssertUnwindSafe(run)).expect_err("the observer's panic");
+    let told = observer.told.into_inner().expect("no panic holds it");
+    told.last().expect("what was kept").clone()
+}
+
+#[test]
+fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
+    let place = tempfile::tempdir().expect("a folder");
+    let whole = place.path().join("whole");
+    job(false).save(&options(), (&whole, Existing::Refuse), &Unobserved).expect("rendered");
+    let expected = files(&whole);
+    // In the first frame: nothing is left, not even the folder.
+    let out = place.path().join("out");
+    let told = panicked(&job(false), &out, 2);
+    assert!(told.ends_with("nothing of this run was kept") && !out.exists(), "{told}");
+    // In the third: two frames.
+    let told = panicked(&job(false), &out, 10);
+    assert!(told.contains("kept 2 frames that are whole; with --resume"), "{told}");
+    let kept = files(&out);
+    assert!(kept.len() > 2 && kept.iter().all(|(name, bytes)| expected.get(name) == Some(bytes)), "{:?}", kept.keys());
+    job(false).save(&options(), (&out, Existing::Resume), &Unobserved).expect("rendered");
+    assert!(files(&out) == expected);
+}
+
+#[test]
+fn a_panic_between_passes_leaves_the_light_of_the_last() {
+    let place = tempfile::tempdir().expect("a folder");
+    let (whole, out) = (place.path().join("whole"), place.path().join("out"));
+    job(true).save(&options(), (&whole, Existing::Refuse), &Unobserved).expect("rendered");
+    // The second pass of the first frame.
+    let told = panicked(&job(true), &out, 6);
+    assert!(told.contains("kept the light of the last whole pass; with --resume"), "{told}");
+    job(true).save(&options(), (&out, Existing::Resume), &Unobserved).expect("rendered");
+    assert!(files(&out) == files(&whole));
+}
+
+/// The folder is free again, also within the process.
+#[test]
+fn jobs_of_one_process_take_turns_in_a_folder() {
+    let place = tempfile::tempdir().expect("a folder");
+    panicked(&job(false), place.path(), 2);
+    let held = OutputFolder::open(place.path(), Existing::Refuse).expect("free");
+    let refused = job(false).save(&options(), (place.path(), Existing::Replace), &Unobserved).expect_err("held");
+    assert!(refused.to_string().contains("another run of this process writes into this folder"), "{refused}");
+    drop(held);
+    job(false).save(&options(), (place.path(), Existing::Refuse), &Unobserved).expect("free");
+}
