@@ -12,8 +12,8 @@
 //! sum reaches so far, and as the mean is that of the same pixels, it is divided by what it misses, 1 − m/n with m = (2 max(3, b − 1) + 1)²
 //! distances; patches of fewer than 2 m pixels get the bound, Σ ρ = b². Premise: no
 //! correlations beyond, but for the noise that whole rows or columns share: with τ² the mean product of deviations in one row at distances beyond that reach (the next
-//! six), less the same off rows and columns (light that is uneven), of h rows u²(mean) has τ²/h more, as far as τ² is not negative, and Σ ρ has as much less of it. Where τ² is four standard deviations of
-//! independent noise, what neighbouring rows share of it (after demosaicking) is in it. Columns likewise; neither where paths are shared by blocks. u²(σ²) does not know of rows and columns. A slope within
+//! six), less the same off rows and columns (light that is uneven) and less one standard deviation of independent noise, of h rows u²(mean) has τ²/h more, where that is above 0, and Σ ρ has as much less
+//! of it. Columns likewise; neither where paths are shared by blocks. u²(σ²) does not know of rows and columns. A slope within
 //! the patch counts as noise.
 
 use crate::{Estimate, Image};
@@ -21,9 +21,8 @@ use etendue_stats::Moments;
 
 /// How far neighbours are looked at, px.
 const REACH: usize = 3;
-/// Distances beyond the reach at which pixels of a line are compared, and how many standard deviations tell that lines have something in common.
+/// Distances beyond the reach at which pixels of a line are compared.
 const BEYOND: usize = 6;
-const SIGNIFICANT: f64 = 4.0;
 /// Correlations are taken from the middle of large patches, px: tens of thousands of pixels tell them to a few per cent.
 const ENOUGH: usize = 256;
 
@@ -46,7 +45,7 @@ pub fn patch_statistics(patch: &Image, shared_px: usize) -> PatchStatistics {
     let lines = if shared_px > 1 { Lines::default() } else { Lines::of(&deviations) };
     let alike =
         if shared_px > 1 { alike_in_blocks(patch, &deviations, shared_px) } else { alike(&deviations, REACH, lines) };
-    let of_lines = lines.rows.max(0.0) / patch.height() as f64 + lines.columns.max(0.0) / patch.width() as f64;
+    let of_lines = lines.rows / patch.height() as f64 + lines.columns / patch.width() as f64;
     PatchStatistics {
         mean: Estimate::new(moments.mean(), (variance * (alike / count + of_lines)).sqrt()),
         variance: Estimate::new(variance, variance * (2.0 / (count - 1.0) * alike).sqrt()),
@@ -75,7 +74,7 @@ fn alike(deviations: &Deviations, reach: usize, lines: Lines) -> f64 {
     let along = (1..=far).map(|dx| deviations.products(dx, 0)).sum::<f64>();
     let across = (1..=far).flat_map(|dy| (-far..=far).map(move |dx| (dx, dy)));
     let sum = along + across.map(|(dx, dy)| deviations.products(dx, dy)).sum::<f64>();
-    let of_lines = (2 * reach + 1) as f64 * (lines.rows.max(0.0) + lines.columns.max(0.0));
+    let of_lines = (2 * reach + 1) as f64 * (lines.rows + lines.columns);
     (1.0 + 2.0 * sum / own - of_lines).max(1.0)
 }
 
@@ -99,14 +98,11 @@ impl Lines {
             mean(&places.map(|(dx, dy)| deviations.mean_product(dx, dy)).collect::<Vec<_>>())
         };
         let uneven = products(&mut beyond().flat_map(|d| [(d, d), (-d, d)]));
-        let least = SIGNIFICANT / ((deviations.width * deviations.height * BEYOND) as f64).sqrt();
-        let shared = |place: fn(isize, isize) -> (isize, isize)| {
-            let at = |apart: isize| products(&mut beyond().map(|d| place(d, apart))) - uneven;
-            let own = at(0);
-            let beside = || (1..=REACH as isize).map(|apart| at(apart) + at(-apart)).sum::<f64>();
-            if own > least { own + beside() } else { own }
+        let pairs = (deviations.width * deviations.height * BEYOND) as f64;
+        let shared = |place: fn(isize) -> (isize, isize)| {
+            (products(&mut beyond().map(place)) - uneven - 1.0 / pairs.sqrt()).max(0.0)
         };
-        Self { rows: shared(|d, apart| (d, apart)), columns: shared(|d, apart| (apart, d)) }
+        Self { rows: shared(|d| (d, 0)), columns: shared(|d| (0, d)) }
     }
 }
 

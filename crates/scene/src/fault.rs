@@ -1,6 +1,6 @@
 //! Faults of a description: all of them are collected before any is reported.
 
-use std::fmt;
+use std::fmt::{self, Write as _};
 
 use crate::place::{Place, Placed};
 
@@ -36,10 +36,15 @@ impl Named {
     }
 }
 
+/// On one line: names and texts of a file may hold line breaks and what moves a terminal's cursor, which are told as escapes.
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.place, self.problem)?;
-        if self.remedy.is_empty() { Ok(()) } else { write!(f, "; {}", self.remedy) }
+        let told = format!("{}: {}", self.place, self.problem);
+        let remedy = if self.remedy.is_empty() { String::new() } else { format!("; {}", self.remedy) };
+        told.chars().chain(remedy.chars()).try_for_each(|c| match c.is_control() {
+            true => write!(f, "{}", c.escape_default()),
+            false => f.write_char(c),
+        })
     }
 }
 

@@ -37,7 +37,8 @@ const MEASUREMENTS: [&str; 20] = [
 const OF_EVEN_LIGHT: [&str; 4] = ["vignetting", "shading", "noise", "flicker"];
 
 fn grey(folder: &Path, name: &str, (width, height): (usize, usize), reading: u32) -> String {
-    let plane = Plane::<DigitalNumber>::from_samples(width, height, vec![reading; width * height]).expect("a rectangle");
+    let plane =
+        Plane::<DigitalNumber>::from_samples(width, height, vec![reading; width * height]).expect("a rectangle");
     let file = folder.join(name);
     std::fs::write(&file, encode_raw16(&plane).expect("a picture")).expect("a temporary file");
     text(&file)

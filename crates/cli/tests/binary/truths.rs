@@ -244,7 +244,8 @@ fn slanted_edges_and_stars_give_the_pixels_aperture() {
 
 /// A raw picture of a shot, each pixel from another place: its file, in a folder of its own.
 fn redrawn(shot: &Shot, name: &str, size: [usize; 2], of: impl Fn([usize; 2], usize, usize) -> [usize; 2]) -> String {
-    let picture = etendue_io::picture::read_picture(&PathBuf::from(shot.picture("camera/raw.0000.png"))).expect("a picture");
+    let picture =
+        etendue_io::picture::read_picture(&PathBuf::from(shot.picture("camera/raw.0000.png"))).expect("a picture");
     let whole = [picture.width, picture.height].map(|n| n as usize);
     let etendue_scene::asset::ImagePixels::Gray16(readings) = &picture.pixels else { panic!("16 bits of grey") };
     let at = |i: usize| {
@@ -254,7 +255,8 @@ fn redrawn(shot: &Shot, name: &str, size: [usize; 2], of: impl Fn([usize; 2], us
     let samples = (0..size[0] * size[1]).map(at).collect();
     let plane = etendue_core::Plane::<etendue_core::quantity::DigitalNumber>::from_samples(size[0], size[1], samples);
     let file = shot.path(name);
-    std::fs::write(&file, etendue_io::png::encode_raw16(&plane.expect("a rectangle")).expect("a picture")).expect("written");
+    std::fs::write(&file, etendue_io::png::encode_raw16(&plane.expect("a rectangle")).expect("a picture"))
+        .expect("written");
     text(&file)
 }
 

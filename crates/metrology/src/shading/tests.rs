@@ -88,7 +88,7 @@ fn stated_intervals_cover_the_fall_off_in_developed_pictures() {
         let (width, height) = SIZE;
         let at = |x: usize, y: usize| f64::from(noisy.at(x, y) - clean.at(x, y));
         let noise = |x: usize, y: usize| {
-            if (x + y) % 2 == 0 {
+            if (x + y).is_multiple_of(2) {
                 return at(x, y);
             }
             // Mirrored at the border, where the neighbours beyond it have the colour of those within.

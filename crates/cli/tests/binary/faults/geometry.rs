@@ -63,14 +63,16 @@ fn faults_of_distortion_centre_focal_length_and_axes_are_flagged() {
     let exchanged = |p: &Picture| [p.size[1], p.size[0]];
     let transposed = redrawn(&bench, &healthy, "transposed.png", exchanged, |p, x, y| p.at(y, x));
     refused("transposed axis", "columns and rows of the picture exchanged", &transposed);
-    let turned = redrawn(&bench, &healthy, "turned.png", |p| p.size, |p, x, y| p.at(p.size[0] - 1 - x, p.size[1] - 1 - y));
+    let turned =
+        redrawn(&bench, &healthy, "turned.png", |p| p.size, |p, x, y| p.at(p.size[0] - 1 - x, p.size[1] - 1 - y));
     let seeded = "the picture turned by 180°";
     flagged("both axes turned", seeded, "forward_centre_x_px", &distortion(&bench, &turned), &curve);
 }
 
 /// The chart's marks say that an axis is mirrored, wherever the centre lies.
 fn refused(fault: &str, seeded: &str, picture: &Path) {
-    etendue(["measure", "distortion", &text(picture), "--target", "dots"]).refused(&["shows its chart mirrored", "dots"]);
+    etendue(["measure", "distortion", &text(picture), "--target", "dots"])
+        .refused(&["shows its chart mirrored", "dots"]);
     super::row(fault, &format!("| {fault} | {seeded} | the chart's marks: refused | – | – | – |"));
 }
 

@@ -48,9 +48,8 @@ pub(super) fn wrong(patches: &[Patch], readings: &Readings) -> Option<String> {
         return None;
     }
     let square = if size.0 == size.1 { &SQUARE[..] } else { &[] };
-    let others = UPRIGHT.iter().chain(square).filter_map(|(words, turned)| {
-        Some((words, agreement(&|at| turned(at, size))?))
-    });
+    let others =
+        UPRIGHT.iter().chain(square).filter_map(|(words, turned)| Some((words, agreement(&|at| turned(at, size))?)));
     let best = others.reduce(|a, b| if b.1 > a.1 { b } else { a });
     match best {
         Some((words, other)) if other >= AGREES => Some(format!(

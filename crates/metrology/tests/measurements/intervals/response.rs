@@ -6,8 +6,8 @@ use crate::coverage::covers;
 use etendue_core::maths::f64::pow;
 use etendue_metrology::oecf::ExposurePoint;
 use etendue_metrology::oecf::noisy_mean::noisy_mean;
-use etendue_metrology::{Estimate, Image};
 use etendue_metrology::oecf::response::{ResponseSettings, camera_response};
+use etendue_metrology::{Estimate, Image};
 
 /// A response that is a polynomial of the reading: light = 0.3 M + 0.7 M².
 #[test]
