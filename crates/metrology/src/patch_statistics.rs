@@ -12,7 +12,7 @@
 //! sum reaches so far, and as the mean is that of the same pixels, it is divided by what it misses, 1 − m/n with m = (2 max(3, b − 1) + 1)²
 //! distances; patches of fewer than 2 m pixels get the bound, Σ ρ = b². Premise: no
 //! correlations beyond, but for the noise that whole rows or columns share: with τ² the mean product of deviations in one row at distances beyond that reach (the next
-//! six), less the same off rows and columns (light that is uneven) and less one standard deviation of independent noise, of h rows u²(mean) has τ²/h more, where that is above 0, and Σ ρ has as much less
+//! six), less the same off rows and columns (light that is uneven) and less two standard deviations of independent noise, of h rows u²(mean) has τ²/h more, where that is above 0, and Σ ρ has as much less
 //! of it. Columns likewise; neither where paths are shared by blocks. u²(σ²) does not know of rows and columns. A slope within
 //! the patch counts as noise.
 
@@ -100,7 +100,7 @@ impl Lines {
         let uneven = products(&mut beyond().flat_map(|d| [(d, d), (-d, d)]));
         let pairs = (deviations.width * deviations.height * BEYOND) as f64;
         let shared = |place: fn(isize) -> (isize, isize)| {
-            (products(&mut beyond().map(place)) - uneven - 1.0 / pairs.sqrt()).max(0.0)
+            (products(&mut beyond().map(place)) - uneven - 2.0 / pairs.sqrt()).max(0.0)
         };
         Self { rows: shared(|d| (d, 0)), columns: shared(|d| (0, d)) }
     }
