@@ -10,6 +10,7 @@ mod film_limit;
 pub(crate) mod film_needs;
 pub(crate) mod fingerprint;
 mod frame_cost;
+mod irradiance_effect;
 mod mount;
 mod passes;
 mod path_cost;

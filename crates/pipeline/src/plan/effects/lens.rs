@@ -3,10 +3,11 @@
 use super::key_changes::{of_camera, without};
 use super::lens_errors::{blur_px, distortion_px, lateral_colour_px, vignetting_percent};
 use super::planned_effect::{EffectGroup, PlannedEffect, where_there};
+use crate::plan::irradiance_effect::irradiance_effect_status;
 use crate::plan::path_cost::path_cpu_s;
 use crate::plan::{CameraPlan, FrameCost, Plan, Route};
 use etendue_core::EffectStatus;
-use etendue_optics::effects::{Effect, SpreadBy};
+use etendue_optics::effects::Effect;
 use etendue_optics::front::{Front, Optic};
 use etendue_optics::{DepthOfField, Lens};
 
@@ -220,30 +221,11 @@ fn on_irradiance(camera: &CameraPlan, effect: Effect, cost: &FrameCost) -> Plann
     let set = [if is_last { without(camera, "effects") } else { own }].into_iter().chain(file);
     let cpu_s = part_s(cost, effect.name());
     let margin_s = if is_last { margin_s(camera, cost) } else { 0.0 };
-    let status = match (effect, effects.status(effect)) {
-        (Effect::PointSpread, EffectStatus::Modelled(of)) => {
-            EffectStatus::Modelled(format!("{of}{}", spread_by(camera)))
-        }
-        (_, status) => status,
-    };
-    PlannedEffect::new(GROUP, effect.name(), status)
+    PlannedEffect::new(GROUP, effect.name(), irradiance_effect_status(camera, effect))
         .described_by(key)
         .dropped_by(set)
         .taking(cpu_s)
         .saving(cpu_s + margin_s)
-}
-
-/// By what the point spread spreads light, and how much contrast a film would lack or add.
-fn spread_by(camera: &CameraPlan) -> String {
-    let Some((by, width)) = camera.body.effects.spread_by() else { return String::new() };
-    let by = if camera.settings.route == Route::Lens { by } else { SpreadBy::Film };
-    let error = width.film_error;
-    match by {
-        SpreadBy::Samples => {
-            format!(", by displaced samples (by the film contrast would be wrong by up to {error:.2})")
-        }
-        SpreadBy::Film => format!(", by the film (contrast wrong by up to {error:.3})"),
-    }
 }
 
 /// The paths of the margin, s.

@@ -15,6 +15,7 @@ mod words;
 
 use crate::plan::film_cost::Share;
 use crate::plan::frame_cost::FrameCost;
+use crate::plan::irradiance_effect::irradiance_effect_status;
 use crate::plan::remark::grouped;
 use crate::plan::texture_use::TextureUse;
 use crate::plan::{
@@ -246,7 +247,7 @@ fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     };
     line(f, "effects", about)?;
     for effect in Effect::ALL {
-        let status = effects.status(effect);
+        let status = irradiance_effect_status(camera, effect);
         line(f, "", format!("{}: {status}: {}", effect.name(), status.reason()))?;
     }
     Ok(())
