@@ -97,6 +97,6 @@ impl Seen {
     }
 
     fn leaving(&self, direction: Vec3) -> Ray {
-        Ray::new(self.point.spawn(direction), direction, 0.0)
+        self.point.leave(direction)
     }
 }

@@ -44,7 +44,7 @@ pub use frame::{Basis, CameraPose};
 pub use kept_cube::KeptCube;
 pub use motion::Motion;
 pub use plane::{Plane, SpectralCube};
-pub use ray::{PupilRay, Ray};
+pub use ray::{PrimitiveId, PupilRay, Ray};
 pub use shutter::{RowTiming, Shutter};
 pub use time_interval::TimeInterval;
 pub use track::Track;

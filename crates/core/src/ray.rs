@@ -2,6 +2,15 @@
 
 use glam::{DVec3, Vec3};
 
+/// A primitive of a world, as hits name it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PrimitiveId {
+    /// Index of the instance in the world.
+    pub instance: u32,
+    /// Primitive within the instance's shape.
+    pub primitive: u32,
+}
+
 /// A ray of the tracer, in the render frame or (inside the accelerator) an instance's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
@@ -15,13 +24,23 @@ pub struct Ray {
     /// ([`crate::TimeInterval`]): of 33 ms, f32 tells 2 ns; of times since the world's beginning it would tell 61 µs after
     /// 1 000 s. A static world does not look at it.
     pub time_s: f32,
+    /// The primitive whose surface the ray leaves: a triangle of it is not hit again, for it is flat and the ray starts on
+    /// the side to which it goes. `None` where the ray leaves no surface, or nothing is known: the answers are the same, found
+    /// with more work.
+    pub left: Option<PrimitiveId>,
 }
 
 impl Ray {
     /// A ray without end.
     #[must_use]
     pub fn new(origin: Vec3, direction: Vec3, time_s: f32) -> Self {
-        Self { origin, direction, t_max: f32::INFINITY, time_s }
+        Self { origin, direction, t_max: f32::INFINITY, time_s, left: None }
+    }
+
+    /// The same ray, which leaves the surface of a primitive.
+    #[must_use]
+    pub fn leaving(self, primitive: PrimitiveId) -> Self {
+        Self { left: Some(primitive), ..self }
     }
 
     /// The point at parameter `t`, m.

@@ -22,7 +22,12 @@ pub(crate) struct LocalRay {
     /// Shears of x and y along z, and the length of z: t = z · scale.
     pub(super) shear: [f32; 2],
     pub(super) scale: f32,
+    /// Number in the tree of the triangle that the ray leaves; [`NONE_LEFT`] where it leaves none.
+    pub(super) left: u32,
 }
+
+/// No triangle's number.
+pub(super) const NONE_LEFT: u32 = u32::MAX;
 
 impl LocalRay {
     /// Prepares a ray.
@@ -40,7 +45,14 @@ impl LocalRay {
             start: [o[first], o[first + 1], o[first + 2]],
             shear: [d[first] / along, d[first + 1] / along],
             scale: 1.0 / along,
+            left: NONE_LEFT,
         }
+    }
+
+    /// The same ray, which leaves a triangle, by its number in the tree, or [`NONE_LEFT`].
+    #[inline(always)]
+    pub(super) fn leaving(self, left: u32) -> Self {
+        Self { left, ..self }
     }
 
     /// The axes that become x, y and z.

@@ -10,9 +10,10 @@
 use super::best::Names;
 use super::blas::Blas;
 use super::boxes::Box3;
+use super::local::NONE_LEFT;
 use super::world::World;
 use crate::geometry::{InstanceTransform, MeshPose, Placement, Shape};
-use etendue_core::TimeInterval;
+use etendue_core::{PrimitiveId, TimeInterval};
 use glam::{DVec3, Vec3};
 
 /// Triangles written out at most: 32 MB of trees, and less than half a second of one thread to build them for a view.
@@ -36,18 +37,22 @@ pub(crate) struct Merged {
     pub(super) bounds: Box3,
     /// Instance and primitive of each triangle, in ascending order.
     names: Vec<(u32, u32)>,
+    /// Number in the tree of each instance's first triangle; [`NONE_LEFT`] for those that are not in it.
+    first: Vec<u32>,
 }
 
 impl Merged {
     /// Writes out instances of `world` as they are `placed`, and tells these so; `None` where there are none to write out.
     pub(super) fn new(world: &World, placed: &mut [Placement], interval: TimeInterval) -> Option<Self> {
         let (mut corners, mut names) = (Vec::new(), Vec::new());
+        let mut first = vec![NONE_LEFT; placed.len()];
         for instance in few(world, placed, interval) {
             let Some(pose) = pose(world, instance, interval) else { continue };
             let Some(transform) = placed[instance].still_mut() else { continue };
             let begin = corners.len();
             if let Some(greatest) = write_out(&pose, transform, &mut corners) {
                 names.extend((0..(corners.len() - begin) as u32).map(|primitive| (instance as u32, primitive)));
+                first[instance] = begin as u32;
                 transform.merge(greatest.as_dvec3());
             } else {
                 corners.truncate(begin);
@@ -55,7 +60,14 @@ impl Merged {
         }
         let bounds = corners.iter().map(Box3::about).reduce(|a, b| a.union(&b))?;
         let tree = Blas::over(corners.len(), |triangle| corners[triangle as usize], world.tree_quality());
-        Some(Self { tree, bounds, names })
+        Some(Self { tree, bounds, names, first })
+    }
+
+    /// The number in the tree of a triangle that a ray leaves; [`NONE_LEFT`] where it is not in it.
+    #[inline(always)]
+    pub(super) fn number(&self, left: Option<PrimitiveId>) -> u32 {
+        let first = |left: PrimitiveId| self.first.get(left.instance as usize).filter(|first| **first != NONE_LEFT);
+        left.and_then(|left| first(left)?.checked_add(left.primitive)).unwrap_or(NONE_LEFT)
     }
 
     #[inline(always)]

@@ -212,18 +212,25 @@ impl<'a> Packet<'a> {
         (hit | doubtful != 0).then_some(Test { hit, doubtful, edges, sum, t })
     }
 
-    /// Those of `lanes` whose planes f64 finds not before the ray's origin.
+    /// Those of `lanes` that the ray leaves, or whose planes f64 finds not before the ray's origin.
     #[inline(always)]
     fn behind(&self, ray: &LocalRay, lanes: u32) -> u32 {
         let (mut pending, mut behind) = (lanes, 0);
         while pending != 0 {
             let lane = pending.trailing_zeros() as usize & 7;
             pending &= pending - 1;
-            let (height, slope) = height_and_slope(self.triangle(lane).map(Vec3::as_dvec3), ray);
-            let is_behind = slope != 0.0 && (height == 0.0 || (height < 0.0) != (slope < 0.0));
+            // What a ray leaves is flat and lies behind it.
+            let is_behind = self.primitive(lane) == ray.left || self.is_behind(ray, lane);
             behind |= u32::from(is_behind) << lane;
         }
         behind
+    }
+
+    /// Whether f64 finds a triangle's plane not before the ray's origin.
+    #[inline(always)]
+    fn is_behind(&self, ray: &LocalRay, lane: usize) -> bool {
+        let (height, slope) = height_and_slope(self.triangle(lane).map(Vec3::as_dvec3), ray);
+        slope != 0.0 && (height == 0.0 || (height < 0.0) != (slope < 0.0))
     }
 
     #[inline(always)]

@@ -8,7 +8,7 @@ use super::boxes::Box3;
 use super::build::over_boxes;
 use super::collapse::collapse;
 use super::lanes::{Job, Lanes, Plain, Visit};
-use super::local::LocalRay;
+use super::local::{LocalRay, NONE_LEFT};
 use super::merged::Merged;
 use super::node::{Child, Node};
 use super::packet::PrimitiveHit;
@@ -197,7 +197,7 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
         self.l.note(Visit::Instance);
         let instance = self.top.leaves[leaf];
         if let (MERGED, Some(merged)) = (instance, &self.top.merged) {
-            let local = LocalRay::new(self.ray.origin, self.ray.direction);
+            let local = LocalRay::new(self.ray.origin, self.ray.direction).leaving(merged.number(self.ray.left));
             merged.tree.closest(self.l, &local, merged.names(), &mut self.best, limit);
             return false;
         }
@@ -211,13 +211,8 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
                     return false;
                 };
                 let (origin, direction) = still.rounded_ray_to_local(self.ray);
-                tree.closest(
-                    self.l,
-                    &LocalRay::new(origin, direction),
-                    Names::Instance(instance),
-                    &mut self.best,
-                    limit,
-                );
+                let local = LocalRay::new(origin, direction).leaving(left_of(self.ray, instance));
+                tree.closest(self.l, &local, Names::Instance(instance), &mut self.best, limit);
             }
             Target::Sphere(radius) => {
                 if let Some(t) = meet_sphere(*radius, placed, self.ray) {
@@ -256,6 +251,12 @@ impl Job for Occluded<'_, '_> {
     }
 }
 
+/// The triangle that a ray leaves, of an instance's own tree; [`NONE_LEFT`] where it is another's.
+#[inline(always)]
+fn left_of(ray: &Ray, instance: u32) -> u32 {
+    ray.left.filter(|left| left.instance == instance).map_or(NONE_LEFT, |left| left.primitive)
+}
+
 struct AnyLeaf<'a, 'w, L> {
     l: L,
     top: &'a Tlas<'w>,
@@ -268,19 +269,19 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
         self.l.note(Visit::Instance);
         let instance = self.top.leaves[leaf];
         if let (MERGED, Some(merged)) = (instance, &self.top.merged) {
-            let local = LocalRay::new(self.ray.origin, self.ray.direction);
+            let local = LocalRay::new(self.ray.origin, self.ray.direction).leaving(merged.number(self.ray.left));
             return merged.tree.occluded(self.l, &local, *limit);
         }
         is_optional();
-        let instance = instance as usize;
-        let placed = &self.top.placed[instance];
-        match &self.top.targets[instance] {
+        let placed = &self.top.placed[instance as usize];
+        match &self.top.targets[instance as usize] {
             Target::Mesh(tree) => {
                 let Some(still) = placed.still() else {
                     return Moving { l: self.l, tree, placed, ray: self.ray }.occluded(*limit);
                 };
                 let (origin, direction) = still.rounded_ray_to_local(self.ray);
-                tree.occluded(self.l, &LocalRay::new(origin, direction), *limit)
+                let local = LocalRay::new(origin, direction).leaving(left_of(self.ray, instance));
+                tree.occluded(self.l, &local, *limit)
             }
             Target::Sphere(radius) => meet_sphere(*radius, placed, self.ray).is_some_and(|t| t > 0.0 && t < *limit),
             Target::Animated(tree) => Animated { l: self.l, tree, placed, ray: self.ray }.occluded(*limit),

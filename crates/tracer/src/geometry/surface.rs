@@ -1,6 +1,7 @@
 //! Points on surfaces, and rays that leave them.
 
 use crate::MaterialId;
+use etendue_core::{PrimitiveId, Ray};
 use glam::{Vec2, Vec3};
 
 /// A point of a surface, in the render frame.
@@ -50,5 +51,17 @@ impl SurfacePoint {
         let distance = normal.abs().dot(self.position_error);
         let side = if normal.dot(direction) < 0.0 { -distance } else { distance };
         self.position + normal * side
+    }
+
+    /// The primitive that the point lies on.
+    #[must_use]
+    pub fn primitive_id(&self) -> PrimitiveId {
+        PrimitiveId { instance: self.instance, primitive: self.primitive }
+    }
+
+    /// A ray without end that leaves the surface along `direction`, from [`SurfacePoint::spawn`], at the point's time.
+    #[must_use]
+    pub fn leave(&self, direction: Vec3) -> Ray {
+        Ray::new(self.spawn(direction), direction, self.time_s).leaving(self.primitive_id())
     }
 }

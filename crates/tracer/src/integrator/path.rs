@@ -219,6 +219,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// Straight on from a surface.
     fn pass(&mut self, point: &SurfacePoint) {
         self.ray.origin = point.spawn(self.ray.direction);
+        self.ray.left = Some(point.primitive_id());
     }
 
     /// Beyond the last scattering event light may still come straight through.
@@ -406,13 +407,13 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             self.cone.scatter(pdf);
         }
         self.medium = self.medium_towards(vertex, sample.wi);
-        self.leave(vertex.point.spawn(direction), direction)
+        self.leave(Ray { time_s: self.ray.time_s, ..vertex.point.leave(direction) })
     }
 
     /// On from where the path was scattered.
     #[inline(always)]
-    pub(super) fn leave(&mut self, origin: Vec3, direction: Vec3) -> PathStep {
-        self.ray = Ray::new(origin, direction, self.ray.time_s);
+    pub(super) fn leave(&mut self, ray: Ray) -> PathStep {
+        self.ray = ray;
         self.travelled_m = 0.0;
         self.bounces += 1;
         if self.tracer.settings.level == Level::Flat {

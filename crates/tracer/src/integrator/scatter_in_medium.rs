@@ -1,7 +1,7 @@
 //! Scattering between surfaces.
 
-use etendue_core::Spectral;
 use etendue_core::random::Draw;
+use etendue_core::{Ray, Spectral};
 use glam::Vec3;
 
 use super::effects::Effects;
@@ -96,7 +96,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         // However narrow its forward peak, fog is no mirror.
         self.history.scatter(Some(0.0));
         self.cone.scatter(density);
-        self.leave(position, direction)
+        self.leave(Ray::new(position, direction, self.ray.time_s))
     }
 
     /// Next-event estimation at a place between surfaces; lamps that nothing but a draw can find are left out where they were asked along the ray.

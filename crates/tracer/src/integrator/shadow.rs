@@ -7,6 +7,7 @@ use super::Level;
 use super::effects::Effects;
 use super::medium::Medium;
 use super::path::{MAX_MET, Path, Vertex};
+use crate::geometry::SurfacePoint;
 use crate::lights::LightSample;
 use crate::media::Following;
 
@@ -19,7 +20,7 @@ impl<const N: usize, E: Effects> Path<'_, N, E> {
         light: &LightSample<N>,
         (medium, following): (Medium<'_>, Following),
     ) -> Option<Spectral<N>> {
-        let ray = self.towards(vertex.point.spawn(light.direction), light.direction, light.target);
+        let ray = self.from_surface(&vertex.point, light);
         let share = self.share_along(ray, light, (medium, following))?;
         // As for a path that meets nothing, the way to infinity takes nothing.
         let way_m = light.target.map_or(0.0, |target| target.distance(vertex.point.position));
@@ -50,6 +51,12 @@ impl<const N: usize, E: Effects> Path<'_, N, E> {
         }
     }
 
+    /// The ray from a point of a surface to the light's, or to infinity.
+    fn from_surface(&self, point: &SurfacePoint, light: &LightSample<N>) -> Ray {
+        let origin = point.spawn(light.direction);
+        self.towards(origin, light.direction, light.target).leaving(point.primitive_id())
+    }
+
     /// The ray from a point off all surfaces to `target`, or to infinity.
     pub(super) fn towards(&self, origin: Vec3, direction: Vec3, target: Option<Vec3>) -> Ray {
         let mut ray = Ray::new(origin, direction, self.time_s());
@@ -78,7 +85,7 @@ impl<const N: usize, E: Effects> Path<'_, N, E> {
             if share.is_zero() {
                 return None;
             }
-            ray = self.towards(point.spawn(light.direction), light.direction, light.target);
+            ray = self.from_surface(&point, light);
             if ray.direction.dot(light.direction) <= 0.0 {
                 return Some(share);
             }

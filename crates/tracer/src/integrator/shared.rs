@@ -217,7 +217,8 @@ impl<'a, const N: usize, E: Effects> Opening<'a, N, E> {
     /// Whether nothing stands between two surfaces.
     fn sees(&self, first: &First<'_, N>, second: &Vertex<'_, N>, direction: Vec3) -> bool {
         let origin = first.vertex.point.spawn(direction);
-        let mut ray = Ray::new(origin, second.point.spawn(-direction) - origin, self.path.time_s());
+        let across = second.point.spawn(-direction) - origin;
+        let mut ray = Ray::new(origin, across, self.path.time_s()).leaving(first.vertex.point.primitive_id());
         ray.t_max = 1.0;
         !self.path.tracer.view.occluded(&ray)
     }

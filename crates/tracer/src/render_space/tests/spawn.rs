@@ -40,8 +40,10 @@ fn check_plane(half_m: f32, placement: DAffine3, height: f64) {
         let point = met(view, DVec3::ZERO, target - over).expect("a point of the plane");
         for side in [1.0, -1.0] {
             let d = leaving(point.geometric_normal * side, &mut random);
-            let ray = Ray::new(point.spawn(d), d, 0.0);
-            assert!(view.closest(&ray).is_none() && !view.occluded(&ray), "{point:?} {ray:?}");
+            let (known, unknown) = (point.leave(d), Ray::new(point.spawn(d), d, 0.0));
+            for ray in [known, unknown] {
+                assert!(view.closest(&ray).is_none() && !view.occluded(&ray), "{point:?} {ray:?}");
+            }
         }
     }
 }
@@ -54,6 +56,41 @@ fn a_plane_is_not_met_again_from_either_side() {
     check_plane(1e5, DAffine3::from_mat3_translation(random.rotation(), random.cube() * 1e6), 1.5);
     let stretched = random.rotation() * DMat3::from_diagonal(DVec3::new(1e3, 1e-2, 7.0));
     check_plane(2.0, DAffine3::from_mat3_translation(stretched, random.cube() * 100.0), 30.0);
+}
+
+/// Which primitive a ray leaves spares work and changes no answer: from inside and outside of balls that lie in each other, alone and
+/// written out, to their own triangles and to others'.
+#[test]
+fn what_a_ray_leaves_changes_no_answer() {
+    let mut random = Random::new(15);
+    let ball = |scale: f64, at: DVec3| {
+        DAffine3::from_mat3_translation(random_turn() * DMat3::from_diagonal(DVec3::splat(scale)), at)
+    };
+    let placements =
+        [ball(1.0, DVec3::ZERO), ball(0.7, DVec3::new(0.9, 0.1, 0.0)), ball(1e-3, DVec3::X), ball(30.0, DVec3::Y)];
+    let mut met_again = 0;
+    for placement in placements {
+        for world in alone_and_merged(icosphere(2), placement) {
+            let centre = placement.translation;
+            let view = world.render_space(centre + DVec3::splat(1e-4));
+            for _ in 0..3000 {
+                let Some(point) = met(&view, DVec3::ZERO, random.direction()) else { continue };
+                let d = leaving(
+                    point.geometric_normal * if random.between(0.0, 1.0) < 0.5 { -1.0 } else { 1.0 },
+                    &mut random,
+                );
+                let (known, unknown) = (point.leave(d), Ray::new(point.spawn(d), d, 0.0));
+                assert_eq!(view.closest(&known), view.closest(&unknown), "{point:?} {d}");
+                assert_eq!(view.occluded(&known), view.occluded(&unknown), "{point:?} {d}");
+                met_again += usize::from(view.occluded(&known));
+            }
+        }
+    }
+    assert!(met_again > 8000, "{met_again}");
+}
+
+fn random_turn() -> DMat3 {
+    Random::new(16).rotation()
 }
 
 /// A floor whose own frame has its origin 1e5 m away.
