@@ -1,4 +1,4 @@
-//! Meshes: glTF ([`gltf`]), and Wavefront OBJ with its material library.
+//! Meshes: glTF (folder `gltf`), and Wavefront OBJ with its material library.
 //!
 //! Source: B-rep and material formats of the Advanced Visualizer, Wavefront Technologies 1995, appendices B1 (OBJ) and
 //! MTL; the physically based fields (`Pr`, `Pm` …) after the proposal of Exocortex (2015).
