@@ -49,6 +49,7 @@ const KEEPERS: &[(&str, &[&str])] = &[
     ("exr", &["io"]),
     ("image", &["io", "scenes"]),
     ("tobj", &["io"]),
+    ("gltf", &["io"]),
     ("saphyr-parser", &["io"]),
     ("toml", &["scene"]),
     ("clap", &["cli"]),

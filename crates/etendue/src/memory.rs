@@ -56,6 +56,7 @@ impl MemoryFiles {
             triangles: mesh.triangles.to_vec(),
             slots: vec![0; mesh.triangles.len()],
             slot_materials: vec![SlotMaterial { name: String::new(), surface: None }],
+            pictures: Vec::new(),
             report: Vec::new(),
             warnings: Vec::new(),
             missing_libraries: Vec::new(),

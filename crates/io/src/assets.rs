@@ -93,7 +93,11 @@ fn load_large(assets: &mut Assets, request: &AssetRequest, head: PictureHead) ->
 fn load(assets: &mut Assets, request: &AssetRequest, sandbox: &Sandbox) -> Result<(), Error> {
     let (path, key) = (&request.path, request.path.clone());
     match &request.kind {
-        AssetKind::Mesh => drop(assets.meshes.insert(key, read_mesh_in(path, sandbox)?)),
+        AssetKind::Mesh => {
+            let mut mesh = read_mesh_in(path, sandbox)?;
+            assets.images.extend(mesh.pictures.drain(..));
+            assets.meshes.insert(key, mesh);
+        }
         AssetKind::MeshFrame => drop(assets.mesh_frames.insert(key, read_mesh_frame(path)?)),
         AssetKind::Image | AssetKind::Texture => drop(assets.images.insert(key, read_picture(path)?)),
         AssetKind::Spectrum(values) => drop(assets.spectra.insert(key, read_spectrum_of(path, *values)?)),

@@ -49,11 +49,19 @@ pub static PICTURE: Limit = Limit::new(
 pub static CORNERS: Limit =
     Limit::new("mesh-corners", "corners of all faces of a mesh together", 1 << 28, u32::MAX as u64);
 
+/// What meshes unpack to whose nodes repeat them.
+pub static MESH: Limit = Limit::new(
+    "mesh-mib",
+    "MiB that a glTF file may unpack to on its way to a mesh: nodes may show a mesh many times, primitives share vertices, materials pictures",
+    4096,
+    1 << 20,
+);
+
 /// Files in a row that build on one another.
 pub static BASES: Limit = Limit::new("bases", "files that are built one on the other by \"base\"", 16, 64);
 
 /// All of them.
-pub static ALL: [&Limit; 5] = [&DESCRIPTION, &FILE, &PICTURE, &CORNERS, &BASES];
+pub static ALL: [&Limit; 6] = [&DESCRIPTION, &FILE, &PICTURE, &CORNERS, &MESH, &BASES];
 
 impl Limit {
     const fn new(name: &'static str, about: &'static str, default: u64, highest: u64) -> Self {
@@ -94,6 +102,18 @@ impl Limit {
     #[must_use]
     pub fn remedy_bytes(&self, needed: u128) -> String {
         self.remedy(u64::try_from(needed.div_ceil(u128::from(MIB))).unwrap_or(u64::MAX))
+    }
+
+    /// Refuses what would unpack to more than a limit in MiB: what is wrong, and what to do.
+    ///
+    /// # Errors
+    /// Where it is beyond.
+    pub fn check_unpacked(&self, bytes: u64) -> Result<(), String> {
+        if bytes <= self.most_bytes() {
+            return Ok(());
+        }
+        let (size, most, remedy) = (bytes.div_ceil(MIB), self.most(), self.remedy_bytes(bytes.into()));
+        Err(format!("the file unpacks to {size} MiB, where {most} MiB are allowed; make it smaller, {remedy}"))
     }
 
     /// Refuses a file whose size is beyond a limit in MiB: what is wrong, and what to do.

@@ -37,6 +37,27 @@ pub(crate) fn complex_index(text: &str) -> ComplexIndex {
     ComplexIndex { n, k }
 }
 
+/// The index of a metal that is known by what it reflects at normal incidence, r (0 to 1), alone.
+///
+/// n lies between the two ends that r allows, (1 − r)/(1 + r) and (1 + √r)/(1 − √r), and k follows from both (Gulbrandsen, "Artist friendly metallic
+/// Fresnel", JCGT 3(4), 2014). How far between, g = 1 − (1 − r)³ of the way to the lower, was fitted so that the reflectance over all directions
+/// is that of Schlick's approximation, by which glTF defines its metals: within 0.02 from r = 0.02 on, and up to 0.05 less below.
+#[must_use]
+pub fn of_reflectance(normal: &Spectrum) -> ComplexIndex {
+    let at = |nm: f64| index_of(f64::from(normal.at(nm as f32)));
+    ComplexIndex { n: Spectrum::from_fn(|nm| at(nm).0), k: Spectrum::from_fn(|nm| at(nm).1) }
+}
+
+/// n and k of a reflectance at normal incidence.
+fn index_of(r: f64) -> (f64, f64) {
+    const MOST: f64 = 0.999;
+    let r = r.clamp(0.0, MOST);
+    let g = 1.0 - (1.0 - r) * (1.0 - r) * (1.0 - r);
+    let n = g * (1.0 - r) / (1.0 + r) + (1.0 - g) * (1.0 + r.sqrt()) / (1.0 - r.sqrt());
+    let k2 = (r * (n + 1.0) * (n + 1.0) - (n - 1.0) * (n - 1.0)) / (1.0 - r);
+    (n, k2.max(0.0).sqrt())
+}
+
 /// A metal by its chemical symbol; `None` for one not in [`names`].
 #[must_use]
 pub fn named(name: &str) -> Option<&'static ComplexIndex> {
@@ -52,6 +73,35 @@ pub fn names() -> &'static [&'static str] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Unpolarised Fresnel reflectance of n + ik.
+    fn fresnel(cos: f64, (n, k): (f64, f64)) -> f64 {
+        let square = |x: f64| x * x;
+        let sin2 = 1.0 - cos * cos;
+        let d = n * n - k * k - sin2;
+        let t = (d * d + 4.0 * n * n * k * k).sqrt();
+        let (a, b2) = (((t + d) / 2.0).max(0.0).sqrt(), (t - d) / 2.0);
+        let s = (square(a - cos) + b2) / (square(a + cos) + b2);
+        let p = s * (square(a * cos - sin2) + b2 * cos * cos) / (square(a * cos + sin2) + b2 * cos * cos);
+        0.5 * (s + p)
+    }
+
+    #[test]
+    fn a_metal_known_by_its_colour_reflects_as_schlick_says_over_all_directions() {
+        for r in [0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99] {
+            let index = index_of(r);
+            assert!((fresnel(1.0, index) - r).abs() < 1e-9, "{r}: at normal incidence");
+            let mean = |f: &dyn Fn(f64) -> f64| {
+                (0..400).map(|i| f(((f64::from(i) + 0.5) / 400.0).sqrt())).sum::<f64>() / 400.0
+            };
+            let difference = mean(&|cos| fresnel(cos, index))
+                - mean(&|cos: f64| {
+                    let rest = 1.0 - cos;
+                    r + (1.0 - r) * rest * rest * rest * rest * rest
+                });
+            assert!(difference.abs() < 0.02, "{r}: {difference}");
+        }
+    }
 
     /// Reflectance at normal incidence, ((n − 1)² + k²)/((n + 1)² + k²).
     fn mirror(name: &str, nm: f32) -> f32 {

@@ -66,6 +66,43 @@ fn meshes(folder: &Path) -> Vec<Vec<u8>> {
 }
 
 pub(super) const OBJ: Target = text_target("obj", "a.obj", meshes, |file| told(read_mesh(file)), MESH_WORDS);
+const GLTF_WORDS: &[&str] = &[
+    "\"meshes\"",
+    "\"nodes\"",
+    "\"children\":[0]",
+    "\"skins\"",
+    "\"joints\":[0]",
+    "\"sparse\"",
+    "\"byteStride\":4",
+    "\"count\":4294967295",
+    "\"byteOffset\":18446744073709551615",
+    "\"mode\":5",
+    "\"scale\":[1e38,1e38,1e38]",
+    "\"uri\":\"data:;base64,AAAA\"",
+    "\"extensionsRequired\":[\"KHR_x\"]",
+    "KHR_texture_transform",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
+];
+
+/// A few bytes of JSON may name an object of some hundred bytes.
+const GLTF_TREE: u64 = 320;
+
+pub(super) const GLB: Target = Target {
+    is_text: false,
+    times: GLTF_TREE,
+    ..text_target(
+        "glb",
+        "a.glb",
+        |_| repository(["tests/oracles/figures/gltf/scene.glb"]),
+        |file| told(read_mesh(file)),
+        GLTF_WORDS,
+    )
+};
+pub(super) const GLTF: Target = Target {
+    times: GLTF_TREE,
+    ..text_target("gltf", "a.gltf", |_| stored("gltf"), |file| told(read_mesh(file)), GLTF_WORDS)
+};
 pub(super) const MESH_FRAME: Target =
     text_target("mesh-frame", "a.obj", meshes, |file| told(read_mesh_frame(file)), MESH_WORDS);
 pub(super) const MTL: Target = Target {

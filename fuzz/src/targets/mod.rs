@@ -20,6 +20,8 @@ pub const TARGETS: &[Target] = &[
     descriptions::SET,
     descriptions::PLAN,
     assets::OBJ,
+    assets::GLB,
+    assets::GLTF,
     assets::MTL,
     assets::MESH_FRAME,
     assets::IES,

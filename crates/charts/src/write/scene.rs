@@ -44,7 +44,8 @@ fn texture(texture: &Texture, drawing: &Drawing) -> record::Texture {
 }
 
 fn mesh(panel: &Panel) -> Mesh {
-    Mesh::new(panel.name.as_str(), format!("{}.obj", panel.name).as_str(), Axis::Z)
+    let file = format!("{}.obj", panel.name);
+    Mesh { up_axis: Some(Axis::Z.into()), ..Mesh::new(panel.name.as_str(), file.as_str()) }
 }
 
 fn object(panel: &Panel, drawing: &Drawing) -> Object {

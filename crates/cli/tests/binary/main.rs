@@ -24,6 +24,7 @@ mod faults;
 mod films;
 mod flat;
 mod geometry;
+mod gltf;
 mod goldens;
 mod help;
 mod hostile;

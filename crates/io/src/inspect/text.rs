@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface};
+use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface, is_gltf};
 use serde_json::Value;
 
 use super::FileReport;
@@ -14,7 +14,7 @@ use crate::table::{read_complex_index, read_retro_table};
 
 pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
     let mesh = read_mesh(file)?;
-    let mut report = FileReport::new(file, "mesh, Wavefront OBJ");
+    let mut report = FileReport::new(file, if is_gltf(file) { "mesh, glTF 2.0" } else { "mesh, Wavefront OBJ" });
     report.state("triangles", mesh.triangles.len());
     report.state("vertices", mesh.positions.len());
     report.state("normals", if mesh.normals.is_empty() { "none: faceted" } else { "at each vertex" });
@@ -38,6 +38,7 @@ fn slot_text(mesh: &MeshAsset, slot: usize, material: &SlotMaterial) -> String {
         Some(SlotSurface::Coated { reflectance, index, alpha }) => {
             format!("coated, index {index}, alpha {alpha:.4}, {}", reflectance_text(reflectance))
         }
+        Some(SlotSurface::Layers(layers)) => layers.describe(),
     };
     format!("\"{}\": {surface}, {count} triangles", material.name)
 }

@@ -3,16 +3,18 @@
 use std::cell::LazyCell;
 use std::path::Path;
 
-use etendue_scene::asset::MeshAsset;
+use etendue_scene::asset::{MeshAsset, is_gltf};
 
+use super::gltf::read_gltf;
 use super::obj::{Obj, scan};
 use super::polygon::{newell, triangulate};
 use super::slot::{Slots, slots};
 use super::texture_option::UvLayout;
+use super::vertex::{middle_of_far, unit};
 use crate::source::{decode_text, read_bytes};
 use crate::{Error, Sandbox, hash};
 
-/// Reads a Wavefront OBJ file with the material libraries it names.
+/// Reads a Wavefront OBJ file with the material libraries it names, or a glTF file with its buffers and pictures.
 ///
 /// # Errors
 /// The first fault, with its line.
@@ -20,13 +22,18 @@ pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
     read_mesh_in(file, &Sandbox::NONE)
 }
 
-/// The same, whose libraries must lie in `sandbox`.
+/// The same, whose further files must lie in `sandbox`.
 pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, Error> {
+    if is_gltf(file) {
+        return read_gltf(file, sandbox);
+    }
     let bytes = read_bytes(file, "mesh")?;
     let obj = scan(file, decode_text(file, &bytes)?)?;
     let Slots { materials, layouts, report, library_bytes, missing_libraries } = slots(file, &obj, sandbox)?;
     let parts = obj.parts(file)?;
-    let mut builder = Builder::new(&parts, middle_of_far(&parts));
+    let coordinates =
+        |axis| parts.iter().flat_map(move |p: &tobj::Mesh| p.positions.iter().skip(axis).step_by(3).copied());
+    let mut builder = Builder::new(&parts, middle_of_far(coordinates));
     for part in &parts {
         let slot = part.material_id.unwrap_or(0); // without a `usemtl`: the first slot, which has no name
         builder
@@ -148,17 +155,6 @@ impl Builder {
     }
 }
 
-/// A unit vector in 32 bits; z for a face without area, which no ray meets.
-pub(super) fn unit(v: [f64; 3]) -> [f32; 3] {
-    let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-    if largest == 0.0 {
-        return [0.0, 0.0, 1.0];
-    }
-    let scaled = v.map(|c| c / largest);
-    let length = scaled.iter().map(|c| c * c).sum::<f64>().sqrt();
-    scaled.map(|c| (c / length) as f32)
-}
-
 fn notes(obj: &Obj) -> Vec<String> {
     let mut notes: Vec<String> = obj
         .unread
@@ -169,15 +165,4 @@ fn notes(obj: &Obj) -> Vec<String> {
         notes.push(format!("line {line}: smoothing groups are not used: export normals, or the mesh stays faceted"));
     }
     notes
-}
-
-/// The middle of a mesh that lies further from the file's origin than twice its extent, as maps and surveys have them; zero for
-/// others. About it 32 bits hold every vertex to 3e-8 of the extent.
-fn middle_of_far(parts: &[tobj::Mesh]) -> [f64; 3] {
-    let coordinates = |axis: usize| parts.iter().flat_map(move |p| p.positions.iter().skip(axis).step_by(3).copied());
-    let bound = |axis: usize, pick: fn(f64, f64) -> f64| coordinates(axis).reduce(pick).unwrap_or(0.0);
-    let bounds = [0, 1, 2].map(|axis| [bound(axis, f64::min), bound(axis, f64::max)]);
-    let extent = bounds.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
-    let farthest = bounds.iter().flatten().fold(0.0_f64, |most, v| most.max(v.abs()));
-    if farthest > 2.0 * extent { bounds.map(|[low, high]| 0.5 * low + 0.5 * high) } else { [0.0; 3] }
 }

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use etendue_scene::asset::{MeshFrameAsset, MeshFramePart};
 
-use super::asset::unit;
 use super::obj::scan;
 use super::polygon::triangulate;
+use super::vertex::unit;
 use crate::source::{decode_text, read_bytes};
 use crate::{Error, hash};
 

@@ -1,4 +1,4 @@
-//! Meshes: Wavefront OBJ with its material library.
+//! Meshes: glTF (folder `gltf`), and Wavefront OBJ with its material library.
 //!
 //! Source: B-rep and material formats of the Advanced Visualizer, Wavefront Technologies 1995, appendices B1 (OBJ) and
 //! MTL; the physically based fields (`Pr`, `Pm` …) after the proposal of Exocortex (2015).
@@ -21,6 +21,7 @@ mod corner_tree;
 mod crossing;
 mod ear_clipping;
 mod frame;
+mod gltf;
 mod mtl;
 mod obj;
 mod plane;
@@ -29,6 +30,7 @@ mod slot;
 mod statement;
 mod texture_option;
 mod tobj_input;
+mod vertex;
 
 pub use asset::read_mesh;
 pub(crate) use asset::read_mesh_in;

@@ -6,6 +6,7 @@ mod calibrations;
 mod correspondence;
 mod exr_files;
 mod f_theta;
+mod gltf;
 mod lamps;
 mod meshes;
 mod openexr;

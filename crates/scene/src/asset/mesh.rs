@@ -1,5 +1,7 @@
 //! What meshes, pictures and spectra hold once read.
 
+use std::path::PathBuf;
+
 use etendue_spectra::{Outside, Spectrum, SpectrumError};
 
 use super::mtl::SlotMaterial;
@@ -22,6 +24,8 @@ pub struct MeshAsset {
     pub slots: Vec<u16>,
     /// The materials by the names that the file gives them.
     pub slot_materials: Vec<SlotMaterial>,
+    /// Pictures that came with the file, by their names among the images of the assets.
+    pub pictures: Vec<(PathBuf, ImageAsset)>,
     /// What was read and not used, in sentences for the user: fields of no meaning here, dropped triangles.
     pub report: Vec<String>,
     /// What makes the picture another than the file might be taken to ask for, in sentences for the user.

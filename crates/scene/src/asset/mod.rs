@@ -10,6 +10,7 @@ mod named_files;
 mod photometry;
 mod prescription;
 pub(crate) mod request;
+mod slot_layers;
 mod store;
 mod table;
 mod trajectory;
@@ -24,6 +25,10 @@ pub use named_files::{of_camera, of_weather};
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 pub use request::{AssetKind, AssetRequest, Covered, Values};
+pub use slot_layers::{
+    SlotColour, SlotEmission, SlotLayers, SlotNumber, SlotOver, SlotPicture, SlotSolid, SlotTransmission, SlotWrap,
+    is_gltf,
+};
 pub use store::Assets;
 pub use table::{ComplexIndexAsset, NumbersAsset, RetroTableAsset};
 pub use trajectory::{TrajectoryAsset, TrajectoryRow};

@@ -10,6 +10,8 @@
 
 use std::path::PathBuf;
 
+use super::slot_layers::SlotLayers;
+
 /// Refractive indices that a coat may have, in scenes and in MTL files. The tracer's model of a coat states the same
 /// range (`etendue_tracer::materials::COAT_INDICES`) and refuses others.
 pub const COAT_INDICES: std::ops::RangeInclusive<f64> = 1.1..=4.0;
@@ -43,14 +45,20 @@ pub enum SlotSurface {
         /// GGX roughness of the coat.
         alpha: f64,
     },
+    /// A material of a glTF file.
+    Layers(Box<SlotLayers>),
 }
 
 impl SlotSurface {
-    /// The reflectance of the base.
+    /// The picture file that it is read from; `None` where there is none, or where it came with the mesh's file.
     #[must_use]
-    pub fn reflectance(&self) -> &SlotReflectance {
+    pub fn picture(&self) -> Option<&PathBuf> {
         match self {
-            Self::Diffuse { reflectance } | Self::Coated { reflectance, .. } => reflectance,
+            Self::Diffuse { reflectance } | Self::Coated { reflectance, .. } => match reflectance {
+                SlotReflectance::Image(file) => Some(file),
+                SlotReflectance::LinearSrgb(_) => None,
+            },
+            Self::Layers(_) => None,
         }
     }
 }

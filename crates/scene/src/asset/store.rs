@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::mtl::{SlotMaterial, SlotReflectance};
+use super::mtl::SlotMaterial;
 use super::{
     AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, ImageAsset, LargeImage,
     MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset,
@@ -131,16 +131,13 @@ fn textures_of<'a>(
 
 /// The picture that a mesh's own material names.
 fn picture(slot: &SlotMaterial) -> Option<&Path> {
-    match slot.surface.as_ref()?.reflectance() {
-        SlotReflectance::Image(path) => Some(path),
-        SlotReflectance::LinearSrgb(_) => None,
-    }
+    slot.surface.as_ref()?.picture().map(PathBuf::as_path)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::photometry::{Opening, OpeningShape, PhotometryAxes, Tilt};
-    use super::super::{CalibrationFormat, ImagePixels, SlotSurface, Values};
+    use super::super::{CalibrationFormat, ImagePixels, SlotReflectance, SlotSurface, Values};
     use super::*;
     use etendue_projection::model::Perspective;
     use etendue_projection::{Calibration, CameraMatrix, Model};

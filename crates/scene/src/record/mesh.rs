@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use glam::{DMat3, DVec3};
 
 use super::vertex_animation::VertexAnimation;
+use crate::asset::is_gltf;
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{choice, keyed, number, path, record, text};
@@ -16,8 +17,8 @@ record! {
         required name: Placed<String> = text("the name of the mesh");
         /// Where its vertices and faces stand.
         inside source: MeshSource;
-        /// Which axis of the file points upwards.
-        required up_axis: Placed<Axis> = choice();
+        /// Which axis of the file points upwards. A glTF file says it itself, +y, and forward is +z: there it is left out; other files need it.
+        optional up_axis: Placed<Axis> = choice();
         /// Which axis of the file points forward (the world's +x). Default: the axis that follows the up axis in the
         /// circle x, y, z (up z: forward x; up y: forward z; up x: forward y), with a plus.
         optional forward_axis: Placed<Axis> = choice();
@@ -29,9 +30,9 @@ record! {
 keyed! {
     /// Where the vertices and faces of a mesh stand.
     pub enum MeshSource {
-        /// The file (Wavefront OBJ). Its coordinates may be a survey's or a map's: they are kept to 3e-8 of the mesh's own
+        /// The file: Wavefront OBJ, or glTF 2.0. Its coordinates may be a survey's or a map's: they are kept to 3e-8 of the mesh's own
         /// extent however far from the file's origin it lies.
-        file => File(Placed<PathBuf>) = path(&["obj"]);
+        file => File(Placed<PathBuf>) = path(&["obj", "glb", "gltf"]);
         /// Vertices that move, from several files.
         vertex_animation => VertexAnimation(Box<VertexAnimation>) = record();
     }
@@ -104,28 +105,55 @@ impl Mesh {
         }
     }
 
+    /// The axis of the file that becomes the world's +z: that of glTF where nothing is said.
+    #[must_use]
+    pub fn up(&self) -> Axis {
+        self.up_axis.as_ref().map_or(Axis::Y, |a| a.value)
+    }
+
     /// The axis of the file that becomes the world's +x.
     #[must_use]
     pub fn forward(&self) -> Axis {
-        self.forward_axis.as_ref().map_or(self.up_axis.default_forward(), |a| a.value)
+        self.forward_axis.as_ref().map_or(self.up().default_forward(), |a| a.value)
     }
 
     /// From the axes and units of the file to an object's (x forward, y left, z up; m): a rotation times the scale.
     #[must_use]
     pub fn to_object(&self) -> DMat3 {
-        let (forward, up) = (self.forward().vector(), self.up_axis.vector());
+        let (forward, up) = (self.forward().vector(), self.up().vector());
         let rows = DMat3::from_cols(forward, up.cross(forward), up);
         rows.transpose() * self.scale.as_ref().map_or(1.0, |s| s.value)
     }
 }
 
 fn check(mesh: &Mesh, faults: &mut Faults) {
+    check_up(mesh, faults);
     let Some(forward) = &mesh.forward_axis else { return };
-    if forward.vector().dot(mesh.up_axis.vector()).abs() > 0.5 {
+    if forward.vector().dot(mesh.up().vector()).abs() > 0.5 {
         faults.add(
             &forward.place,
             "\"forward_axis\" lies along \"up_axis\"",
             "give one of the four axes at right angles to it",
         );
+    }
+}
+
+/// A glTF file says its axes, other files do not.
+fn check_up(mesh: &Mesh, faults: &mut Faults) {
+    let file = mesh.file();
+    match (&mesh.up_axis, is_gltf(&file)) {
+        (Some(up), true) if up.value != Axis::Y => faults.add(
+            &up.place,
+            "\"up_axis\" contradicts the file: +y points upwards in every glTF file",
+            "remove it, and turn the object that shows the mesh",
+        ),
+        (None, false) => {
+            faults.add(
+                &mesh.place,
+                "the key \"up_axis\" is missing",
+                "add it: \"x\", \"y\", \"z\", \"-x\", \"-y\" or \"-z\"",
+            );
+        }
+        _ => {}
     }
 }

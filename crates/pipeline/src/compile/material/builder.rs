@@ -7,7 +7,7 @@ use super::picture::Pictures;
 use super::slot;
 use etendue_scene::Place;
 use etendue_scene::Unused;
-use etendue_scene::asset::SlotMaterial;
+use etendue_scene::asset::{SlotMaterial, SlotSurface};
 use etendue_scene::record::{self, Scene};
 use etendue_spectra::upsample;
 use etendue_tracer::MaterialId;
@@ -28,7 +28,7 @@ pub(in super::super) struct MaterialTableBuilder {
     by_delay: BTreeMap<(u32, u64), MaterialId>,
     /// That of lamps' openings, once there are any.
     of_openings: Option<MaterialId>,
-    pictures: Pictures,
+    pub(super) pictures: Pictures,
 }
 
 /// A material, and what is said of it.
@@ -133,9 +133,11 @@ impl MaterialTableBuilder {
         if let Some(id) = self.by_slot.get(&key) {
             return Some(*id);
         }
-        let surface = slot::surface(file, slot, place, &mut self.pictures, context)?;
         let needs_coordinates = slot::has_picture(slot);
-        let material = Material::new(surface);
+        let material = match &slot.surface {
+            Some(SlotSurface::Layers(layers)) => self.of_layers(layers, slot, place, context)?,
+            _ => Material::new(slot::surface(file, slot, place, &mut self.pictures, context)?),
+        };
         let id = self.add(Made {
             material,
             place: place.clone(),
@@ -238,6 +240,24 @@ impl MaterialTableBuilder {
                 None
             }
         }
+    }
+
+    /// A part of a material of a mesh's file, which mixes of it name.
+    pub(super) fn add_part(
+        &mut self,
+        material: Material,
+        name: &str,
+        place: &Place,
+        needs_coordinates: bool,
+    ) -> MaterialId {
+        self.add(Made {
+            material,
+            place: place.clone(),
+            name: name.to_owned(),
+            needs_coordinates,
+            flux_sides: None,
+            has_random_phases: false,
+        })
     }
 
     fn add(&mut self, made: Made) -> MaterialId {

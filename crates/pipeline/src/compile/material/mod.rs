@@ -3,6 +3,7 @@
 mod builder;
 mod compiler;
 mod large_picture;
+mod layers;
 mod metal;
 mod number;
 mod picture;

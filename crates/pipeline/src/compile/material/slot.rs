@@ -25,14 +25,15 @@ pub(super) fn surface(
         context.fault(place, problem, remedy);
         return None;
     };
-    let base = match surface.reflectance() {
+    let (SlotSurface::Diffuse { reflectance } | SlotSurface::Coated { reflectance, .. }) = surface else { return None };
+    let base = match reflectance {
         SlotReflectance::LinearSrgb(rgb) => {
             Reflectance::Spectrum(upsample::reflectance_spectrum(rgb.map(|v| v as f32)))
         }
         SlotReflectance::Image(picture) => Reflectance::Texture(pictures.of_slot(picture, place, context)?),
     };
     match surface {
-        SlotSurface::Diffuse { .. } => Some(base.into()),
+        SlotSurface::Diffuse { .. } | SlotSurface::Layers(_) => Some(base.into()),
         SlotSurface::Coated { index, alpha, .. } => {
             context.accept(place, Coated::new(base, *index, *alpha)).map(Surface::from)
         }
@@ -41,5 +42,8 @@ pub(super) fn surface(
 
 /// Whether a slot's file gives it a picture.
 pub(in super::super) fn has_picture(slot: &SlotMaterial) -> bool {
-    slot.surface.as_ref().is_some_and(|surface| matches!(surface.reflectance(), SlotReflectance::Image(_)))
+    slot.surface.as_ref().is_some_and(|surface| match surface {
+        SlotSurface::Layers(layers) => layers.has_picture(),
+        _ => surface.picture().is_some(),
+    })
 }

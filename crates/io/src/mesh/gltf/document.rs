@@ -1,0 +1,101 @@
+//! From the bytes of a file to its checked JSON and its binary chunk.
+
+use etendue_scene::limits;
+use gltf::json::Root;
+use gltf::json::mesh::Semantic;
+use gltf::json::validation::Checked;
+
+const MAGIC: &[u8] = b"glTF";
+const HEAD: usize = 12;
+const JSON_CHUNK: u32 = 0x4E4F_534A;
+const BINARY_CHUNK: u32 = 0x004E_4942;
+
+/// Extensions that a file may require: what they say is used, or can be left out with a note.
+const KNOWN: &[&str] = &[
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
+
+/// The JSON, checked by the rules of the specification, and the binary chunk.
+pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), String> {
+    let (json, blob) = if bytes.starts_with(MAGIC) { chunks(bytes)? } else { (bytes, None) };
+    limits::DESCRIPTION.check_size(json.len() as u64).map_err(|told| format!("its JSON: {told}"))?;
+    check_objects(json)?;
+    let mut root: Root =
+        gltf::json::deserialize::from_slice(json).map_err(|cause| format!("no glTF: its JSON: {cause}"))?;
+    if root.asset.version.split('.').next() != Some("2") {
+        return Err(format!("glTF of version {}; expected 2.0: export it again", root.asset.version));
+    }
+    let unknown: Vec<&str> =
+        root.extensions_required.iter().map(String::as_str).filter(|e| !KNOWN.contains(e)).collect();
+    if !unknown.is_empty() {
+        return Err(format!(
+            "it cannot be read without {}, which is not known here; export it without (known: {})",
+            unknown.join(", "),
+            KNOWN.join(", ")
+        ));
+    }
+    check_positions(&root)?;
+    // The crate knows fewer of them.
+    root.extensions_required.clear();
+    let document = gltf::Document::from_json(root).map_err(|cause| format!("no valid glTF: {cause}"))?;
+    Ok((document.into_json(), blob.map(<[u8]>::to_vec)))
+}
+
+/// Refuses positions that are not there, which the crate's own check takes for granted.
+fn check_positions(root: &Root) -> Result<(), String> {
+    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let positions = primitives.filter_map(|primitive| primitive.attributes.get(&Checked::Valid(Semantic::Positions)));
+    match positions.map(|index| index.value()).find(|index| *index >= root.accessors.len()) {
+        Some(index) => Err(format!("its accessor {index} (POSITION) is not there; export it again")),
+        None => Ok(()),
+    }
+}
+
+/// Refuses JSON whose objects would fill the memory: two brackets may stand for a material of many hundred bytes, in a list that grows.
+fn check_objects(json: &[u8]) -> Result<(), String> {
+    const OBJECT_BYTES: u64 = 1024;
+    let objects = json.iter().filter(|byte| **byte == b'{').count() as u64;
+    limits::MESH.check_unpacked(objects * OBJECT_BYTES).map_err(|told| format!("its JSON of {objects} objects: {told}"))
+}
+
+/// The chunks of a GLB file.
+fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
+    let word = |at: usize| bytes.get(at..at + 4).map(|w| u32::from_le_bytes([w[0], w[1], w[2], w[3]]));
+    let truncated = || "the file is truncated; export or copy it again".to_owned();
+    let (version, length) = (word(4).ok_or_else(truncated)?, word(8).ok_or_else(truncated)? as usize);
+    if version != 2 {
+        return Err(format!("GLB of version {version}; expected 2: export it again"));
+    }
+    if length > bytes.len() {
+        return Err(format!(
+            "the file has {} bytes, where its head says {length}: it is truncated; export or copy it again",
+            bytes.len()
+        ));
+    }
+    let (mut json, mut blob, mut at) = (None, None, HEAD);
+    while at + 8 <= length {
+        let (size, kind) = (word(at).ok_or_else(truncated)? as usize, word(at + 4).ok_or_else(truncated)?);
+        let chunk = bytes[..length].get(at + 8..at + 8 + size).ok_or_else(truncated)?;
+        match kind {
+            JSON_CHUNK if at == HEAD => json = Some(chunk),
+            BINARY_CHUNK if blob.is_none() => blob = Some(chunk),
+            _ => {}
+        }
+        at += 8 + size.next_multiple_of(4);
+    }
+    Ok((json.ok_or("a GLB whose first chunk is no JSON; export it again")?, blob))
+}

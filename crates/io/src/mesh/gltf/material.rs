@@ -1,0 +1,340 @@
+//! Materials of glTF in the terms of a scene.
+//!
+//! α is the square of the roughness, as the specification says. What is no metal is Lambert's law under a coat of the stated index, or without one where
+//! the roughness is 1, which exporters write for matt surfaces. docs/gltf.md tells the whole mapping.
+
+use std::path::{Path, PathBuf};
+
+use etendue_scene::asset::{
+    COAT_INDICES, ImageAsset, SlotColour, SlotEmission, SlotLayers, SlotMaterial, SlotNumber, SlotOver, SlotSolid,
+    SlotSurface, SlotTransmission,
+};
+use gltf::json::Root;
+use gltf::json::material::{AlphaMode, Material};
+use gltf::json::validation::Checked;
+
+use super::baked;
+use super::buffers::Buffers;
+use super::extras;
+pub(super) use super::picture::UvLayout;
+use super::picture::{Pictures, TextureUse};
+use crate::Sandbox;
+
+/// The index of a coat and of clear substances that state none.
+const USUAL_INDEX: f64 = 1.5;
+/// Where a mask cuts that does not say.
+const USUAL_CUTOFF: f64 = 0.5;
+
+/// The materials that triangles have, in the order in which they are met; `None` is that of the specification for those without.
+#[derive(Default)]
+pub(super) struct Materials {
+    numbers: Vec<Option<usize>>,
+}
+
+/// What a mesh has of its materials.
+pub(super) struct Found {
+    pub(super) slots: Vec<SlotMaterial>,
+    pub(super) pictures: Vec<(PathBuf, ImageAsset)>,
+    pub(super) picture_bytes: Vec<Vec<u8>>,
+    pub(super) report: Vec<String>,
+}
+
+impl Materials {
+    /// The slot of a material, and how its pictures lie.
+    pub(super) fn slot_of(&mut self, root: &Root, number: Option<usize>) -> Result<(u16, UvLayout), String> {
+        let slot = self.numbers.iter().position(|n| *n == number).unwrap_or_else(|| {
+            self.numbers.push(number);
+            self.numbers.len() - 1
+        });
+        let slot = u16::try_from(slot).map_err(|_| "it has more than 65 536 materials; make it smaller".to_owned())?;
+        let first = number.and_then(|n| root.materials.get(n)).and_then(|material| uses(material).first().copied());
+        Ok((slot, first.map_or(UvLayout::PLAIN, |first| first.layout)))
+    }
+
+    pub(super) fn read(&self, file: &Path, root: &Root, buffers: &Buffers, sandbox: &Sandbox) -> Result<Found, String> {
+        let mut pictures = Pictures::new(file, root, buffers, sandbox);
+        let (mut slots, mut report): (Vec<SlotMaterial>, Vec<String>) = (Vec::new(), Vec::new());
+        let silent = Material::default();
+        for number in &self.numbers {
+            let material = number.and_then(|n| root.materials.get(n)).unwrap_or(&silent);
+            let name = name_of(material, *number, &slots);
+            let told = |problem| format!("material \"{name}\": {problem}");
+            let mut reader = Reader { material, pictures: &mut pictures, notes: Vec::new() };
+            let layers = reader.layers().map_err(told)?;
+            let notes = std::mem::take(&mut reader.notes);
+            report.push(told(layers.describe()));
+            report.extend(notes.into_iter().map(told));
+            slots.push(SlotMaterial { name, surface: Some(SlotSurface::Layers(Box::new(layers))) });
+        }
+        let Pictures { used, files, .. } = pictures;
+        Ok(Found { slots, pictures: used.into_iter().collect(), picture_bytes: files, report })
+    }
+}
+
+/// Its name, with its number where it has none or another has it.
+fn name_of(material: &Material, number: Option<usize>, others: &[SlotMaterial]) -> String {
+    let number = number.map_or_else(|| "default".to_owned(), |n| n.to_string());
+    match &material.name {
+        None => format!("material {number}"),
+        Some(name) if name.is_empty() || others.iter().any(|o| o.name == *name) => format!("{name} {number}"),
+        Some(name) => name.clone(),
+    }
+}
+
+/// The textures that a material uses, the first of which says how all lie.
+fn uses(material: &Material) -> Vec<TextureUse> {
+    let pbr = &material.pbr_metallic_roughness;
+    let transmission = material.extensions.as_ref().and_then(|e| e.transmission.as_ref());
+    let infos = [
+        pbr.base_color_texture.as_ref(),
+        pbr.metallic_roughness_texture.as_ref(),
+        material.emissive_texture.as_ref(),
+        transmission.and_then(|t| t.transmission_texture.as_ref()),
+    ];
+    let normals = material.normal_texture.as_ref().map(extras::normal_texture);
+    infos.into_iter().flatten().map(TextureUse::of).chain(normals).collect()
+}
+
+/// The index whose reflectance at normal incidence, (n − 1)²/(n + 1)², is a share of that of another.
+fn of_less_reflectance(index: f64, share: f64) -> f64 {
+    let amplitude = (index - 1.0) / (index + 1.0) * share.sqrt();
+    (1.0 + amplitude) / (1.0 - amplitude)
+}
+
+struct Reader<'m, 'p, 'a> {
+    material: &'m Material,
+    pictures: &'p mut Pictures<'a>,
+    notes: Vec<String>,
+}
+
+impl Reader<'_, '_, '_> {
+    fn layers(&mut self) -> Result<SlotLayers, String> {
+        let (material, pbr) = (self.material, &self.material.pbr_metallic_roughness);
+        let factor = pbr.base_color_factor.0.map(|v| f64::from(v).clamp(0.0, 1.0));
+        let colour = [factor[0], factor[1], factor[2]];
+        let texture = pbr.base_color_texture.as_ref().map(|info| info.index.value());
+        let base = match texture {
+            None => SlotColour::LinearSrgb(colour),
+            Some(texture) if colour == [1.0; 3] => SlotColour::Picture(self.pictures.as_it_is(texture, true)?),
+            Some(texture) => {
+                let make = |image: &ImageAsset| baked::tinted(image, colour);
+                SlotColour::Picture(self.pictures.made(texture, &format!("times {colour:?}"), false, make)?)
+            }
+        };
+        let is_unlit = material.extensions.as_ref().is_some_and(|e| e.unlit.is_some());
+        let metal = if is_unlit {
+            SlotNumber::Number(0.0)
+        } else {
+            self.of_channel(2, f64::from(pbr.metallic_factor.0), false)?
+        };
+        let roughness = f64::from(pbr.roughness_factor.0);
+        let alpha = if is_unlit { SlotNumber::Number(1.0) } else { self.of_channel(1, roughness, true)? };
+        let layers = SlotLayers {
+            metal_colour: self.metal_colour(texture, colour, &metal)?,
+            over: if is_unlit { SlotOver::Nothing } else { self.over(&alpha) },
+            transmission: self.transmission()?,
+            emission: self.emission()?,
+            opacity: self.opacity(texture, factor[3])?,
+            normals: self.normals()?,
+            base,
+            metal,
+            alpha,
+        };
+        self.note_unused(is_unlit, &layers);
+        Ok(layers)
+    }
+
+    /// The metal (blue) or the roughness (green) of the metallic-roughness picture times its factor; α is the roughness's square.
+    fn of_channel(&mut self, channel: usize, factor: f64, squared: bool) -> Result<SlotNumber, String> {
+        let factor = factor.clamp(0.0, 1.0);
+        let rule = |v: f64| if squared { v * factor * (v * factor) } else { v * factor };
+        let info = self.material.pbr_metallic_roughness.metallic_roughness_texture.as_ref();
+        match info.filter(|_| factor > 0.0) {
+            None => Ok(SlotNumber::Number(rule(1.0))),
+            Some(info) => self.number(info.index.value(), channel, &format!("{channel}, {factor}, {squared}"), rule),
+        }
+    }
+
+    /// A channel of a picture by a rule; a number where it is the same everywhere.
+    fn number(
+        &mut self,
+        texture: usize,
+        channel: usize,
+        what: &str,
+        rule: impl Fn(f64) -> f64,
+    ) -> Result<SlotNumber, String> {
+        let rule = |v: f32| rule(f64::from(v)) as f32;
+        let picture = self
+            .pictures
+            .made(texture, &format!("channel {what}"), false, |image| baked::channel(image, channel, rule))?;
+        let only = self.pictures.used.get(&picture.file).and_then(baked::only_value);
+        Ok(only.map_or(SlotNumber::Picture(picture), SlotNumber::Number))
+    }
+
+    /// A metal has one colour: of a picture its mean.
+    fn metal_colour(
+        &mut self,
+        texture: Option<usize>,
+        factor: [f64; 3],
+        metal: &SlotNumber,
+    ) -> Result<[f64; 3], String> {
+        let Some(texture) = texture.filter(|_| *metal != SlotNumber::Number(0.0)) else { return Ok(factor) };
+        let mean = baked::mean(self.pictures.image(texture)?);
+        self.notes.push("its metal has the mean colour of the picture: metals have one colour here".to_owned());
+        Ok(std::array::from_fn(|i| (factor[i] * mean[i]).clamp(0.0, 1.0)))
+    }
+
+    fn index(&mut self) -> f64 {
+        let stated = self.material.extensions.as_ref().and_then(|e| e.ior.as_ref()).map(|ior| f64::from(ior.ior.0));
+        match stated {
+            Some(index) if !(1.0..=4.0).contains(&index) => {
+                self.notes.push(format!("its ior {index} is outside 1 … 4, {USUAL_INDEX} is used"));
+                USUAL_INDEX
+            }
+            stated => stated.unwrap_or(USUAL_INDEX),
+        }
+    }
+
+    fn over(&mut self, alpha: &SlotNumber) -> SlotOver {
+        let index = self.index();
+        if let Some(sheen) = extras::sheen(self.material).filter(|s| s.colour != [0.0; 3]) {
+            if sheen.has_picture {
+                self.notes.push("the pictures of its sheen are not used".to_owned());
+            }
+            return SlotOver::Sheen {
+                colour: sheen.colour,
+                alpha: (sheen.roughness * sheen.roughness).clamp(0.1, 1.0),
+            };
+        }
+        let specular = self.material.extensions.as_ref().and_then(|e| e.specular.as_ref());
+        let factor = specular.map_or(1.0, |s| f64::from(s.specular_factor.0).clamp(0.0, 1.0));
+        if specular.is_some_and(|s| {
+            s.specular_color_factor.0 != [1.0; 3] || s.specular_color_texture.is_some() || s.specular_texture.is_some()
+        }) {
+            self.notes.push("the colour and the pictures of its highlights (specular) are not used".to_owned());
+        }
+        let index = if factor < 1.0 { of_less_reflectance(index, factor) } else { index };
+        let coat = extras::clearcoat(self.material).filter(|coat| coat.share > 0.0);
+        if coat.as_ref().is_some_and(|coat| coat.has_picture) {
+            self.notes.push("the pictures of its clear coat are not used".to_owned());
+        }
+        match coat {
+            Some(coat) => {
+                let alpha = coat.roughness * coat.roughness;
+                SlotOver::TwoCoats { index: index.clamp(USUAL_INDEX, *COAT_INDICES.end()), share: coat.share, alpha }
+            }
+            None if *alpha == SlotNumber::Number(1.0) || !COAT_INDICES.contains(&index) => SlotOver::Nothing,
+            None => SlotOver::Coat { index },
+        }
+    }
+
+    fn transmission(&mut self) -> Result<Option<SlotTransmission>, String> {
+        let Some(extensions) = &self.material.extensions else { return Ok(None) };
+        let Some(transmission) = extensions.transmission.as_ref().filter(|t| t.transmission_factor.0 > 0.0) else {
+            return Ok(None);
+        };
+        let factor = f64::from(transmission.transmission_factor.0).clamp(0.0, 1.0);
+        let share = match &transmission.transmission_texture {
+            None => SlotNumber::Number(factor),
+            Some(info) => self.number(info.index.value(), 0, &format!("0, {factor}"), |v| v * factor)?,
+        };
+        let solid = extensions.volume.as_ref().filter(|v| v.thickness_factor.0 > 0.0).map(|volume| {
+            let distance_m = f64::from(volume.attenuation_distance.0);
+            SlotSolid {
+                colour: volume.attenuation_color.0.map(|v| f64::from(v).clamp(0.0, 1.0)),
+                distance_m: Some(distance_m).filter(|d| d.is_finite() && *d > 0.0 && *d < f64::from(f32::MAX)),
+            }
+        });
+        match solid {
+            None => self.notes.push("it is a pane, which does not blur what is behind it".to_owned()),
+            Some(_) => self.notes.push(
+                "it is a solid of clear substance: its mesh must be closed; its base colour does not tint it"
+                    .to_owned(),
+            ),
+        }
+        Ok(Some(SlotTransmission { share, index: self.index(), solid }))
+    }
+
+    fn emission(&mut self) -> Result<Option<SlotEmission>, String> {
+        let strength = self.material.extensions.as_ref().and_then(|e| e.emissive_strength.as_ref());
+        let strength = strength.map_or(1.0, |s| f64::from(s.emissive_strength.0));
+        let rgb_cd_m2 = self.material.emissive_factor.0.map(|v| f64::from(v).max(0.0) * strength);
+        if !rgb_cd_m2.iter().all(|v| v.is_finite() && *v >= 0.0) {
+            return Err("its emission is no finite number of 0 or more; correct the model".to_owned());
+        }
+        if rgb_cd_m2 == [0.0; 3] {
+            return Ok(None);
+        }
+        let picture = match &self.material.emissive_texture {
+            None => None,
+            Some(info) => Some(self.pictures.as_it_is(info.index.value(), true)?),
+        };
+        Ok(Some(SlotEmission { rgb_cd_m2, picture, both_sides: self.material.double_sided }))
+    }
+
+    fn opacity(&mut self, texture: Option<usize>, factor: f64) -> Result<Option<SlotNumber>, String> {
+        let cutoff = self.material.alpha_cutoff.map_or(USUAL_CUTOFF, |c| f64::from(c.0));
+        let Checked::Valid(mode) = self.material.alpha_mode else { return Ok(None) };
+        let rule = |v: f64| match mode {
+            AlphaMode::Opaque => 1.0,
+            AlphaMode::Mask => f64::from(v * factor >= cutoff),
+            AlphaMode::Blend => v * factor,
+        };
+        if mode == AlphaMode::Opaque {
+            return Ok(None);
+        }
+        let is_clear = match texture {
+            None => false,
+            Some(texture) => baked::has_opacity(self.pictures.image(texture)?),
+        };
+        let opacity = match texture.filter(|_| is_clear) {
+            None => SlotNumber::Number(rule(1.0)),
+            Some(texture) => self.number(texture, 3, &format!("3, {mode:?}, {factor}, {cutoff}"), rule)?,
+        };
+        Ok(Some(opacity).filter(|o| *o != SlotNumber::Number(1.0)))
+    }
+
+    fn normals(&mut self) -> Result<Option<(etendue_scene::asset::SlotPicture, f64)>, String> {
+        const STRONGEST: f64 = 10.0;
+        let Some(map) = &self.material.normal_texture else { return Ok(None) };
+        let strength = f64::from(map.scale);
+        if !(0.0..=STRONGEST).contains(&strength) {
+            self.notes.push(format!("its normal map of scale {strength} is not used: expected 0 … {STRONGEST}"));
+            return Ok(None);
+        }
+        Ok(Some((self.pictures.as_it_is(map.index.value(), false)?, strength)))
+    }
+
+    fn note_unused(&mut self, is_unlit: bool, layers: &SlotLayers) {
+        let material = self.material;
+        let used = uses(material);
+        let others = used.iter().skip(1).filter(|u| u.layout != used[0].layout).count();
+        let has = |name: &str| extras::of(material, name).is_some();
+        let is_metal = layers.metal == SlotNumber::Number(1.0);
+        let coated = matches!(layers.over, SlotOver::TwoCoats { .. } | SlotOver::Sheen { .. });
+        let mut notes = vec![
+            (
+                others > 0,
+                format!(
+                    "{others} of its pictures lie by other coordinates or transforms than its first, which is used for all"
+                ),
+            ),
+            (material.occlusion_texture.is_some(), "its occlusion is not used: shadows are traced".to_owned()),
+            (is_unlit, "it is unlit, which no surface is: it reflects its colour without gloss".to_owned()),
+            (is_metal && coated, "the clear coat or sheen over its metal is not used".to_owned()),
+            (
+                layers.emission.is_some() && !is_unlit,
+                "its emission is in cd/m², as the specification says: 1 is as dark as dusk".to_owned(),
+            ),
+        ];
+        for name in [
+            "KHR_materials_anisotropy",
+            "KHR_materials_iridescence",
+            "KHR_materials_dispersion",
+            "KHR_materials_pbrSpecularGlossiness",
+        ] {
+            notes.push((has(name), format!("{name} is not used")));
+        }
+        self.notes.extend(notes.into_iter().filter(|(is, _)| *is).map(|(_, note)| note));
+    }
+}

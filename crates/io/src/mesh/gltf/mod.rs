@@ -1,0 +1,56 @@
+//! Meshes of glTF 2.0 files (`.gltf`, `.glb`).
+//!
+//! Source: glTF 2.0 Specification, Khronos Group 2021 (ISO/IEC 12113:2022), with KHR_texture_transform, KHR_mesh_quantization and the
+//! KHR_materials extensions; what each becomes is told in docs/gltf.md. The gltf crate reads and checks the JSON; ours is everything that follows its
+//! indices into bytes, as the crate's own readers panic at damaged ones.
+//!
+//! All nodes of the scene become one mesh in the file's axes and units (+y up, +z forward, m): their transforms are applied in f64, skins as they
+//! stand at rest. Cameras, lights and animations have no place in a mesh and are reported; so is all else that is not used.
+
+mod accessor;
+mod baked;
+mod base64;
+mod buffers;
+mod document;
+mod extras;
+mod flatten;
+mod material;
+mod nodes;
+mod picture;
+mod placed;
+mod report;
+mod skin;
+
+use std::path::Path;
+
+use etendue_scene::asset::MeshAsset;
+
+use self::buffers::Buffers;
+use self::material::Materials;
+use crate::source::read_bytes;
+use crate::{Error, Sandbox, hash};
+
+/// Reads a glTF file with the buffers and pictures that it names, which must lie in `sandbox`.
+pub(super) fn read_gltf(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, Error> {
+    let bytes = read_bytes(file, "mesh")?;
+    read(file, &bytes, sandbox).map_err(|told| Error::new(file, told))
+}
+
+fn read(file: &Path, bytes: &[u8], sandbox: &Sandbox) -> Result<MeshAsset, String> {
+    let (root, blob) = document::parse(bytes)?;
+    let buffers = Buffers::read(file, &root, blob, sandbox)?;
+    let placed = nodes::placed(&root, &buffers)?;
+    let mut materials = Materials::default();
+    let mut mesh = flatten::flatten(&root, &buffers, &placed, |index| materials.slot_of(&root, index))?;
+    let found = materials.read(file, &root, &buffers, sandbox)?;
+    mesh.slot_materials = found.slots;
+    mesh.pictures = found.pictures;
+    mesh.report.extend(found.report);
+    mesh.report.extend(report::unused(&root));
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    mesh.report.iter_mut().for_each(|note| note.insert_str(0, &format!("{name}: ")));
+    let parts =
+        std::iter::once(bytes).chain(buffers.external_bytes()).chain(found.picture_bytes.iter().map(Vec::as_slice));
+    mesh.hash = hash::of_parts(parts);
+    Ok(mesh)
+}

@@ -1,0 +1,88 @@
+//! The tree of nodes, and what of it the scene shows.
+
+use glam::{DAffine3, DMat4, DQuat, DVec3};
+use gltf::json::Root;
+use gltf::json::scene::Node;
+
+use super::buffers::Buffers;
+use super::placed::PlacedMesh;
+use super::skin;
+
+/// The meshes of the scene in the order of their nodes: of the default scene, or of the first, or of all nodes where there is none.
+pub(super) fn placed(root: &Root, buffers: &Buffers) -> Result<Vec<PlacedMesh>, String> {
+    let (roots, to_file) = tree(root)?;
+    let scene = root.scene.map_or(0, |scene| scene.value());
+    let mut open: Vec<usize> = match root.scenes.get(scene) {
+        Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
+        None => roots,
+    };
+    let mut seen = vec![false; root.nodes.len()];
+    open.reverse();
+    let mut placed = Vec::new();
+    while let Some(number) = open.pop() {
+        let node =
+            root.nodes.get(number).ok_or_else(|| format!("its scene names node {number}, which is not there"))?;
+        if std::mem::replace(&mut seen[number], true) {
+            return Err(format!("its scene shows node {number} twice; export it again"));
+        }
+        open.extend(node.children.iter().flatten().rev().map(|child| child.value()));
+        let Some(mesh) = node.mesh else { continue };
+        let joints = match node.skin {
+            None => None,
+            Some(skin) => Some(skin::joints(root, buffers, skin.value(), &to_file)?),
+        };
+        placed.push(PlacedMesh { mesh: mesh.value(), to_file: to_file[number], joints });
+    }
+    Ok(placed)
+}
+
+/// The nodes without parents, and for every node the way from its axes to those of the file.
+fn tree(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), String> {
+    let mut parents: Vec<Option<usize>> = vec![None; root.nodes.len()];
+    for (number, node) in root.nodes.iter().enumerate() {
+        for child in node.children.iter().flatten() {
+            let parent = parents
+                .get_mut(child.value())
+                .ok_or_else(|| format!("its node {number} has a child that is not there"))?;
+            if let Some(other) = parent.replace(number) {
+                return Err(format!(
+                    "its node {} is a child of both node {other} and node {number}; export it again",
+                    child.value()
+                ));
+            }
+        }
+    }
+    let roots: Vec<usize> = (0..parents.len()).filter(|n| parents[*n].is_none()).collect();
+    let mut to_file = vec![None; root.nodes.len()];
+    let mut open: Vec<(usize, DAffine3)> = roots.iter().map(|number| (*number, DAffine3::IDENTITY)).collect();
+    while let Some((number, parent)) = open.pop() {
+        let own = parent * local(number, &root.nodes[number])?;
+        to_file[number] = Some(own);
+        open.extend(root.nodes[number].children.iter().flatten().map(|child| (child.value(), own)));
+    }
+    // What no root leads to lies on a circle, or hangs on one.
+    let cyclic =
+        |number: usize| format!("its node {number} is among its own children, or below one that is; export it again");
+    let all: Result<_, _> =
+        to_file.into_iter().enumerate().map(|(number, found)| found.ok_or_else(|| cyclic(number))).collect();
+    Ok((roots, all?))
+}
+
+fn local(number: usize, node: &Node) -> Result<DAffine3, String> {
+    let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
+    let local = match node.matrix {
+        Some(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix.map(f64::from))),
+        None => {
+            let [x, y, z, w] = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |r| r.0.map(f64::from));
+            let length = (x * x + y * y + z * z + w * w).sqrt();
+            let rotation = DQuat::from_xyzw(x / length, y / length, z / length, w / length);
+            let (scale, translation) =
+                (node.scale.map_or(DVec3::ONE, wide), node.translation.map_or(DVec3::ZERO, wide));
+            DAffine3::from_scale_rotation_translation(scale, rotation, translation)
+        }
+    };
+    match local.is_finite() {
+        true => Ok(local),
+        false => Err(format!("the place of its node {number} is no finite number; correct the model")),
+    }
+}

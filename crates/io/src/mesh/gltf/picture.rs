@@ -1,0 +1,186 @@
+//! Pictures of a glTF file, and how they lie on surfaces.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use etendue_core::maths::f64 as maths;
+use etendue_scene::asset::{ImageAsset, SlotPicture, SlotWrap};
+use etendue_scene::limits;
+use gltf::json::Root;
+use gltf::json::texture::{Info, WrappingMode};
+use gltf::json::validation::Checked;
+
+use super::buffers::{Buffers, linked};
+use crate::Sandbox;
+use crate::picture::decode_picture;
+
+/// A texture as a material uses it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct TextureUse {
+    pub(super) texture: usize,
+    pub(super) layout: UvLayout,
+}
+
+/// By which texture coordinates a picture lies, and how they are changed (KHR_texture_transform).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct UvLayout {
+    pub(super) set: u32,
+    pub(super) offset: [f64; 2],
+    /// Radians.
+    pub(super) rotation: f64,
+    pub(super) scale: [f64; 2],
+}
+
+impl UvLayout {
+    pub(super) const PLAIN: Self = Self { set: 0, offset: [0.0; 2], rotation: 0.0, scale: [1.0; 2] };
+
+    /// Texture coordinates of the file, v downwards, as those of a mesh, v upwards.
+    pub(super) fn apply(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = maths::sin_cos(self.rotation);
+        let (u, v) = (u * self.scale[0], v * self.scale[1]);
+        [cos * u + sin * v + self.offset[0], 1.0 - (cos * v - sin * u + self.offset[1])]
+    }
+}
+
+impl TextureUse {
+    pub(super) fn of(info: &Info) -> Self {
+        let mut layout = UvLayout { set: info.tex_coord, ..UvLayout::PLAIN };
+        if let Some(transform) = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref()) {
+            layout = UvLayout {
+                set: transform.tex_coord.unwrap_or(layout.set),
+                offset: transform.offset.0.map(f64::from),
+                rotation: f64::from(transform.rotation.0),
+                scale: transform.scale.0.map(f64::from),
+            };
+        }
+        Self { texture: info.index.value(), layout }
+    }
+}
+
+/// The pictures as they are read, each once, and what is made of them.
+pub(super) struct Pictures<'a> {
+    file: &'a Path,
+    root: &'a Root,
+    buffers: &'a Buffers,
+    sandbox: &'a Sandbox,
+    images: BTreeMap<usize, ImageAsset>,
+    /// What materials use, by name.
+    pub(super) used: BTreeMap<PathBuf, ImageAsset>,
+    /// Bytes of picture files, in the order in which they were read.
+    pub(super) files: Vec<Vec<u8>>,
+    unpacked: u64,
+}
+
+impl<'a> Pictures<'a> {
+    pub(super) fn new(file: &'a Path, root: &'a Root, buffers: &'a Buffers, sandbox: &'a Sandbox) -> Self {
+        Self {
+            file,
+            root,
+            buffers,
+            sandbox,
+            images: BTreeMap::new(),
+            used: BTreeMap::new(),
+            files: Vec::new(),
+            unpacked: 0,
+        }
+    }
+
+    /// The picture of a texture as the file has it.
+    pub(super) fn image(&mut self, texture: usize) -> Result<&ImageAsset, String> {
+        let number = self.image_of(texture)?;
+        if !self.images.contains_key(&number) {
+            let image = self.read(number)?;
+            self.count(&image)?;
+            self.images.insert(number, image);
+        }
+        Ok(&self.images[&number])
+    }
+
+    /// That picture for a material.
+    pub(super) fn as_it_is(&mut self, texture: usize, is_encoded: bool) -> Result<SlotPicture, String> {
+        let number = self.image_of(texture)?;
+        let image = self.image(texture)?.clone();
+        let name = PathBuf::from(format!("{}#image {number}", self.file.display()));
+        self.keep(name, image, texture, is_encoded)
+    }
+
+    /// Another, made of that picture by what `what` says in words that no other has.
+    pub(super) fn made(
+        &mut self,
+        texture: usize,
+        what: &str,
+        is_encoded: bool,
+        make: impl FnOnce(&ImageAsset) -> ImageAsset,
+    ) -> Result<SlotPicture, String> {
+        let number = self.image_of(texture)?;
+        let name = PathBuf::from(format!("{}#image {number}, {what}", self.file.display()));
+        let made = match self.used.get(&name) {
+            Some(_) => None,
+            None => Some(make(self.image(texture)?)),
+        };
+        match made {
+            Some(image) => self.keep(name, image, texture, is_encoded),
+            None => Ok(SlotPicture { file: name, is_encoded, wrap: self.wrap(texture) }),
+        }
+    }
+
+    fn keep(
+        &mut self,
+        name: PathBuf,
+        image: ImageAsset,
+        texture: usize,
+        is_encoded: bool,
+    ) -> Result<SlotPicture, String> {
+        if !self.used.contains_key(&name) {
+            self.count(&image)?;
+            self.used.insert(name.clone(), image);
+        }
+        Ok(SlotPicture { file: name, is_encoded, wrap: self.wrap(texture) })
+    }
+
+    fn image_of(&self, texture: usize) -> Result<usize, String> {
+        let found = self.root.textures.get(texture).ok_or_else(|| format!("its texture {texture} is not there"))?;
+        Ok(found.source.value())
+    }
+
+    /// What all pictures take together is limited: materials may make many of one.
+    fn count(&mut self, image: &ImageAsset) -> Result<(), String> {
+        const BYTES_PER_PIXEL: u64 = 16;
+        self.unpacked =
+            self.unpacked.saturating_add(u64::from(image.width) * u64::from(image.height) * BYTES_PER_PIXEL);
+        limits::MESH.check_unpacked(self.unpacked)
+    }
+
+    fn read(&mut self, number: usize) -> Result<ImageAsset, String> {
+        let image = self.root.images.get(number).ok_or_else(|| format!("its image {number} is not there"))?;
+        let what = format!("image {number}");
+        let (bytes, is_file) = match (&image.uri, image.buffer_view) {
+            (Some(uri), _) => linked(self.file, uri, &what, self.sandbox)?,
+            (None, Some(view)) => {
+                let view =
+                    self.root.buffer_views.get(view.value()).ok_or_else(|| format!("its {what} names no view"))?;
+                (self.buffers.view(view).map_err(|told| format!("its {what} names {told}"))?.to_vec(), false)
+            }
+            (None, None) => return Err(format!("its {what} has neither \"uri\" nor \"bufferView\"")),
+        };
+        if bytes.is_empty() {
+            return Err(format!("its {what} is empty"));
+        }
+        let decoded = decode_picture(Path::new(&what), &bytes).map_err(|error| format!("its {error}"))?;
+        if is_file {
+            self.files.push(bytes);
+        }
+        Ok(decoded)
+    }
+
+    fn wrap(&self, texture: usize) -> [SlotWrap; 2] {
+        let sampler =
+            self.root.textures.get(texture).and_then(|t| t.sampler).and_then(|s| self.root.samplers.get(s.value()));
+        let of = |mode: &Checked<WrappingMode>| match mode {
+            Checked::Valid(WrappingMode::ClampToEdge) => SlotWrap::Clamp,
+            Checked::Valid(WrappingMode::MirroredRepeat) => SlotWrap::Mirror,
+            Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => SlotWrap::Repeat,
+        };
+        sampler.map_or([SlotWrap::Repeat; 2], |s| [of(&s.wrap_s), of(&s.wrap_t)])
+    }
+}

@@ -1,0 +1,22 @@
+//! Numbers of vertices: unit normals, and what positions are stored relative to.
+
+/// A unit vector in 32 bits; z for a face without area, which no ray meets.
+pub(super) fn unit(v: [f64; 3]) -> [f32; 3] {
+    let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    if largest == 0.0 {
+        return [0.0, 0.0, 1.0];
+    }
+    let scaled = v.map(|c| c / largest);
+    let length = scaled.iter().map(|c| c * c).sum::<f64>().sqrt();
+    scaled.map(|c| (c / length) as f32)
+}
+
+/// The middle of a mesh that lies further from the file's origin than twice its extent, as maps and surveys have them; zero for
+/// others. About it 32 bits hold every vertex to 3e-8 of the extent.
+pub(super) fn middle_of_far<I: Iterator<Item = f64>>(coordinates: impl Fn(usize) -> I) -> [f64; 3] {
+    let bound = |axis: usize, pick: fn(f64, f64) -> f64| coordinates(axis).reduce(pick).unwrap_or(0.0);
+    let bounds = [0, 1, 2].map(|axis| [bound(axis, f64::min), bound(axis, f64::max)]);
+    let extent = bounds.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+    let farthest = bounds.iter().flatten().fold(0.0_f64, |most, v| most.max(v.abs()));
+    if farthest > 2.0 * extent { bounds.map(|[low, high]| 0.5 * low + 0.5 * high) } else { [0.0; 3] }
+}

@@ -1,0 +1,196 @@
+//! What a glTF file says of a material, in the terms of a scene.
+
+use std::path::{Path, PathBuf};
+
+/// A material of glTF's metallic-roughness model with its extensions: a metal and a substance that is none, side by side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlotLayers {
+    /// Share of light that the base of what is no metal reflects.
+    pub base: SlotColour,
+    /// Share of the surface that is metal, 0 … 1.
+    pub metal: SlotNumber,
+    /// What the metal reflects at normal incidence, linear sRGB, 0 … 1.
+    pub metal_colour: [f64; 3],
+    /// Roughness of metal and coat: GGX α, 0 … 1.
+    pub alpha: SlotNumber,
+    /// What lies over the base of what is no metal.
+    pub over: SlotOver,
+    /// Light that goes through what is no metal; `None` where none does.
+    pub transmission: Option<SlotTransmission>,
+    /// Light that the surface gives; `None` where it gives none.
+    pub emission: Option<SlotEmission>,
+    /// Share of the surface that is there, 0 … 1; `None` where all of it is.
+    pub opacity: Option<SlotNumber>,
+    /// Finer normals, and a factor on their slopes; `None` for the mesh's own.
+    pub normals: Option<(SlotPicture, f64)>,
+}
+
+/// What lies over a base that is no metal.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SlotOver {
+    /// Nothing: Lambert's law.
+    Nothing,
+    /// A clear coat of a refractive index within [`super::COAT_INDICES`], as rough as the material says.
+    Coat {
+        /// The refractive index.
+        index: f64,
+    },
+    /// A clear coat of its own roughness over a share of the surface, the material's own over the rest.
+    TwoCoats {
+        /// The refractive index of both.
+        index: f64,
+        /// Share of the surface under the second, 0 … 1.
+        share: f64,
+        /// GGX α of the second, 0 … 1.
+        alpha: f64,
+    },
+    /// The sheen of fibres.
+    Sheen {
+        /// Linear sRGB, 0 … 1.
+        colour: [f64; 3],
+        /// Roughness α of the sheen, 0.1 … 1.
+        alpha: f64,
+    },
+}
+
+/// Light that goes through.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlotTransmission {
+    /// Share of the surface that is clear, 0 … 1.
+    pub share: SlotNumber,
+    /// Refractive index, 1 … 4.
+    pub index: f64,
+    /// What the inside of a solid absorbs; `None` for a pane without thickness, which the base colour tints.
+    pub solid: Option<SlotSolid>,
+}
+
+/// The inside of a clear solid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlotSolid {
+    /// Share of light that is left after `distance_m`, linear sRGB, 0 … 1.
+    pub colour: [f64; 3],
+    /// The distance, m; `None` where nothing is absorbed.
+    pub distance_m: Option<f64>,
+}
+
+/// Light that a surface gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlotEmission {
+    /// Luminance by its parts, linear sRGB in cd/m².
+    pub rgb_cd_m2: [f64; 3],
+    /// Factors on it over the surface; `None` where it is the same everywhere.
+    pub picture: Option<SlotPicture>,
+    /// Whether the back gives the same light.
+    pub both_sides: bool,
+}
+
+/// A colour over a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SlotColour {
+    /// Linear sRGB, 0 … 1.
+    LinearSrgb([f64; 3]),
+    /// A picture.
+    Picture(SlotPicture),
+}
+
+/// A number over a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SlotNumber {
+    /// The same everywhere.
+    Number(f64),
+    /// The first channel of a picture of plain numbers.
+    Picture(SlotPicture),
+}
+
+/// A picture that the mesh's file holds, names, or that was made of one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlotPicture {
+    /// Its name among the images of the assets.
+    pub file: PathBuf,
+    /// Whether its numbers are encoded by the curve of sRGB.
+    pub is_encoded: bool,
+    /// What is outside of u, v = 0 … 1, along u and v.
+    pub wrap: [SlotWrap; 2],
+}
+
+/// What is outside of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SlotWrap {
+    /// The picture again.
+    Repeat,
+    /// Its edge.
+    Clamp,
+    /// The picture, mirrored.
+    Mirror,
+}
+
+impl SlotLayers {
+    /// Whether any part is a picture, which is laid by texture coordinates.
+    #[must_use]
+    pub fn has_picture(&self) -> bool {
+        let numbers = [Some(&self.metal), Some(&self.alpha), self.opacity.as_ref()];
+        let clear = self.transmission.as_ref().map(|t| &t.share);
+        matches!(self.base, SlotColour::Picture(_))
+            || numbers.into_iter().chain([clear]).flatten().any(|n| matches!(n, SlotNumber::Picture(_)))
+            || self.emission.as_ref().is_some_and(|e| e.picture.is_some())
+            || self.normals.is_some()
+    }
+}
+
+/// Whether the name of a mesh's file is that of a glTF file.
+#[must_use]
+pub fn is_gltf(file: &Path) -> bool {
+    file.extension().is_some_and(|e| e.eq_ignore_ascii_case("glb") || e.eq_ignore_ascii_case("gltf"))
+}
+
+impl SlotLayers {
+    /// What it becomes, in words.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        let over = match &self.over {
+            SlotOver::Nothing => "diffuse".to_owned(),
+            SlotOver::Coat { index } => format!("coated of index {index:.3}"),
+            SlotOver::TwoCoats { index, share, .. } => {
+                format!("coated of index {index:.3}, {share} of it under a clear coat")
+            }
+            SlotOver::Sheen { .. } => "cloth".to_owned(),
+        };
+        let over = match &self.transmission {
+            None => over,
+            Some(clear) => {
+                let what = if clear.solid.is_some() { "dielectric" } else { "thin_sheet" };
+                format!("mix of {over} and {what} of index {} by {}", clear.index, words(&clear.share))
+            }
+        };
+        let surface = match &self.metal {
+            SlotNumber::Number(0.0) => over,
+            SlotNumber::Number(1.0) => "conductor of its colour".to_owned(),
+            share => format!("mix of {over} and conductor by {}", words(share)),
+        };
+        let mut parts = vec![surface];
+        if self.over != SlotOver::Nothing || self.metal != SlotNumber::Number(0.0) {
+            parts.push(format!("alpha {}", words(&self.alpha)));
+        }
+        if let SlotColour::Picture(_) = &self.base {
+            parts.push("colour by a picture".to_owned());
+        }
+        if let Some(opacity) = &self.opacity {
+            parts.push(format!("opacity {}", words(opacity)));
+        }
+        if let Some(emission) = &self.emission {
+            let [r, g, b] = emission.rgb_cd_m2;
+            parts.push(format!("emission of ({r:.4}, {g:.4}, {b:.4}) cd/m²"));
+        }
+        if self.normals.is_some() {
+            parts.push("normal map".to_owned());
+        }
+        parts.join(", ")
+    }
+}
+
+fn words(number: &SlotNumber) -> String {
+    match number {
+        SlotNumber::Number(value) => format!("{value:.4}"),
+        SlotNumber::Picture(_) => "a picture".to_owned(),
+    }
+}
