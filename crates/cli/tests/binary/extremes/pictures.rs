@@ -1,6 +1,6 @@
 //! Measurements of pictures that show nothing, or something else.
 
-use super::{refused, told};
+use super::told;
 use crate::bad_pictures::{MEASUREMENTS, SIZE, coloured, floats, grey, of_picture};
 use crate::support::etendue;
 use etendue_testkit::page::{Row, check};
@@ -25,7 +25,7 @@ fn measured(extreme: &str, expected: &str, picture: &str, folder: &Path) -> Row 
 fn pictures_that_show_nothing() {
     let place = tempfile::tempdir().expect("a folder");
     let folder = place.path();
-    let all = "each refuses it with one error";
+    let all = "each refuses it with one error; `compare` finds it equal to itself";
     let even = "no fall-off, no noise, no flicker, all else refused";
     let number = "a reading that is no number is named by its place";
     let bad = |value: f32| move |i: usize| if i == 6208 { value } else { 20_000.0 + (i % 7) as f32 };

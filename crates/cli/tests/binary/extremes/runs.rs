@@ -29,7 +29,8 @@ fn runs_that_cannot_go_on() {
     let full = after("trap '' XFSZ; ulimit -f 8", &["render", &small(), "-o", &out, "--spp", "2"]);
     let full = nothing_left("a disk that is full after 4 kB", &full, place.path());
     let size = ["--set", "cameras.front.sensor.width_px=16000", "--set", "cameras.front.sensor.height_px=16000"];
-    let render = [&["render", &small(), "-o", &out, "--threads", "1", "--spp", "2"][..], &size].concat();
+    let job = small();
+    let render = [&["render", &job, "-o", &out, "--threads", "1", "--spp", "2"][..], &size].concat();
     let memory = after("ulimit -c 0; ulimit -v 1500000", &render);
     let memory = nothing_left("a film for which there is no memory", &memory, place.path());
     let about = "With real limits of the system. Kills at random moments (996, docs/robustness.md), smaller allocations that fail, panics and two runs in one folder have tests of their own \
