@@ -38,6 +38,7 @@ faults:
 # The ends of every range: writes docs/extremes.md
 extremes:
     ETENDUE_BLESS=1 cargo test -p etendue-tests --test extremes -- --test-threads=1
+    ETENDUE_BLESS=1 cargo test -p etendue-cli --test binary -- --test-threads=1 extremes:: pictures_that_are_mirrored
 
 # Variance by the density of wavelengths, by sensor and light: writes docs/wavelengths.md
 wavelengths:
@@ -58,6 +59,10 @@ peers *arguments:
 # Kill small runs at so many random moments, and resume or rerun them: writes target/kills.md
 kills count="1000" seed="1":
     ETENDUE_KILLS={{count}} ETENDUE_KILLS_SEED={{seed}} cargo test --release -p etendue-cli --test binary killed::
+
+# The tracer's tests under the address sanitiser: all there is of unsafe code (Linux, x86-64)
+sanitise:
+    RUSTC_BOOTSTRAP=1 RUSTFLAGS="-Zsanitizer=address -Ctarget-cpu=x86-64-v2" cargo test --target x86_64-unknown-linux-gnu --target-dir target/sanitised -p etendue-tracer
 
 # Licences, sources and advisories of everything that is used (needs cargo-deny and a network)
 policy:

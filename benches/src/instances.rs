@@ -1,4 +1,4 @@
-//! The street with a hundred thousand instances more: what grows with their number.
+//! The street with up to a million instances more: what grows with their number.
 
 use crate::child;
 use crate::clock::{clock_s, process_cpu_s};
@@ -12,34 +12,38 @@ use std::fmt::Write as _;
 /// The argument that asks a child process for its times and memory.
 pub const CHILD: &str = "--instances-of-a-process";
 
-const NOTE: &str = "The street as it is, with 10⁵ instances more of its small things on a square of 2 km, and with 10⁵ objects \
+const NOTE: &str = "The street as it is, with 10⁵ and 10⁶ instances more of its small things on a square of 2 km, and with as many objects \
     of one instance each; two threads, a process of its own each. Job: reading and checking it with its files, and building \
     its world. View: placing the world about the camera, its tree over instances, and collecting the lights. Clock (wants an \
     idle machine), processor time of all threads, and most memory resident at any time.";
 
-/// Instances that are added.
-const ADDED: usize = 100_000;
 /// Meshes of the street whose instances they are.
 const MESHES: [&str; 8] = ["bollard", "bin", "bench", "lamp-post", "walker", "tree-a", "tree-b", "van"];
-/// Rows and columns of instances: a square with room for all.
-const COLUMNS: usize = 317;
-const STEP_M: f64 = 2000.0 / COLUMNS as f64;
+/// What is added to the street: in words, how many, and whether as objects of their own.
+const WORLDS: [(&str, usize, bool); 5] = [
+    ("street", 0, false),
+    ("and 10⁵ instances of eight objects", 100_000, false),
+    ("and as many objects", 100_000, true),
+    ("and 10⁶ instances of eight objects", 1_000_000, false),
+    ("and as many objects", 1_000_000, true),
+];
+/// Side of the square on which they stand, m.
+const SQUARE_M: f64 = 2000.0;
 
 /// Times and memory of the street, with many instances and with many objects.
 pub fn table() -> Table {
     let head = ["world", "instances", "job, s", "processor, s", "view, s", "processor, s", "memory, MB"];
     let mut table = Table::new("Many instances", NOTE, &head);
-    for (name, way) in
-        [("street", "none"), ("and instances of eight objects", "instances"), ("and as many objects", "objects")]
-    {
-        table.row(child::row(name, &[CHILD, way]));
+    for (i, (name, ..)) in WORLDS.iter().enumerate() {
+        table.row(child::row(name, &[CHILD, &i.to_string()]));
     }
     table
 }
 
-/// Loads the street with what `way` adds; instances, clock and processor time of job and view, s, and megabytes at most.
-pub fn child(way: &str) -> String {
-    let scene = scene(way);
+/// Loads the street with what the world of this number adds; instances, clock and processor time of job and view, s, and megabytes at most.
+pub fn child(world: &str) -> String {
+    let (_, count, as_objects) = WORLDS[world.parse::<usize>().expect("the number of a world")];
+    let scene = scene(count, as_objects);
     pool(2).install(|| {
         let start = (clock_s(), process_cpu_s());
         let plan = STREET.with_scene(&scene, &[]);
@@ -53,34 +57,36 @@ pub fn child(way: &str) -> String {
 }
 
 /// The street's scene and what is added to it.
-fn scene(way: &str) -> String {
+fn scene(count: usize, as_objects: bool) -> String {
     let mut text = text_of("street/scene.toml");
-    match way {
-        "instances" => (0..MESHES.len()).for_each(|mesh| add_instances(&mut text, mesh)),
-        "objects" => (0..ADDED).for_each(|number| add_object(&mut text, number)),
-        _ => {}
+    if as_objects {
+        (0..count).for_each(|number| add_object(&mut text, number, count));
+    } else if count > 0 {
+        (0..MESHES.len()).for_each(|mesh| add_instances(&mut text, mesh, count));
     }
     text
 }
 
-fn add_instances(text: &mut String, mesh: usize) {
+fn add_instances(text: &mut String, mesh: usize, count: usize) {
     let name = MESHES[mesh];
     writeln!(text, "[[objects]]\nname = \"more {name}\"\nmesh = \"{name}\"\nmaterial = \"bollard\"\ninstances = [")
         .expect("memory");
-    for number in (mesh..ADDED).step_by(MESHES.len()) {
-        writeln!(text, "  {{ {} }},", placed(number).join(", ")).expect("memory");
+    for number in (mesh..count).step_by(MESHES.len()) {
+        writeln!(text, "  {{ {} }},", placed(number, count).join(", ")).expect("memory");
     }
     text.push_str("]\n");
 }
 
-fn add_object(text: &mut String, number: usize) {
-    let (mesh, placed) = (MESHES[number % MESHES.len()], placed(number).join("\n"));
+fn add_object(text: &mut String, number: usize, count: usize) {
+    let (mesh, placed) = (MESHES[number % MESHES.len()], placed(number, count).join("\n"));
     writeln!(text, "[[objects]]\nname = \"more {number}\"\nmesh = \"{mesh}\"\nmaterial = \"bollard\"\n{placed}")
         .expect("memory");
 }
 
-/// Where an instance stands: on a square, turned by its number.
-fn placed(number: usize) -> [String; 2] {
-    let (x, y) = ((number % COLUMNS) as f64 * STEP_M, (number / COLUMNS) as f64 * STEP_M - 1000.0);
+/// Where an instance of so many stands: on a square with room for all, turned by its number.
+fn placed(number: usize, count: usize) -> [String; 2] {
+    let columns = (count - 1).isqrt() + 1;
+    let step_m = SQUARE_M / columns as f64;
+    let (x, y) = ((number % columns) as f64 * step_m, (number / columns) as f64 * step_m - 0.5 * SQUARE_M);
     [format!("position_m = [{x:.2}, {y:.2}, 0]"), format!("rotation_deg = [{}, 0, 0]", number * 37 % 360)]
 }

@@ -16,7 +16,7 @@
 //! | `views` | a fisheye and a panorama, through the lens and by six views |
 //! | `trees` | time to build the accelerator, a triangle |
 //! | `obj` | a million triangles from their OBJ file to the first ray, by stages |
-//! | `instances` | the street with 10⁵ instances more: time and memory until its light can be gathered |
+//! | `instances` | the street with 10⁵ and 10⁶ instances more: time and memory until its light can be gathered |
 //! | `motion` | the street with fifty objects more, at rest and moving |
 //! | `textures` | peak memory and time of textures that are larger than the memory that they may take |
 //! | `films` | peak memory and time of films of a hundred megapixels, whose bands are on the disk |

@@ -138,6 +138,66 @@ def ciede2000(one, other):
     return mpmath.sqrt((d_l / s_l) ** 2 + (d_c / s_c) ** 2 + (d_h / s_h) ** 2 + r_t * d_c / s_c * d_h / s_h)
 
 
+def density(alpha, m):
+    """GGX: facets by solid angle over the projected area (Walter et al. 2007, equation 33)."""
+    x, y, z = m
+    return 1 / (mpmath.pi * alpha**2 * ((x * x + y * y) / alpha**2 + z * z) ** 2)
+
+
+def slant(alpha, w):
+    """cos θ (2 Λ + 1)."""
+    x, y, z = w
+    return mpmath.sqrt(z * z + alpha**2 * (x * x + y * y))
+
+
+def masking(alpha, w):
+    """G₁ of Smith's form (Heitz 2014, equation 43)."""
+    return 2 * w[2] / (w[2] + slant(alpha, w))
+
+
+def reflection(alpha, wo, wi, m):
+    """D G₂/(4 cos θₒ), height-correlated (Heitz 2014, equation 99)."""
+    g2 = 2 * wo[2] * wi[2] / (wi[2] * slant(alpha, wo) + wo[2] * slant(alpha, wi))
+    return density(alpha, m) * g2 / (4 * wo[2])
+
+
+def drawn(alpha, wo, u):
+    """A visible facet by the spherical cap (Dupuy and Benyoub 2023, listing 3)."""
+    unit = lambda v: [c / mpmath.sqrt(sum(d * d for d in v)) for c in v]
+    sx, sy, sz = unit([alpha * wo[0], alpha * wo[1], wo[2]])
+    z = (1 - u[1]) * (1 + sz) - sz
+    r = mpmath.sqrt(1 - z * z)
+    turn = 2 * mpmath.pi * u[0]
+    h = [r * mpmath.cos(turn) + sx, r * mpmath.sin(turn) + sy, z + sz]
+    return tuple(unit([alpha * h[0], alpha * h[1], h[2]]))
+
+
+def direction(cosine):
+    """A direction of about this cosine, in floats of 32 bits."""
+    turn, sine = random.uniform(0, 2 * math.pi), math.sqrt(1 - cosine * cosine)
+    return single([sine * math.cos(turn), sine * math.sin(turn), cosine])
+
+
+def vectors(f):
+    """The same of flat arguments: roughness, then directions of three numbers each."""
+    return lambda alpha, *flat: f(alpha, *[flat[i : i + 3] for i in range(0, len(flat), 3)])
+
+
+def observer():
+    """The CIE 1931 functions at each nanometre, 360 to 830."""
+    rows = [line.split(",") for line in open("crates/spectra/data/cie_1931_2deg_1nm.csv") if line[0].isdigit()]
+    return [(mpmath.mpf(nm), [mpmath.mpf(v) for v in values]) for nm, *values in rows]
+
+
+OBSERVER = observer()
+
+
+def tristimulus(spectrum):
+    """X, Y, Z, x and y by the sum over nanometres (CIE 15:2018, 7.1)."""
+    sums = [683 * sum(spectrum(nm) * bars[i] for nm, bars in OBSERVER) for i in range(3)]
+    return (*sums, sums[0] / sum(sums), sums[1] / sum(sums))
+
+
 def single(values):
     return [float(np.float32(v)) for v in values]
 
@@ -182,6 +242,24 @@ figures["planck"] = within(table(list(zip(even(300, 1100), logarithmic(10, 1e8))
 labs = [[random.uniform(0, 100), random.uniform(-120, 120), random.uniform(-120, 120)] for _ in range(COUNT)]
 others = [[v + random.choice((1e-6, 1e-2, 1, 30)) * random.uniform(-1, 1) for v in lab] for lab in labs]
 figures["ciede2000"] = table(list(zip(labs, others)), ciede2000)
+
+# What 32 bits hold of roughness, directions and random numbers.
+roughness = single([10 ** random.uniform(-4, 0) for _ in range(COUNT)])
+facets = [direction(1 / math.hypot(1, a * 10 ** random.uniform(-2, 1.5))) for a in roughness]
+grazing = lambda: [direction(c) for c in logarithmic(1e-6, 1)]
+flat = lambda *columns: [tuple(v for part in row for v in (part if isinstance(part, list) else [part])) for row in zip(*columns)]
+figures["ggx"] = {
+    "density": table(flat(roughness, facets), vectors(density)),
+    "masking": table(flat(roughness, grazing()), vectors(masking)),
+    "reflection": table(flat(roughness, grazing(), grazing(), facets), vectors(reflection)),
+    "drawn": table(
+        flat(roughness, grazing(), [single([random.random(), random.random()]) for _ in range(COUNT)]),
+        lambda alpha, x, y, z, *u: drawn(alpha, (x, y, z), u),
+    ),
+}
+figures["black_bodies"] = table([(10 ** random.uniform(3, 6),) for _ in range(COUNT)], lambda kelvin: tristimulus(lambda nm: planck(nm, kelvin)))
+lines = [(random.uniform(380, 780), 10 ** random.uniform(0, 2)) for _ in range(COUNT)]
+figures["lines"] = table(lines, lambda centre, width: tristimulus(lambda nm: mpmath.exp(-(((nm - centre) / width) ** 2))))
 
 # A row a line: differences stay readable.
 lines = json.dumps(figures).replace('{"at"', '\n{"at"')

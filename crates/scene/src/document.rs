@@ -1,5 +1,6 @@
 //! A TOML text as a tree whose every value knows its place.
 
+use std::borrow::Cow;
 use std::num::IntErrorKind;
 use std::path::Path;
 use std::sync::Arc;
@@ -125,17 +126,18 @@ pub(crate) fn parse(file: &Arc<Path>, text: &str, faults: &mut Faults) -> Node {
     errors.sort_by_key(|error| error.span().map_or(0, |s| s.start));
     let builder = Builder { spots: Spots::File { file: file.clone(), lines: LineIndex::new(text) } };
     for error in errors.iter().take(SYNTAX_FAULTS) {
-        let place = builder.spots.place(error.span().map_or(0, |s| s.start), "");
+        let place = builder.spots.place(error.span().map_or(0, |s| s.start), &"".into());
         faults.add(&place, format!("this is not TOML: {}", error.message()), "correct the syntax");
     }
-    Node { place: Place::file_head(file.clone()), value: Value::Table(builder.table(table.get_ref(), "")) }
+    let table = builder.table(table.into_inner(), &"".into());
+    Node { place: Place::file_head(file.clone()), value: Value::Table(table) }
 }
 
 /// Gives the tree of the value of an override, all of it at the place of the override; `None` where it is no TOML value.
 pub(crate) fn parse_override(file: &Arc<Path>, set: &Arc<str>, value: &str, key: &str) -> Option<Node> {
     let parsed = DeValue::parse(value).ok()?;
     let builder = Builder { spots: Spots::Set { file: file.clone(), text: set.clone() } };
-    Some(builder.node(&parsed, key))
+    Some(builder.node(parsed, &key.into()))
 }
 
 /// Where byte offsets are.
@@ -145,12 +147,12 @@ enum Spots<'a> {
 }
 
 impl Spots<'_> {
-    fn place(&self, offset: usize, key: &str) -> Place {
+    fn place(&self, offset: usize, key: &Arc<str>) -> Place {
         match self {
-            Self::Set { file, text } => Place::set(file.clone(), text.clone(), key.into()),
+            Self::Set { file, text } => Place::set(file.clone(), text.clone(), key.clone()),
             Self::File { file, lines } => {
                 let (line, column) = lines.line_column(offset);
-                Place::at(file.clone(), line, column, key.into())
+                Place::at(file.clone(), line, column, key.clone())
             }
         }
     }
@@ -160,42 +162,47 @@ struct Builder<'a> {
     spots: Spots<'a>,
 }
 
+// Values are taken apart as they are read: a large file is held once, as text, and once, as a tree.
 impl Builder<'_> {
-    fn node(&self, value: &Spanned<DeValue<'_>>, key: &str) -> Node {
+    fn node(&self, value: Spanned<DeValue<'_>>, key: &Arc<str>) -> Node {
         let place = self.spots.place(value.span().start, key);
-        Node { place, value: self.value(value.get_ref(), key) }
+        Node { place, value: self.value(value.into_inner(), key) }
     }
 
-    fn value(&self, value: &DeValue<'_>, key: &str) -> Value {
+    fn value(&self, value: DeValue<'_>, key: &Arc<str>) -> Value {
         match value {
-            DeValue::Boolean(v) => Value::Flag(*v),
-            DeValue::Integer(v) => whole(v),
+            DeValue::Boolean(v) => Value::Flag(v),
+            DeValue::Integer(v) => whole(&v),
             DeValue::Float(v) => {
                 v.as_str().parse().map_or(Value::Foreign("a number too large for 64 bits"), Value::Number)
             }
-            DeValue::String(v) => Value::Text(v.to_string()),
+            DeValue::String(v) => Value::Text(v.into_owned()),
             DeValue::Datetime(v) => Value::Moment(v.to_string()),
-            DeValue::Array(v) => Value::List(v.iter().enumerate().map(|(i, e)| self.element(i, e, key)).collect()),
+            DeValue::Array(v) => Value::List(v.into_iter().enumerate().map(|(i, e)| self.element(i, e, key)).collect()),
             DeValue::Table(v) => Value::Table(self.table(v, key)),
         }
     }
 
-    fn element(&self, index: usize, value: &Spanned<DeValue<'_>>, key: &str) -> Node {
+    fn element(&self, index: usize, value: Spanned<DeValue<'_>>, list: &Arc<str>) -> Node {
+        if !matches!(value.get_ref(), DeValue::Table(_) | DeValue::Array(_)) {
+            let node = self.node(value, list);
+            return Node { place: node.place.of_element(index as u32), ..node };
+        }
         let name = value.get_ref().get("name").and_then(|n| n.as_ref().as_str());
-        let key = name.map_or_else(|| format!("{key}[{index}]"), |name| join(key, name));
-        self.node(value, &key)
+        let key = name.map_or_else(|| format!("{list}[{index}]"), |name| join(list, name));
+        self.node(value, &key.into())
     }
 
-    fn table(&self, table: &DeTable<'_>, key: &str) -> Table {
-        let mut entries: Vec<_> = table.iter().collect();
+    fn table(&self, table: DeTable<'_>, key: &Arc<str>) -> Table {
+        let mut entries: Vec<_> = table.into_iter().collect();
         entries.sort_by_key(|(k, _)| k.span().start);
         Table { entries: entries.into_iter().map(|(k, v)| self.entry(k, v, key)).collect() }
     }
 
-    fn entry(&self, key: &Spanned<std::borrow::Cow<'_, str>>, value: &Spanned<DeValue<'_>>, parent: &str) -> Entry {
-        let path = join(parent, key.get_ref());
-        let node = self.node(value, &path);
-        Entry { key: key.get_ref().to_string(), place: self.spots.place(key.span().start, &path), node }
+    fn entry(&self, key: Spanned<Cow<'_, str>>, value: Spanned<DeValue<'_>>, parent: &str) -> Entry {
+        let path = join(parent, key.get_ref()).into();
+        let place = self.spots.place(key.span().start, &path);
+        Entry { key: key.into_inner().into_owned(), place, node: self.node(value, &path) }
     }
 }
 

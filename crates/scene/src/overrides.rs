@@ -149,8 +149,8 @@ impl<'t> Change<'t> {
 
     /// Takes the entry `last` out of `node`; one that is not there is a fault.
     fn take_out(&self, node: &mut Node, last: &str, faults: &mut Faults) {
-        let place = Place::set(node.place.file().into(), self.text.clone(), join(node.place.key(), last).into());
-        let parent = node.place.key().to_owned();
+        let place = Place::set(node.place.file().into(), self.text.clone(), join(&node.place.key(), last).into());
+        let parent = node.place.key().into_owned();
         let is_taken = match &mut node.value {
             Value::Table(table) => table.remove(last).is_some(),
             Value::List(list) => find_entry(list, last).map(|at| list.remove(at)).is_some(),
@@ -173,7 +173,7 @@ impl<'t> Change<'t> {
 
     /// The entry `part` of `node`; a table that is not there yet is made.
     fn step<'n>(&self, node: &'n mut Node, part: &str, faults: &mut Faults) -> Option<&'n mut Node> {
-        let parent = node.place.key().to_owned();
+        let parent = node.place.key().into_owned();
         let place = Place::set(node.place.file().into(), self.text.clone(), join(&parent, part).into());
         match &mut node.value {
             Value::Table(table) => Some(entry_or_table(table, part, &place)),
@@ -188,7 +188,7 @@ impl<'t> Change<'t> {
 
     fn put(&self, node: &mut Node, last: &str, faults: &mut Faults) {
         let file: Arc<Path> = node.place.file().into();
-        let key = join(node.place.key(), last);
+        let key = join(&node.place.key(), last);
         let place = Place::set(file.clone(), self.text.clone(), key.as_str().into());
         let value = parse_override(&file, self.text, self.value, &key)
             .unwrap_or_else(|| Node { place: place.clone(), value: Value::Text(self.value.to_owned()) });

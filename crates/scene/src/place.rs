@@ -1,5 +1,6 @@
 //! Where a value stands: file, line, column and key, or the override that set it.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
@@ -13,6 +14,8 @@ pub struct Place {
     file: Arc<Path>,
     spot: Spot,
     key: Arc<str>,
+    /// Of a value in the list `key`: which, from 0. So the values of a long list share one text.
+    element: Option<u32>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -27,8 +30,12 @@ impl Place {
     /// Of what no file states: a record that a program made.
     #[must_use]
     pub fn unstated() -> Self {
-        static UNSTATED: LazyLock<Place> =
-            LazyLock::new(|| Place { file: Arc::from(Path::new("")), spot: Spot::Unstated, key: "".into() });
+        static UNSTATED: LazyLock<Place> = LazyLock::new(|| Place {
+            file: Arc::from(Path::new("")),
+            spot: Spot::Unstated,
+            key: "".into(),
+            element: None,
+        });
         UNSTATED.clone()
     }
 
@@ -41,22 +48,27 @@ impl Place {
     /// The first character of `file`.
     #[must_use]
     pub fn file_head(file: impl Into<Arc<Path>>) -> Self {
-        Self { file: file.into(), spot: Spot::At { line: 1, column: 1 }, key: "".into() }
+        Self { file: file.into(), spot: Spot::At { line: 1, column: 1 }, key: "".into(), element: None }
     }
 
     /// Line and column (from 1, columns in characters) of `file`, at the dotted `key`.
     pub(crate) fn at(file: Arc<Path>, line: u32, column: u32, key: Arc<str>) -> Self {
-        Self { file, spot: Spot::At { line, column }, key }
+        Self { file, spot: Spot::At { line, column }, key, element: None }
     }
 
     /// The override `--set text`, which changes `key` of `file`.
     pub(crate) fn set(file: Arc<Path>, text: Arc<str>, key: Arc<str>) -> Self {
-        Self { file, spot: Spot::Set(text), key }
+        Self { file, spot: Spot::Set(text), key, element: None }
     }
 
     /// The flag of the command line, as typed, that changes `key` of `file`.
     pub(crate) fn flag(file: Arc<Path>, text: Arc<str>, key: Arc<str>) -> Self {
-        Self { file, spot: Spot::Flag(text), key }
+        Self { file, spot: Spot::Flag(text), key, element: None }
+    }
+
+    /// The place of a value of the list at the key.
+    pub(crate) fn of_element(self, index: u32) -> Self {
+        Self { element: Some(index), ..self }
     }
 
     /// Whether the command line says it, by an override or a flag.
@@ -73,8 +85,11 @@ impl Place {
 
     /// The dotted key; empty for the file as a whole. Entries with a name are called by it: `cameras.front.lens`.
     #[must_use]
-    pub fn key(&self) -> &str {
-        &self.key
+    pub fn key(&self) -> Cow<'_, str> {
+        match self.element {
+            Some(element) => Cow::Owned(format!("{}[{element}]", self.key)),
+            None => Cow::Borrowed(&self.key),
+        }
     }
 
     /// Line and column, both from 1; `None` for an override and for what no file states.
@@ -101,7 +116,8 @@ impl fmt::Display for Place {
             Spot::Flag(text) => return f.write_str(text),
             Spot::Unstated => return f.write_str("a value that no file states"),
         }
-        if self.key.is_empty() { Ok(()) } else { write!(f, ": {}", self.key) }
+        let key = self.key();
+        if key.is_empty() { Ok(()) } else { write!(f, ": {key}") }
     }
 }
 

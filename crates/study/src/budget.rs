@@ -3,6 +3,7 @@
 use crate::Clock;
 use crate::pilot::{Pilots, seed};
 use crate::plan::{PilotPlan, TILE_PX};
+use crate::stint::Stint;
 use etendue::{Error, Job, Observer, Simd};
 
 /// Tiles of the first look, and the fewest of any.
@@ -25,7 +26,10 @@ pub(crate) fn within(
     let own = job.render_settings(camera)?.seed;
     // Twice: the first one finds cold caches.
     look.timed(job, (2, 1), seed(own, 1000))?;
-    let (light, took_s) = look.timed(job, (2, 1), seed(own, 1001))?;
+    let stint = Stint::begin(clock);
+    let light = look.timed(job, (2, 1), seed(own, 1001))?.0;
+    // By the clock: that is what the study may take.
+    let took_s = stint.clock_s();
     let of_tile_s = took_s / f64::from(all / plan.shard.count).max(1.0) / 2.0;
     let tile_px2 = (light.pixels.len() as u32 / (all / plan.shard.count).max(1)).max(1);
     let affordable = (budget_s / (samples * of_tile_s)).min(f64::from(all)) as u32;

@@ -19,6 +19,7 @@ mod pilot;
 mod pixels;
 mod plan;
 mod report;
+mod stint;
 mod study;
 mod trial;
 mod variation;
@@ -43,4 +44,7 @@ pub trait Clock: Sync {
 
     /// Processor time of all threads of this process since any moment, s; `None` where the machine does not tell it.
     fn processor_seconds(&self) -> Option<f64>;
+
+    /// Threads that gather light.
+    fn threads(&self) -> usize;
 }

@@ -106,10 +106,14 @@ pub(crate) struct Times {
 }
 
 impl Times {
-    /// By pilots of few and of many samples of a share of the frame's tiles.
-    pub(crate) fn of((few, at_few): (u32, &Pilot), (many, at_many): (u32, &Pilot), share: f64) -> Self {
+    /// By pilots of few and of many samples of a share of the frame's tiles: samples are all threads' work, the rest one's.
+    pub(crate) fn of(
+        (few, at_few): (u32, &Pilot),
+        (many, at_many): (u32, &Pilot),
+        (share, threads): (f64, usize),
+    ) -> Self {
         let median = |seconds: &[f64]| upper_median(seconds.iter().copied()).unwrap_or(f64::NAN);
-        let (short_s, long_s) = (median(&at_few.seconds), median(&at_many.seconds));
+        let (short_s, long_s) = (median(&at_few.processor_s), median(&at_many.processor_s));
         let step = f64::from(many - few);
         let slope_s = ((long_s - short_s) / step).max(1e-12);
         let frame_s = (short_s - slope_s * f64::from(few)).clamp(0.0, short_s);
@@ -118,8 +122,8 @@ impl Times {
             let variance = Moments::of(seconds.iter().copied()).variance().unwrap_or(f64::NAN);
             (FRAC_PI_2 * variance / seconds.len() as f64).sqrt()
         };
-        let uncertainty = hypot(spread(&at_few.seconds), spread(&at_many.seconds)) / step;
-        Self { frame_s, sample_s: Estimate { value: slope_s, uncertainty }.times(1.0 / share) }
+        let uncertainty = hypot(spread(&at_few.processor_s), spread(&at_many.processor_s)) / step;
+        Self { frame_s, sample_s: Estimate { value: slope_s, uncertainty }.times(1.0 / (share * threads as f64)) }
     }
 }
 
@@ -174,8 +178,13 @@ mod tests {
 
     #[test]
     fn times_are_a_frame_and_its_samples() {
-        let pilot = |seconds: [f64; 3]| Pilot { pixels: Vec::new(), planes: Vec::new(), seconds: seconds.to_vec() };
-        let times = Times::of((2, &pilot([0.51, 0.9, 0.51])), (8, &pilot([1.12, 1.11, 1.11])), 0.1);
-        assert!((times.sample_s.value - 1.0).abs() < 1e-9 && (times.frame_s - 0.31).abs() < 1e-9, "{times:?}");
+        let pilot = |seconds: [f64; 3]| Pilot {
+            pixels: Vec::new(),
+            planes: Vec::new(),
+            processor_s: seconds.to_vec(),
+            clock_s: 0.0,
+        };
+        let times = Times::of((2, &pilot([0.51, 0.9, 0.51])), (8, &pilot([1.12, 1.11, 1.11])), (0.1, 2));
+        assert!((times.sample_s.value - 0.5).abs() < 1e-9 && (times.frame_s - 0.31).abs() < 1e-9, "{times:?}");
     }
 }

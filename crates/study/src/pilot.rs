@@ -2,6 +2,7 @@
 
 use crate::Clock;
 use crate::plan::PilotPlan;
+use crate::stint::Stint;
 use etendue::{Error, Job, LightSampling, Observer, SampledPixel, Simd};
 
 /// The planes of one way with one number of samples, and how long each took.
@@ -10,8 +11,10 @@ pub(crate) struct Pilot {
     pub(crate) pixels: Vec<SampledPixel>,
     /// One of each seed.
     pub(crate) planes: Vec<Vec<f32>>,
-    /// Of each plane, s.
-    pub(crate) seconds: Vec<f64>,
+    /// Processor time of each plane, all threads together, s.
+    pub(crate) processor_s: Vec<f64>,
+    /// All planes by the clock, s.
+    pub(crate) clock_s: f64,
 }
 
 /// What runs pilots.
@@ -28,16 +31,18 @@ impl Pilots<'_> {
     /// their differences are little noisy.
     pub(crate) fn run(&self, job: &Job, spp: u32, seeds: u32) -> Result<Pilot, Error> {
         let own = job.render_settings(self.camera)?.seed;
-        let (mut pixels, mut planes, mut seconds) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut pixels, mut planes, mut processor_s) = (Vec::new(), Vec::new(), Vec::new());
+        let all = Stint::begin(self.clock);
         for k in 0..seeds {
             let (light, took_s) = self.timed(job, (spp, 1), seed(own, k))?;
-            (pixels, seconds) = (light.pixels, [seconds, vec![took_s]].concat());
+            pixels = light.pixels;
+            processor_s.push(took_s);
             planes.push(light.signal);
         }
-        Ok(Pilot { pixels, planes, seconds })
+        Ok(Pilot { pixels, planes, processor_s, clock_s: all.clock_s() })
     }
 
-    /// The light of the study's tiles with so many samples and replicates, and how long it took, s.
+    /// The light of the study's tiles with so many samples and replicates, and its processor time, all threads together, s.
     pub(crate) fn timed(
         &self,
         job: &Job,
@@ -46,9 +51,9 @@ impl Pilots<'_> {
     ) -> Result<(etendue::SampledLight, f64), Error> {
         let PilotPlan { tile_px, shard } = self.plan;
         let sampling = LightSampling { spp, replicates, seed, tile_px, shard };
-        let from_s = self.clock.seconds();
+        let stint = Stint::begin(self.clock);
         let light = job.sampled_light(self.camera, sampling, self.simd, self.observer)?;
-        Ok((light, self.clock.seconds() - from_s))
+        Ok((light, stint.processor_s()))
     }
 }
 

@@ -8,6 +8,9 @@ use etendue::plot::{Axis, Mark, Plot, Series, svg};
 use etendue_core::maths::f64::log10;
 use std::fmt::Write as _;
 
+/// By how much longer pilots take on a machine that is told to be busy.
+const BUSY: f64 = 1.25;
+
 /// A time as people say it.
 pub(crate) fn time_text(seconds: f64) -> String {
     match seconds {
@@ -58,6 +61,13 @@ pub fn table(study: &Study) -> String {
         time_text(study.took_s),
         study.signal
     );
+    if study.slowed > BUSY {
+        let slowed = study.slowed;
+        let _ = writeln!(
+            out,
+            "times are those of a machine that does nothing else; this one was busy, and pilots took {slowed:.1} times as long\n"
+        );
+    }
     let _ = writeln!(
         out,
         "as the job says: {} samples, {}, {} in {}\n",

@@ -8,6 +8,7 @@ use crate::measured::{Bias, Measured, Role, Times, bias, variance};
 use crate::pilot::{Pilot, Pilots};
 use crate::pixels::Pixels;
 use crate::plan::share;
+use crate::stint::Stint;
 use crate::trial::Trial;
 use crate::way::{Accelerator, EXACT_BOUNCES, WayToRender};
 use etendue::{
@@ -64,6 +65,8 @@ pub struct Study {
     pub recommendations: Vec<Recommendation>,
     /// How long the study took, s.
     pub took_s: f64,
+    /// By how much longer pilots took by the clock than all times that are told, which are of a machine that does nothing else: 1 where it is.
+    pub slowed: f64,
 }
 
 /// Studies a job's frame. Runs on the caller's thread pool. `scratch` is a folder that is not there: one frame is written to it, and it is removed.
@@ -86,7 +89,16 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     let budget = (PILOTS_PART * request.budget_s, samples);
     let plan = within(&job, &camera, budget, request.simd, (clock, observer))?;
     let pilots = Pilots { camera: &camera, plan, simd: request.simd, clock, observer };
-    let mut bench = Bench { request, pilots, job: &job, pixels: None, ways: Vec::new(), kept: Vec::new() };
+    let mut bench = Bench {
+        request,
+        pilots,
+        job: &job,
+        pixels: None,
+        ways: Vec::new(),
+        kept: Vec::new(),
+        clock_s: 0.0,
+        processor_s: 0.0,
+    };
     let stated = WayToRender::of(&job, &camera)?;
     bench.look_at_ways(stated)?;
     let settings = job.render_settings(&camera)?;
@@ -119,6 +131,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
         front: front(&eligible, frame),
         recommendations,
         took_s: clock.seconds() - from_s,
+        slowed: bench.clock_s * clock.threads() as f64 / bench.processor_s.max(1e-9),
         ways: bench.ways,
         camera,
     })
@@ -145,6 +158,9 @@ struct Bench<'a> {
     ways: Vec<Measured>,
     /// Long pilots that others are compared with.
     kept: Vec<(WayToRender, Pilot)>,
+    /// All pilots by the clock, and by the processor, s.
+    clock_s: f64,
+    processor_s: f64,
 }
 
 impl Bench<'_> {
@@ -214,11 +230,14 @@ impl Bench<'_> {
         let (done, total) = (self.ways.len(), (WAYS as usize).max(self.ways.len() + 1));
         let heading = way.label();
         self.pilots.observer.progress(Progress { heading: &heading, frame: None, unit: Unit::Pilots, done, total });
-        let from_s = self.pilots.clock.seconds();
+        let clock = self.pilots.clock;
+        let stint = Stint::begin(clock);
         let job = way.request(&self.request.job, self.pilots.camera).open()?;
-        let load_s = self.pilots.clock.seconds() - from_s;
+        let load_s = stint.alone_s();
         let few = self.pilots.run(&job, FEW, SEEDS)?;
         let many = self.pilots.run(&job, MANY, SEEDS)?;
+        self.clock_s += few.clock_s + many.clock_s;
+        self.processor_s += few.processor_s.iter().chain(&many.processor_s).sum::<f64>();
         if self.pixels.is_none() {
             let noise = self.job.temporal_noise(self.pilots.camera)?;
             self.pixels = Some(Pixels::new(&many.pixels, &many.planes, noise.as_ref()));
@@ -228,7 +247,8 @@ impl Bench<'_> {
             return Ok(None);
         }
         let pixels = self.pixels.as_ref().expect("made above");
-        let times = Times::of((FEW, &few), (MANY, &many), share(&job, self.pilots.camera, many.pixels.len())?);
+        let share = share(&job, self.pilots.camera, many.pixels.len())?;
+        let times = Times::of((FEW, &few), (MANY, &many), (share, clock.threads()));
         let exact = against.and_then(|against| self.kept.iter().find(|(way, _)| *way == against));
         let bias = exact.map(|(against, exact)| Bias { against: *against, squares: bias(pixels, &many, exact) });
         let variance = variance(pixels, (FEW, &few), (MANY, &many));
@@ -255,15 +275,18 @@ impl Bench<'_> {
         let job = JobRequest { spp: Some(1), noise: None, ..request }.open()?;
         let options = RenderOptions { simd: self.request.simd, ..RenderOptions::default() };
         let clock = self.pilots.clock;
-        let from_s = clock.seconds();
+        let stint = Stint::begin(clock);
         let saved = job.save(&options, (scratch, Existing::Refuse), &etendue::Unobserved);
-        let took_s = clock.seconds() - from_s;
+        let (clock_s, processor_s) = (stint.clock_s(), stint.processor_s());
         if scratch.exists() {
             std::fs::remove_dir_all(scratch)
                 .map_err(|error| Error::Run(format!("{}: cannot be removed: {error}", scratch.display())))?;
         }
         saved?;
-        Ok((took_s - self.ways[0].frame_s - self.ways[0].sample_s.value).max(0.0))
+        // What is left of the clock on a machine that is idle, of the processor on one that is not.
+        let Measured { frame_s, sample_s, .. } = &self.ways[0];
+        let left = |took_s: f64, threads: usize| (took_s - frame_s - sample_s.value * threads as f64).max(0.0);
+        Ok(left(clock_s, 1).min(left(processor_s, clock.threads())))
     }
 
     /// The best choices without bias, joined with the ways that targets call for.

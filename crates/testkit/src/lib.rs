@@ -5,6 +5,7 @@
 //! | [`judge`] | is an estimated picture what a closed form says? |
 //! | [`quadrature`] | integrals by plain sums |
 //! | [`form_factor`] | irradiance from spheres and polygons |
+//! | [`page`] | docs/extremes.md: what stands in it, and whether it holds |
 //! | [`skip`] | tests whose files are missing, counted |
 //! | [`pupil`] | irradiance behind a round, perhaps clipped, pupil |
 //!
@@ -12,6 +13,7 @@
 
 pub mod form_factor;
 pub mod judge;
+pub mod page;
 pub mod pupil;
 pub mod quadrature;
 pub mod skip;

@@ -1,8 +1,8 @@
 //! Scenes far away, tiny, huge, degenerate, and cameras where no camera stands: depth and light there.
 
-use crate::page::{Row, check, figure, worst};
 use etendue_pipeline::truth::ground_truth;
 use etendue_scene::asset::{MeshAsset, SlotMaterial};
+use etendue_testkit::page::{Row, check, figure, worst};
 use etendue_tests::Job;
 use etendue_tracer::accel::Simd;
 use glam::{DVec3, Vec3};
@@ -187,6 +187,44 @@ fn degenerate() -> Vec<Row> {
     ]
 }
 
+/// Rays of pixels' centres through the corners of a wall of squares, each of which six triangles share; and rays within a box's top.
+fn edges() -> Vec<Row> {
+    const WALL_M: f32 = 16.0;
+    let square = |i: u32| (i % 40, i / 40);
+    let corner = |x: u32, y: u32| y * 41 + x;
+    let positions = (0..41 * 41).map(|i| [0.0, (i % 41) as f32 - 20.0, (i / 41) as f32 - 20.0]).collect();
+    let triangles = (0..1600).map(square).flat_map(|(x, y)| {
+        let [a, b, c, d] = [corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1)];
+        [[a, b, c], [a, c, d]]
+    });
+    // Pixels of 0.625 mm at 10 mm are a metre at 16 m.
+    let job = with_mesh(mesh(positions, triangles.collect()))
+        .replaced("position_m = [0.0, 0.0, 0.0]", "position_m = [0.0, 0.0, -100.0]")
+        .replaced("position_m = [3, 0, 0]", "position_m = [16, 0, 1]")
+        .replaced("pixel_pitch_um = 600", "pixel_pitch_um = 625")
+        .replaced("principal_point_px = [16, 0.4]", "principal_point_px = [16.5, 12.5]");
+    let plan = job.plan();
+    let truth = ground_truth(&plan, &plan.cameras[0], 0, Simd::Auto);
+    let missed = truth.depth.samples().iter().filter(|depth| ((**depth / WALL_M - 1.0).abs()) > 1e-6).count();
+    let shelf = "[[scene.objects]]\nname = \"shelf\"\nmaterial = \"matt\"\nposition_m = [5, 0, 0.5]\nshape = { type = \"box\", size_m = [4, 2, 1] }";
+    let along =
+        floor(1.0, [0.0; 3], shelf).replaced("principal_point_px = [16, 0.4]", "principal_point_px = [16, 12.5]");
+    vec![
+        Row::at_most(
+            "a wall of 3 200 triangles, each pixel's ray through a corner that six of them share, one along the axis",
+            "no ray slips through: depth within 10⁻⁶ everywhere (pixels without)",
+            missed as f64,
+            0.0,
+        ),
+        Row::at_most(
+            "a row of pixels whose rays lie in the plane of a box's top",
+            "met or passed, and light in every pixel (pixels without, or not finite)",
+            unlit_or_not_finite(&along) as f64,
+            0.0,
+        ),
+    ]
+}
+
 /// Places where no camera stands.
 fn strange_places() -> Vec<Row> {
     let eye = "position_m = [0.0, 0.0, 1.0]";
@@ -229,6 +267,7 @@ fn strange_places() -> Vec<Row> {
 fn geometry() {
     let mut rows = places();
     rows.push(small_beside_large());
+    rows.extend(edges());
     rows.extend(degenerate());
     rows.extend(strange_places());
     let about = "A camera one unit above a floor that it sees from nearly below its feet to where its rays graze it, against the closed form; 32-bit planes of ground truth.";

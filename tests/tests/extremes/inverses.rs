@@ -1,6 +1,5 @@
 //! Projections and their inverses, from the axis to the edge of the field of each model.
 
-use crate::page::{Row, check, worst};
 use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::sin_cos;
 use etendue_projection::Model;
@@ -9,6 +8,7 @@ use etendue_projection::model::{
     ThinPrismFisheye, Unified,
 };
 use etendue_projection::plane::{Affine, DistortionTerms};
+use etendue_testkit::page::{Row, check, worst};
 use glam::{DVec2, DVec3};
 
 const TERMS: DistortionTerms = DistortionTerms {

@@ -1,7 +1,10 @@
 //! Light at the ends of its range: surfaces that swallow nothing, hide nothing or are not there, lamps without number, lines.
 
-use crate::page::{Row, check, figure, worst};
+use etendue_core::{Bands, Spectral, Wavelengths};
+use etendue_pipeline::render::gather::{Gather, Layout, Sums};
+use etendue_spectra::illuminant;
 use etendue_stats::Moments;
+use etendue_testkit::page::{Row, check, figure, worst};
 use etendue_tests::Job;
 
 /// A camera over a matt floor with a ball of a material, under an even sky.
@@ -207,13 +210,108 @@ fn lamp_in_fog() -> Row {
     )
 }
 
-/// A hundred million numbers into one mean: 0.1 has no exact form, so that every sum rounds.
-fn long_sums() -> Row {
-    const COUNT: u32 = 100_000_000;
+/// The same picture under brighter and darker skies.
+fn levels() -> Vec<Row> {
+    let under = |level: f64| {
+        let sky = format!("environment = {{ type = \"uniform\", radiance_w_m2_sr_nm = {level:e} }}");
+        seen(
+            &ball("type = \"diffuse\", reflectance = 0.5", "")
+                .replaced("environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }", &sky),
+        )
+    };
+    let one = under(1.0);
+    let scaled = |level: f64| one.iter().map(|v| v * level).collect::<Vec<_>>();
+    let row = |level: f64| {
+        Row::at_most(
+            &format!("a sky of {} W·m⁻²·sr⁻¹·nm⁻¹", figure(level)),
+            "the picture under 1, so many times as bright: rounding of 32 bits alone (relative difference)",
+            difference(&under(level), &scaled(level)),
+            1e-5,
+        )
+    };
+    [1e-9, 1e12].map(row).into()
+}
+
+/// The sun, 0.53° across, within a picture of 1.8° by 1.4°.
+fn sun_in_frame() -> Row {
+    let sun = "[[scene.lights]]\nname = \"sun\"\ntype = \"sun\"\nelevation_deg = 30\nazimuth_deg = 0\nilluminant = \"E\"\nirradiance_w_m2 = 1000\n";
+    let aimed = |more: &str, sky: &str| {
+        let job = ball("type = \"diffuse\", reflectance = 0.5", more)
+            .replaced("look_at_m = [0, 0, 0.5]", "look_at_m = [-2.1339746, 0, 1.5]")
+            .replaced("focal_length_mm = 20", "focal_length_mm = 500")
+            .replaced("environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }", sky);
+        seen(&job.replaced("spp = 64", "spp = 1024"))
+    };
+    // Illuminant E is even where the observer sees: in 1 000 W/m² each nanometre has as much as a sky of 1 sends from so many steradians.
+    let flat = illuminant::named("E").expect("an illuminant");
+    let expected = 1000.0 * flat.band_mean(500.0, 600.0) / flat.integral(300.0, 1100.0);
+    let (lit, even) = (aimed(sun, ""), aimed("", "environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }"));
+    let pixel_sr = (1.0_f64 / 500.0).powi(2);
+    let found = lit.iter().sum::<f64>() * pixel_sr / mean(&even);
+    Row::at_most(
+        "the sun in the picture, 4.7 px across",
+        "all pixels together have its irradiance, as against those of an even sky (relative error)",
+        (found / expected - 1.0).abs(),
+        1e-2,
+    )
+}
+
+/// Mirrors seen from nearly aside.
+fn grazing() -> Vec<Row> {
+    const COSINE: f64 = 1e-4;
+    let floor = |material: &str| {
+        let job = ball(material, "")
+            .replaced("name = \"floor\"\n        material = \"matt\"", "name = \"floor\"\n        material = \"ball\"")
+            .replaced("position_m = [0, 0, 0.5]", "position_m = [0, 9, 30]")
+            .replaced("size_m = [20, 20]", "size_m = [2e5, 2e5]")
+            .replaced("position_m = [-3, 0, 1]", "position_m = [0, 0, 1]")
+            .replaced("look_at_m = [0, 0, 0.5]", "look_at_m = [1e4, 0, 0]")
+            .replaced("focal_length_mm = 20", "focal_length_mm = 1e6");
+        let sky = job.clone().replaced("size_m = [2e5, 2e5]", "size_m = [1e-3, 1e-3]");
+        mean(&seen(&job)) / mean(&seen(&sky))
+    };
+    // 1 − F to first order, mean of both planes: 2 cos θ Re((1 + N²)/√(N² − 1)) = 2.06 cos θ for N = 1.0 + 6.6i; n is 0.77 to 1.20 over the band.
+    vec![
+        Row::at_most(
+            "a mirror of aluminium seen at a cosine of 10⁻⁴",
+            "reflects all of the sky but 2.06·10⁻⁴ (distance from that, of which its index over the band makes up to 4·10⁻⁵)",
+            (1.0 - floor("type = \"conductor\", metal = \"Al\", alpha = 0") - 2.06 * COSINE).abs(),
+            0.4 * COSINE,
+        ),
+        Row::at_most(
+            "rough aluminium (0.3) seen at a cosine of 10⁻⁴",
+            "no more light than the sky's, and no less than half of it (distance from 3/4)",
+            (floor("type = \"conductor\", metal = \"Al\", alpha = 0.3") - 0.75).abs(),
+            0.25,
+        ),
+    ]
+}
+
+/// A thousand million numbers into one sum.
+fn long_sums() -> Vec<Row> {
+    const COUNT: u32 = 1_000_000_000;
+    // 0.1 has no exact form, so that every sum rounds.
     let moments = Moments::of((0..COUNT).map(|i| if i % 2 == 0 { 0.1 } else { 0.3 }));
     let variance = 0.01 * f64::from(COUNT) / f64::from(COUNT - 1);
     let error = (moments.mean() / 0.2 - 1.0).abs().max((moments.variance().unwrap_or(f64::NAN) / variance - 1.0).abs());
-    Row::at_most("mean and variance of 10⁸ numbers", "neither drifts (relative error)", error, 1e-9)
+    let layout = Layout { bands: Bands::covering(500.0, 600.0, 100.0), folded: false, watched: false };
+    let wavelengths = Wavelengths { nm: [550.0], pdf: [0.01] };
+    let mut sums = Sums::new(layout);
+    (0..COUNT).for_each(|_| sums.add(0.1, Spectral([0.7]), &wavelengths, None));
+    let mut gather = Gather::new(&layout);
+    gather.end_replicate(&mut sums, COUNT);
+    let pixel = gather.light(&layout, COUNT, 0).bands()[0];
+    // As the sum has it: of floats of 32 bits.
+    let each = 0.1 * f64::from(0.7_f32) / (f64::from(0.01_f32) * 100.0);
+    vec![
+        Row::at_most("mean and variance of 10⁹ numbers", "neither drifts (relative error)", error, 1e-9),
+        Row::at_most(
+            "a pixel of 10⁹ equal samples",
+            "one sample: below the 6·10⁻⁸ that a result of 32 bits can tell (relative error)",
+            (pixel / each - 1.0).abs(),
+            6e-8,
+        ),
+    ]
 }
 
 #[test]
@@ -224,7 +322,10 @@ fn light() {
     rows.extend(lamps());
     rows.extend(wavelengths());
     rows.push(lamp_in_fog());
-    rows.push(long_sums());
-    let about = "A ball over a floor under an even sky, 64 samples. Radiances from 10⁻⁹ to 10¹² W·m⁻²·sr⁻¹·nm⁻¹ are the same picture to 10⁻⁵ (tests/tests/physics/extremes.rs).";
+    rows.extend(levels());
+    rows.push(sun_in_frame());
+    rows.extend(grazing());
+    rows.extend(long_sums());
+    let about = "A ball over a floor under an even sky, 64 samples.";
     check("Light", about, &rows);
 }

@@ -1,12 +1,13 @@
 //! The ends of every range: what a user expects there, why, and the figure that is found.
 //!
 //! Each area is a test that fails where a row does not hold, and writes or compares its part of docs/extremes.md:
-//! `ETENDUE_BLESS=1 cargo test -p etendue-tests --test extremes` (`just extremes`) writes the page. Figures are those of one seed, so that they are the same
+//! `just extremes` writes the page, to which the tests of the program (`crates/cli/tests/binary/extremes.rs`) add what only the binary can show. Figures are those of one seed, so that they are the same
 //! everywhere.
 
 mod camera;
+mod facets;
 mod geometry;
 mod inverses;
 mod light;
 mod numerics;
-mod page;
+mod spreads;

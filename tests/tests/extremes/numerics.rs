@@ -1,24 +1,25 @@
 //! Closed forms against mpmath over the whole ranges of their arguments (tests/oracles/closed_forms.py).
 
-use crate::page::{Row, check};
 use etendue_core::maths::{f32 as single, f64 as double};
 use etendue_spectra::colour::{Lab, ciede2000};
 use etendue_spectra::illuminant::planck;
+use etendue_spectra::{Spectrum, observer};
+use etendue_testkit::page::{Row, check, worst as greatest};
 use etendue_tracer::materials::fresnel;
 use serde_json::Value;
 
-fn figures() -> Value {
+pub(crate) fn figures() -> Value {
     let text = include_str!("../../oracles/figures/closed_forms.json");
     serde_json::from_str(text).expect("JSON")
 }
 
 /// Arguments and their values: the nearest double and what is left.
-struct Known {
-    at: Vec<f64>,
-    is: Vec<[f64; 2]>,
+pub(crate) struct Known {
+    pub(crate) at: Vec<f64>,
+    pub(crate) is: Vec<[f64; 2]>,
 }
 
-fn known(rows: &Value) -> Vec<Known> {
+pub(crate) fn known(rows: &Value) -> Vec<Known> {
     let number = |value: &Value| value.as_f64().expect("a number");
     let flat = |value: &Value| match value.as_array() {
         Some(values) => values.iter().map(number).collect(),
@@ -39,13 +40,13 @@ fn ulp(value: f64) -> f64 {
     f64::from_bits(size.to_bits() + 1) - size
 }
 
-fn ulp_single(value: f64) -> f64 {
+pub(crate) fn ulp_single(value: f64) -> f64 {
     let size = (value as f32).abs();
     f64::from(f32::from_bits(size.to_bits() + 1)) - f64::from(size)
 }
 
 /// Of all rows the greatest distance, over `unit` of the true value, and where.
-fn worst(rows: &[Known], unit: fn(f64) -> f64, of: impl Fn(&[f64]) -> Vec<f64>) -> (f64, Vec<f64>) {
+pub(crate) fn worst(rows: &[Known], unit: fn(f64) -> f64, of: impl Fn(&[f64]) -> Vec<f64>) -> (f64, Vec<f64>) {
     let mut worst = (0.0, Vec::new());
     for Known { at, is } in rows {
         for (found, [value, rest]) in of(at).into_iter().zip(is) {
@@ -140,6 +141,17 @@ fn elementary_functions_keep_their_last_places() {
     check("Elementary functions", about, &rows);
 }
 
+/// The greatest distance of tristimulus values over their sum, and of chromaticities x and y.
+fn off_the_observer(rows: &[Known], spectrum: impl Fn(&[f64]) -> Spectrum) -> f64 {
+    greatest(rows.iter().flat_map(|Known { at, is }| {
+        let [x, y, z] = observer::xyz(&spectrum(at));
+        let (sum, exact) = (x + y + z, is[0][0] + is[1][0] + is[2][0]);
+        let found = [x / exact, y / exact, z / exact, x / sum, y / sum];
+        let scale = [exact, exact, exact, 1.0, 1.0];
+        core::array::from_fn::<_, 5, _>(|i| (found[i] - is[i][0] / scale[i]).abs())
+    }))
+}
+
 /// As a relative error.
 fn relative(value: f64) -> f64 {
     value.abs()
@@ -159,6 +171,11 @@ fn closed_forms_keep_their_digits() {
     let lab = |at: &[f64]| Lab { l: at[0], a: at[1], b: at[2] };
     let difference =
         worst(&known(&figures["ciede2000"]), relative, |at| vec![ciede2000(lab(&at[..3]), lab(&at[3..]))]).0;
+    let black_bodies =
+        off_the_observer(&known(&figures["black_bodies"]), |at| Spectrum::from_fn(|nm| planck(nm, at[0])));
+    let line = |at: &[f64], nm: f64| double::exp(-((nm - at[0]) / at[1]) * ((nm - at[0]) / at[1]));
+    let lines = off_the_observer(&known(&figures["lines"]), |at| Spectrum::from_fn(|nm| line(at, nm)));
+    let observed = "≤ 1.5·10⁻⁷ of X + Y + Z, and x and y as close: spectra and the observer are kept in 32 bits, 6·10⁻⁸ each, and sums and products are of 64 bits";
     let rows = [
         Row::at_most(
             "Fresnel, both planes, indices 1.0001 to 4, cosines 10⁻⁶ to 1, 32 bits",
@@ -179,6 +196,13 @@ fn closed_forms_keep_their_digits() {
             difference,
             1e-8,
         ),
+        Row::at_most(
+            "CIE 1931 tristimulus values and chromaticities of black bodies, 10³ to 10⁶ K",
+            observed,
+            black_bodies,
+            1.5e-7,
+        ),
+        Row::at_most("the same of Gaussian lines at 380 to 780 nm, 1 to 100 nm wide", observed, lines, 1.5e-7),
     ];
     let about = "Against mpmath as above; the greatest relative error.";
     check("Closed forms", about, &rows);

@@ -64,8 +64,15 @@ fn seconds(text: &str) -> Result<f64, String> {
     seconds.ok_or_else(|| format!("expected seconds from 10 to 1000000, not '{text}'"))
 }
 
-/// Seconds since the program asked first.
-struct Stopwatch(Instant);
+/// Seconds since the program asked first, of so many threads.
+struct Stopwatch(Instant, usize);
+
+impl Stopwatch {
+    /// Of the pool that it is called in.
+    fn begin() -> Self {
+        Self(Instant::now(), rayon::current_num_threads())
+    }
+}
 
 impl Clock for Stopwatch {
     fn seconds(&self) -> f64 {
@@ -74,6 +81,10 @@ impl Clock for Stopwatch {
 
     fn processor_seconds(&self) -> Option<f64> {
         machine::processor_seconds()
+    }
+
+    fn threads(&self) -> usize {
+        self.1
     }
 }
 
@@ -137,7 +148,7 @@ impl Tradeoff {
 
 /// Time against error, with three jobs.
 fn studied(request: &Request, folder: &Path) -> Result<Findings, Error> {
-    let (stopwatch, observer) = (Stopwatch(Instant::now()), Terminal::default());
+    let (stopwatch, observer) = (Stopwatch::begin(), Terminal::default());
     let found = study(request, &folder.join("pilot"), &stopwatch, &observer)?;
     let compared = pictures(&found, request, &observer)?;
     let (text, json) = (table(&found), to_json(&found)?);
@@ -156,7 +167,7 @@ fn studied(request: &Request, folder: &Path) -> Result<Findings, Error> {
 
 /// Effect by effect.
 fn ablated(request: &Request) -> Result<Findings, Error> {
-    let found = ablation(request, &Stopwatch(Instant::now()), &Terminal::default())?;
+    let found = ablation(request, &Stopwatch::begin(), &Terminal::default())?;
     let (text, json) = (ablation_table(&found), to_json(&found)?);
     let mut files = vec![
         ("ablation.json".to_owned(), json.clone().into_bytes()),
@@ -175,7 +186,7 @@ fn varied_picture(n: usize) -> String {
 /// Change by change.
 fn varied(request: &Request, changes: &[Changes]) -> Result<Findings, Error> {
     let changes: Vec<_> = changes.iter().map(|Changes(set)| set.clone()).collect();
-    let found = variations(request, &changes, &Stopwatch(Instant::now()), &Terminal::default())?;
+    let found = variations(request, &changes, &Stopwatch::begin(), &Terminal::default())?;
     let (text, json) = (variation_table(&found), to_json(&found)?);
     let mut files = vec![
         ("variations.json".to_owned(), json.clone().into_bytes()),

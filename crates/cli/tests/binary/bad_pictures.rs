@@ -7,10 +7,10 @@ use etendue_io::photograph::Encoding;
 use etendue_io::png::{encode_display, encode_raw16};
 use std::path::Path;
 
-const SIZE: (usize, usize) = (128, 96);
+pub(crate) const SIZE: (usize, usize) = (128, 96);
 
-/// The measurements, PICTURE in the place of the file.
-const MEASUREMENTS: [&str; 20] = [
+/// The measurements, PICTURE in the place of the file, SERIES in that of a descriptor of photon transfer that has no other.
+pub(crate) const MEASUREMENTS: [&str; 24] = [
     "measure sfr PICTURE",
     "measure sfr PICTURE --region 0,0,64,64",
     "measure oecf PICTURE PICTURE PICTURE --exposures 1,2,4 --channel Y",
@@ -30,13 +30,17 @@ const MEASUREMENTS: [&str; 20] = [
     "measure distortion PICTURE --target checkerboard",
     "measure focal PICTURE --target checkerboard --pitch-mm 10 --distance-mm 1000",
     "measure chromatic PICTURE --target dots",
+    "measure ptc SERIES",
+    "measure dark-current 20:SERIES 40:SERIES 60:SERIES",
+    "measure lens PICTURE",
+    "compare PICTURE PICTURE",
     "calibrate PICTURE PICTURE PICTURE --target checkerboard --pitch-mm 10",
 ];
 
 /// Measurements that have a right answer of an even picture: no fall-off, no noise, no bands.
 const OF_EVEN_LIGHT: [&str; 4] = ["vignetting", "shading", "noise", "flicker"];
 
-fn grey(folder: &Path, name: &str, (width, height): (usize, usize), reading: u32) -> String {
+pub(crate) fn grey(folder: &Path, name: &str, (width, height): (usize, usize), reading: u32) -> String {
     let plane =
         Plane::<DigitalNumber>::from_samples(width, height, vec![reading; width * height]).expect("a rectangle");
     let file = folder.join(name);
@@ -44,7 +48,7 @@ fn grey(folder: &Path, name: &str, (width, height): (usize, usize), reading: u32
     text(&file)
 }
 
-fn coloured(folder: &Path, name: &str, (width, height): (usize, usize), light: f32) -> String {
+pub(crate) fn coloured(folder: &Path, name: &str, (width, height): (usize, usize), light: f32) -> String {
     let file = folder.join(name);
     let picture = encode_display(&Plane::<Display>::filled(width, height, [light; 3]), &Encoding::Srgb);
     std::fs::write(&file, picture.expect("a picture")).expect("a temporary file");
@@ -52,7 +56,7 @@ fn coloured(folder: &Path, name: &str, (width, height): (usize, usize), light: f
 }
 
 /// A TIFF of 32-bit floats in one strip: its tags, one entry of 12 bytes each.
-fn floats(folder: &Path, name: &str, sample: impl Fn(usize) -> f32) -> String {
+pub(crate) fn floats(folder: &Path, name: &str, sample: impl Fn(usize) -> f32) -> String {
     let count = SIZE.0 * SIZE.1;
     let data: Vec<u8> = (0..count).flat_map(|i| sample(i).to_le_bytes()).collect();
     let short = |value: u32| (3_u16, value);
@@ -85,18 +89,39 @@ fn floats(folder: &Path, name: &str, sample: impl Fn(usize) -> f32) -> String {
     text(&file)
 }
 
+/// A descriptor of photon transfer, twelve levels of light and dark, all of them this picture.
+fn series(picture: &str) -> String {
+    let (file, name) = (Path::new(picture), Path::new(picture).file_name().expect("a name").to_string_lossy());
+    let level = |i: u32| {
+        let (ns, photons) = (1e6 * f64::from(i), 300.0 * f64::from(i));
+        format!("b {ns:.1} {photons:.1}\ni {name}\ni {name}\nd {ns:.1}\ni {name}\ni {name}\n")
+    };
+    let (width, height) = if picture.contains("pixel") { (1, 1) } else { SIZE };
+    let text = (1..=12).map(level).fold(format!("v 4.0\nn 16 {width} {height}\n"), |all, level| all + &level);
+    let descriptor = file.with_extension("txt");
+    std::fs::write(&descriptor, text).expect("a temporary file");
+    crate::support::text(&descriptor)
+}
+
+/// The arguments of a measurement of a picture, figures as JSON.
+pub(crate) fn of_picture(line: &str, picture: &str) -> Vec<String> {
+    // Of grey pictures there is one channel, which nobody names.
+    let line = if picture.contains("coloured") { line.to_owned() } else { line.replace(" --channel Y", "") };
+    let series = series(picture);
+    let words = line.split(' ').map(|word| word.replace("PICTURE", picture).replace("SERIES", &series));
+    words.chain((!line.starts_with("calibrate")).then(|| "--json".to_owned())).collect()
+}
+
 /// Runs every measurement on a picture. Those that may answer are named; all others must refuse it.
 #[track_caller]
 fn measured(picture: &str, may_answer: &[&str]) {
     for line in MEASUREMENTS {
-        // Of grey pictures there is one channel, which nobody names.
-        let line = if picture.contains("coloured") { line.to_owned() } else { line.replace(" --channel Y", "") };
-        let arguments: Vec<String> = line.split(' ').map(|word| word.replace("PICTURE", picture)).collect();
-        let json = arguments[0] == "measure";
-        let run = etendue(arguments.into_iter().chain(json.then(|| "--json".to_owned())));
+        let run = etendue(of_picture(line, picture));
         let words = format!("{line} of {picture}: {run:?}");
         if run.status == 0 {
-            assert!(may_answer.iter().any(|name| line.contains(name)), "{words}");
+            // A picture is equal to itself, whatever it shows.
+            let may = line.starts_with("compare") || may_answer.iter().any(|name| line.contains(name));
+            assert!(may, "{words}");
             let nothing = run.out.contains("NaN") || run.out.contains("inf");
             assert!(!nothing && serde_json::from_str::<serde_json::Value>(&run.out).is_ok(), "{words}");
             continue;
@@ -104,7 +129,7 @@ fn measured(picture: &str, may_answer: &[&str]) {
         assert!(run.status == 2 && run.out.is_empty(), "{words}");
         let errors: Vec<&str> = run.err.lines().filter(|l| l.starts_with("error: ")).collect();
         // Of several views each bad file is named.
-        assert!(errors.len() == 1 || (!json && errors.len() == 3), "{words}");
+        assert!(errors.len() == 1 || (line.starts_with("calibrate") && errors.len() == 3), "{words}");
         // A reading that is no number is named as such by the reader, and nowhere else.
         let named = errors[0].contains("expected finite numbers");
         assert!(named || !(errors[0].contains("NaN") || errors[0].contains("inf ")), "{words}");

@@ -20,6 +20,7 @@ mod display;
 mod dropped;
 mod drops;
 mod encodings;
+mod extremes;
 mod faults;
 mod films;
 mod flat;

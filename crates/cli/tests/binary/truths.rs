@@ -1,6 +1,8 @@
 //! From a chart to a number: drawn, rendered, measured where its truth says, against the known answer.
 
+use crate::extremes;
 use crate::support::{Ran, etendue, text};
+use etendue_testkit::page::check;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -244,6 +246,17 @@ fn slanted_edges_and_stars_give_the_pixels_aperture() {
 
 /// A raw picture of a shot, each pixel from another place: its file, in a folder of its own.
 fn redrawn(shot: &Shot, name: &str, size: [usize; 2], of: impl Fn([usize; 2], usize, usize) -> [usize; 2]) -> String {
+    redrawn_into(shot, shot, name, size, of)
+}
+
+/// The same of another shot's picture.
+fn redrawn_into(
+    to: &Shot,
+    shot: &Shot,
+    name: &str,
+    size: [usize; 2],
+    of: impl Fn([usize; 2], usize, usize) -> [usize; 2],
+) -> String {
     let picture =
         etendue_io::picture::read_picture(&PathBuf::from(shot.picture("camera/raw.0000.png"))).expect("a picture");
     let whole = [picture.width, picture.height].map(|n| n as usize);
@@ -254,7 +267,7 @@ fn redrawn(shot: &Shot, name: &str, size: [usize; 2], of: impl Fn([usize; 2], us
     };
     let samples = (0..size[0] * size[1]).map(at).collect();
     let plane = etendue_core::Plane::<etendue_core::quantity::DigitalNumber>::from_samples(size[0], size[1], samples);
-    let file = shot.path(name);
+    let file = to.path(name);
     std::fs::write(&file, etendue_io::png::encode_raw16(&plane.expect("a rectangle")).expect("a picture"))
         .expect("written");
     text(&file)
@@ -267,19 +280,29 @@ fn pictures_that_are_mirrored_turned_or_of_another_chart_are_named_as_such() {
     let cdp = |picture: &str| etendue(["measure", "cdp", picture, "--truth", &shot.truth()]);
     let size = [160, 120];
     cdp(&redrawn(&shot, "same.png", size, |_, x, y| [x, y])).ok();
+    let (mut rows, folder) = (Vec::new(), shot.folder.path().to_path_buf());
+    let mut refused = |extreme: &str, ran: Ran, phrases: &[&str]| {
+        rows.push(extremes::refused(extreme, "named as such", &ran, &[&folder]));
+        ran.refused(phrases);
+    };
     let mirrored = redrawn(&shot, "mirrored.png", size, |[w, _], x, y| [w - 1 - x, y]);
-    cdp(&mirrored).refused(&["mirrored.png: is mirrored left to right", "truth.json"]);
+    let told = ["mirrored.png: is mirrored left to right", "truth.json"];
+    refused("contrast patches, mirrored left to right", cdp(&mirrored), &told);
     let flipped = redrawn(&shot, "flipped.png", size, |[_, h], x, y| [x, h - 1 - y]);
-    cdp(&flipped).refused(&["flipped.png: is mirrored top to bottom"]);
+    refused("mirrored top to bottom", cdp(&flipped), &["flipped.png: is mirrored top to bottom"]);
     let turned = redrawn(&shot, "turned.png", size, |[w, h], x, y| [w - 1 - x, h - 1 - y]);
-    cdp(&turned).refused(&["turned.png: is turned by 180°"]);
+    refused("turned by 180°", cdp(&turned), &["turned.png: is turned by 180°"]);
     let quarter = redrawn(&shot, "quarter.png", [120, 160], |_, x, y| [y, x]);
-    cdp(&quarter).refused(&["quarter.png: 120 × 160 pixels", "nor turned by 90°"]);
+    refused("turned by 90°", cdp(&quarter), &["quarter.png: 120 × 160 pixels", "nor turned by 90°"]);
     let other = Shot::of("siemens-star", MONO, &[], &["--spp", "16"]);
-    cdp(&other.picture("camera/raw.0000.png")).refused(&["does not show this chart"]);
+    let other = redrawn_into(&shot, &other, "other.png", size, |_, x, y| [x, y]);
+    refused("another chart, a star", cdp(&other), &["does not show this chart"]);
     let frames: Vec<&str> = [mirrored.as_str(); 8].to_vec();
     let noise = ["measure", "noise"].into_iter().chain(frames).chain(["--truth"]);
-    etendue(noise.map(str::to_owned).chain([shot.truth()])).refused(&["mirrored left to right"]);
+    let noise = etendue(noise.map(str::to_owned).chain([shot.truth()]));
+    refused("eight mirrored frames, noise", noise, &["mirrored left to right"]);
+    let about = "A rendered chart of contrast patches, measured by `cdp` against its truth after its picture was rearranged. Dots and mirrored axes are in docs/faults.md.";
+    check("Pictures of charts", about, &rows);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! What of a scene is used: what objects show, and what that needs in turn.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::asset::file_list::names_files;
@@ -30,7 +31,7 @@ impl Unused {
     pub(super) fn of(scene: &Scene, uses: &[Use]) -> Self {
         let materials = scene.materials.iter().map(|m| (m.place.key(), (Named::Material, m.name.value.as_str())));
         let frames = scene.frames.iter().map(|f| (f.place.key(), (Named::Frame, f.name.value.as_str())));
-        let owners: BTreeMap<&str, Owner<'_>> = materials.chain(frames).collect();
+        let owners: BTreeMap<Cow<'_, str>, Owner<'_>> = materials.chain(frames).collect();
         let mut by_owner: BTreeMap<Option<Owner<'_>>, Vec<&Use>> = BTreeMap::new();
         for named in uses {
             by_owner.entry(owner(&owners, &named.1.place)).or_default().push(named);
@@ -89,7 +90,7 @@ fn listed(names: &BTreeSet<String>) -> String {
 type Owner<'a> = (Named, &'a str);
 
 /// The material or frame that says what stands at `place`.
-fn owner<'m>(materials: &BTreeMap<&str, Owner<'m>>, place: &Place) -> Option<Owner<'m>> {
+fn owner<'m>(materials: &BTreeMap<Cow<'_, str>, Owner<'m>>, place: &Place) -> Option<Owner<'m>> {
     let key = place.key();
     // Names may hold dots ("wood", "wood.001"): the longest that fits.
     key.rmatch_indices(['.', '[']).find_map(|(end, _)| materials.get(&key[..end]).copied())

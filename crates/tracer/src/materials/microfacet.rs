@@ -16,20 +16,22 @@ use super::gloss::{About, GlossLobe};
 /// Roughness α below which a surface is an exact mirror: the lobe would be narrower than a hundredth of a degree.
 pub const MIRROR_ALPHA: f32 = 1e-4;
 
-/// A GGX distribution.
+/// A GGX distribution. Directions are unit, in the shading frame, on the side z > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Ggx {
+pub struct Ggx {
     pub(super) alpha: f32,
 }
 
 impl Ggx {
     /// The facets of a surface of roughness `alpha` (0 to 1); `None` where it is smooth.
-    pub(super) fn of(alpha: f32) -> Option<Self> {
+    #[must_use]
+    pub fn of(alpha: f32) -> Option<Self> {
         (alpha >= MIRROR_ALPHA).then_some(Self { alpha })
     }
 
     /// Density of facet normals by solid angle, over the projected area; 1/sr.
-    fn density(self, m: Vec3) -> f32 {
+    #[must_use]
+    pub fn density(self, m: Vec3) -> f32 {
         let a2 = self.alpha * self.alpha;
         let t = (m.x * m.x + m.y * m.y) / a2 + m.z * m.z;
         1.0 / (PI * a2 * t * t)
@@ -42,12 +44,14 @@ impl Ggx {
     }
 
     /// f · cos θᵢ without the Fresnel factor, 1/sr; `m` is the unit half vector.
-    pub(super) fn reflect(self, wo: Vec3, wi: Vec3, m: Vec3) -> f32 {
+    #[must_use]
+    pub fn reflect(self, wo: Vec3, wi: Vec3, m: Vec3) -> f32 {
         0.5 * self.density(m) * wi.z / (wi.z * self.slant(wo) + wo.z * self.slant(wi))
     }
 
     /// Density by solid angle of the direction mirrored at a visible facet `m`, 1/sr.
-    pub(super) fn reflect_pdf(self, wo: Vec3, m: Vec3) -> f32 {
+    #[must_use]
+    pub fn reflect_pdf(self, wo: Vec3, m: Vec3) -> f32 {
         0.5 * self.density(m) / (wo.z + self.slant(wo))
     }
 
@@ -69,12 +73,14 @@ impl Ggx {
     }
 
     /// G₁: the share of facets facing `w` that it reaches, on whichever side of the surface.
-    pub(super) fn shadowing(self, w: Vec3) -> f32 {
+    #[must_use]
+    pub fn shadowing(self, w: Vec3) -> f32 {
         2.0 * w.z.abs() / (w.z.abs() + self.slant(w))
     }
 
-    /// A facet normal drawn from those that `wo` sees.
-    pub(super) fn sample(self, wo: Vec3, u: Vec2) -> Vec3 {
+    /// A facet normal drawn from those that `wo` sees, by two numbers of [0, 1).
+    #[must_use]
+    pub fn sample(self, wo: Vec3, u: Vec2) -> Vec3 {
         let stretched = Vec3::new(self.alpha * wo.x, self.alpha * wo.y, wo.z).normalize();
         let (sin_phi, cos_phi) = sin_cos(TAU * u.x);
         let z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;

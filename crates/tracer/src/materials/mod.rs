@@ -84,7 +84,7 @@ pub use lafortune::{Lafortune, LafortuneBsdf, LafortuneError, Lobe, MAX_LOBES};
 pub use leaf::{Leaf, LeafBsdf};
 pub use material::Material;
 pub use material_table::MaterialTable;
-pub use microfacet::MIRROR_ALPHA;
+pub use microfacet::{Ggx, MIRROR_ALPHA};
 pub use mix::Mix;
 pub use modulation::{Modulation, choice_level};
 pub use normal_map::{Green, NormalMap};

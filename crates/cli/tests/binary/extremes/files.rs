@@ -1,0 +1,131 @@
+//! Files that are none, or more than a file may be.
+
+use super::refused;
+use crate::bad_input::Spoilt;
+use crate::support::{Ran, etendue, text};
+use etendue_testkit::page::{Row, check};
+use std::os::unix::fs::symlink;
+use std::path::Path;
+
+/// The small job with other contents of one of its files; its plan.
+fn with_file(name: &str, bytes: &[u8]) -> (Spoilt, Ran) {
+    let spoilt = Spoilt::new();
+    spoilt.write(name, bytes);
+    let ran = etendue(["plan", &spoilt.job()]);
+    (spoilt, ran)
+}
+
+fn row(extreme: &str, expected: &str, (spoilt, ran): &(Spoilt, Ran)) -> Row {
+    refused(extreme, expected, ran, &[spoilt.folder()])
+}
+
+/// The part of a file of the small job up to there.
+fn part(name: &str, of: f64) -> Vec<u8> {
+    let bytes = std::fs::read(Spoilt::new().folder().join(name)).expect("a file of the job");
+    bytes[..(bytes.len() as f64 * of) as usize].to_vec()
+}
+
+/// With other words in a text file.
+fn spoilt(name: &str, from: &str, to: &str) -> (Spoilt, Ran) {
+    let spoilt = Spoilt::new();
+    spoilt.spoil(name, from, to);
+    let ran = etendue(["plan", &spoilt.job()]);
+    (spoilt, ran)
+}
+
+fn empty_and_cut() -> Vec<Row> {
+    let named = "the file and where the job names it";
+    let empty = |name: &str| row(&format!("{name} is empty"), named, &with_file(name, b""));
+    let cut = |name: &str| row(&format!("{name} ends in its middle"), named, &with_file(name, &part(name, 0.5)));
+    let job = row("a job file that is empty", "the key that is missing", &with_file("small.toml", b""));
+    vec![job, empty("tower.obj"), empty("checker.png"), empty("sky.hdr"), cut("checker.png"), cut("sky.hdr")]
+}
+
+fn counts() -> Vec<Row> {
+    let before = "refused before anything is allotted";
+    let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2000000000 +X 2000000000\n";
+    let mut png = std::fs::read(Spoilt::new().folder().join("checker.png")).expect("the picture");
+    png[16..24].copy_from_slice(&[0x7f, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff]);
+    let far = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4000000000\n";
+    let deep = format!("format = 1\nscene = {}{}\n", "[".repeat(5000), "]".repeat(5000));
+    let bases = "format = 1\nbase = \"small.toml\"\n";
+    vec![
+        row("an HDR picture of 4·10¹⁸ pixels in 62 bytes", before, &with_file("sky.hdr", hdr)),
+        row("a PNG whose head says 2³¹ − 1 pixels a side", before, &with_file("checker.png", &png)),
+        row("a face of the vertex 4 000 000 000 of three", "file and line", &with_file("tower.obj", far.as_bytes())),
+        row("lists in lists, 5 000 deep", "refused at a depth of 80", &with_file("small.toml", deep.as_bytes())),
+        row("a job that is its own base", "the circle", &with_file("small.toml", bases.as_bytes())),
+        {
+            let spoilt = Spoilt::new();
+            let set = format!("{}=1", vec!["a"; 20_000].join("."));
+            let ran = etendue(["plan", &spoilt.job(), "--set", &set]);
+            refused("a key of 20 000 parts", "refused in a line", &ran, &[spoilt.folder()])
+        },
+    ]
+}
+
+/// A TIFF of one pixel that says it is big-endian and is not.
+const WRONG_ENDS: &[u8] = b"MM*\0\x08\0\0\0\x01\0\0\x01\x04\0\x01\0\0\0\x01\0\0\0\0\0\0\0";
+
+fn numbers() -> Vec<Row> {
+    let place = "file, line and key";
+    let folder = tempfile::tempdir().expect("a folder");
+    let tiff = folder.path().join("ends.tif");
+    std::fs::write(&tiff, WRONG_ENDS).expect("written");
+    let ends = etendue(["inspect", &text(&tiff)]);
+    vec![
+        row("a number of the job is NaN", place, &spoilt("small.toml", "f_number = 2", "f_number = nan")),
+        row("a vertex of a mesh is NaN", place, &spoilt("tower.obj", "v ", "v nan ")),
+        row("a vertex at 10⁴⁰ m", place, &spoilt("tower.obj", "v ", "v 1e40 ")),
+        refused("a TIFF of the wrong endianness", "refused as damaged", &ends, &[folder.path()]),
+    ]
+}
+
+fn names_and_paths() -> Vec<Row> {
+    let spoilt = Spoilt::new();
+    spoilt.spoil("small.toml", "file = \"checker.png\"", "file = \"../../../../etc/passwd\"");
+    let climbing = etendue(["plan", &spoilt.job(), "--sandboxed"]);
+    let linked = Spoilt::new();
+    let link = linked.folder().join("checker.png");
+    std::fs::remove_file(&link).expect("removed");
+    symlink("/etc/passwd", &link).expect("a link");
+    let through = etendue(["plan", &linked.job(), "--sandboxed"]);
+    let camera = row(
+        "a camera called \"../x\"",
+        "names of cameras are names of files",
+        &self::spoilt("small.toml", "name = \"front\"", "name = \"../x\""),
+    );
+    let device = etendue(["inspect", "/dev/zero"]);
+    vec![
+        camera,
+        refused("`--sandboxed`, a path through parents", "refused unseen", &climbing, &[spoilt.folder()]),
+        refused("`--sandboxed`, a link to a foreign file", "refused unseen", &through, &[linked.folder()]),
+        refused("a device in the place of a file", "refused: it has no end", &device, &[]),
+    ]
+}
+
+fn folders() -> Vec<Row> {
+    let render = |out: &Path| {
+        let spoilt = Spoilt::new();
+        etendue(["render", &spoilt.job(), "-o", &text(out), "--spp", "1000000"])
+    };
+    let place = tempfile::tempdir().expect("a folder");
+    let file = place.path().join("file");
+    std::fs::write(&file, b"theirs").expect("written");
+    vec![
+        refused(
+            "an output folder that takes nothing, not even of root",
+            "refused before the work",
+            &render(Path::new("/proc")),
+            &[],
+        ),
+        refused("a file in the place of the output folder", "refused before the work", &render(&file), &[place.path()]),
+    ]
+}
+
+#[test]
+fn files_that_are_none() {
+    let parts = [empty_and_cut(), counts(), numbers(), names_and_paths(), folders()];
+    let about = "Each refused with status 2, nothing written: what a user reads (of several faults the first). Every reader is fuzzed as well (docs/fuzzing.md); limits and how to raise them: docs/limits.md.";
+    check("Files", about, &parts.concat());
+}

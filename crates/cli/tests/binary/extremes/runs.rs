@@ -1,0 +1,39 @@
+//! Runs that cannot go on.
+
+use super::ended;
+use crate::support::{Ran, contents, root, small, text};
+use etendue_testkit::page::{Row, check};
+use std::path::Path;
+use std::process::Command;
+
+/// Runs the program by a shell that first does `before`.
+fn after(before: &str, arguments: &[&str]) -> Ran {
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &format!("{before}; exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_etendue")]).args(arguments);
+    let ran = shell.current_dir(root()).output().expect("a shell");
+    let utf8 = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
+    Ran { status: ran.status.code().unwrap_or(-1), out: utf8(ran.stdout), err: utf8(ran.stderr) }
+}
+
+/// The row of a run that leaves nothing in its folder.
+fn nothing_left(extreme: &str, ran: &Ran, place: &Path) -> Row {
+    let row = ended(1, extreme, "nothing under a final name", ran, &[place]);
+    let left = contents(place).len();
+    Row { found: format!("{}; {left} files", row.found), holds: row.holds && left == 0, ..row }
+}
+
+#[test]
+fn runs_that_cannot_go_on() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = text(&place.path().join("out"));
+    let full = after("trap '' XFSZ; ulimit -f 8", &["render", &small(), "-o", &out, "--spp", "2"]);
+    let full = nothing_left("a disk that is full after 4 kB", &full, place.path());
+    let size = ["--set", "cameras.front.sensor.width_px=16000", "--set", "cameras.front.sensor.height_px=16000"];
+    let job = small();
+    let render = [&["render", &job, "-o", &out, "--threads", "1", "--spp", "2"][..], &size].concat();
+    let memory = after("ulimit -c 0; ulimit -v 1500000", &render);
+    let memory = nothing_left("a film for which there is no memory", &memory, place.path());
+    let about = "With real limits of the system. Kills at random moments (996, docs/robustness.md), smaller allocations that fail, panics and two runs in one folder have tests of their own \
+        (crates/cli/tests/binary: killed, memory\\_that\\_fails, concurrent).";
+    check("Runs that cannot go on", about, &[full, memory]);
+}

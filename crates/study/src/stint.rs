@@ -1,0 +1,65 @@
+//! How long work takes on a machine that does nothing else: by processor time, which other programs do not count in.
+
+use crate::Clock;
+
+/// From one moment to another, by the clock and by processor time.
+pub(crate) struct Stint<'a> {
+    clock: &'a dyn Clock,
+    from_s: f64,
+    from_processor_s: Option<f64>,
+}
+
+impl<'a> Stint<'a> {
+    pub(crate) fn begin(clock: &'a dyn Clock) -> Self {
+        Self { clock, from_s: clock.seconds(), from_processor_s: clock.processor_seconds() }
+    }
+
+    /// By the clock, s.
+    pub(crate) fn clock_s(&self) -> f64 {
+        self.clock.seconds() - self.from_s
+    }
+
+    /// Of all threads together, s; where the machine does not tell it, all of them are taken to have worked.
+    pub(crate) fn processor_s(&self) -> f64 {
+        let told = self.from_processor_s.and_then(|from_s| Some(self.clock.processor_seconds()? - from_s));
+        told.unwrap_or_else(|| self.clock_s() * self.clock.threads() as f64)
+    }
+
+    /// Of work that one thread does, or several in part: by the clock of a machine that is idle, by the processor of one that is not.
+    pub(crate) fn alone_s(&self) -> f64 {
+        self.clock_s().min(self.processor_s())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicU32, Ordering};
+
+    /// A machine of two threads that gives this program half of its time.
+    struct Busy(AtomicU32, bool);
+
+    impl Clock for Busy {
+        fn seconds(&self) -> f64 {
+            f64::from(self.0.load(Ordering::Relaxed))
+        }
+
+        fn processor_seconds(&self) -> Option<f64> {
+            self.1.then(|| 0.5 * self.seconds())
+        }
+
+        fn threads(&self) -> usize {
+            2
+        }
+    }
+
+    #[test]
+    fn other_programs_do_not_count_where_the_machine_tells_so() {
+        let (busy, silent) = (Busy(AtomicU32::new(1), true), Busy(AtomicU32::new(1), false));
+        let [known, unknown] = [&busy, &silent].map(|clock| Stint::begin(clock));
+        busy.0.store(5, Ordering::Relaxed);
+        silent.0.store(5, Ordering::Relaxed);
+        assert_eq!([known.clock_s(), known.processor_s(), known.alone_s()], [4.0, 2.0, 2.0]);
+        assert_eq!([unknown.clock_s(), unknown.processor_s(), unknown.alone_s()], [4.0, 8.0, 4.0]);
+    }
+}

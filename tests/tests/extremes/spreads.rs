@@ -1,0 +1,79 @@
+//! Point spreads wider than the picture and narrower than a pixel.
+
+use core::f64::consts::{PI, TAU};
+use etendue_core::Plane;
+use etendue_core::maths::f64::{cos, exp};
+use etendue_core::quantity::Irradiance;
+use etendue_core::random::Pixel;
+use etendue_optics::effects::{FilmPart, PointSpread, SpreadBy, SpreadDraw, SpreadImage, SpreadImageParameters};
+use etendue_optics::{Effects, EffectsParameters};
+use etendue_projection::Raster;
+use etendue_testkit::page::{Row, check, worst};
+use glam::DVec2;
+
+const PITCH_UM: f64 = 4.0;
+/// Draws along each axis of the square.
+const DRAWS: usize = 160;
+const RANGE_NM: (f64, f64) = (500.0, 600.0);
+
+/// A picture of so many pixels a side behind a Gaussian of `sigma_px`, sampled `per_px` times a pixel.
+fn behind_gaussian((side, margin): (usize, f64), sigma_px: f64, per_px: f64, spread_by: SpreadBy) -> (Raster, Effects) {
+    let raster = Raster::centred(side, side, 1e-3 * PITCH_UM).expect("legal");
+    let width = 2 * (6.0 * sigma_px * per_px) as usize + 1;
+    let at = |i: usize| (DVec2::new((i % width) as f64, (i / width) as f64) - (width / 2) as f64) / per_px;
+    let light = (0..width * width).map(|i| exp(-0.5 * at(i).length_squared() / (sigma_px * sigma_px)) as f32);
+    let image =
+        SpreadImageParameters { width, light: light.collect(), pitch_um: PITCH_UM / per_px, wavelength_nm: None };
+    let psf = PointSpread::Image(SpreadImage::new(image, &raster).expect("a picture"));
+    let parameters =
+        EffectsParameters { psf: Some(psf), spread_by: Some(spread_by), margin: Some(margin), ..Default::default() };
+    let effects = Effects::new(parameters, &raster).expect("legal");
+    (raster, effects)
+}
+
+/// The contrast that displaced samples leave to bars of so many cycles a pixel.
+fn contrast_of_samples(sigma_px: f64, cycles: f64) -> f64 {
+    let (raster, effects) = behind_gaussian((64, 0.0), sigma_px, 24.0, SpreadBy::Samples);
+    let spread = effects.sample_spread(&raster, RANGE_NM).expect("narrow enough for samples");
+    let wave = |i: usize| {
+        // A lattice, with a golden-ratio sequence for the choice.
+        let choice = (0.618_033_988_75 * i as f64).fract();
+        let place = (DVec2::new((i % DRAWS) as f64, (i / DRAWS) as f64) + 0.5) / DRAWS as f64;
+        let (offset_px, [weight]) = spread.draw(Pixel { x: 32, y: 32 }, &[550.0], SpreadDraw { choice, place });
+        f64::from(weight) * cos(TAU * cycles * offset_px.x)
+    };
+    (0..DRAWS * DRAWS).map(wave).sum::<f64>() / (DRAWS * DRAWS) as f64
+}
+
+/// The darkest pixel of even light of 1 behind a Gaussian three times as wide as the picture, whose margin is the picture's own width a side.
+fn even_light_behind_a_wide_one() -> f64 {
+    let (raster, effects) = behind_gaussian((16, 0.0), 48.0, 1.0, SpreadBy::Film);
+    let even = Plane::<Irradiance>::filled(16, 16, 1.0);
+    let (spread, _) = effects.prepared(&raster, RANGE_NM, FilmPart::Whole).apply(RANGE_NM, &even, None);
+    // Without a margin, what a pixel gets is the part of the function over the picture: about 16² of 2π 48² at its peak.
+    let expected = 256.0 / (2.0 * PI * 48.0 * 48.0);
+    worst(spread.samples().iter().map(|v| (f64::from(*v) / expected - 1.0).abs()))
+}
+
+#[test]
+fn point_spreads() {
+    let narrow = |sigma_px: f64, cycles: f64| {
+        let exact = exp(-2.0 * (PI * sigma_px * cycles) * (PI * sigma_px * cycles));
+        Row::at_most(
+            &format!("a Gaussian of {sigma_px} px, bars of {cycles} cycles a pixel"),
+            &format!("contrast {exact:.3} (absolute error)"),
+            (contrast_of_samples(sigma_px, cycles) - exact).abs(),
+            6e-3,
+        )
+    };
+    let mut rows: Vec<Row> =
+        [(0.05, 0.5), (0.1, 0.25), (0.2, 0.5), (0.4, 0.25), (0.4, 0.5)].map(|(s, c)| narrow(s, c)).into();
+    rows.push(Row::at_most(
+        "a Gaussian three times as wide as a picture without margin, even light",
+        "the part of the function that lies over the picture, in every pixel (relative error)",
+        even_light_behind_a_wide_one(),
+        0.05,
+    ));
+    let about = "Narrow ones displace samples (`spread_by = \"samples\"`), as they do unless told otherwise where a film of whole pixels would be wrong (by up to 0.08 at 0.4 px); wide ones are spread by the film.";
+    check("Point spreads", about, &rows);
+}
