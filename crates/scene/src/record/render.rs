@@ -76,6 +76,7 @@ record! {
 
 /// How things out of focus are blurred behind stored radiance.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "a description has few of them, and places of values take most of it")]
 pub enum DepthOfField {
     /// By a method without parameters.
     Named(Placed<DepthMethod>),

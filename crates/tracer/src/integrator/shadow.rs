@@ -20,7 +20,7 @@ impl<const N: usize, E: Effects> Path<'_, N, E> {
         light: &LightSample<N>,
         (medium, following): (Medium<'_>, Following),
     ) -> Option<Spectral<N>> {
-        let ray = self.from_surface(&vertex.point, light);
+        let ray = self.ray_from_surface(&vertex.point, light);
         let share = self.share_along(ray, light, (medium, following))?;
         // As for a path that meets nothing, the way to infinity takes nothing.
         let way_m = light.target.map_or(0.0, |target| target.distance(vertex.point.position));
@@ -52,7 +52,7 @@ impl<const N: usize, E: Effects> Path<'_, N, E> {
     }
 
     /// The ray from a point of a surface to the light's, or to infinity.
-    fn from_surface(&self, point: &SurfacePoint, light: &LightSample<N>) -> Ray {
+    fn ray_from_surface(&self, point: &SurfacePoint, light: &LightSample<N>) -> Ray {
         let origin = point.spawn(light.direction);
         self.towards(origin, light.direction, light.target).leaving(point.primitive_id())
     }
@@ -85,7 +85,7 @@ impl<const N: usize, E: Effects> Path<'_, N, E> {
             if share.is_zero() {
                 return None;
             }
-            ray = self.from_surface(&point, light);
+            ray = self.ray_from_surface(&point, light);
             if ray.direction.dot(light.direction) <= 0.0 {
                 return Some(share);
             }

@@ -77,6 +77,7 @@ record! {
 
 /// What fills a space.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "a description has few of them, and places of values take most of it")]
 pub enum Glass {
     /// By the maker's name.
     Named(Placed<String>),

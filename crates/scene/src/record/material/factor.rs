@@ -6,6 +6,7 @@ use crate::reader::{Rule, choice, either, name_of, number, record, variant};
 
 /// A number from 0 to 1 over a surface.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "a description has few of them, and places of values take most of it")]
 pub enum Factor {
     /// The same everywhere.
     Number(Placed<f64>),
