@@ -246,7 +246,7 @@ fn sun_in_frame() -> Row {
     let flat = illuminant::named("E").expect("an illuminant");
     let expected = 1000.0 * flat.band_mean(500.0, 600.0) / flat.integral(300.0, 1100.0);
     let (lit, even) = (aimed(sun, ""), aimed("", "environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }"));
-    let pixel_sr = (1.0_f64 / 500.0).powi(2);
+    let pixel_sr = 1.0 / (500.0 * 500.0);
     let found = lit.iter().sum::<f64>() * pixel_sr / mean(&even);
     Row::at_most(
         "the sun in the picture, 4.7 px across",

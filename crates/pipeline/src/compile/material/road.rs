@@ -42,7 +42,7 @@ impl MaterialCompiler<'_, '_> {
             }
         };
         let sheeting = self.context.accept(&r.place, made)?;
-        self.context.remark_on(&r.place.key(), sheeting.limits().to_string());
+        self.context.remark_on(r.place.key(), sheeting.limits().to_string());
         Some(sheeting.into())
     }
 
