@@ -60,9 +60,9 @@ peers *arguments:
 kills count="1000" seed="1":
     ETENDUE_KILLS={{count}} ETENDUE_KILLS_SEED={{seed}} cargo test --release -p etendue-cli --test binary killed::
 
-# The tracer's tests under the address sanitiser: all there is of unsafe code (Linux, x86-64)
+# The accelerator's tests under the address sanitiser: all there is of unsafe code (Linux, x86-64)
 sanitise:
-    RUSTC_BOOTSTRAP=1 RUSTFLAGS="-Zsanitizer=address -Ctarget-cpu=x86-64-v2" cargo test --target x86_64-unknown-linux-gnu --target-dir target/sanitised -p etendue-tracer
+    RUSTC_BOOTSTRAP=1 RUSTFLAGS="-Zsanitizer=address -Ctarget-cpu=x86-64-v2" cargo test --target x86_64-unknown-linux-gnu --target-dir target/sanitised -p etendue-tracer --lib -- accel:: render_space::
 
 # Licences, sources and advisories of everything that is used (needs cargo-deny and a network)
 policy:
