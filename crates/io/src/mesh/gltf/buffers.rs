@@ -85,7 +85,11 @@ fn find(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<PathBuf
             return Ok(path.clone());
         }
     }
-    let tried = beside.filter(|b| *b != stated).map_or_else(String::new, |b| format!(", nor {}", b.display()));
-    Err(format!("its {what} is not there: neither {}{tried}; put it there", stated.display())
-        .replace("neither ", if tried.is_empty() { "no " } else { "neither " }))
+    let stated_path = stated.display();
+    Err(match beside.filter(|b| *b != stated) {
+        None => format!("its {what} is not there: no {stated_path}; put it there"),
+        Some(beside) => {
+            format!("its {what} is not there: neither {stated_path}, nor {}; put it there", beside.display())
+        }
+    })
 }

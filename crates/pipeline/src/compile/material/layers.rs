@@ -8,15 +8,13 @@ use etendue_scene::Place;
 use etendue_scene::asset::{
     SlotColour, SlotEmission, SlotLayers, SlotMaterial, SlotNumber, SlotOver, SlotPicture, SlotTransmission, SlotWrap,
 };
+use etendue_spectra::colour::BT709;
 use etendue_spectra::{metal, upsample};
 use etendue_tracer::materials::{
     Cloth, Coated, Conductor, Dielectric, Emission, EmissionSides, Factor, Green, Material, Mix, NormalMap,
     Reflectance, Surface, ThinSheet, absorption_of,
 };
 use etendue_tracer::textures::{Channel, Sampling, TextureId, Wrap};
-
-/// Luminance of linear sRGB (IEC 61966-2-1).
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// What one material is made in.
 struct Layering<'l, 'c, 'a> {
@@ -44,16 +42,21 @@ impl MaterialTableBuilder {
 impl Layering<'_, '_, '_> {
     fn material(&mut self, layers: &SlotLayers) -> Option<Material> {
         let surface = self.surface(layers)?;
-        let mut material = Material::new(surface);
+        let mut material = self.with_normals(surface, layers)?;
         if let Some(emission) = &layers.emission {
             material.emission = Some(self.emission(emission)?);
         }
         if let Some(opacity) = &layers.opacity {
             material.opacity = Some(self.number(opacity)?);
         }
-        if let Some((picture, strength)) = &layers.normals
-            && !matches!(material.surface, Surface::Mix(_))
-        {
+        Some(material)
+    }
+
+    /// A surface with the normal map of the material; a mix has none, but its parts have.
+    fn with_normals(&mut self, surface: Surface, layers: &SlotLayers) -> Option<Material> {
+        let is_mix = matches!(surface, Surface::Mix(_));
+        let mut material = Material::new(surface);
+        if let (Some((picture, strength)), false) = (&layers.normals, is_mix) {
             let texture = self.texture(picture)?;
             material.normal_map = Some(self.context.accept(self.place, NormalMap::new(texture, Green::Up, *strength))?);
         }
@@ -129,7 +132,7 @@ impl Layering<'_, '_, '_> {
         self.context.accept(self.place, Dielectric::new(clear.index, alpha, absorption)).map(Surface::from)
     }
 
-    /// Two surfaces side by side. Normal maps belong to the parts of a mix.
+    /// Two surfaces side by side.
     fn mix(
         &mut self,
         (a, a_name): (Surface, &str),
@@ -139,13 +142,7 @@ impl Layering<'_, '_, '_> {
     ) -> Option<Surface> {
         let weight = self.number(weight)?;
         let mut part = |surface: Surface, name: &str| -> Option<_> {
-            let is_mix = matches!(surface, Surface::Mix(_));
-            let mut material = Material::new(surface);
-            if let (Some((picture, strength)), false) = (&layers.normals, is_mix) {
-                let texture = self.texture(picture)?;
-                material.normal_map =
-                    Some(self.context.accept(self.place, NormalMap::new(texture, Green::Up, *strength))?);
-            }
+            let material = self.with_normals(surface, layers)?;
             let name = format!("{}, {name}", self.slot.name);
             Some(self.builder.add_part(material, &name, self.place, self.has_picture))
         };
@@ -154,7 +151,7 @@ impl Layering<'_, '_, '_> {
 
     fn emission(&mut self, emission: &SlotEmission) -> Option<Emission> {
         let rgb = emission.rgb_cd_m2;
-        let luminance: f64 = rgb.iter().zip(LUMINANCE).map(|(v, weight)| v * weight).sum();
+        let luminance: f64 = rgb.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
         let largest = rgb.iter().copied().fold(0.0, f64::max);
         let relative = upsample::emission_spectrum(rgb.map(|v| (v / largest) as f32));
         let radiance = bright(&relative, luminance, self.place, self.context)?;
