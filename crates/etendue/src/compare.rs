@@ -20,6 +20,9 @@ pub struct ChannelComparison {
     pub errors: Option<ErrorSummary>,
     /// Samples that are not equal bit for bit.
     pub unequal: usize,
+    /// Samples that are not finite (NaN or infinite) in A, in B or in both: they are not in the errors, and a test of a channel with
+    /// variance that meets one says that the channels differ. Always 0 for identities.
+    pub not_finite: usize,
     /// The Z test, for channels with variance.
     pub test: Option<PlaneTest>,
 }
@@ -80,10 +83,11 @@ fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<ChannelComparis
     match &channel.content {
         Content::Identity { a, b } => {
             let unequal = a.iter().zip(b).filter(|(a, b)| a != b).count();
-            Ok(ChannelComparison { name, errors: None, unequal, test: None })
+            Ok(ChannelComparison { name, errors: None, unequal, not_finite: 0, test: None })
         }
         Content::Number { a, b, variance } => {
             let unequal = a.iter().zip(b).filter(|(a, b)| a.to_bits() != b.to_bits()).count();
+            let not_finite = a.iter().zip(b).filter(|(a, b)| !(a.is_finite() && b.is_finite())).count();
             let test = match variance {
                 None => None,
                 Some((of_a, of_b)) => {
@@ -95,7 +99,7 @@ fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<ChannelComparis
             };
             let alike = pair.origin.0.alike.max(pair.origin.1.alike);
             let errors = ErrorSummary::of(a, b).map(|errors| errors.shared_by(alike));
-            Ok(ChannelComparison { name, errors, unequal, test })
+            Ok(ChannelComparison { name, errors, unequal, not_finite, test })
         }
     }
 }

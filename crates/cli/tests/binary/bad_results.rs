@@ -1,6 +1,8 @@
 //! Stored results that cannot be used for what is asked.
 
 use crate::support::{etendue, small, tests, text};
+use etendue_io::Provenance;
+use etendue_io::exr::{Layer, encode_layers};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -83,6 +85,31 @@ fn pictures_of_different_sizes_or_kinds_are_not_compared() {
     etendue(["compare", &file(&a, "none.exr"), &file(&a, "radiance.exr")]).refused(&["none.exr"]);
     etendue(["compare", &file(&a, "radiance.exr"), &file(&a, "radiance.exr"), "--significance", "2"])
         .refused(&["--significance 2", "probability"]);
+}
+
+/// An EXR file of four samples of `light` with a variance of 0.01 each.
+fn four(place: &Path, name: &str, light: [f32; 4]) -> String {
+    let eight = Provenance { further: [("replicates".to_owned(), "8".to_owned())].into(), ..Provenance::default() };
+    let layers = [("light".to_owned(), Layer::Float(&light)), ("variance.light".to_owned(), Layer::Float(&[0.01; 4]))];
+    let file = place.join(name);
+    fs::write(&file, encode_layers(2, 2, &layers, &eight).expect("a picture")).expect("written");
+    text(&file)
+}
+
+#[test]
+fn what_is_not_finite_in_exr_files_is_counted_and_never_agrees() {
+    let place = place();
+    let good = four(place.path(), "good.exr", [1.0, 2.0, 3.0, 4.0]);
+    etendue(["compare", &good, &good]).ok();
+    for (name, bad) in [("nan.exr", f32::NAN), ("infinite.exr", f32::INFINITY)] {
+        let spoilt = four(place.path(), name, [1.0, bad, 3.0, 4.0]);
+        for (a, b) in [(&good, &spoilt), (&spoilt, &good), (&spoilt, &spoilt)] {
+            let run = etendue(["compare", a, b]);
+            assert_eq!(run.status, 1, "{}", run.err);
+            assert!(run.out.contains("differs, 1 not finite"), "{}", run.out);
+            assert!(!run.out.contains("NaN"), "{}", run.out);
+        }
+    }
 }
 
 /// A copy of the small job that may be changed.
