@@ -7,6 +7,7 @@ use etendue_scene::asset::{MeshAsset, is_gltf};
 
 use super::gltf::read_gltf;
 use super::obj::{Obj, scan};
+use super::ply::{is_ply, read_ply};
 use super::polygon::{newell, triangulate};
 use super::slot::{Slots, slots};
 use super::texture_option::UvLayout;
@@ -14,7 +15,7 @@ use super::vertex::{middle_of_far, unit};
 use crate::source::{decode_text, read_bytes};
 use crate::{Error, Sandbox, hash};
 
-/// Reads a Wavefront OBJ file with the material libraries it names, or a glTF file with its buffers and pictures.
+/// Reads a mesh by its ending: a Wavefront OBJ file with the material libraries it names, a glTF file with its buffers and pictures, or a PLY file.
 ///
 /// # Errors
 /// The first fault, with its line.
@@ -26,6 +27,9 @@ pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
 pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, Error> {
     if is_gltf(file) {
         return read_gltf(file, sandbox);
+    }
+    if is_ply(file) {
+        return read_ply(file);
     }
     let bytes = read_bytes(file, "mesh")?;
     let obj = scan(file, decode_text(file, &bytes)?)?;
