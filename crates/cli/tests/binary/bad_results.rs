@@ -87,10 +87,10 @@ fn pictures_of_different_sizes_or_kinds_are_not_compared() {
         .refused(&["--significance 2", "probability"]);
 }
 
-/// An EXR file of four samples of `light` with a variance of 0.01 each.
-fn four(place: &Path, name: &str, light: [f32; 4]) -> String {
+/// An EXR file of four samples of `light`, with the variance of each.
+fn four(place: &Path, name: &str, light: [f32; 4], variance: [f32; 4]) -> String {
     let eight = Provenance { further: [("replicates".to_owned(), "8".to_owned())].into(), ..Provenance::default() };
-    let layers = [("light".to_owned(), Layer::Float(&light)), ("variance.light".to_owned(), Layer::Float(&[0.01; 4]))];
+    let layers = [("light".to_owned(), Layer::Float(&light)), ("variance.light".to_owned(), Layer::Float(&variance))];
     let file = place.join(name);
     fs::write(&file, encode_layers(2, 2, &layers, &eight).expect("a picture")).expect("written");
     text(&file)
@@ -99,10 +99,17 @@ fn four(place: &Path, name: &str, light: [f32; 4]) -> String {
 #[test]
 fn what_is_not_finite_in_exr_files_is_counted_and_never_agrees() {
     let place = place();
-    let good = four(place.path(), "good.exr", [1.0, 2.0, 3.0, 4.0]);
+    let light = |second: f32| [1.0, second, 3.0, 4.0];
+    let variance = |second: f32| [0.01, second, 0.01, 0.01];
+    let good = four(place.path(), "good.exr", light(2.0), variance(0.01));
     etendue(["compare", &good, &good]).ok();
-    for (name, bad) in [("nan.exr", f32::NAN), ("infinite.exr", f32::INFINITY)] {
-        let spoilt = four(place.path(), name, [1.0, bad, 3.0, 4.0]);
+    for (name, second, its_variance) in [
+        ("nan.exr", f32::NAN, 0.01),
+        ("infinite.exr", f32::INFINITY, 0.01),
+        ("nan-variance.exr", 2.0, f32::NAN),
+        ("negative-variance.exr", 2.0, -0.01),
+    ] {
+        let spoilt = four(place.path(), name, light(second), variance(its_variance));
         for (a, b) in [(&good, &spoilt), (&spoilt, &good), (&spoilt, &spoilt)] {
             let run = etendue(["compare", a, b]);
             assert_eq!(run.status, 1, "{}", run.err);
