@@ -1,0 +1,122 @@
+//! Pictures of light from infinity: from pbrt's equal-area square to our equirectangular ones.
+
+use super::octahedral::square_of;
+use super::scenery::{Graphics, Scenery};
+use etendue_core::maths::f64 as maths;
+use etendue_io::Provenance;
+use etendue_io::exr::{Layer, encode_layers};
+use etendue_io::picture::read_picture;
+use etendue_scene::asset::{ImageAsset, ImagePixels};
+use etendue_scene::record::Environment;
+use etendue_scene::record::environment::EnvironmentImage;
+use glam::{DMat3, DVec3};
+use std::f64::consts::PI;
+
+impl Scenery {
+    /// The environment of a picture; `None`, and a note, where it is of a kind that is not read.
+    pub(super) fn environment(
+        &mut self,
+        file: &str,
+        graphics: &Graphics,
+        scale: f64,
+    ) -> Result<Option<Environment>, String> {
+        let path = self.source_folder.join(file);
+        let image = read_picture(&path).map_err(|e| e.to_string())?;
+        let Some(texels) = Texels::of(&image) else {
+            self.report.note(format!("the picture of light `{file}` is left out: expected linear numbers (EXR, HDR)"));
+            return Ok(None);
+        };
+        if image.width != image.height {
+            return Err(format!(
+                "`{file}` of {} by {} pixels; pbrt-v4 has squares (imgtool makeequiarea)",
+                image.width, image.height
+            ));
+        }
+        if scale <= 0.0 {
+            self.report.note("a light \"infinite\" is dark and left out");
+            return Ok(None);
+        }
+        // Of the square 4 n² pixels cover the sphere as finely as 2 n × 4 n of ours do at the horizon.
+        let rows = image.height as usize;
+        let to_light = graphics.to_world.matrix3.inverse() * self.to_ours.transpose();
+        let channels = resampled(&texels, rows, to_light);
+        let names = ["B", "G", "R"];
+        let layers: Vec<(String, Layer<'_>)> = names
+            .iter()
+            .zip([&channels[2], &channels[1], &channels[0]])
+            .map(|(n, c)| ((*n).to_owned(), Layer::Float(c)))
+            .collect();
+        let bytes = encode_layers(2 * rows, rows, &layers, &Provenance::default()).map_err(|e| e.to_string())?;
+        let name = self.file_names.take("environment", "environment");
+        let path = self.add_file(format!("{name}.exr"), bytes);
+        self.check_size()?;
+        self.report
+            .note(format!("the light of `{file}`: resampled to {} by {rows} pixels, 1 is {scale} cd/m²", 2 * rows));
+        Ok(Some(Environment::Image(EnvironmentImage::new(path.as_str(), scale))))
+    }
+}
+
+/// Linear pixels of a square.
+struct Texels<'a> {
+    size: usize,
+    pixel: Box<dyn Fn(usize) -> [f32; 3] + 'a>,
+}
+
+impl<'a> Texels<'a> {
+    fn of(image: &'a ImageAsset) -> Option<Self> {
+        let pixel: Box<dyn Fn(usize) -> [f32; 3] + 'a> = match &image.pixels {
+            ImagePixels::Rgb32F(pixels) => Box::new(|i| pixels[i]),
+            ImagePixels::Rgba32F(pixels) => Box::new(|i| [pixels[i][0], pixels[i][1], pixels[i][2]]),
+            _ => return None,
+        };
+        Some(Self { size: image.width as usize, pixel })
+    }
+
+    /// The texel of whole coordinates, which may lie one outside: there the square goes on mirrored about the middle of its edge.
+    fn at(&self, x: isize, y: isize) -> [f32; 3] {
+        let n = self.size as isize;
+        let inside = |v: isize| (0..n).contains(&v);
+        let (mut x, mut y) = (x, y);
+        if !inside(x) {
+            (x, y) = (x.clamp(0, n - 1), n - 1 - y);
+        }
+        if !inside(y) {
+            (x, y) = (n - 1 - x, y.clamp(0, n - 1));
+        }
+        (self.pixel)((y * n + x) as usize)
+    }
+
+    fn bilinear(&self, [u, v]: [f64; 2]) -> [f64; 3] {
+        let [x, y] = [u, v].map(|c| c * self.size as f64 - 0.5);
+        let (x0, y0) = (x.floor(), y.floor());
+        let (fx, fy) = (x - x0, y - y0);
+        let corner = |dx: isize, dy: isize| self.at(x0 as isize + dx, y0 as isize + dy).map(f64::from);
+        let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
+        std::array::from_fn(|i| (1.0 - fy) * ((1.0 - fx) * a[i] + fx * b[i]) + fy * ((1.0 - fx) * c[i] + fx * d[i]))
+    }
+}
+
+/// Red, green and blue of `rows` rows of twice as many columns, each the mean of four by four points.
+fn resampled(texels: &Texels<'_>, rows: usize, to_light: DMat3) -> [Vec<f32>; 3] {
+    const POINTS: usize = 4;
+    let columns = 2 * rows;
+    let mut channels = [(); 3].map(|()| Vec::with_capacity(rows * columns));
+    for row in 0..rows {
+        for column in 0..columns {
+            let mut sum = [0.0; 3];
+            for point in 0..POINTS * POINTS {
+                let along = |pixel: usize, i: usize| pixel as f64 + (i as f64 + 0.5) / POINTS as f64;
+                let azimuth = PI * (1.0 - along(column, point % POINTS) / rows as f64);
+                let elevation = PI * (0.5 - along(row, point / POINTS) / rows as f64);
+                let ((sa, ca), (se, ce)) = (maths::sin_cos(azimuth), maths::sin_cos(elevation));
+                let direction = (to_light * DVec3::new(ce * ca, ce * sa, se)).normalize_or(DVec3::Z);
+                let found = texels.bilinear(square_of(direction));
+                sum = std::array::from_fn(|i| sum[i] + found[i]);
+            }
+            for (channel, sum) in channels.iter_mut().zip(sum) {
+                channel.push((sum / (POINTS * POINTS) as f64) as f32);
+            }
+        }
+    }
+    channels
+}
