@@ -14,10 +14,12 @@ use crate::table::{read_complex_index, read_retro_table};
 
 pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
     let mesh = read_mesh(file)?;
-    let kind = match () {
-        () if is_gltf(file) => "mesh, glTF 2.0",
-        () if is_ply(file) => "mesh, PLY",
-        () => "mesh, Wavefront OBJ",
+    let kind = if is_gltf(file) {
+        "mesh, glTF 2.0"
+    } else if is_ply(file) {
+        "mesh, PLY"
+    } else {
+        "mesh, Wavefront OBJ"
     };
     let mut report = FileReport::new(file, kind);
     report.state("triangles", mesh.triangles.len());

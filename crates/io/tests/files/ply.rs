@@ -167,6 +167,7 @@ fn damaged_rows_are_refused_with_their_line() {
         "2 nan 0",
         "a.ply:20: vertex 2: a number that is not finite (NaN or infinity): mend the mesh where it was modelled",
     );
+    refused_star("2 2 0", "2 1e39 0", "a.ply:20: vertex 2: coordinate 1e39 is beyond the range of 32-bit floats");
     refused_star("2 2 0", "2 2 .5", "a.ply:20: vertex 2: `.5` where the head tells of a whole number");
     refused_star("2 2 0", "2 two 0", "a.ply:20: vertex 2: `two` is no number");
     refused_star(

@@ -4,7 +4,7 @@ use etendue_scene::asset::{MeshAsset, SlotMaterial};
 use etendue_scene::limits;
 
 use super::super::polygon::{newell, triangulate};
-use super::super::vertex::{middle_of_far, unit};
+use super::super::vertex::{middle_of_far, relative, unit};
 use super::faces::{Face, has_uvs, is_used, polygons, strips};
 use super::header::{Element, Header, shortened};
 use super::input::Input;
@@ -60,11 +60,12 @@ impl Builder {
         let count = self.known_vertices()?.positions.len();
         // Counted first, so that no list grows.
         let (mut triangles, mut corners) = (0, 0);
-        polygons(element, &mut input.clone(), count, |face| {
-            (triangles, corners) = (triangles + face.corners.len() - 2, corners + face.corners.len());
-            Ok(())
-        })
-        .or_else(|_| polygons(element, input, count, |_| Ok(())))?; // again, so that the input knows the line
+        ahead(input, |ahead| {
+            polygons(element, ahead, count, |face| {
+                (triangles, corners) = (triangles + face.corners.len() - 2, corners + face.corners.len());
+                Ok(())
+            })
+        })?;
         self.count(corners)?;
         self.mesh.triangles.reserve_exact(triangles);
         let own_uvs = has_uvs(element);
@@ -104,10 +105,7 @@ impl Builder {
         }
         let positions = &self.vertices.as_ref().ok_or("no vertices")?.positions;
         let polygon: Vec<[f64; 3]> = face.corners.iter().map(|i| positions[*i as usize]).collect();
-        let triangles = triangulate(&polygon).map_err(|_| {
-            let count = polygon.len();
-            format!("polygon of {count} corners crosses itself; triangulate the mesh where it was modelled")
-        })?;
+        let triangles = triangulate(&polygon).map_err(|fault| fault.of(polygon.len()))?;
         self.mesh.triangles.extend(triangles.iter().map(|t| t.map(vertex)));
         Ok(())
     }
@@ -115,11 +113,12 @@ impl Builder {
     fn strips(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), String> {
         let count = self.known_vertices()?.positions.len();
         let mut triangles = 0;
-        strips(element, &mut input.clone(), count, |_| {
-            triangles += 1;
-            Ok(())
-        })
-        .or_else(|_| strips(element, input, count, |_| Ok(())))?;
+        ahead(input, |ahead| {
+            strips(element, ahead, count, |_| {
+                triangles += 1;
+                Ok(())
+            })
+        })?;
         self.count(3 * triangles)?;
         self.has_strips |= triangles > 0;
         self.mesh.triangles.reserve_exact(triangles);
@@ -142,7 +141,7 @@ impl Builder {
         let vertices = vertices.ok_or("no vertices")?;
         mesh.origin = middle_of_far(|axis| vertices.positions.iter().map(move |p| p[axis]));
         let origin = mesh.origin;
-        let place = |p: &[f64; 3]| std::array::from_fn(|axis| (p[axis] - origin[axis]) as f32);
+        let place = |p: &[f64; 3]| relative(*p, origin);
         if has_own {
             mesh.positions = sources.iter().map(|i| place(&vertices.positions[*i as usize])).collect();
             mesh.normals = match vertices.normals.is_empty() {
@@ -159,6 +158,12 @@ impl Builder {
         mesh.report.extend(notes(header, &unused, &unused_elements));
         Ok(mesh)
     }
+}
+
+/// Reads without moving the input, but to a fault, whose line it then tells.
+fn ahead<'a>(input: &mut Input<'a>, read: impl FnOnce(&mut Input<'a>) -> Result<(), String>) -> Result<(), String> {
+    let mut ahead = input.clone();
+    read(&mut ahead).inspect_err(|_| *input = ahead)
 }
 
 /// Vertices without a usable normal take that of the first triangle that has them.

@@ -1,5 +1,6 @@
 //! The elements that say surfaces: polygons and strips.
 
+use super::super::vertex::check_range;
 use super::header::{Element, Property};
 use super::input::Input;
 
@@ -149,11 +150,9 @@ fn read_uvs(property: &Property, input: &mut Input<'_>, uvs: &mut Vec<[f32; 2]>)
     }
     uvs.reserve(length / 2);
     for _ in 0..length / 2 {
-        let uv = [input.number(property.number)? as f32, input.number(property.number)? as f32];
-        if !uv.iter().all(|v| v.is_finite()) {
-            return Err("texture coordinates beyond 32 bits".to_owned());
-        }
-        uvs.push(uv);
+        let uv = [input.number(property.number)?, input.number(property.number)?];
+        check_range(&uv)?;
+        uvs.push(uv.map(|v| v as f32));
     }
     Ok(())
 }

@@ -23,7 +23,7 @@ use etendue_scene::asset::MeshAsset;
 
 use self::header::Header;
 use self::input::Input;
-use crate::source::read_bytes;
+use crate::source::{name_notes, read_bytes};
 use crate::{Error, hash};
 
 /// Whether a file is a PLY file by its ending.
@@ -42,7 +42,6 @@ pub(super) fn read_ply(file: &Path) -> Result<MeshAsset, Error> {
     let mut input = Input::new(&header, &bytes);
     let mut mesh = assemble::mesh(&header, &mut input).map_err(|what| told((input.line(), what)))?;
     mesh.hash = hash::of_bytes(&bytes);
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    mesh.report.iter_mut().for_each(|note| note.insert_str(0, &format!("{name}: ")));
+    name_notes(file, &mut mesh.report);
     Ok(mesh)
 }

@@ -1,5 +1,6 @@
 //! The element `vertex`.
 
+use super::super::vertex::{check_range, unit};
 use super::header::Element;
 use super::input::Input;
 
@@ -84,17 +85,15 @@ impl Vertices {
                 Use::Uv(axis) => uv[*axis] = input.number(property.number)?,
             }
         }
+        check_range(&position)?;
         self.positions.push(position);
         if uses.has_normals {
             let is_zero = normal == [0.0; 3];
-            self.normals.push(if is_zero { [0.0; 3] } else { super::super::vertex::unit(normal) });
+            self.normals.push(if is_zero { [0.0; 3] } else { unit(normal) });
         }
         if uses.has_uvs {
-            let uv = uv.map(|v| v as f32);
-            if !uv.iter().all(|v| v.is_finite()) {
-                return Err("texture coordinates beyond 32 bits".to_owned());
-            }
-            self.uvs.push(uv);
+            check_range(&uv)?;
+            self.uvs.push(uv.map(|v| v as f32));
         }
         Ok(())
     }
