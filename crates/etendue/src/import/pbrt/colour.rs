@@ -111,7 +111,11 @@ impl Scenery {
                 Ok(grey(legal).map_or(Colour::LinearSrgb(legal.into()), |v| Colour::Grey(v.into())))
             }
             ("float", PbrtValues::Numbers(numbers)) if numbers.len() == 1 => {
-                Ok(Colour::Grey(numbers[0].clamp(0.0, 1.0).into()))
+                let legal = numbers[0].clamp(0.0, 1.0);
+                if legal != numbers[0] {
+                    self.report.note(format!("\"{name}\" beyond 0 … 1 is cut off there"));
+                }
+                Ok(Colour::Grey(legal.into()))
             }
             ("spectrum", PbrtValues::Numbers(numbers)) => {
                 let points: Vec<(f64, f64)> =

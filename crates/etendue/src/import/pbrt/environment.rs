@@ -1,6 +1,6 @@
 //! Pictures of light from infinity: from pbrt's equal-area square to our equirectangular ones.
 
-use super::octahedral::square_of;
+use super::octahedral::{direction_of, square_of};
 use super::scenery::{Graphics, Scenery};
 use etendue_core::maths::f64 as maths;
 use etendue_io::Provenance;
@@ -9,16 +9,19 @@ use etendue_io::picture::read_picture;
 use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_scene::record::Environment;
 use etendue_scene::record::environment::EnvironmentImage;
+use etendue_spectra::colour::BT709;
 use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 
 impl Scenery {
-    /// The environment of a picture; `None`, and a note, where it is of a kind that is not read.
+    /// The environment of a picture, whose numbers are cd/m² times `scale`, or times what gives a surface that faces the picture's +z `lux`; `None`, and
+    /// a note, where it is of a kind that is not read.
     pub(super) fn environment(
         &mut self,
         file: &str,
         graphics: &Graphics,
         scale: f64,
+        lux: Option<f64>,
     ) -> Result<Option<Environment>, String> {
         let path = self.source_folder.join(file);
         let image = read_picture(&path).map_err(|e| e.to_string())?;
@@ -32,7 +35,11 @@ impl Scenery {
                 image.width, image.height
             ));
         }
-        if scale <= 0.0 {
+        let scale = match lux {
+            Some(lux) => scale * lux / texels.illuminance().max(f64::MIN_POSITIVE),
+            None => scale,
+        };
+        if scale <= 0.0 || !scale.is_finite() {
             self.report.note("a light \"infinite\" is dark and left out");
             return Ok(None);
         }
@@ -70,6 +77,18 @@ impl<'a> Texels<'a> {
             _ => return None,
         };
         Some(Self { size: image.width as usize, pixel })
+    }
+
+    /// What a surface that faces +z of the picture gets, lx of numbers in cd/m².
+    fn illuminance(&self) -> f64 {
+        let n = self.size;
+        let lux = |i: usize| {
+            let along = |k: usize| (k as f64 + 0.5) / n as f64;
+            let cos = direction_of([along(i % n), along(i / n)]).z.max(0.0);
+            let luminance: f64 = (self.pixel)(i).iter().zip(BT709).map(|(v, weight)| f64::from(*v) * weight).sum();
+            cos * luminance
+        };
+        (0..n * n).map(lux).sum::<f64>() * 4.0 * PI / (n * n) as f64
     }
 
     /// The texel of whole coordinates, which may lie one outside: there the square goes on mirrored about the middle of its edge.
@@ -148,6 +167,18 @@ mod tests {
         let above = half(|x, y| (2 * x + 1).abs_diff(SIZE) + (2 * y + 1).abs_diff(SIZE) < SIZE);
         let row = |row: usize| &above[row * 2 * SIZE..(row + 1) * 2 * SIZE];
         assert!(row(4).iter().all(|v| *v == 1.0) && row(SIZE - 5).iter().all(|v| *v == 0.0));
+    }
+
+    #[test]
+    fn an_even_picture_of_1_cd_m2_gives_pi_lx() {
+        let texels = |white: fn(usize) -> f32| Texels { size: SIZE, pixel: Box::new(move |i| [white(i); 3]) };
+        // The horizon runs along the diagonals of 2 n of n² texels, whose centres count as dark; their upper halves see it at a mean cosine of 4 / (3 n).
+        // That is (2 n · ½ · 4 / (3 n)) / (n² / 4) = 16 / (3 n²) of the whole at most.
+        let even = texels(|_| 1.0).illuminance();
+        assert!((even - PI).abs() < 16.0 / (3 * SIZE * SIZE) as f64 * PI, "{even}");
+        // Its corners are the sky below.
+        let below = texels(|i| f32::from(u8::from(i % SIZE + i / SIZE < SIZE / 2 - 1)));
+        assert_eq!(below.illuminance(), 0.0);
     }
 
     #[test]

@@ -75,7 +75,11 @@ impl Interpreter {
             PbrtDirective::Texture([name, values, kind], parameters) => {
                 self.scenery.texture(&name, &values, &kind, Parameters(&parameters))
             }
-            PbrtDirective::Setting(_) | PbrtDirective::Include(_) => Ok(()),
+            PbrtDirective::Setting(option) => {
+                self.scenery.report.note(format!("`Option \"{}\"` is not used", option.name));
+                Ok(())
+            }
+            PbrtDirective::Include(_) => Ok(()),
         }
     }
 
@@ -231,7 +235,11 @@ impl Interpreter {
         }
         let stored = self.objects.get(word).ok_or_else(|| format!("no object \"{word}\" stands before this"))?;
         for Stored { kind, parameters, graphics } in stored {
-            let placed = Graphics { to_world: self.graphics.to_world * graphics.to_world, ..graphics.clone() };
+            if graphics.area_light.is_some() {
+                self.scenery.report.note("shapes of instances give no light, as in pbrt");
+            }
+            let to_world = self.graphics.to_world * graphics.to_world;
+            let placed = Graphics { to_world, area_light: None, ..graphics.clone() };
             self.scenery.shape(kind, Parameters(parameters), &placed)?;
         }
         Ok(())

@@ -111,10 +111,11 @@ impl Scenery {
         let environment = match parameters.text("filename")? {
             Some(file) => {
                 if lux.is_some() {
-                    self.report.note("\"illuminance\" of a picture of light is not used: its numbers are cd/m²");
+                    // Its sum over the upper half has 2π in the place of 4π.
+                    self.report
+                        .note("\"illuminance\" of a picture of light is lx; pbrt-v4 itself makes it twice as much");
                 }
-                parameters.find("L");
-                self.environment(file, graphics, scale)?
+                self.environment(file, graphics, scale, lux)?
             }
             None => {
                 let unit = self.light(parameters, "L")?;

@@ -185,11 +185,19 @@ impl Scenery {
         if parameters.numbers("albedo")?.is_some_and(|a| a.iter().any(|v| *v != 0.0)) {
             self.report.note("light that a coat scatters within itself (\"albedo\") is not used");
         }
-        ["thickness", "g", "maxdepth", "nsamples"].iter().for_each(|name| {
+        // What it takes to scatter within the coat counts with an albedo alone, and how often it is followed is ours.
+        ["g", "maxdepth", "nsamples"].iter().for_each(|name| {
             parameters.find(name);
         });
+        if parameters.find("thickness").is_some() {
+            self.report.note("the \"thickness\" of a coat is not used: light leaves it where it went in");
+        }
         let reflectance = self.reflectance(parameters, "reflectance", 0.5)?;
-        let index = self.index(parameters)?.clamp(*COAT_INDICES.start(), *COAT_INDICES.end());
+        let stated = self.index(parameters)?;
+        let index = stated.clamp(*COAT_INDICES.start(), *COAT_INDICES.end());
+        if index != stated {
+            self.report.note(format!("a coat of index {stated} is one of {index}"));
+        }
         let alpha = self.alpha(parameters, "")?;
         Ok(Coated { index: Some(index.into()), ..Coated::new(reflectance, alpha) })
     }

@@ -30,14 +30,21 @@ impl Scenery {
         let even = even_a.zip(even_s);
         let extinction = self.curve(&sum, even.map(|(a, s)| a + s), scale);
         let albedo = self.curve(&share, even.map(|(a, s)| if a + s > 0.0 { s / (a + s) } else { 0.0 }), 1.0);
-        let g = parameters.number("g", 0.0)?.clamp(-0.99, 0.99);
+        let stated = parameters.number("g", 0.0)?;
+        let g = stated.clamp(-0.99, 0.99);
+        if g != stated {
+            self.report.note(format!("a medium of g = {stated} is one of {g}"));
+        }
         self.known.media.insert(name.to_owned(), Homogeneous { extinction, albedo, g });
         Ok(())
     }
 
     /// Fills a part of the world with a medium; nothing where the name is empty or not understood.
     pub(super) fn fill(&mut self, name: &str, shape: MediumShape, transform: Transform) {
-        let Some(Homogeneous { extinction, albedo, g }) = self.known.media.get(name).cloned() else { return };
+        let Some(Homogeneous { extinction, albedo, g }) = self.known.media.get(name).cloned() else {
+            self.report.note(format!("a part of the world has no medium: \"{name}\" is not there or not understood"));
+            return;
+        };
         let phase = match g {
             0.0 => Phase::Isotropic(Isotropic::default()),
             g => Phase::HenyeyGreenstein(HenyeyGreenstein::new(g)),

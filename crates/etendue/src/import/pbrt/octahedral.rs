@@ -4,7 +4,7 @@
 
 use etendue_core::maths::f64 as maths;
 use glam::DVec3;
-use std::f64::consts::FRAC_2_PI;
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_4};
 
 /// Where in the unit square a direction of length 1 lies; the second coordinate grows with rows.
 pub(super) fn square_of(d: DVec3) -> [f64; 2] {
@@ -14,6 +14,18 @@ pub(super) fn square_of(d: DVec3) -> [f64; 2] {
     let (u, v) = (r - angle * r, angle * r);
     let (u, v) = if d.z < 0.0 { (1.0 - v, 1.0 - u) } else { (u, v) };
     [0.5 * (u.copysign(d.x) + 1.0), 0.5 * (v.copysign(d.y) + 1.0)]
+}
+
+/// The direction of a point of the unit square: the inverse of [`square_of`].
+pub(super) fn direction_of([u, v]: [f64; 2]) -> DVec3 {
+    let (u, v) = (2.0 * u - 1.0, 2.0 * v - 1.0);
+    // Of the inner half of the square above the horizon, of its corners below.
+    let above = 1.0 - (u.abs() + v.abs());
+    let r = 1.0 - above.abs();
+    let azimuth = if r == 0.0 { 0.0 } else { FRAC_PI_4 * ((v.abs() - u.abs()) / r + 1.0) };
+    let (sin, cos) = maths::sin_cos(azimuth);
+    let level = r * (2.0 - r * r).max(0.0).sqrt();
+    DVec3::new((cos * level).copysign(u), (sin * level).copysign(v), (1.0 - r * r).copysign(above))
 }
 
 #[cfg(test)]
@@ -30,6 +42,17 @@ mod tests {
         near(DVec3::X, [1.0, 0.5]);
         near(DVec3::NEG_Y, [0.5, 0.0]);
         near(DVec3::new(1.0, 1.0, 0.0).normalize(), [0.75, 0.75]);
+    }
+
+    #[test]
+    fn points_of_the_square_lead_back_to_themselves() {
+        for i in 0..400 {
+            let point = [(f64::from(i % 20) + 0.3) / 20.0, (f64::from(i / 20) + 0.6) / 20.0];
+            let direction = direction_of(point);
+            let back = square_of(direction);
+            assert!((direction.length() - 1.0).abs() < 1e-12, "{point:?}");
+            assert!((0..2).all(|k| (back[k] - point[k]).abs() < 1e-9), "{point:?} {back:?}");
+        }
     }
 
     /// Directions that are spread evenly fall evenly on the square.

@@ -90,7 +90,7 @@ impl Scenery {
         let placed = mesh.placed(self.placed(graphics), graphics.reverse_orientation);
         let count = placed.triangles.len();
         let file = self.file_names.take("mesh", "mesh");
-        if &*graphics.material != INTERFACE {
+        if self.is_seen(graphics) {
             let path = self.add_file(format!("meshes/{file}.ply"), encode_ply(&placed));
             let up_axis = Some(Axis::Z.into());
             self.scene.meshes.push(Mesh { up_axis, ..Mesh::new(file.as_str(), path.as_str()) });
@@ -126,7 +126,7 @@ impl Scenery {
             false => (radius, place(placed, rotation, scale)),
         };
         let body = Body::Shape(Shape::Sphere(Sphere::new(radius)));
-        if &*graphics.material != INTERFACE {
+        if self.is_seen(graphics) {
             self.object("sphere", body, transform.clone(), graphics, 1);
         }
         if fills(graphics) {
@@ -155,12 +155,21 @@ impl Scenery {
             false => rotation,
         };
         let centre = placed.transform_point3(DVec3::new(0.0, 0.0, parameters.number("height", 0.0)?));
-        if &*graphics.material != INTERFACE {
+        if self.is_seen(graphics) {
             let scale = DVec3::new(scale.x, scale.y, 1.0);
             let body = Body::Shape(Shape::Disc(Disc::new(radius)));
             self.object("disk", body, place(centre, rotation, scale), graphics, 1);
         }
         Ok(())
+    }
+
+    /// Whether a surface is one, and not the border of a medium alone.
+    fn is_seen(&mut self, graphics: &Graphics) -> bool {
+        let is_border = &*graphics.material == INTERFACE;
+        if is_border && graphics.area_light.is_some() {
+            self.report.note("a shape without a surface gives no light, as in pbrt");
+        }
+        !is_border
     }
 
     /// An object of the material and the light that hold now; `count` is how many shapes it is in pbrt.

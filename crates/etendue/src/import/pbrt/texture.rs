@@ -59,9 +59,11 @@ impl Scenery {
             return Ok(None);
         }
         let is_linear = matches!(ending.as_str(), "hdr" | "exr");
+        // pbrt heeds the encoding of PNG files alone: JPEG is sRGB whatever is said.
         let encoding = match parameters.text("encoding")? {
-            None | Some("sRGB") if !is_linear => Encoding::Srgb,
-            None | Some("linear") => Encoding::Linear,
+            _ if is_linear => Encoding::Linear,
+            None | Some("sRGB") => Encoding::Srgb,
+            Some("linear") if ending == "png" => Encoding::Linear,
             Some(other) => {
                 self.report.note(format!("the encoding \"{other}\" of a picture is taken as sRGB's"));
                 Encoding::Srgb
@@ -79,7 +81,6 @@ impl Scenery {
             self.report.note("\"invert\" of a picture is not understood: 0.5 in its place");
             return Ok(None);
         }
-        parameters.find("filter");
         let pair = |a: &str, b: &str, default: f64| {
             Ok::<_, String>([parameters.number(a, default)?, parameters.number(b, default)?])
         };
@@ -165,6 +166,9 @@ impl Scenery {
             None => Reflectance::Plain(self.share(parameter)?),
             Some(KnownTexture::Even(rgb)) => {
                 let legal = rgb.map(|v| v.clamp(0.0, 1.0));
+                if legal != rgb {
+                    self.report.note(format!("\"{name}\" beyond 0 … 1 is cut off there"));
+                }
                 Reflectance::Plain(grey(legal).map_or(Colour::LinearSrgb(legal.into()), |v| Colour::Grey(v.into())))
             }
             Some(KnownTexture::Picture { name, scale }) => {
@@ -182,18 +186,24 @@ impl Scenery {
         default: f64,
         map: fn(f64) -> f64,
     ) -> Result<Factor, String> {
-        let number = |v: f64| Factor::Number(map(v).clamp(0.0, 1.0).into());
-        let Some(parameter) = parameters.find(name) else { return Ok(number(default)) };
-        Ok(match self.texture_of(parameter, false)? {
-            None => number(parameters.number(name, default)?),
-            Some(KnownTexture::Even(rgb)) => number(rgb[0]),
-            Some(KnownTexture::Picture { name: texture, scale }) => {
-                if map(0.25) != 0.25 {
-                    self.report.note(format!("a picture of \"{name}\" is taken as α itself, not as its square"));
+        let even = match parameters.find(name) {
+            None => default,
+            Some(parameter) => match self.texture_of(parameter, false)? {
+                None => parameters.number(name, default)?,
+                Some(KnownTexture::Even(rgb)) => rgb[0],
+                Some(KnownTexture::Picture { name: texture, scale }) => {
+                    if map(0.25) != 0.25 {
+                        self.report.note(format!("a picture of \"{name}\" is taken as α itself, not as its square"));
+                    }
+                    let scale = self.legal_scale(scale).map(Into::into);
+                    return Ok(Factor::Texture(FactorTexture { scale, ..FactorTexture::new(texture.as_str()) }));
                 }
-                let scale = self.legal_scale(scale).map(Into::into);
-                Factor::Texture(FactorTexture { scale, ..FactorTexture::new(texture.as_str()) })
-            }
-        })
+            },
+        };
+        let (mapped, legal) = (map(even), map(even).clamp(0.0, 1.0));
+        if mapped != legal {
+            self.report.note(format!("\"{name}\" of {even} comes to {mapped}: {legal} in its place"));
+        }
+        Ok(Factor::Number(legal.into()))
     }
 }

@@ -102,7 +102,7 @@ fn a_white_base_under_a_mapped_coat_keeps_all_light() {
 /// `evaluate`, F₀ at normal incidence in proportion.
 #[test]
 fn a_metal_of_a_picture_reflects_its_colours_as_schlick_says() {
-    let metal = |alpha: f32| Conductor::of_texture(TextureId(0), alpha).expect("a metal");
+    let metal = |alpha: f64| Conductor::of_texture(TextureId(0), alpha).expect("a metal");
     let of = |metal: Conductor| {
         let surface = Surface::Conductor(Box::new(metal));
         MaterialTable::new(vec![Material::new(surface)], vec![ramp()]).expect("a map")
