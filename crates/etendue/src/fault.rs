@@ -96,6 +96,7 @@ macro_rules! unplaced {
 }
 
 unplaced!(
+    std::io::Error,
     etendue_charts::ChartError,
     etendue_metrology::calibrate::CalibrateError,
     etendue_metrology::noise::NoiseError,

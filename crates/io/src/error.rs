@@ -12,7 +12,7 @@ pub struct Error {
     what: String,
     named_at: Option<String>,
     /// Of a description that names the file: where.
-    place: Option<Place>,
+    place: Option<Box<Place>>,
     /// Whether the path is at fault, not what is in the file.
     is_path: bool,
 }
@@ -45,13 +45,13 @@ impl Error {
     /// The same fault with the place of the key that names the file.
     #[must_use]
     pub fn named_by(self, place: &Place) -> Self {
-        Self { place: Some(place.clone()), ..self.named_at(place.to_string()) }
+        Self { place: Some(Box::new(place.clone())), ..self.named_at(place.to_string()) }
     }
 
     /// The key that names the file, where a description does.
     #[must_use]
     pub fn place(&self) -> Option<&Place> {
-        self.place.as_ref()
+        self.place.as_deref()
     }
 
     /// Whether the path is at fault, not what is in the file.
