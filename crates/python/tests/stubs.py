@@ -61,5 +61,5 @@ def function(verb):
 
 def module(title, verbs):
     body = [function(verb) for verb in verbs]
-    imports = "from ._report import Report\n\n" if any("-> Report" in text for text in body) else ""
+    imports = "from . import Report\n\n" if any("-> Report" in text for text in body) else ""
     return HEAD.format(title=title, imports=imports) + "".join(f"\n{text}\n" for text in body)

@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
-from ._report import Report
+from . import Report
 
 _Path = str | PathLike[str]
 _Progress = Callable[[str, int, int], object]
