@@ -12,6 +12,13 @@ fn dense(head: &str, part: &str, end: &str) -> Vec<u8> {
     [head, &part.repeat(count), end].concat().into_bytes()
 }
 
+/// A PLY file of so many vertices, each of these bytes, and no faces.
+fn ply(format: &str, number: &str, count: usize, vertex: &[u8]) -> Vec<u8> {
+    let axes = ["x", "y", "z"].map(|axis| format!("property {number} {axis}\n")).concat();
+    let head = format!("ply\nformat {format}\nelement vertex {count}\n{axes}end_header\n");
+    [head.into_bytes(), vertex.repeat(count)].concat()
+}
+
 #[test]
 fn a_reader_holds_a_stated_multiple_of_its_file() {
     let rising: String = (0..LENGTH / 12).map(|i| format!("{i},1,1,1\n")).collect();
@@ -20,6 +27,8 @@ fn a_reader_holds_a_stated_multiple_of_its_file() {
         ("obj", dense("v 0 0 0\nv 1 0 0\nv 0 1 0\n", "f 1 2 3\n", "")),
         ("obj", dense("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0\nvn 0 0 1\n", "f 1/1/1 2/1/1 3/1/1\n", "")),
         ("obj", dense("", "v 0 0 1\n", "f 1 2 3\n")),
+        ("ply", ply("ascii 1.0", "float", LENGTH / 6 - 100, b"0 0 0\n")),
+        ("ply", ply("binary_little_endian 1.0", "char", LENGTH / 3 - 100, &[1, 2, 3])),
         ("mesh-frame", dense("", "v 0 0 1\n", "f 1 2 3\n")),
         ("mtl", dense("newmtl wall\n", "Kd 1 1 1\n", "")),
         ("spectrum", format!("wavelength_nm,value\n{spectrum}").into_bytes()),

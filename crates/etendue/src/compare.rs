@@ -20,6 +20,10 @@ pub struct ChannelComparison {
     pub errors: Option<ErrorSummary>,
     /// Samples that are not equal bit for bit.
     pub unequal: usize,
+    /// Samples that are not finite (NaN or infinite), in A, in B or in both: they are not in the errors. In a channel with variance those
+    /// whose variance is not finite, or below zero, are among them, and the test says that the channels differ where there is one. 0 for
+    /// identities.
+    pub not_finite: usize,
     /// The Z test, for channels with variance.
     pub test: Option<PlaneTest>,
 }
@@ -80,7 +84,7 @@ fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<ChannelComparis
     match &channel.content {
         Content::Identity { a, b } => {
             let unequal = a.iter().zip(b).filter(|(a, b)| a != b).count();
-            Ok(ChannelComparison { name, errors: None, unequal, test: None })
+            Ok(ChannelComparison { name, errors: None, unequal, not_finite: 0, test: None })
         }
         Content::Number { a, b, variance } => {
             let unequal = a.iter().zip(b).filter(|(a, b)| a.to_bits() != b.to_bits()).count();
@@ -95,7 +99,10 @@ fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<ChannelComparis
             };
             let alike = pair.origin.0.alike.max(pair.origin.1.alike);
             let errors = ErrorSummary::of(a, b).map(|errors| errors.shared_by(alike));
-            Ok(ChannelComparison { name, errors, unequal, test })
+            // No errors at all: no sample is finite in both.
+            let without_errors = errors.map_or(a.len(), |errors| errors.not_finite);
+            let not_finite = test.map_or(without_errors, |test| test.not_finite);
+            Ok(ChannelComparison { name, errors, unequal, not_finite, test })
         }
     }
 }

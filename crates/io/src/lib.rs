@@ -2,7 +2,7 @@
 //!
 //! | direction | what | where |
 //! | --- | --- | --- |
-//! | in | Wavefront OBJ with its MTL | [`mesh`] |
+//! | in | Wavefront OBJ with its MTL, glTF 2.0, PLY | [`mesh`] |
 //! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
 //! | in | PNG, JPEG, TIFF, OpenEXR and raw pictures to be measured | [`photograph`] |
 //! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |

@@ -95,6 +95,12 @@ pub(crate) fn decode_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<&'a str, E
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
+/// Begins notes on a file with its name.
+pub(crate) fn name_notes<'n>(file: &Path, notes: impl IntoIterator<Item = &'n mut String>) {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    notes.into_iter().for_each(|note| note.insert_str(0, &format!("{name}: ")));
+}
+
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;

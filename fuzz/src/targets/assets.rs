@@ -103,6 +103,37 @@ pub(super) const GLTF: Target = Target {
     times: GLTF_TREE,
     ..text_target("gltf", "a.gltf", |_| stored("gltf"), |file| told(read_mesh(file)), GLTF_WORDS)
 };
+const PLY_WORDS: &[&str] = &[
+    "format binary_big_endian 1.0",
+    "format binary_little_endian 1.0",
+    "format ascii 1.0",
+    "element tristrips 1",
+    "element face 4294967295",
+    "property list uchar uchar vertex_indices",
+    "property list char double texcoord",
+    "property list uint uint vertex_index",
+    "property uchar x",
+    "property double texture_u",
+    "property short nx",
+    "end_header",
+    "4294967296",
+    "-1",
+    "1e39",
+];
+pub(super) const PLY: Target = Target {
+    is_text: false,
+    ..text_target(
+        "ply",
+        "a.ply",
+        |_| {
+            let mut seeds = repository(["tests/oracles/figures/ply/little.ply", "tests/oracles/figures/ply/text.ply"]);
+            seeds.extend(stored("ply"));
+            seeds
+        },
+        |file| told(read_mesh(file)),
+        PLY_WORDS,
+    )
+};
 pub(super) const MESH_FRAME: Target =
     text_target("mesh-frame", "a.obj", meshes, |file| told(read_mesh_frame(file)), MESH_WORDS);
 pub(super) const MTL: Target = Target {

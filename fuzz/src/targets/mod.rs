@@ -22,6 +22,7 @@ pub const TARGETS: &[Target] = &[
     assets::OBJ,
     assets::GLB,
     assets::GLTF,
+    assets::PLY,
     assets::MTL,
     assets::MESH_FRAME,
     assets::IES,

@@ -64,7 +64,11 @@ fn as_table(findings: &[ChannelComparison], differ: bool) -> String {
             None => write!(text, " {:>9}", "-"),
         };
         let verdict = if f.differs() { "differs" } else { "agrees" };
-        let _ = writeln!(text, " {:>9}  {verdict}", f.unequal);
+        let _ = write!(text, " {:>9}  {verdict}", f.unequal);
+        if f.not_finite > 0 {
+            let _ = write!(text, ", {} not finite", f.not_finite);
+        }
+        text.push('\n');
     }
     text.push_str(if differ { "they differ\n" } else { "no difference is proven\n" });
     text
@@ -91,5 +95,7 @@ fn channel_json(f: &ChannelComparison) -> Value {
             "not_finite": t.not_finite, "worst_pixel": t.worst_pixel,
         })
     });
-    json!({ "name": f.name, "differs": f.differs(), "unequal": f.unequal, "errors": errors, "test": test })
+    json!({
+        "name": f.name, "differs": f.differs(), "unequal": f.unequal, "not_finite": f.not_finite, "errors": errors, "test": test,
+    })
 }

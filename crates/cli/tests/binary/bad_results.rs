@@ -1,6 +1,8 @@
 //! Stored results that cannot be used for what is asked.
 
 use crate::support::{etendue, small, tests, text};
+use etendue_io::Provenance;
+use etendue_io::exr::{Layer, encode_layers};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -83,6 +85,38 @@ fn pictures_of_different_sizes_or_kinds_are_not_compared() {
     etendue(["compare", &file(&a, "none.exr"), &file(&a, "radiance.exr")]).refused(&["none.exr"]);
     etendue(["compare", &file(&a, "radiance.exr"), &file(&a, "radiance.exr"), "--significance", "2"])
         .refused(&["--significance 2", "probability"]);
+}
+
+/// An EXR file of four samples of `light`, with the variance of each.
+fn four(place: &Path, name: &str, light: [f32; 4], variance: [f32; 4]) -> String {
+    let eight = Provenance { further: [("replicates".to_owned(), "8".to_owned())].into(), ..Provenance::default() };
+    let layers = [("light".to_owned(), Layer::Float(&light)), ("variance.light".to_owned(), Layer::Float(&variance))];
+    let file = place.join(name);
+    fs::write(&file, encode_layers(2, 2, &layers, &eight).expect("a picture")).expect("written");
+    text(&file)
+}
+
+#[test]
+fn what_is_not_finite_in_exr_files_is_counted_and_never_agrees() {
+    let place = place();
+    let light = |second: f32| [1.0, second, 3.0, 4.0];
+    let variance = |second: f32| [0.01, second, 0.01, 0.01];
+    let good = four(place.path(), "good.exr", light(2.0), variance(0.01));
+    etendue(["compare", &good, &good]).ok();
+    for (name, second, its_variance) in [
+        ("nan.exr", f32::NAN, 0.01),
+        ("infinite.exr", f32::INFINITY, 0.01),
+        ("nan-variance.exr", 2.0, f32::NAN),
+        ("negative-variance.exr", 2.0, -0.01),
+    ] {
+        let spoilt = four(place.path(), name, light(second), variance(its_variance));
+        for (a, b) in [(&good, &spoilt), (&spoilt, &good), (&spoilt, &spoilt)] {
+            let run = etendue(["compare", a, b]);
+            assert_eq!(run.status, 1, "{}", run.err);
+            assert!(run.out.contains("differs, 1 not finite"), "{}", run.out);
+            assert!(!run.out.contains("NaN"), "{}", run.out);
+        }
+    }
 }
 
 /// A copy of the small job that may be changed.

@@ -137,3 +137,33 @@ fn damaged_files_are_refused_with_their_place_in_the_job() {
     fs::write(&file, job(&place.path().join("m.obj"), "")).expect("written");
     etendue(["plan", &text(&file)]).refused(&["job.toml:3:", "\"up_axis\" is missing"]);
 }
+
+/// A PLY file against a square of our own words; what it says of colours, and what stays unread, is told; half of it is refused.
+#[test]
+fn a_ply_file_is_a_mesh_without_materials() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let (file, mesh) = (place.path().join("job.toml"), place.path().join("m.ply"));
+    let ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n\
+        element face 1\nproperty list uchar int vertex_indices\nend_header\n-50 0 50 9\n50 0 50 9\n50 0 -50 9\n-50 0 -50 9\n4 0 1 2 3\n";
+    fs::write(&mesh, ply).expect("written");
+    let material = "[[scene.materials]]\nname = \"own\"\ntype = \"diffuse\"\nreflectance = 0.4\n";
+    let of_ply = job(&mesh, &format!("up_axis = \"y\"\nscale = 0.01\n{material}"))
+        .replace("mesh = \"m\"", "mesh = \"m\"\nmaterial = \"own\"");
+    let own = |size: &str| {
+        let body = format!("shape = {{ type = \"quad\", size_m = [{size}] }}\nmaterial = \"own\"");
+        JOB.replace("MESHES", material).replace("BODY", &body)
+    };
+    let (ran, _place) = compared(&of_ply, &own("1, 1"), &[]);
+    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    let (ran, _place) = compared(&of_ply, &own("2, 2"), &[]);
+    assert_eq!(ran.status, 1, "a larger square is found: {}", ran.out);
+    fs::write(&file, &of_ply).expect("written");
+    let plan = etendue(["plan", &text(&file)]).ok().out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(plan.contains("m.ply: colours of vertices or faces are not used: give the object a material"), "{plan}");
+    let inspected = etendue(["inspect", &text(&mesh)]).ok().out;
+    assert!(inspected.contains("mesh, PLY") && inspected.contains("none: faceted"), "{inspected}");
+    fs::write(&mesh, &ply[..ply.len() - 12]).expect("written");
+    let out = text(&place.path().join("out"));
+    etendue(["render", &text(&file), "-o", &out]).refused(&["m.ply:14: ", "truncated", "job.toml:5:8", "file"]);
+    assert!(!Path::new(&out).exists(), "nothing is written");
+}

@@ -8,13 +8,20 @@ use serde_json::Value;
 use super::FileReport;
 use super::statistics::ChannelReport;
 use crate::Error;
-use crate::mesh::read_mesh;
+use crate::mesh::{is_ply, read_mesh};
 use crate::spectrum::read_spectrum;
 use crate::table::{read_complex_index, read_retro_table};
 
 pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
     let mesh = read_mesh(file)?;
-    let mut report = FileReport::new(file, if is_gltf(file) { "mesh, glTF 2.0" } else { "mesh, Wavefront OBJ" });
+    let kind = if is_gltf(file) {
+        "mesh, glTF 2.0"
+    } else if is_ply(file) {
+        "mesh, PLY"
+    } else {
+        "mesh, Wavefront OBJ"
+    };
+    let mut report = FileReport::new(file, kind);
     report.state("triangles", mesh.triangles.len());
     report.state("vertices", mesh.positions.len());
     report.state("normals", if mesh.normals.is_empty() { "none: faceted" } else { "at each vertex" });

@@ -7,14 +7,15 @@ use etendue_scene::asset::{MeshAsset, is_gltf};
 
 use super::gltf::read_gltf;
 use super::obj::{Obj, scan};
+use super::ply::{is_ply, read_ply};
 use super::polygon::{newell, triangulate};
 use super::slot::{Slots, slots};
 use super::texture_option::UvLayout;
-use super::vertex::{middle_of_far, unit};
-use crate::source::{decode_text, read_bytes};
+use super::vertex::{middle_of_far, relative, unit};
+use crate::source::{decode_text, name_notes, read_bytes};
 use crate::{Error, Sandbox, hash};
 
-/// Reads a Wavefront OBJ file with the material libraries it names, or a glTF file with its buffers and pictures.
+/// Reads a mesh by its ending: a Wavefront OBJ file with the material libraries it names, a glTF file with its buffers and pictures, or a PLY file.
 ///
 /// # Errors
 /// The first fault, with its line.
@@ -26,6 +27,9 @@ pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
 pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, Error> {
     if is_gltf(file) {
         return read_gltf(file, sandbox);
+    }
+    if is_ply(file) {
+        return read_ply(file);
     }
     let bytes = read_bytes(file, "mesh")?;
     let obj = scan(file, decode_text(file, &bytes)?)?;
@@ -46,8 +50,7 @@ pub(crate) fn read_mesh_in(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, 
         mesh.report.push("the last line has no end: the file may be truncated".to_owned());
     }
     mesh.report.extend(notes(&obj));
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    mesh.report.iter_mut().chain(&mut mesh.warnings).for_each(|note| note.insert_str(0, &format!("{name}: ")));
+    name_notes(file, mesh.report.iter_mut().chain(&mut mesh.warnings));
     mesh.slot_materials = materials;
     mesh.missing_libraries = missing_libraries;
     mesh.report.extend(report);
@@ -104,10 +107,7 @@ impl Builder {
     fn polygon(&mut self, part: &tobj::Mesh, layout: &UvLayout, corners: &[u32]) -> Result<(), String> {
         let positions = part.positions.as_chunks().0;
         let polygon: Vec<[f64; 3]> = corners.iter().map(|&i| positions[i as usize]).collect();
-        let triangles = triangulate(&polygon).map_err(|_| {
-            let count = corners.len();
-            format!("polygon of {count} corners crosses itself; triangulate the mesh where it was modelled")
-        })?;
+        let triangles = triangulate(&polygon).map_err(|fault| fault.of(corners.len()))?;
         let facing = LazyCell::new(|| newell(&polygon));
         let vertices: Vec<u32> = corners.iter().map(|&i| self.vertex(part, layout, i as usize, &facing)).collect();
         self.mesh.triangles.extend(triangles.iter().map(|t| t.map(|i| vertices[i])));
@@ -131,7 +131,7 @@ impl Builder {
         let place = self.mesh.positions.len() as u32; // no more than corners, which are counted
         self.placed[index] = Some(place);
         let (place_in_file, origin): ([f64; 3], _) = (part.positions.as_chunks().0[index], self.mesh.origin);
-        self.mesh.positions.push(std::array::from_fn(|axis| (place_in_file[axis] - origin[axis]) as f32));
+        self.mesh.positions.push(relative(place_in_file, origin));
         if self.has_normals {
             self.flat_corners += usize::from(normal.is_none());
             self.mesh.normals.push(unit(normal.copied().unwrap_or_else(|| **facing)));

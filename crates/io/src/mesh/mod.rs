@@ -1,4 +1,4 @@
-//! Meshes: glTF (folder `gltf`), and Wavefront OBJ with its material library.
+//! Meshes: glTF (folder `gltf`), PLY (folder `ply`), and Wavefront OBJ with its material library.
 //!
 //! Source: B-rep and material formats of the Advanced Visualizer, Wavefront Technologies 1995, appendices B1 (OBJ) and
 //! MTL; the physically based fields (`Pr`, `Pm` …) after the proposal of Exocortex (2015).
@@ -25,6 +25,7 @@ mod gltf;
 mod mtl;
 mod obj;
 mod plane;
+mod ply;
 mod polygon;
 mod slot;
 mod statement;
@@ -35,3 +36,4 @@ mod vertex;
 pub use asset::read_mesh;
 pub(crate) use asset::read_mesh_in;
 pub use frame::read_mesh_frame;
+pub(crate) use ply::is_ply;

@@ -9,6 +9,7 @@ use std::path::Path;
 
 use super::statement::{Statement, statements};
 use super::tobj_input::TobjInput;
+use super::vertex::check_range;
 use crate::Error;
 use etendue_scene::limits::CORNERS;
 
@@ -93,9 +94,7 @@ impl Obj {
 
     fn vertex(&mut self, statement: &Statement<'_>) -> Result<(), String> {
         let numbers = statement.numbers()?;
-        if let Some(far) = numbers.iter().find(|v| v.abs() > f64::from(f32::MAX)) {
-            return Err(format!("coordinate {far:e} is beyond the range of 32-bit floats"));
-        }
+        check_range(&numbers)?;
         match numbers[..] {
             [_, _, _] => self.feed(0, statement.line, &["v", statement.rest()]),
             [x, y, z, 1.0] => self.feed(0, statement.line, &[&format!("v {x} {y} {z}")]),

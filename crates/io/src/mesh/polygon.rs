@@ -14,6 +14,17 @@ pub(super) enum PolygonFault {
     CrossesItself,
 }
 
+impl PolygonFault {
+    /// The fault of a polygon of so many corners, in words.
+    pub(super) fn of(self, corners: usize) -> String {
+        match self {
+            Self::CrossesItself => {
+                format!("polygon of {corners} corners crosses itself; triangulate the mesh where it was modelled")
+            }
+        }
+    }
+}
+
 /// Triangles of the polygon `corners`, as indices into it, in its winding. Corners on one line give triangles of no
 /// area, which the tracer counts and drops.
 pub(super) fn triangulate(corners: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, PolygonFault> {

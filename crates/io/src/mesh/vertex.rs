@@ -11,6 +11,19 @@ pub(super) fn unit(v: [f64; 3]) -> [f32; 3] {
     scaled.map(|c| (c / length) as f32)
 }
 
+/// Refuses coordinates that 32 bits cannot hold.
+pub(super) fn check_range(coordinates: &[f64]) -> Result<(), String> {
+    match coordinates.iter().find(|v| v.abs() > f64::from(f32::MAX)) {
+        Some(far) => Err(format!("coordinate {far:e} is beyond the range of 32-bit floats")),
+        None => Ok(()),
+    }
+}
+
+/// A place of a file as a mesh stores it, relative to its origin.
+pub(super) fn relative(place: [f64; 3], origin: [f64; 3]) -> [f32; 3] {
+    std::array::from_fn(|axis| (place[axis] - origin[axis]) as f32)
+}
+
 /// The middle of a mesh that lies further from the file's origin than twice its extent, as maps and surveys have them; zero for
 /// others. About it 32 bits hold every vertex to 3e-8 of the extent.
 pub(super) fn middle_of_far<I: Iterator<Item = f64>>(coordinates: impl Fn(usize) -> I) -> [f64; 3] {

@@ -22,7 +22,7 @@ use std::path::Path;
 
 use etendue_scene::asset::PhotometryAsset;
 
-use crate::source::read_description_bytes;
+use crate::source::{name_notes, read_description_bytes};
 use crate::{Error, Sandbox, hash};
 
 /// Reads a measured lamp; the kind of file is told by its name.
@@ -48,7 +48,6 @@ pub(crate) fn read_photometry_in(file: &Path, sandbox: &Sandbox) -> Result<Photo
         None => hash::of_bytes(&bytes),
     };
     flux::check(file, &mut asset)?;
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    asset.report.iter_mut().for_each(|note| note.insert_str(0, &format!("{name}: ")));
+    name_notes(file, &mut asset.report);
     Ok(asset)
 }

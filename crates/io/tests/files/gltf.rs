@@ -333,6 +333,10 @@ fn damage_is_told() {
             json!(format!("data:;base64,{}{}", "A".repeat(104), base64(&[0, 0, 0, 1, 5, 0, 2, 3])));
         file["bufferViews"][2] = json!({ "buffer": 0, "byteOffset": 80, "byteLength": 6 });
     });
+    refused(&["vertex 1", "e60 is beyond the range of 32-bit floats"], |file| {
+        let large = json!([1e30, 1, 1]);
+        file["nodes"] = json!([{ "children": [1], "scale": large }, { "mesh": 0, "scale": large }]);
+    });
     refused(&["position", "finite"], |file| {
         file["buffers"][0]["uri"] =
             json!(format!("data:;base64,{}", base64(&[&f32::NAN.to_le_bytes()[..], &[0; 82]].concat())));

@@ -11,4 +11,5 @@ mod lamps;
 mod meshes;
 mod openexr;
 mod pixel_centres;
+mod ply;
 mod prescriptions;

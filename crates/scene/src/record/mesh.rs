@@ -30,9 +30,9 @@ record! {
 keyed! {
     /// Where the vertices and faces of a mesh stand.
     pub enum MeshSource {
-        /// The file: Wavefront OBJ, or glTF 2.0. Its coordinates may be a survey's or a map's: they are kept to 3e-8 of the mesh's own
+        /// The file: Wavefront OBJ, glTF 2.0, or PLY. Its coordinates may be a survey's or a map's: they are kept to 3e-8 of the mesh's own
         /// extent however far from the file's origin it lies.
-        file => File(Placed<PathBuf>) = path(&["obj", "glb", "gltf"]);
+        file => File(Placed<PathBuf>) = path(&["obj", "glb", "gltf", "ply"]);
         /// Vertices that move, from several files.
         vertex_animation => VertexAnimation(Box<VertexAnimation>) = record();
     }

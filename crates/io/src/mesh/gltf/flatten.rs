@@ -7,7 +7,7 @@ use gltf::json::Root;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 
-use super::super::vertex::{middle_of_far, unit};
+use super::super::vertex::{check_range, middle_of_far, relative, unit};
 use super::accessor::{finite, numbers};
 use super::buffers::Buffers;
 use super::material::UvLayout;
@@ -207,6 +207,9 @@ impl Builder {
         if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
             return Err(format!("vertex {vertex} has no finite place; correct the model"));
         }
+        for (vertex, position) in positions.iter().enumerate() {
+            check_range(&position.to_array()).map_err(|told| format!("vertex {vertex}: {told}"))?;
+        }
         let mirrored = place.joints.is_none() && place.to_file.matrix3.determinant() < 0.0;
         let facing = |[a, b, c]: [u32; 3]| {
             let [a, b, c] = [a, b, c].map(|i| positions[i as usize]);
@@ -259,8 +262,7 @@ impl Builder {
         }
         mesh.origin = middle_of_far(|axis| positions.iter().map(move |p| p[axis]));
         let origin = mesh.origin;
-        mesh.positions =
-            positions.iter().map(|p| std::array::from_fn(|axis| (p[axis] - origin[axis]) as f32)).collect();
+        mesh.positions = positions.iter().map(|p| relative(*p, origin)).collect();
         if mesh.uvs.iter().flatten().any(|v| !v.is_finite()) {
             return Err("a texture coordinate is no finite number; correct the model".to_owned());
         }

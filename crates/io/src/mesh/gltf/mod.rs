@@ -27,7 +27,7 @@ use etendue_scene::asset::MeshAsset;
 
 use self::buffers::Buffers;
 use self::material::Materials;
-use crate::source::read_bytes;
+use crate::source::{name_notes, read_bytes};
 use crate::{Error, Sandbox, hash};
 
 /// Reads a glTF file with the buffers and pictures that it names, which must lie in `sandbox`.
@@ -47,8 +47,7 @@ fn read(file: &Path, bytes: &[u8], sandbox: &Sandbox) -> Result<MeshAsset, Strin
     mesh.pictures = found.pictures;
     mesh.report.extend(found.report);
     mesh.report.extend(report::unused(&root));
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    mesh.report.iter_mut().for_each(|note| note.insert_str(0, &format!("{name}: ")));
+    name_notes(file, &mut mesh.report);
     let parts =
         std::iter::once(bytes).chain(buffers.external_bytes()).chain(found.picture_bytes.iter().map(Vec::as_slice));
     mesh.hash = hash::of_parts(parts);

@@ -1,0 +1,208 @@
+//! Elements to a mesh.
+
+use etendue_scene::asset::{MeshAsset, SlotMaterial};
+use etendue_scene::limits;
+
+use super::super::polygon::{newell, triangulate};
+use super::super::vertex::{middle_of_far, relative, unit};
+use super::faces::{Face, has_uvs, is_used, polygons, strips};
+use super::header::{Element, Header, shortened};
+use super::input::Input;
+use super::vertices::Vertices;
+
+const COLOURS: [&str; 8] =
+    ["red", "green", "blue", "alpha", "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"];
+
+/// The mesh of all elements.
+pub(super) fn mesh(header: &Header, input: &mut Input<'_>) -> Result<MeshAsset, String> {
+    let mut builder = Builder::default();
+    for element in &header.elements {
+        match &*element.name {
+            "vertex" => builder.vertices(element, input)?,
+            "face" => builder.faces(element, input)?,
+            "tristrips" => builder.strips(element, input)?,
+            _ => {
+                input.skip_element(element)?;
+                builder.unused_elements.push((element.name.clone(), element.count));
+            }
+        }
+    }
+    input.end()?;
+    builder.finish(header)
+}
+
+/// The mesh as far as it is read.
+#[derive(Default)]
+struct Builder {
+    vertices: Option<Vertices>,
+    mesh: MeshAsset,
+    /// Vertices of the mesh, where corners have their own: which of the file's each is.
+    sources: Vec<u32>,
+    corners: u64,
+    has_strips: bool,
+    unused: Vec<String>,
+    unused_elements: Vec<(String, usize)>,
+}
+
+impl Builder {
+    fn vertices(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), String> {
+        let (vertices, unused) = Vertices::read(element, input)?;
+        self.vertices = Some(vertices);
+        self.unused.extend(unused);
+        Ok(())
+    }
+
+    fn known_vertices(&self) -> Result<&Vertices, String> {
+        self.vertices.as_ref().ok_or_else(|| "its faces stand before its vertices; export the mesh again".to_owned())
+    }
+
+    fn faces(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), String> {
+        let count = self.known_vertices()?.positions.len();
+        // Counted first, so that no list grows.
+        let (mut triangles, mut corners) = (0, 0);
+        ahead(input, |ahead| {
+            polygons(element, ahead, count, |face| {
+                (triangles, corners) = (triangles + face.corners.len() - 2, corners + face.corners.len());
+                Ok(())
+            })
+        })?;
+        self.count(corners)?;
+        self.mesh.triangles.reserve_exact(triangles);
+        let own_uvs = has_uvs(element);
+        if own_uvs {
+            self.sources.reserve_exact(corners);
+            self.mesh.uvs.reserve_exact(corners);
+        }
+        polygons(element, input, count, |face| self.face(face, own_uvs))?;
+        self.unused.extend(element.properties.iter().filter(|p| !is_used(p)).map(|p| p.name.clone()));
+        Ok(())
+    }
+
+    fn count(&mut self, corners: usize) -> Result<(), String> {
+        self.corners += corners as u64;
+        let most = limits::CORNERS.most().min(u64::from(u32::MAX));
+        if self.corners > most {
+            return Err(format!(
+                "its faces have {} corners, at most {most} are read; make it smaller, {}",
+                self.corners,
+                limits::CORNERS.remedy(self.corners)
+            ));
+        }
+        Ok(())
+    }
+
+    fn face(&mut self, face: &Face, own_uvs: bool) -> Result<(), String> {
+        let first = self.sources.len() as u32; // no more than corners, which are counted
+        if own_uvs {
+            self.sources.extend(&face.corners);
+            self.mesh.uvs.extend(&face.uvs);
+            self.mesh.uvs.resize(self.sources.len(), [0.0; 2]);
+        }
+        let vertex = |corner: usize| if own_uvs { first + corner as u32 } else { face.corners[corner] };
+        if face.corners.len() == 3 {
+            self.mesh.triangles.push([0, 1, 2].map(vertex));
+            return Ok(());
+        }
+        let positions = &self.vertices.as_ref().ok_or("no vertices")?.positions;
+        let polygon: Vec<[f64; 3]> = face.corners.iter().map(|i| positions[*i as usize]).collect();
+        let triangles = triangulate(&polygon).map_err(|fault| fault.of(polygon.len()))?;
+        self.mesh.triangles.extend(triangles.iter().map(|t| t.map(vertex)));
+        Ok(())
+    }
+
+    fn strips(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), String> {
+        let count = self.known_vertices()?.positions.len();
+        let mut triangles = 0;
+        ahead(input, |ahead| {
+            strips(element, ahead, count, |_| {
+                triangles += 1;
+                Ok(())
+            })
+        })?;
+        self.count(3 * triangles)?;
+        self.has_strips |= triangles > 0;
+        self.mesh.triangles.reserve_exact(triangles);
+        strips(element, input, count, |triangle| {
+            self.mesh.triangles.push(triangle);
+            Ok(())
+        })
+    }
+
+    fn finish(self, header: &Header) -> Result<MeshAsset, String> {
+        let Self { vertices, mut mesh, sources, unused, unused_elements, has_strips, .. } = self;
+        if mesh.triangles.is_empty() {
+            return Err("it has no faces (a cloud of points?); export it as a mesh".to_owned());
+        }
+        let has_own = !sources.is_empty();
+        if has_own && has_strips {
+            return Err("faces with texture coordinates of their own beside strips, which have none; export it again"
+                .to_owned());
+        }
+        let vertices = vertices.ok_or("no vertices")?;
+        mesh.origin = middle_of_far(|axis| vertices.positions.iter().map(move |p| p[axis]));
+        let origin = mesh.origin;
+        let place = |p: &[f64; 3]| relative(*p, origin);
+        if has_own {
+            mesh.positions = sources.iter().map(|i| place(&vertices.positions[*i as usize])).collect();
+            mesh.normals = match vertices.normals.is_empty() {
+                true => Vec::new(),
+                false => sources.iter().map(|i| vertices.normals[*i as usize]).collect(),
+            };
+        } else {
+            mesh.positions = vertices.positions.iter().map(place).collect();
+            (mesh.normals, mesh.uvs) = (vertices.normals, vertices.uvs);
+        }
+        mend_normals(&mut mesh);
+        mesh.slots = vec![0; mesh.triangles.len()];
+        mesh.slot_materials = vec![SlotMaterial { name: String::new(), surface: None }];
+        mesh.report.extend(notes(header, &unused, &unused_elements));
+        Ok(mesh)
+    }
+}
+
+/// Reads without moving the input, but to a fault, whose line it then tells.
+fn ahead<'a>(input: &mut Input<'a>, read: impl FnOnce(&mut Input<'a>) -> Result<(), String>) -> Result<(), String> {
+    let mut ahead = input.clone();
+    read(&mut ahead).inspect_err(|_| *input = ahead)
+}
+
+/// Vertices without a usable normal take that of the first triangle that has them.
+fn mend_normals(mesh: &mut MeshAsset) {
+    let MeshAsset { normals, triangles, positions, report, .. } = mesh;
+    if normals.is_empty() {
+        return;
+    }
+    let mut mended = 0;
+    for triangle in triangles.iter() {
+        for vertex in triangle.map(|i| i as usize) {
+            if normals[vertex] == [0.0; 3] {
+                normals[vertex] = unit(newell(&triangle.map(|i| positions[i as usize].map(f64::from))));
+                mended += 1;
+            }
+        }
+    }
+    normals.iter_mut().filter(|n| **n == [0.0; 3]).for_each(|n| *n = [0.0, 0.0, 1.0]); // of no triangle
+    if mended > 0 {
+        report.push(format!("{mended} vertices without a usable normal take that of a face"));
+    }
+}
+
+fn notes(header: &Header, unused: &[String], elements: &[(String, usize)]) -> Vec<String> {
+    let mut notes = Vec::new();
+    let (colours, others): (Vec<&String>, Vec<&String>) = unused.iter().partition(|name| COLOURS.contains(&&***name));
+    if !colours.is_empty() {
+        notes.push("colours of vertices or faces are not used: give the object a material".to_owned());
+    }
+    if !others.is_empty() {
+        let names: Vec<String> = others.iter().map(|name| shortened(name)).collect();
+        notes.push(format!("properties that are not used: {}", names.join(", ")));
+    }
+    if let Some(picture) = &header.picture {
+        notes.push(format!(
+            "its picture `{}` is not used: name it as a texture of the object's material",
+            shortened(picture)
+        ));
+    }
+    notes.extend(elements.iter().map(|(name, count)| format!("{count} elements `{}` are not used", shortened(name))));
+    notes
+}

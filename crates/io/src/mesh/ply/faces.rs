@@ -1,0 +1,158 @@
+//! The elements that say surfaces: polygons and strips.
+
+use super::super::vertex::check_range;
+use super::header::{Element, Property};
+use super::input::Input;
+
+/// The names of the list of a polygon's corners.
+const CORNER_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
+/// The name of the texture coordinates of a polygon's corners, as MeshLab writes them.
+const UV_NAME: &str = "texcoord";
+/// Corners of a polygon, which takes much memory while it is cut into triangles.
+const MAX_CORNERS: usize = 1 << 16;
+
+/// Corners of a polygon or a strip, with their texture coordinates where it has some.
+#[derive(Debug, Default)]
+pub(super) struct Face {
+    pub(super) corners: Vec<u32>,
+    /// One a corner, or none.
+    pub(super) uvs: Vec<[f32; 2]>,
+}
+
+/// Whether a property says corners or their texture coordinates.
+pub(super) fn is_used(property: &Property) -> bool {
+    property.count.is_some() && (CORNER_NAMES.contains(&&*property.name) || property.name == UV_NAME)
+}
+
+/// Whether faces have texture coordinates of their own.
+pub(super) fn has_uvs(element: &Element) -> bool {
+    element.properties.iter().any(|p| p.count.is_some() && p.name == UV_NAME)
+}
+
+/// Reads all faces, each given to `take`, and moves the input behind them.
+pub(super) fn polygons(
+    element: &Element,
+    input: &mut Input<'_>,
+    vertices: usize,
+    mut take: impl FnMut(&Face) -> Result<(), String>,
+) -> Result<(), String> {
+    check(element, input)?;
+    let mut face = Face::default();
+    for number in 0..element.count {
+        let mut read = || {
+            face.corners.clear();
+            face.uvs.clear();
+            for property in &element.properties {
+                match is_used(property) {
+                    true if property.name == UV_NAME => read_uvs(property, input, &mut face.uvs)?,
+                    true => read_corners(property, input, vertices, &mut face.corners)?,
+                    false => input.skip(property)?,
+                }
+            }
+            if face.corners.len() < 3 {
+                return Err(format!("{} corners; expected three or more", face.corners.len()));
+            }
+            if !face.uvs.is_empty() && face.uvs.len() != face.corners.len() {
+                let (uvs, corners) = (face.uvs.len(), face.corners.len());
+                return Err(format!("texture coordinates of {uvs} corners, where it has {corners}"));
+            }
+            take(&face)
+        };
+        read().map_err(|what| format!("face {number}: {what}"))?;
+    }
+    Ok(())
+}
+
+/// Reads all strips, each triangle given to `take`: −1 begins a new strip.
+pub(super) fn strips(
+    element: &Element,
+    input: &mut Input<'_>,
+    vertices: usize,
+    mut take: impl FnMut([u32; 3]) -> Result<(), String>,
+) -> Result<(), String> {
+    check(element, input)?;
+    for number in 0..element.count {
+        let mut read = || {
+            for property in &element.properties {
+                if !is_used(property) || property.name == UV_NAME {
+                    input.skip(property)?;
+                    continue;
+                }
+                let (mut last, mut count) = ([0; 2], 0_usize);
+                for _ in 0..input.list_length(property)? {
+                    let index = input.number(property.number)?;
+                    if index == -1.0 {
+                        count = 0;
+                        continue;
+                    }
+                    let corner = corner(index, vertices, input)?;
+                    if count >= 2 {
+                        let [a, b] = if count.is_multiple_of(2) { last } else { [last[1], last[0]] };
+                        take([a, b, corner])?;
+                    }
+                    (last, count) = ([last[1], corner], count + 1);
+                }
+            }
+            Ok(())
+        };
+        read().map_err(|what: String| format!("strip {number}: {what}"))?;
+    }
+    Ok(())
+}
+
+fn check(element: &Element, input: &Input<'_>) -> Result<(), String> {
+    input.check_rows(element)?;
+    let lists = element.properties.iter().filter(|p| p.count.is_some() && CORNER_NAMES.contains(&&*p.name)).count();
+    match lists {
+        1 => Ok(()),
+        0 => Err(format!("its element `{}` has no list `vertex_indices`; export the mesh again", element.name)),
+        _ => Err(format!("its element `{}` has two lists of corners; export the mesh again", element.name)),
+    }
+}
+
+fn read_corners(
+    property: &Property,
+    input: &mut Input<'_>,
+    vertices: usize,
+    corners: &mut Vec<u32>,
+) -> Result<(), String> {
+    let length = input.list_length(property)?;
+    if length > MAX_CORNERS {
+        return Err(format!(
+            "{length} corners; at most {MAX_CORNERS} are read: triangulate the mesh where it was modelled"
+        ));
+    }
+    corners.reserve(length);
+    for _ in 0..length {
+        let index = input.number(property.number)?;
+        corners.push(corner(index, vertices, input)?);
+    }
+    Ok(())
+}
+
+fn corner(index: f64, vertices: usize, input: &Input<'_>) -> Result<u32, String> {
+    if index >= 0.0 && index < vertices as f64 && index.fract() == 0.0 {
+        return Ok(index as u32);
+    }
+    let hint = input.byte_order_hint();
+    Err(format!(
+        "index {index} is out of range: there are {vertices} vertices, counted from 0; the file is damaged{hint}"
+    ))
+}
+
+fn read_uvs(property: &Property, input: &mut Input<'_>, uvs: &mut Vec<[f32; 2]>) -> Result<(), String> {
+    let length = input.list_length(property)?;
+    if !length.is_multiple_of(2) {
+        return Err(format!("{length} texture coordinates; expected two a corner"));
+    }
+    if length > 2 * MAX_CORNERS {
+        return Err(format!("texture coordinates of more than {MAX_CORNERS} corners"));
+    }
+    uvs.reserve(length / 2);
+    for _ in 0..length / 2 {
+        let uv = [input.number(property.number)?, input.number(property.number)?];
+        check_range(&uv)?;
+        uvs.push(uv.map(|v| v as f32));
+    }
+    Ok(())
+}

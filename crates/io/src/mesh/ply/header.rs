@@ -1,0 +1,230 @@
+//! What the head of a file says stands below it.
+
+/// The head of a file is read up to this length, bytes.
+const MAX_HEAD: usize = 1 << 16;
+
+/// How numbers are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
+    Text,
+    Little,
+    Big,
+}
+
+/// The type of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Number {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+/// A property of an element.
+#[derive(Clone, Debug)]
+pub(super) struct Property {
+    pub(super) name: String,
+    /// The type of its number, or of each of its numbers.
+    pub(super) number: Number,
+    /// The type of the count of a list; `None` for a single number.
+    pub(super) count: Option<Number>,
+}
+
+/// A table: so many rows of these properties.
+#[derive(Clone, Debug)]
+pub(super) struct Element {
+    pub(super) name: String,
+    pub(super) count: usize,
+    pub(super) properties: Vec<Property>,
+}
+
+/// The head.
+#[derive(Clone, Debug)]
+pub(super) struct Header {
+    pub(super) encoding: Encoding,
+    /// In the order of the file.
+    pub(super) elements: Vec<Element>,
+    /// The picture that a comment of MeshLab names; `None` where none does.
+    pub(super) picture: Option<String>,
+    /// Bytes up to the first row.
+    pub(super) length: usize,
+    /// Lines up to the first row.
+    pub(super) lines: usize,
+}
+
+/// A fault with its line, counted from 1.
+type Fault = (usize, String);
+
+impl Number {
+    fn of(word: &str) -> Option<Self> {
+        Some(match word {
+            "char" | "int8" => Self::I8,
+            "uchar" | "uint8" => Self::U8,
+            "short" | "int16" => Self::I16,
+            "ushort" | "uint16" => Self::U16,
+            "int" | "int32" => Self::I32,
+            "uint" | "uint32" => Self::U32,
+            "float" | "float32" => Self::F32,
+            "double" | "float64" => Self::F64,
+            _ => return None,
+        })
+    }
+
+    /// Its length in a binary file, bytes.
+    pub(super) fn bytes(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
+
+    pub(super) fn is_whole(self) -> bool {
+        !matches!(self, Self::F32 | Self::F64)
+    }
+}
+
+impl Header {
+    pub(super) fn read(bytes: &[u8]) -> Result<Self, Fault> {
+        let mut lines = Lines::new(bytes)?;
+        let encoding = lines.encoding()?;
+        let mut header = Self { encoding, elements: Vec::new(), picture: None, length: 0, lines: 0 };
+        loop {
+            let (number, line) = lines.next()?;
+            let told = |what: String| (number, what);
+            let mut words = line.split_whitespace();
+            match words.next() {
+                Some("end_header") => break,
+                Some("element") => header.element(words.collect()).map_err(told)?,
+                Some("property") => header.property(words.collect()).map_err(told)?,
+                Some("comment") => header.comment(line),
+                Some("obj_info") | None => {}
+                Some(other) => {
+                    return Err(told(format!(
+                        "`{}` in the head of a PLY file; expected `element`, `property`, `comment` or `end_header`",
+                        shortened(other)
+                    )));
+                }
+            }
+        }
+        (header.length, header.lines) = (lines.at, lines.number);
+        Ok(header)
+    }
+
+    /// The element of this name.
+    pub(super) fn find(&self, name: &str) -> Option<&Element> {
+        self.elements.iter().find(|e| e.name == name)
+    }
+
+    fn element(&mut self, words: Vec<&str>) -> Result<(), String> {
+        let [name, count] = words[..] else {
+            return Err("expected `element NAME COUNT`".to_owned());
+        };
+        let count =
+            count.parse().map_err(|_| format!("`{}` elements: expected a whole number from 0", shortened(count)))?;
+        if self.find(name).is_some() {
+            return Err(format!("a second element `{}`; export the mesh again", shortened(name)));
+        }
+        self.elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
+        Ok(())
+    }
+
+    fn property(&mut self, words: Vec<&str>) -> Result<(), String> {
+        const TYPES: &str = "char, uchar, short, ushort, int, uint, float, double, or int8 … float64";
+        let number =
+            |word: &str| Number::of(word).ok_or_else(|| format!("no type `{}`; expected {TYPES}", shortened(word)));
+        let property = match words[..] {
+            ["list", count, item, name] => {
+                let count = number(count)?;
+                if !count.is_whole() {
+                    return Err("the count of a list is no whole number; expected a type such as uchar".to_owned());
+                }
+                Property { name: name.to_owned(), number: number(item)?, count: Some(count) }
+            }
+            [item, name] => Property { name: name.to_owned(), number: number(item)?, count: None },
+            _ => return Err("expected `property TYPE NAME` or `property list TYPE TYPE NAME`".to_owned()),
+        };
+        let element = self.elements.last_mut().ok_or("a property before any element")?;
+        if element.properties.iter().any(|p| p.name == property.name) {
+            return Err(format!("a second property `{}` of one element", shortened(&property.name)));
+        }
+        element.properties.push(property);
+        Ok(())
+    }
+
+    fn comment(&mut self, line: &str) {
+        let rest = line.trim_start().strip_prefix("comment").unwrap_or_default().trim();
+        if let Some(picture) = rest.strip_prefix("TextureFile") {
+            self.picture = Some(picture.trim().to_owned());
+        }
+    }
+}
+
+/// A word of a file in a message.
+pub(super) fn shortened(word: &str) -> String {
+    const MAX: usize = 40;
+    match word.char_indices().nth(MAX) {
+        Some((end, _)) => format!("{} …", &word[..end]),
+        None => word.to_owned(),
+    }
+}
+
+/// The lines of the head, which end with LF, CR LF or CR.
+struct Lines<'a> {
+    bytes: &'a [u8],
+    end: &'static [u8],
+    at: usize,
+    number: usize,
+}
+
+impl<'a> Lines<'a> {
+    fn new(bytes: &'a [u8]) -> Result<Self, Fault> {
+        let no_ply = || (1, "no PLY file: its first line is not `ply`".to_owned());
+        let rest = bytes.strip_prefix(b"ply").ok_or_else(no_ply)?;
+        let blanks = rest.iter().take_while(|b| matches!(b, b' ' | b'\t')).count();
+        let end: &[u8] = match &rest[blanks..] {
+            [b'\r', b'\n', ..] => b"\r\n",
+            [b'\r', ..] => b"\r",
+            [b'\n', ..] => b"\n",
+            _ => return Err(no_ply()),
+        };
+        Ok(Self { bytes: &bytes[..bytes.len().min(MAX_HEAD)], end, at: 3 + blanks + end.len(), number: 1 })
+    }
+
+    fn next(&mut self) -> Result<(usize, &'a str), Fault> {
+        self.number += 1;
+        let rest = &self.bytes[self.at..];
+        let length = rest.windows(self.end.len()).position(|w| w == self.end).ok_or_else(|| {
+            (
+                self.number,
+                format!("the head has no `end_header` within {} bytes: the file may be truncated", self.bytes.len()),
+            )
+        })?;
+        self.at += length + self.end.len();
+        let line = std::str::from_utf8(&rest[..length])
+            .map_err(|_| (self.number, "the head of a PLY file is not text; export the mesh again".to_owned()))?;
+        Ok((self.number, line))
+    }
+
+    fn encoding(&mut self) -> Result<Encoding, Fault> {
+        let (number, line) = self.next()?;
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[..] {
+            ["format", "ascii", "1.0"] => Ok(Encoding::Text),
+            ["format", "binary_little_endian", "1.0"] => Ok(Encoding::Little),
+            ["format", "binary_big_endian", "1.0"] => Ok(Encoding::Big),
+            _ => Err((
+                number,
+                format!(
+                    "`{}`: expected `format ascii 1.0`, `format binary_little_endian 1.0` or `format binary_big_endian 1.0`",
+                    shortened(line)
+                ),
+            )),
+        }
+    }
+}

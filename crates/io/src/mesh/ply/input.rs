@@ -1,0 +1,187 @@
+//! Numbers one after another, from text or bytes.
+
+use super::header::{Element, Encoding, Header, Number, Property, shortened};
+
+/// Where reading is.
+#[derive(Clone, Debug)]
+pub(super) struct Input<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    encoding: Encoding,
+    /// The line of the number that was read last, counted from 1; of text.
+    line: usize,
+}
+
+impl<'a> Input<'a> {
+    /// At the first row of the first element.
+    pub(super) fn new(header: &Header, bytes: &'a [u8]) -> Self {
+        Self { bytes, at: header.length, encoding: header.encoding, line: header.lines + 1 }
+    }
+
+    /// The line that was read last; `None` where the file has none.
+    pub(super) fn line(&self) -> Option<usize> {
+        (self.encoding == Encoding::Text).then_some(self.line)
+    }
+
+    /// Refuses an element of more rows than the rest of the file can hold.
+    pub(super) fn check_rows(&self, element: &Element) -> Result<(), String> {
+        let least = |p: &Property| match self.encoding {
+            Encoding::Text => 2, // a digit and what parts it from the next
+            _ => p.count.unwrap_or(p.number).bytes(),
+        };
+        let row: usize = element.properties.iter().map(least).sum();
+        // The last number may end with the file.
+        let rest = self.bytes.len() - self.at + usize::from(self.encoding == Encoding::Text);
+        match element.count.checked_mul(row) {
+            Some(bytes) if bytes <= rest => Ok(()),
+            _ => Err(format!(
+                "the head tells of {} elements `{}`, for which the file is too short: it is truncated, or its head is wrong; export or copy it again",
+                element.count,
+                shortened(&element.name)
+            )),
+        }
+    }
+
+    /// The next number, finite.
+    pub(super) fn number(&mut self, number: Number) -> Result<f64, String> {
+        let value = match self.encoding {
+            Encoding::Text => self.word_number(number)?,
+            Encoding::Little => binary(number, self.take(number.bytes())?, |b| b),
+            Encoding::Big => binary(number, self.take(number.bytes())?, |mut b| {
+                b[..number.bytes()].reverse();
+                b
+            }),
+        };
+        match value.is_finite() {
+            true => Ok(value),
+            false => {
+                let hint = if self.encoding == Encoding::Text { "" } else { self.byte_order_hint() };
+                Err(format!("a number that is not finite (NaN or infinity): mend the mesh where it was modelled{hint}"))
+            }
+        }
+    }
+
+    /// The length of the list that follows, which the rest of the file can hold.
+    pub(super) fn list_length(&mut self, property: &Property) -> Result<usize, String> {
+        let Some(count) = property.count else { return Ok(1) };
+        let length = self.number(count)?;
+        let least = if self.encoding == Encoding::Text { 2 } else { property.number.bytes() };
+        let rest = (self.bytes.len() - self.at) / least + 1;
+        if length >= 0.0 && length <= rest as f64 {
+            return Ok(length as usize);
+        }
+        Err(format!(
+            "a list `{}` of {length} numbers, for which the file is too short: it is truncated{}",
+            shortened(&property.name),
+            self.byte_order_hint()
+        ))
+    }
+
+    /// Passes over a property.
+    pub(super) fn skip(&mut self, property: &Property) -> Result<(), String> {
+        let length = self.list_length(property)?;
+        if self.encoding == Encoding::Text {
+            return (0..length).try_for_each(|_| self.word().map(|_| ()));
+        }
+        self.advance(length.saturating_mul(property.number.bytes()))
+    }
+
+    /// Passes over an element.
+    pub(super) fn skip_element(&mut self, element: &Element) -> Result<(), String> {
+        self.check_rows(element)?;
+        let is_even = element.properties.iter().all(|p| p.count.is_none());
+        if is_even && self.encoding != Encoding::Text {
+            let row: usize = element.properties.iter().map(|p| p.number.bytes()).sum();
+            return self.advance(element.count.saturating_mul(row));
+        }
+        if element.properties.is_empty() {
+            return Ok(());
+        }
+        (0..element.count).try_for_each(|_| element.properties.iter().try_for_each(|p| self.skip(p)))
+    }
+
+    /// What a fault of a binary file may come from, as the end of a message.
+    pub(super) fn byte_order_hint(&self) -> &'static str {
+        match self.encoding {
+            Encoding::Text => "; export or copy it again",
+            Encoding::Little => ", or its numbers are big-endian where the head says little-endian; export it again",
+            Encoding::Big => ", or its numbers are little-endian where the head says big-endian; export it again",
+        }
+    }
+
+    /// Refuses numbers after the last element.
+    pub(super) fn end(&mut self) -> Result<(), String> {
+        let rest = &self.bytes[self.at..];
+        let is_end = match self.encoding {
+            Encoding::Text => rest.iter().all(u8::is_ascii_whitespace),
+            _ => rest.is_empty() || rest == b"\n" || rest == b"\r\n",
+        };
+        match is_end {
+            true => Ok(()),
+            false => Err(format!(
+                "{} bytes stand after the last element: the head does not tell of all of the file{}",
+                rest.len(),
+                self.byte_order_hint()
+            )),
+        }
+    }
+
+    fn advance(&mut self, bytes: usize) -> Result<(), String> {
+        self.take(bytes).map(|_| ())
+    }
+
+    fn take(&mut self, bytes: usize) -> Result<&'a [u8], String> {
+        let end = self.at.checked_add(bytes).filter(|end| *end <= self.bytes.len());
+        let end =
+            end.ok_or_else(|| format!("the file ends within its elements: it is truncated{}", self.byte_order_hint()))?;
+        let taken = &self.bytes[self.at..end];
+        self.at = end;
+        Ok(taken)
+    }
+
+    fn word(&mut self) -> Result<&'a str, String> {
+        let rest = &self.bytes[self.at..];
+        let start = rest.iter().position(|b| !b.is_ascii_whitespace()).unwrap_or(rest.len());
+        self.line += self.line_ends(&rest[..start]);
+        let length = rest[start..].iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len() - start);
+        if length == 0 {
+            return Err("the file ends within its elements: it is truncated; export or copy it again".to_owned());
+        }
+        self.at += start + length;
+        std::str::from_utf8(&rest[start..start + length])
+            .map_err(|_| "bytes that are no text, where the head says `format ascii`; export it again".to_owned())
+    }
+
+    /// How many lines end in `blanks`, before which a number stands.
+    fn line_ends(&self, blanks: &[u8]) -> usize {
+        let feeds = blanks.iter().filter(|b| **b == b'\n').count();
+        if feeds > 0 { feeds } else { blanks.iter().filter(|b| **b == b'\r').count() }
+    }
+
+    fn word_number(&mut self, number: Number) -> Result<f64, String> {
+        let word = self.word()?;
+        let value: f64 = word.parse().map_err(|_| format!("`{}` is no number", shortened(word)))?;
+        if number.is_whole() && value.fract() != 0.0 {
+            return Err(format!("`{}` where the head tells of a whole number", shortened(word)));
+        }
+        Ok(value)
+    }
+}
+
+/// The number of a type whose little-endian bytes `order` puts in order.
+fn binary(number: Number, bytes: &[u8], order: impl Fn([u8; 8]) -> [u8; 8]) -> f64 {
+    let mut all = [0; 8];
+    all[..bytes.len()].copy_from_slice(bytes);
+    let all = order(all);
+    let [a, b, c, d, ..] = all;
+    match number {
+        Number::I8 => f64::from(i8::from_le_bytes([a])),
+        Number::U8 => f64::from(a),
+        Number::I16 => f64::from(i16::from_le_bytes([a, b])),
+        Number::U16 => f64::from(u16::from_le_bytes([a, b])),
+        Number::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
+        Number::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
+        Number::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
+        Number::F64 => f64::from_le_bytes(all),
+    }
+}
