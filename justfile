@@ -11,6 +11,14 @@ test:
 ci:
     .ci/run
 
+# Tests of the Python package (needs Python 3.10 and PyPI)
+python:
+    ETENDUE_PYTHON="$(.ci/python)" cargo test --workspace --test package --test binary -- the_package help
+
+# A wheel of the Python package, in target/wheels
+wheel:
+    "$(.ci/python)" -m pip wheel --no-deps --wheel-dir target/wheels ./crates/python
+
 # Benchmarks: rays, paths, memory
 bench:
     cargo run --release -p etendue-benches

@@ -1,6 +1,6 @@
 //! The machine's threads and instruction sets. They change how long a result takes, not the result.
 
-use crate::output::print_paths;
+use crate::console::{Console, print_paths};
 use etendue::{Error, Simd};
 use std::path::PathBuf;
 
@@ -14,8 +14,11 @@ pub fn pool(threads: Option<u32>) -> Result<rayon::ThreadPool, Error> {
 }
 
 /// Runs a task on a thread a processor, and prints the files that it wrote.
-pub fn print_written(task: impl FnOnce() -> Result<Vec<PathBuf>, Error> + Send) -> Result<(), Error> {
-    print_paths(&pool(None)?.install(task)?);
+pub fn print_written(
+    console: &dyn Console,
+    task: impl FnOnce() -> Result<Vec<PathBuf>, Error> + Send,
+) -> Result<(), Error> {
+    print_paths(console, &pool(None)?.install(task)?);
     Ok(())
 }
 

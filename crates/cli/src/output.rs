@@ -1,7 +1,5 @@
 //! What the program prints: results to stdout, everything else to stderr.
 
-use std::path::PathBuf;
-
 /// Results go to stdout. A reader that has gone away (a closed pipe) ends the program quietly; a full disk is an error.
 pub fn print(text: &str) {
     use std::io::{ErrorKind, Write as _};
@@ -14,11 +12,6 @@ pub fn print(text: &str) {
             std::process::exit(1);
         }
     }
-}
-
-/// The files that were written, one a line.
-pub fn print_paths(paths: &[PathBuf]) {
-    print(&paths.iter().map(|path| format!("{}\n", path.display())).collect::<String>());
 }
 
 /// Everything that is no result goes to stderr.

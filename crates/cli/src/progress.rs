@@ -1,8 +1,8 @@
 //! Progress on a terminal, and messages while a task runs. Ctrl-C stops by the operating system's own way.
 
-use crate::display::Display;
-use crate::output::print_message;
-use etendue::{ImageTile, Message, Observer, Progress, Unit};
+use crate::console::Console;
+use crate::output::{print, print_message};
+use etendue::{Message, Observer, Progress, Unit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::Mutex;
 use std::time::Instant;
@@ -12,24 +12,25 @@ pub struct Terminal {
     bar: Mutex<Option<Bar>>,
     /// What its clock counts from.
     start: Instant,
-    display: Option<Display>,
 }
 
 impl Default for Terminal {
     fn default() -> Self {
-        Self { bar: Mutex::default(), start: Instant::now(), display: None }
+        Self { bar: Mutex::default(), start: Instant::now() }
     }
 }
 
-impl Terminal {
-    /// The same, with light shown in a viewer as well.
-    pub fn with_display(display: Option<Display>) -> Self {
-        Self { display, ..Self::default() }
+impl Console for Terminal {
+    fn print(&self, text: &str) {
+        print(text);
     }
 
-    /// Waits a while until the viewer has all.
-    pub fn finish(self) {
-        self.display.into_iter().for_each(Display::finish);
+    fn tell(&self, line: &str) {
+        print_message(line);
+    }
+
+    fn observer(&self) -> &dyn Observer {
+        self
     }
 }
 
@@ -64,14 +65,6 @@ fn heading(progress: Progress<'_>) -> String {
 impl Observer for Terminal {
     fn now_s(&self) -> Option<f64> {
         Some(self.start.elapsed().as_secs_f64())
-    }
-
-    fn wants_tiles(&self) -> bool {
-        self.display.is_some()
-    }
-
-    fn tile(&self, tile: &ImageTile<'_>) {
-        self.display.iter().for_each(|display| display.tile(tile));
     }
 
     fn message(&self, message: Message<'_>) {

@@ -1,26 +1,27 @@
 //! What can go wrong between a file and its results.
 
+use crate::fault::Fault;
 use std::fmt::{self, Display};
 
 /// Why a call of this library did not succeed. Nothing that was written under a final name is half-written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Error {
-    /// The input or the arguments cannot be used: one message for each fault, with file, line and key where it has them. Arguments are
+    /// The input or the arguments cannot be used: all faults, with file, line and key where they have them. Arguments are
     /// named as the command line spells them. (Exit status 2 of the program.)
-    Input(Vec<String>),
+    Input(Vec<Fault>),
     /// The input is good and the run did not succeed: it was cancelled, the disk is full, light is not finite. (Exit status 1.)
     Run(String),
 }
 
 impl Error {
     /// One unusable input.
-    pub fn input(error: impl Display) -> Self {
-        Self::Input(vec![error.to_string()])
+    pub fn input(error: impl Into<Fault>) -> Self {
+        Self::Input(vec![error.into()])
     }
 
     /// Several unusable inputs.
-    pub fn inputs<E: Display>(errors: impl IntoIterator<Item = E>) -> Self {
-        Self::Input(errors.into_iter().map(|e| e.to_string()).collect())
+    pub fn inputs<E: Into<Fault>>(errors: impl IntoIterator<Item = E>) -> Self {
+        Self::Input(errors.into_iter().map(Into::into).collect())
     }
 
     /// A run that did not succeed although its input is good.

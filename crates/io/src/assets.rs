@@ -47,7 +47,7 @@ pub fn complete_assets(
         let (requests, outside): (Vec<_>, Vec<_>) = requests.into_iter().partition(|r| sandbox.check(&r.path).is_ok());
         for request in outside {
             let told = sandbox.check(&request.path).err().unwrap_or_default();
-            errors.push(Error::new(&request.path, told).named_at(request.place.to_string()));
+            errors.push(Error::new(&request.path, told).named_by(&request.place));
             tried.push(request);
         }
         // Which textures are large is known once all are: meshes name more of them.
@@ -60,7 +60,7 @@ pub fn complete_assets(
                 None => load(&mut assets, &request, sandbox),
             };
             if let Err(error) = loaded {
-                errors.push(error.named_at(request.place.to_string()));
+                errors.push(error.named_by(&request.place));
             }
             tried.push(request);
         }

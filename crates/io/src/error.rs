@@ -1,5 +1,6 @@
 //! What can be wrong with a file.
 
+use etendue_scene::Place;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -10,6 +11,8 @@ pub struct Error {
     line: Option<usize>,
     what: String,
     named_at: Option<String>,
+    /// Of a description that names the file: where.
+    place: Option<Box<Place>>,
     /// Whether the path is at fault, not what is in the file.
     is_path: bool,
 }
@@ -18,7 +21,7 @@ impl Error {
     /// A fault of the whole file.
     #[must_use]
     pub fn new(file: &Path, what: impl Into<String>) -> Self {
-        Self { file: file.to_path_buf(), line: None, what: what.into(), named_at: None, is_path: false }
+        Self { file: file.to_path_buf(), line: None, what: what.into(), named_at: None, place: None, is_path: false }
     }
 
     /// A fault in line `line`, counted from 1.
@@ -37,6 +40,24 @@ impl Error {
     pub fn named_at(mut self, place: impl Into<String>) -> Self {
         self.named_at = Some(place.into());
         self
+    }
+
+    /// The same fault with the place of the key that names the file.
+    #[must_use]
+    pub fn named_by(self, place: &Place) -> Self {
+        Self { place: Some(Box::new(place.clone())), ..self.named_at(place.to_string()) }
+    }
+
+    /// The key that names the file, where a description does.
+    #[must_use]
+    pub fn place(&self) -> Option<&Place> {
+        self.place.as_deref()
+    }
+
+    /// Whether the path is at fault, not what is in the file.
+    #[must_use]
+    pub fn is_of_path(&self) -> bool {
+        self.is_path
     }
 
     /// The file at fault.

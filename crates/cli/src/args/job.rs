@@ -2,9 +2,9 @@
 
 use super::choice::{Word, choice};
 use super::run::whole;
-use crate::output::print_message;
+use crate::console::Console;
 use clap::Args;
-use etendue::{Error, FilmMemory, Integrator, Job, JobRequest, Quality, TextureMemory};
+use etendue::{Error, FilmMemory, Integrator, Job, JobRequest, Message, Quality, TextureMemory};
 use std::path::PathBuf;
 
 const INTEGRATORS: [Word<Integrator>; 3] = [
@@ -90,15 +90,15 @@ impl From<&JobArgs> for JobRequest {
 }
 
 impl JobArgs {
-    /// Opens the job and prints what the command line supersedes of it.
-    pub fn open(&self, pool: &rayon::ThreadPool) -> Result<Job, Error> {
-        Self::open_request(self.into(), pool)
+    /// Opens the job and tells what the command line supersedes of it.
+    pub fn open(&self, console: &dyn Console, pool: &rayon::ThreadPool) -> Result<Job, Error> {
+        Self::open_request(console, self.into(), pool)
     }
 
     /// The same of a request.
-    pub fn open_request(request: JobRequest, pool: &rayon::ThreadPool) -> Result<Job, Error> {
+    pub fn open_request(console: &dyn Console, request: JobRequest, pool: &rayon::ThreadPool) -> Result<Job, Error> {
         let job = pool.install(|| request.open())?;
-        job.notices().iter().for_each(|notice| print_message(&format!("note: {notice}\n")));
+        job.notices().iter().for_each(|notice| console.observer().message(Message::Note(notice)));
         Ok(job)
     }
 }

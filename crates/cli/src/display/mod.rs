@@ -4,10 +4,12 @@
 //! up the rendering. Tiles wait in the images themselves: one that is refined before it is sent is sent once. A viewer that goes
 //! away is told of once, and the rendering goes on.
 
+mod displaying;
 mod images;
 mod tev;
 
 use crate::output::print_message;
+pub use displaying::Displaying;
 use etendue::{Error, ImageTile};
 use images::Images;
 use std::io::Write as _;

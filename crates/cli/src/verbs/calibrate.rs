@@ -4,8 +4,8 @@ use super::measure::report::{CameraOut, ReportArgs};
 use super::measure::views::ViewsArgs;
 use crate::args::file_name::toml;
 use crate::args::words::positive;
+use crate::console::Console;
 use crate::machine;
-use crate::progress::Terminal;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, CalibrationRequest};
@@ -30,12 +30,12 @@ pub struct CalibrateArgs {
 }
 
 impl CalibrateArgs {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let pool = machine::pool(None)?;
-        let report = pool.install(|| measure::calibrate(&self.into(), &Terminal::default()))?;
+        let report = pool.install(|| measure::calibrate(&self.into(), console.observer()))?;
         let out = CameraOut { camera_out: self.output.clone(), overwrite: self.overwrite };
         out.write(&report)?;
-        self.report.show(&report)
+        self.report.show(console, &report)
     }
 }
 

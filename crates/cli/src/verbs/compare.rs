@@ -1,6 +1,6 @@
 //! `etendue compare`: errors with their uncertainty; exit status 1 where two results differ.
 
-use crate::output::print;
+use crate::console::Console;
 use clap::Args;
 use etendue::{ChannelComparison, Error, compare};
 use serde_json::{Value, json};
@@ -28,11 +28,11 @@ pub struct Compare {
 }
 
 impl Compare {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let (a, b) = (&self.a, &self.b);
         let comparison = compare(a, b, self.significance)?;
         let (channels, differ) = (&comparison.channels, comparison.differs());
-        print(&if self.json { as_json(channels, differ) } else { as_table(channels, differ) });
+        console.print(&if self.json { as_json(channels, differ) } else { as_table(channels, differ) });
         if !differ {
             return Ok(());
         }

@@ -1,8 +1,8 @@
 //! `etendue datasheet`: a camera file of an EMVA 1288 data sheet.
 
 use crate::args::folder::Output;
+use crate::console::Console;
 use crate::machine::print_written;
-use crate::progress::Terminal;
 use clap::Args;
 use etendue::Error;
 use std::path::PathBuf;
@@ -18,7 +18,7 @@ pub struct DataSheet {
 }
 
 impl DataSheet {
-    pub fn run(&self) -> Result<(), Error> {
-        print_written(|| etendue::datasheet(&self.sheet, self.output.folder(), &Terminal::default()))
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        print_written(console, || etendue::datasheet(&self.sheet, self.output.folder(), console.observer()))
     }
 }

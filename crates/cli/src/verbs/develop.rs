@@ -2,6 +2,7 @@
 
 use crate::args::folder::Output;
 use crate::args::run::{levels, seed};
+use crate::console::Console;
 use crate::machine::print_written;
 use clap::Args;
 use etendue::{DevelopRequest, Error, Levels};
@@ -36,8 +37,8 @@ impl From<&Develop> for DevelopRequest {
 }
 
 impl Develop {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let request = DevelopRequest::from(self);
-        print_written(|| etendue::develop(&request, self.output.folder()))
+        print_written(console, || etendue::develop(&request, self.output.folder()))
     }
 }

@@ -3,8 +3,8 @@
 use crate::args::depth_of_field::depth_of_field;
 use crate::args::folder::Output;
 use crate::args::run::{frames, seed};
+use crate::console::Console;
 use crate::machine::print_written;
-use crate::progress::Terminal;
 use clap::Args;
 use etendue::{Error, ExposeRequest};
 use etendue_optics::DepthOfField;
@@ -50,8 +50,8 @@ impl From<&Expose> for ExposeRequest {
 }
 
 impl Expose {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let request = ExposeRequest::from(self);
-        print_written(|| etendue::expose(&request, self.output.folder(), &Terminal::default()))
+        print_written(console, || etendue::expose(&request, self.output.folder(), console.observer()))
     }
 }

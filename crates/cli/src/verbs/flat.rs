@@ -2,8 +2,8 @@
 
 use crate::args::folder::Output;
 use crate::args::run::{frames, seed, whole};
+use crate::console::Console;
 use crate::machine::print_written;
-use crate::progress::Terminal;
 use clap::Args;
 use etendue::{Error, FlatRequest, FlatSource};
 use std::path::PathBuf;
@@ -75,9 +75,9 @@ impl From<&Flat> for FlatRequest {
 }
 
 impl Flat {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let request = FlatRequest::from(self);
-        print_written(|| etendue::flat(&request, self.output.folder(), &Terminal::default()))
+        print_written(console, || etendue::flat(&request, self.output.folder(), console.observer()))
     }
 }
 

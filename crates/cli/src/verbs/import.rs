@@ -1,8 +1,8 @@
 //! `etendue import`: a scene of another program as files of the format.
 
 use crate::args::folder::Output;
+use crate::console::Console;
 use crate::machine::print_written;
-use crate::progress::Terminal;
 use clap::Args;
 use etendue::Error;
 use std::path::PathBuf;
@@ -18,7 +18,7 @@ pub struct Import {
 }
 
 impl Import {
-    pub fn run(&self) -> Result<(), Error> {
-        print_written(|| etendue::import(&self.scene, self.output.folder(), &Terminal::default()))
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        print_written(console, || etendue::import(&self.scene, self.output.folder(), console.observer()))
     }
 }

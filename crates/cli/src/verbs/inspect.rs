@@ -1,7 +1,7 @@
 //! `etendue inspect`: what is in a file, with units; a picture of it.
 
 use crate::args::file_name::png;
-use crate::output::{print, print_message};
+use crate::console::Console;
 use clap::Args;
 use etendue::{Error, Existing, Shown, inspect_showing, write_file};
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ pub struct Inspect {
 }
 
 impl Inspect {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let shown = Shown { layer: self.layer.clone(), boxes: self.boxes.clone() };
         let report = inspect_showing(&self.file, &shown).map_err(Error::input)?;
         if let Some(path) = &self.png {
@@ -37,9 +37,9 @@ impl Inspect {
             };
             let bytes = preview.to_png().map_err(|error| Error::Run(error.to_string()))?;
             write_file(path, &bytes, Existing::Replace)?;
-            print_message(&format!("wrote {}\n", path.display()));
+            console.tell(&format!("wrote {}\n", path.display()));
         }
-        print(&report.to_string());
+        console.print(&report.to_string());
         Ok(())
     }
 }

@@ -1,8 +1,8 @@
 //! `etendue merge`: the shards of one job to the result of an unsharded run.
 
 use crate::args::folder::Output;
+use crate::console::Console;
 use crate::machine::{print_written, simd};
-use crate::progress::Terminal;
 use clap::Args;
 use etendue::Error;
 use std::path::PathBuf;
@@ -18,8 +18,8 @@ pub struct Merge {
 }
 
 impl Merge {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let simd = simd()?;
-        print_written(|| etendue::merge(&self.shards, simd, self.output.folder(), &Terminal::default()))
+        print_written(console, || etendue::merge(&self.shards, simd, self.output.folder(), console.observer()))
     }
 }

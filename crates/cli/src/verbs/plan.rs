@@ -1,8 +1,8 @@
 //! `etendue plan`: what will be modelled, what is left out and why, and what it will cost.
 
 use crate::args::job::JobArgs;
+use crate::console::Console;
 use crate::machine;
-use crate::output::print;
 use clap::Args;
 use etendue::Error;
 
@@ -17,14 +17,14 @@ pub struct Plan {
 }
 
 impl Plan {
-    pub fn run(&self) -> Result<(), Error> {
-        let job = self.job.open(&machine::pool(None)?)?;
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        let job = self.job.open(console, &machine::pool(None)?)?;
         if !self.json {
-            print(&job.summary());
+            console.print(&job.summary());
             return Ok(());
         }
         let text = serde_json::to_string_pretty(&job.report()).map_err(|error| Error::Run(error.to_string()))?;
-        print(&format!("{text}\n"));
+        console.print(&format!("{text}\n"));
         Ok(())
     }
 }

@@ -3,10 +3,9 @@
 use crate::args::folder::Output;
 use crate::args::job::JobArgs;
 use crate::args::run::{frames, shard, whole};
-use crate::display::Display;
+use crate::console::{Console, print_paths};
+use crate::display::{Display, Displaying};
 use crate::machine;
-use crate::output::print_paths;
-use crate::progress::Terminal;
 use clap::Args;
 use etendue::{Error, Existing, JobRequest, RenderOptions, ShardSpec};
 use std::path::Path;
@@ -51,19 +50,20 @@ impl Render {
         (folder, if self.resume { Existing::Resume } else { existing })
     }
 
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let simd = machine::simd()?;
         let pool = machine::pool(self.threads)?;
         let request = JobRequest { time_s: self.time, progressive: self.progressive, ..JobRequest::from(&self.job) };
-        let job = JobArgs::open_request(request, &pool)?;
+        let job = JobArgs::open_request(console, request, &pool)?;
         let (folder, frames) = (self.folder(), self.frames.clone());
-        let observer = Terminal::with_display(self.display.as_deref().map(Display::connect).transpose()?);
+        let display = self.display.as_deref().map(Display::connect).transpose()?;
+        let observer = Displaying::new(console.observer(), display);
         let written = pool.install(|| match self.shard {
             None => job.save(&RenderOptions { frames, simd }, folder, &observer),
             Some(spec) => job.save_shard(spec, frames, simd, folder, &observer),
         });
         observer.finish();
-        print_paths(&written?);
+        print_paths(console, &written?);
         Ok(())
     }
 }

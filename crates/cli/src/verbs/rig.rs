@@ -3,9 +3,8 @@
 use crate::args::folder::Output;
 use crate::args::job::JobArgs;
 use crate::args::run::frames;
+use crate::console::{Console, print_paths};
 use crate::machine;
-use crate::output::print_paths;
-use crate::progress::Terminal;
 use clap::Args;
 use etendue::Error;
 
@@ -22,11 +21,11 @@ pub struct Rig {
 }
 
 impl Rig {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let pool = machine::pool(None)?;
-        let job = self.job.open(&pool)?;
-        let written = job.save_calibration_files(&self.frames, self.output.folder(), &Terminal::default())?;
-        print_paths(&written);
+        let job = self.job.open(console, &pool)?;
+        let written = job.save_calibration_files(&self.frames, self.output.folder(), console.observer())?;
+        print_paths(console, &written);
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! `etendue schema`: the JSON Schema of a file kind.
 
 use crate::args::choice::{Word, choice};
-use crate::output::print;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue_scene::{FileKind, schema};
@@ -23,9 +23,9 @@ pub struct Schema {
 }
 
 impl Schema {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let text = serde_json::to_string_pretty(&schema(self.kind)).map_err(|error| Error::Run(error.to_string()))?;
-        print(&format!("{text}\n"));
+        console.print(&format!("{text}\n"));
         Ok(())
     }
 }

@@ -2,11 +2,10 @@
 
 use crate::args::folder::Output;
 use crate::args::job::JobArgs;
+use crate::console::{Console, print_paths};
 use crate::machine;
-use crate::output::{print, print_paths};
-use crate::progress::Terminal;
 use clap::Args;
-use etendue::{Error, Existing, JobRequest, OutputFolder};
+use etendue::{Error, Existing, JobRequest, Observer, OutputFolder};
 use etendue_study::{
     Clock, Dropped, Request, Varied, ablation, ablation_table, job_file, pictures, plot, study, table, variation_table,
     variations,
@@ -96,28 +95,29 @@ struct Findings {
 }
 
 impl Tradeoff {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let simd = machine::simd()?;
         let pool = machine::pool(self.threads)?;
         // Its faults, and what the command line supersedes, before anything is written.
-        self.job.open(&pool)?;
+        self.job.open(console, &pool)?;
         let (folder, existing) = self.output.folder();
         self.refuse_to_replace()?;
         let mut output = OutputFolder::open(folder, existing).map_err(Error::input)?;
         let job = JobRequest::from(&self.job);
         let request = Request { job, camera: self.job.camera.clone(), budget_s: self.time, simd };
+        let observer = console.observer();
         let findings = pool.install(|| match (self.ablate, self.vary.as_slice()) {
-            (true, _) => ablated(&request),
-            (false, []) => studied(&request, folder),
-            (false, changes) => varied(&request, changes),
+            (true, _) => ablated(&request, observer),
+            (false, []) => studied(&request, folder, observer),
+            (false, changes) => varied(&request, changes, observer),
         })?;
         findings.files.iter().try_for_each(|(name, bytes)| output.write(name, bytes).map_err(Error::run))?;
         let written = output.commit().map_err(Error::run)?;
         if self.json {
-            print(&findings.json);
+            console.print(&findings.json);
         } else {
-            print(&format!("{}\n", findings.text));
-            print_paths(&written);
+            console.print(&format!("{}\n", findings.text));
+            print_paths(console, &written);
         }
         Ok(())
     }
@@ -147,10 +147,9 @@ impl Tradeoff {
 }
 
 /// Time against error, with three jobs.
-fn studied(request: &Request, folder: &Path) -> Result<Findings, Error> {
-    let (stopwatch, observer) = (Stopwatch::begin(), Terminal::default());
-    let found = study(request, &folder.join("pilot"), &stopwatch, &observer)?;
-    let compared = pictures(&found, request, &observer)?;
+fn studied(request: &Request, folder: &Path, observer: &dyn Observer) -> Result<Findings, Error> {
+    let found = study(request, &folder.join("pilot"), &Stopwatch::begin(), observer)?;
+    let compared = pictures(&found, request, observer)?;
     let (text, json) = (table(&found), to_json(&found)?);
     let mut files = vec![
         ("tradeoff.json".to_owned(), json.clone().into_bytes()),
@@ -166,8 +165,8 @@ fn studied(request: &Request, folder: &Path) -> Result<Findings, Error> {
 }
 
 /// Effect by effect.
-fn ablated(request: &Request) -> Result<Findings, Error> {
-    let found = ablation(request, &Stopwatch::begin(), &Terminal::default())?;
+fn ablated(request: &Request, observer: &dyn Observer) -> Result<Findings, Error> {
+    let found = ablation(request, &Stopwatch::begin(), observer)?;
     let (text, json) = (ablation_table(&found), to_json(&found)?);
     let mut files = vec![
         ("ablation.json".to_owned(), json.clone().into_bytes()),
@@ -184,9 +183,9 @@ fn varied_picture(n: usize) -> String {
 }
 
 /// Change by change.
-fn varied(request: &Request, changes: &[Changes]) -> Result<Findings, Error> {
+fn varied(request: &Request, changes: &[Changes], observer: &dyn Observer) -> Result<Findings, Error> {
     let changes: Vec<_> = changes.iter().map(|Changes(set)| set.clone()).collect();
-    let found = variations(request, &changes, &Stopwatch::begin(), &Terminal::default())?;
+    let found = variations(request, &changes, &Stopwatch::begin(), observer)?;
     let (text, json) = (variation_table(&found), to_json(&found)?);
     let mut files = vec![
         ("variations.json".to_owned(), json.clone().into_bytes()),

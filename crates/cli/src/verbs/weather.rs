@@ -1,6 +1,7 @@
 //! `etendue weather`: fog, rain and snow laid over a stored radiance image.
 
 use crate::args::folder::Output;
+use crate::console::Console;
 use crate::machine::print_written;
 use clap::Args;
 use etendue::{Error, WeatherRequest};
@@ -20,8 +21,8 @@ pub struct Weather {
 }
 
 impl Weather {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let request = WeatherRequest { radiance: self.radiance.clone(), weather: self.weather.clone() };
-        print_written(|| etendue::weather(&request, self.output.folder()))
+        print_written(console, || etendue::weather(&request, self.output.folder()))
     }
 }

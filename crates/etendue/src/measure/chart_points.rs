@@ -8,6 +8,7 @@ use super::readings::{Readings, Selection};
 use super::truth::points::{CHARTS, PointsTold};
 use super::truth::{Truth, TruthInput};
 use crate::error::Error;
+use crate::fault::Fault;
 use crate::observer::Observer;
 use etendue_io::photograph::{Photograph, Stated};
 use etendue_metrology::calibrate::MIN_VIEWS;
@@ -188,7 +189,7 @@ pub(crate) fn all(
         pictures.step();
         match seen {
             Ok(view) => match views.iter().find_map(|other| contradiction(other, &view)) {
-                Some(fault) => faults.push(fault),
+                Some(fault) => faults.push(Fault::new(fault)),
                 None => views.push(view),
             },
             Err(Unseen::Chart(file, error)) => without.push((file, error)),
@@ -197,7 +198,7 @@ pub(crate) fn all(
         }
     }
     if views.len() < MIN_VIEWS {
-        faults.extend(too_few(&without, views.len()));
+        faults.extend(too_few(&without, views.len()).into_iter().map(Fault::new));
     }
     if faults.is_empty() { Ok((views, without)) } else { Err(Error::Input(faults)) }
 }

@@ -3,6 +3,7 @@
 use super::readings::{Readings, Selection, SignalLevels};
 use super::truth::{Truth, TruthInput};
 use crate::error::Error;
+use crate::fault::Fault;
 use std::fmt::Display;
 use std::path::Path;
 
@@ -33,5 +34,6 @@ impl PictureInput {
 
 /// What is wrong with a picture.
 pub(crate) fn refused(picture: &Path, error: impl Display) -> Error {
-    Error::input(format!("{}: {error}", picture.display()))
+    let fault = Fault::new(format!("{}: {error}", picture.display()));
+    Error::input(Fault { file: Some(picture.to_path_buf()), ..fault })
 }

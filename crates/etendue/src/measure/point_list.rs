@@ -87,7 +87,7 @@ mod tests {
         let file = folder.path().join("points.csv");
         std::fs::write(&file, text).expect("written");
         read(&file).map_err(|failure| match failure {
-            Error::Input(faults) => faults.join("; "),
+            Error::Input(faults) => faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "),
             Error::Run(_) => "a failed run".to_owned(),
         })
     }

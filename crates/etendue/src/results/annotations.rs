@@ -45,6 +45,12 @@ impl CameraResults {
         object_boxes(&self.plan, &self.frame_view(), &self.ground_truth().instance, self.simd)
     }
 
+    /// The same as `boxes.json` says it, with names, classes and conventions.
+    #[must_use]
+    pub fn boxes_json(&self) -> Value {
+        boxes_json(&self.plan, &self.frame_view(), &self.boxes())
+    }
+
     fn frame_view(&self) -> FrameView<'_> {
         FrameView { camera: self.camera(), frame: self.frame_numbers().start }
     }
@@ -55,8 +61,7 @@ impl CameraResults {
             self.write_motion(writer)?;
         }
         if asked.boxes {
-            let facts: Value = boxes_json(&self.plan, &self.frame_view(), &self.boxes());
-            writer.json(&self.file(Files::BOXES), &facts)?;
+            writer.json(&self.file(Files::BOXES), &self.boxes_json())?;
         }
         self.write_disparity(writer)
     }

@@ -154,15 +154,11 @@ impl<S: RaySource> RenderJob<'_, S> {
     ) -> Result<Film, GatherError> {
         let film = self.begun(before).map_err(GatherError::Scratch)?;
         let (disk, film) = (film.disk().cloned(), Mutex::new(film));
-        let tiles = tiles(self.width, self.height, self.tile_px, self.shard);
-        let done = AtomicUsize::new(0);
+        let (tiles, done) = (tiles(self.width, self.height, self.tile_px, self.shard), AtomicUsize::new(0));
         observer.begins();
         // Tile by tile, or the last of a thread are a row of tiles that no other can take over.
         tiles.par_iter().with_max_len(1).try_for_each(|tile| {
-            if observer.cancelled() {
-                return Err(GatherError::Cancelled);
-            }
-            let pixels = self.gather_tile(field, *tile);
+            let pixels = self.gather_tile(field, *tile, observer)?;
             let pixels = self.joined(pixels, *tile, before, disk.as_ref()).map_err(GatherError::Scratch)?;
             // The film is locked once a tile.
             let mut film = film.lock().expect("no tile panicked");
@@ -198,12 +194,19 @@ impl<S: RaySource> RenderJob<'_, S> {
     }
 
     /// The light of the pixels of a tile, which this pass takes.
-    fn gather_tile<const N: usize>(&self, field: &impl RadianceField<N>, tile: Tile) -> Vec<(Pixel, PixelLight)> {
-        let taken = |block: &Vec<Pixel>| self.sampling.pass.takes(block[0]);
-        match &self.tolerance {
-            None => self.blocks.of(tile).filter(taken).flat_map(|block| self.gather_block(field, &block)).collect(),
-            Some(tolerance) => self.gather_to_tolerance(field, tile, tolerance),
+    fn gather_tile<const N: usize>(
+        &self,
+        field: &impl RadianceField<N>,
+        tile: Tile,
+        observer: &dyn Observer,
+    ) -> Result<Vec<(Pixel, PixelLight)>, GatherError> {
+        let goes_on = || if observer.cancelled() { Err(GatherError::Cancelled) } else { Ok(()) };
+        if let Some(tolerance) = &self.tolerance {
+            return goes_on().map(|()| self.gather_to_tolerance(field, tile, tolerance));
         }
+        let blocks = self.blocks.of(tile).filter(|block| self.sampling.pass.takes(block[0]));
+        let lights = blocks.map(|block| goes_on().map(|()| self.gather_block(field, &block)));
+        Ok(lights.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
     }
 
     /// The same joined with the light before; the bands of the tile are written where they are kept on the disk.

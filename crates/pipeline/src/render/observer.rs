@@ -11,7 +11,8 @@ pub trait Observer: Sync {
     fn tile(&self, _tile: Tile, _film: &Film) {}
     /// `done` of `total` tiles of a camera's light are finished.
     fn tiles(&self, done: usize, total: usize);
-    /// Whether the caller wants the rendering to stop. Asked before every tile.
+    /// Whether the caller wants the rendering to stop. Asked before every pixel, or block of pixels that share paths; of adaptive sampling before every
+    /// tile.
     fn cancelled(&self) -> bool;
 }
 

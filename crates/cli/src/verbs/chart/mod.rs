@@ -2,6 +2,7 @@
 
 mod options;
 
+use crate::console::Console;
 use crate::subcommands::subcommands;
 use clap::Args;
 use etendue::Error;
@@ -16,8 +17,8 @@ pub struct Chart {
 }
 
 impl Chart {
-    pub fn run(&self) -> Result<(), Error> {
-        self.design.run()
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.design.run(console)
     }
 }
 
@@ -73,9 +74,9 @@ pub struct Dots {
 }
 
 impl Dots {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::Dots { size: self.size.grid(), dot_ratio: self.dot_ratio };
-        self.common.make(&ChartRequest { views: self.views.views, ..self.common.request(chart.into()) })
+        self.common.make(console, &ChartRequest { views: self.views.views, ..self.common.request(chart.into()) })
     }
 }
 
@@ -91,9 +92,9 @@ pub struct Checkerboard {
 }
 
 impl Checkerboard {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::Checkerboard { size: self.size.grid() };
-        self.common.make(&ChartRequest { views: self.views.views, ..self.common.request(chart.into()) })
+        self.common.make(console, &ChartRequest { views: self.views.views, ..self.common.request(chart.into()) })
     }
 }
 
@@ -112,9 +113,9 @@ pub struct Circles {
 }
 
 impl Circles {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::Circles { size: self.size.grid(), asymmetric: self.asymmetric };
-        self.common.make(&ChartRequest { views: self.views.views, ..self.common.request(chart.into()) })
+        self.common.make(console, &ChartRequest { views: self.views.views, ..self.common.request(chart.into()) })
     }
 }
 
@@ -131,10 +132,10 @@ pub struct FlatField {
 }
 
 impl FlatField {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::FlatField { reflectance: self.reflectance };
         let series = self.series.asked(None)?;
-        self.common.make(&ChartRequest { series, ..self.common.request(chart.into()) })
+        self.common.make(console, &ChartRequest { series, ..self.common.request(chart.into()) })
     }
 }
 
@@ -151,10 +152,10 @@ pub struct Backlit {
 }
 
 impl Backlit {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let series = self.series.asked(Some(RETRO_LIGHTING))?;
         let request = self.common.request(design::Backlit.into());
-        self.common.make(&ChartRequest { series, dark: self.dark, ..request })
+        self.common.make(console, &ChartRequest { series, dark: self.dark, ..request })
     }
 }
 
@@ -170,10 +171,10 @@ pub struct SlantedEdges {
 }
 
 impl SlantedEdges {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let Edge { angle_deg, contrast } = self.edge;
         let chart = design::SlantedEdges { size: self.size.grid(), angle_deg, contrast };
-        self.common.make(&self.common.request(chart.into()))
+        self.common.make(console, &self.common.request(chart.into()))
     }
 }
 
@@ -192,10 +193,10 @@ pub struct SlantedStar {
 }
 
 impl SlantedStar {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let Edge { angle_deg, contrast } = self.edge;
         let chart = design::SlantedStar { size: self.size.grid(), spokes: self.spokes, angle_deg, contrast };
-        self.common.make(&self.common.request(chart.into()))
+        self.common.make(console, &self.common.request(chart.into()))
     }
 }
 
@@ -213,9 +214,9 @@ pub struct SiemensStar {
 }
 
 impl SiemensStar {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::SiemensStar { cycles: self.cycles, binary: self.binary };
-        self.common.make(&self.common.request(chart.into()))
+        self.common.make(console, &self.common.request(chart.into()))
     }
 }
 
@@ -233,9 +234,9 @@ pub struct DeadLeaves {
 }
 
 impl DeadLeaves {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::DeadLeaves { smallest_px: self.smallest_px, largest_ratio: self.largest_ratio };
-        self.common.make(&self.common.request(chart.into()))
+        self.common.make(console, &self.common.request(chart.into()))
     }
 }
 
@@ -256,10 +257,10 @@ pub struct OecfSteps {
 }
 
 impl OecfSteps {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let density = self.density.unwrap_or(if self.backlit { 3.0 } else { 2.0 });
         let chart = design::OecfSteps { steps: self.steps, density, backlit: self.backlit };
-        self.common.make(&self.common.request(chart.into()))
+        self.common.make(console, &self.common.request(chart.into()))
     }
 }
 
@@ -271,9 +272,9 @@ pub struct ColorChecker {
 }
 
 impl ColorChecker {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::ColorChecker;
-        self.common.make(&self.common.request(chart.into()))
+        self.common.make(console, &self.common.request(chart.into()))
     }
 }
 
@@ -290,9 +291,9 @@ pub struct ContrastPatches {
 }
 
 impl ContrastPatches {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::ContrastPatches { size: self.size.grid(), decades: self.decades };
-        self.common.make(&self.common.request(chart.into()))
+        self.common.make(console, &self.common.request(chart.into()))
     }
 }
 
@@ -309,9 +310,9 @@ pub struct Flare {
 }
 
 impl Flare {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::Flare { size: self.size.grid(), trap_ratio: self.trap_ratio };
-        self.common.make(&self.common.request(chart.into()))
+        self.common.make(console, &self.common.request(chart.into()))
     }
 }
 
@@ -329,10 +330,10 @@ pub struct LedFlicker {
 }
 
 impl LedFlicker {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let Self { frequencies_hz, duty_cycles, .. } = self;
         let chart = design::LedFlicker { frequencies_hz: frequencies_hz.clone(), duty_cycles: duty_cycles.clone() };
-        self.common.make(&self.common.request(chart.into()))
+        self.common.make(console, &self.common.request(chart.into()))
     }
 }
 
@@ -349,9 +350,9 @@ pub struct Points {
 }
 
 impl Points {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::Points { size: self.size.grid(), diameter_px: self.diameter_px };
-        self.common.make(&self.common.request(chart.into()))
+        self.common.make(console, &self.common.request(chart.into()))
     }
 }
 
@@ -369,9 +370,9 @@ pub struct DepthWedge {
 }
 
 impl DepthWedge {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let chart = design::DepthWedge { steps: self.steps, far_ratio: self.far_ratio };
-        self.common.make(&self.common.request(chart.into()))
+        self.common.make(console, &self.common.request(chart.into()))
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::args::choice::{Word, choice};
 use crate::args::folder::Output;
 use crate::args::run::seed;
-use crate::output::print_paths;
+use crate::console::{Console, print_paths};
 use clap::Args;
 use etendue::Error;
 use etendue::chart::design::GridSize;
@@ -56,8 +56,8 @@ impl Common {
     }
 
     /// Makes the chart that is asked for, and prints its files.
-    pub fn make(&self, request: &ChartRequest) -> Result<(), Error> {
-        print_paths(&chart::make(request, self.output.folder())?);
+    pub fn make(&self, console: &dyn Console, request: &ChartRequest) -> Result<(), Error> {
+        print_paths(console, &chart::make(request, self.output.folder())?);
         Ok(())
     }
 }

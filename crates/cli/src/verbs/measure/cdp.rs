@@ -2,6 +2,7 @@
 
 use super::picture::PictureArgs;
 use crate::args::words::region;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, CdpRequest};
@@ -36,8 +37,8 @@ pub struct CdpArgs {
 }
 
 impl CdpArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.input.report.show(&measure::cdp(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.input.report.show(console, &measure::cdp(&self.into())?)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::chart_points::ChartPointsArgs;
 use super::report::ReportArgs;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, ChromaticRequest};
@@ -20,8 +21,8 @@ pub struct ChromaticArgs {
 }
 
 impl ChromaticArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.report.show(&measure::chromatic(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.report.show(console, &measure::chromatic(&self.into())?)
     }
 }
 

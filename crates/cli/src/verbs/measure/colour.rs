@@ -2,6 +2,7 @@
 
 use super::picture::PictureArgs;
 use crate::args::words::corner;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, ColourRequest};
@@ -25,8 +26,8 @@ pub struct ColourArgs {
 }
 
 impl ColourArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.input.report.show(&measure::colour(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.input.report.show(console, &measure::colour(&self.into())?)
     }
 }
 

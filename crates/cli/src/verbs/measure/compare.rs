@@ -2,6 +2,7 @@
 
 use super::report::ReportArgs;
 use crate::args::words::positive;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, CompareRequest};
@@ -30,9 +31,9 @@ pub struct CompareArgs {
 }
 
 impl CompareArgs {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let found = measure::compare(&self.into())?;
-        self.report.show(&found.report)?;
+        self.report.show(console, &found.report)?;
         let [one, other] = &found.names;
         match found.differing.is_empty() {
             true => Ok(()),

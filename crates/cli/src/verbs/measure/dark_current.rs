@@ -3,7 +3,7 @@
 use super::report::ReportArgs;
 use super::selection::SelectionArgs;
 use crate::args::words::series;
-use crate::progress::Terminal;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, DarkCurrentRequest};
@@ -25,8 +25,8 @@ pub struct DarkCurrentArgs {
 }
 
 impl DarkCurrentArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.report.show(&measure::dark_current(&self.into(), &Terminal::default())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.report.show(console, &measure::dark_current(&self.into(), console.observer())?)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::report::ReportArgs;
 use crate::args::choice::{Word, choice};
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, DepthAlignment, DepthRequest};
@@ -59,8 +60,8 @@ pub struct DepthArgs {
 }
 
 impl DepthArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.report.show(&measure::depth_errors(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.report.show(console, &measure::depth_errors(&self.into())?)
     }
 }
 

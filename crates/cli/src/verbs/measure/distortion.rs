@@ -3,6 +3,7 @@
 use super::chart_points::ChartPointsArgs;
 use super::report::{CameraOut, ReportArgs};
 use crate::args::words::place;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, DistortionRequest};
@@ -26,10 +27,10 @@ pub struct DistortionArgs {
 }
 
 impl DistortionArgs {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let report = measure::distortion(&self.into())?;
         self.out.write(&report)?;
-        self.report.show(&report)
+        self.report.show(console, &report)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::picture::PictureArgs;
 use crate::args::words::region;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, FlareRequest};
@@ -24,8 +25,8 @@ pub struct FlareArgs {
 }
 
 impl FlareArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.input.report.show(&measure::flare(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.input.report.show(console, &measure::flare(&self.into())?)
     }
 }
 

@@ -1,6 +1,7 @@
 //! `etendue measure flicker`.
 
 use super::picture::PictureArgs;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, FlickerRequest};
@@ -26,8 +27,8 @@ pub struct FlickerArgs {
 }
 
 impl FlickerArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.input.report.show(&measure::flicker(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.input.report.show(console, &measure::flicker(&self.into())?)
     }
 }
 

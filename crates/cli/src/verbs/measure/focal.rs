@@ -2,7 +2,7 @@
 
 use super::report::{CameraOut, ReportArgs};
 use super::views::ViewsArgs;
-use crate::progress::Terminal;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, FocalRequest};
@@ -24,10 +24,10 @@ pub struct FocalArgs {
 }
 
 impl FocalArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        let report = measure::focal(&self.into(), &Terminal::default())?;
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        let report = measure::focal(&self.into(), console.observer())?;
         self.out.write(&report)?;
-        self.report.show(&report)
+        self.report.show(console, &report)
     }
 }
 

@@ -1,7 +1,7 @@
 //! `etendue measure lens`.
 
 use crate::args::run::whole;
-use crate::output::print;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, LensRequest};
@@ -32,9 +32,9 @@ pub struct LensArgs {
 }
 
 impl LensArgs {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let found = measure::lens(&self.into())?;
-        print(&if self.json { format!("{:#}\n", found.json()) } else { found.text() });
+        console.print(&if self.json { format!("{:#}\n", found.json()) } else { found.text() });
         Ok(())
     }
 }

@@ -25,6 +25,7 @@ mod texture;
 mod truth;
 pub mod views;
 
+use crate::console::Console;
 use crate::machine;
 use crate::subcommands::subcommands;
 use etendue::Error;
@@ -37,8 +38,8 @@ pub struct Measure {
 }
 
 impl Measure {
-    pub fn run(&self) -> Result<(), Error> {
-        machine::pool(None)?.install(|| self.measurement.run())
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        machine::pool(None)?.install(|| self.measurement.run(console))
     }
 }
 

@@ -1,6 +1,7 @@
 //! `etendue measure noise`.
 
 use super::picture::PictureArgs;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, NoiseRequest};
@@ -17,8 +18,8 @@ pub struct NoiseArgs {
 }
 
 impl NoiseArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.input.report.show(&measure::noise(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.input.report.show(console, &measure::noise(&self.into())?)
     }
 }
 

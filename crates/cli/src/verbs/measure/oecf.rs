@@ -1,6 +1,7 @@
 //! `etendue measure oecf`.
 
 use super::picture::PictureArgs;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, OecfRequest};
@@ -29,8 +30,8 @@ pub struct OecfArgs {
 }
 
 impl OecfArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.input.report.show(&measure::oecf(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.input.report.show(console, &measure::oecf(&self.into())?)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::report::{CameraOut, ReportArgs};
 use super::selection::SelectionArgs;
-use crate::progress::Terminal;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, PtcRequest};
@@ -27,10 +27,10 @@ pub struct PtcArgs {
 }
 
 impl PtcArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        let report = measure::ptc(&self.into(), &Terminal::default())?;
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        let report = measure::ptc(&self.into(), console.observer())?;
         self.out.write(&report)?;
-        self.report.show(&report)
+        self.report.show(console, &report)
     }
 }
 

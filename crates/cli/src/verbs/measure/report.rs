@@ -1,7 +1,7 @@
 //! How a report is printed, and what is written of it.
 
 use crate::args::file_name::{svg, toml};
-use crate::output::print;
+use crate::console::Console;
 use clap::Args;
 use etendue::report::Report;
 use etendue::{Error, Existing, write_file};
@@ -20,11 +20,11 @@ pub struct ReportArgs {
 
 impl ReportArgs {
     /// Prints a report and draws its plots.
-    pub fn show(&self, report: &Report) -> Result<(), Error> {
+    pub fn show(&self, console: &dyn Console, report: &Report) -> Result<(), Error> {
         if let Some(file) = &self.plot {
             write_file(file, report.svg()?.as_bytes(), Existing::Replace)?;
         }
-        print(&if self.json { format!("{:#}\n", report.json()) } else { report.to_string() });
+        console.print(&if self.json { format!("{:#}\n", report.json()) } else { report.to_string() });
         Ok(())
     }
 }

@@ -2,6 +2,7 @@
 
 use super::picture::PictureArgs;
 use crate::args::words::region;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, SfrRequest};
@@ -36,8 +37,8 @@ pub struct SfrArgs {
 }
 
 impl SfrArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.input.report.show(&measure::sfr(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.input.report.show(console, &measure::sfr(&self.into())?)
     }
 }
 

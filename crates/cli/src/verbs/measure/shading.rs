@@ -3,6 +3,7 @@
 use super::picture::PictureArgs;
 use super::report::CameraOut;
 use crate::args::words::point;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, FlatFieldRequest, ShadingRequest, VignettingRequest};
@@ -43,10 +44,10 @@ pub struct VignettingArgs {
 }
 
 impl VignettingArgs {
-    pub fn run(&self) -> Result<(), Error> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let report = measure::vignetting(&self.into())?;
         self.out.write(&report)?;
-        self.flat.input.report.show(&report)
+        self.flat.input.report.show(console, &report)
     }
 }
 
@@ -67,8 +68,8 @@ pub struct ShadingArgs {
 }
 
 impl ShadingArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.flat.input.report.show(&measure::shading(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.flat.input.report.show(console, &measure::shading(&self.into())?)
     }
 }
 

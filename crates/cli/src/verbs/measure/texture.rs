@@ -2,6 +2,7 @@
 
 use super::picture::PictureArgs;
 use crate::args::words::point;
+use crate::console::Console;
 use clap::Args;
 use etendue::Error;
 use etendue::measure::{self, StarRequest, TextureRequest};
@@ -30,8 +31,8 @@ pub struct StarArgs {
 }
 
 impl StarArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.input.report.show(&measure::star(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.input.report.show(console, &measure::star(&self.into())?)
     }
 }
 
@@ -65,8 +66,8 @@ pub struct TextureArgs {
 }
 
 impl TextureArgs {
-    pub fn run(&self) -> Result<(), Error> {
-        self.input.report.show(&measure::texture(&self.into())?)
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.input.report.show(console, &measure::texture(&self.into())?)
     }
 }
 

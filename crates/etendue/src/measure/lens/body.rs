@@ -3,6 +3,7 @@
 use super::request::LensRequest;
 use crate::camera_file::read_text;
 use crate::error::Error;
+use crate::fault::Fault;
 use etendue_core::maths::f64::sin_cos;
 use etendue_io::load_assets;
 use etendue_io::prescription::read_prescription;
@@ -63,8 +64,8 @@ const MADE: &str = "measure.toml";
 
 /// Faults of a camera that nobody wrote: told of the lens, not of a line of text.
 fn without_place(failure: Error, lens: &str) -> Error {
-    let told = |fault: String| match fault.strip_prefix(MADE).and_then(|rest| rest.splitn(4, ':').last()) {
-        Some(words) => format!("{lens}:{words}"),
+    let told = |fault: Fault| match fault.message.strip_prefix(MADE).and_then(|rest| rest.splitn(4, ':').last()) {
+        Some(words) => Fault { file: Some(lens.into()), ..Fault::new(format!("{lens}:{words}")) },
         None => fault,
     };
     match failure {

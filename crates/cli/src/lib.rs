@@ -1,0 +1,103 @@
+//! The command line of Étendue as a library: the program `etendue` is [`main`]; [`call`] runs a verb for another program, which takes its answer.
+//! What verbs do is the library `etendue`.
+
+// Of the modules nothing is exported but what stands here: `pub` in them means `for the other modules`.
+#![allow(unreachable_pub)]
+
+mod args;
+mod catalogue;
+mod console;
+mod display;
+mod machine;
+mod output;
+mod panics;
+mod progress;
+mod subcommands;
+mod verbs;
+
+pub use catalogue::{Argument, Kind, Subcommand, catalogue};
+use clap::Parser;
+pub use console::Console;
+use etendue::Error;
+use etendue_scene::limits;
+pub use machine::{pool, simd};
+pub use panics::quieten_decoders;
+use progress::Terminal;
+use std::ffi::OsString;
+use verbs::Verb;
+
+/// Spectral path tracing joined to a physical camera: from a scene file to the picture that camera would have taken.
+#[derive(Debug, Parser)]
+#[command(name = "etendue", version, max_term_width = 110)]
+#[command(after_help = "Exit status: 0 done, 1 a comparison or run failed, 2 unusable input or arguments.\n\
+    Results go to stdout, everything else to stderr. Start with: etendue render scenes/street/street.toml -o out/street")]
+struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    verb: Verb,
+    /// Move a limit on what files may cost, e.g. picture-mib=4096; docs/limits.md lists them
+    #[arg(long = "limit", value_name = "NAME=N", global = true)]
+    limits: Vec<String>,
+}
+
+impl Arguments {
+    fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        for limit in &self.limits {
+            limits::set(limit).map_err(|told| Error::input(format!("--limit {limit}: {told}")))?;
+        }
+        self.verb.run(console)
+    }
+}
+
+/// The program: `arguments` begin with its name. Answers with its exit status: 0 done, 1 a comparison or run failed, 2 unusable input or arguments.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    panics::quieten_decoders();
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(told) => {
+            // There is nowhere left to report a failing stderr to.
+            let _ = told.print();
+            return u8::try_from(told.exit_code()).unwrap_or(2);
+        }
+    };
+    match panics::caught(|| arguments.run(&Terminal::default())) {
+        Ok(()) => 0,
+        Err(error) => {
+            output::print_message(&error.to_string());
+            status(&error)
+        }
+    }
+}
+
+/// Runs a verb: `arguments` are those after the program's name. Its answer is printed on the console.
+///
+/// # Errors
+/// Where the arguments cannot be used, and what the verb answers.
+pub fn call(arguments: &[OsString], console: &dyn Console) -> Result<(), Error> {
+    let program = OsString::from("etendue");
+    let arguments = Arguments::try_parse_from(std::iter::once(&program).chain(arguments)).map_err(|told| {
+        let told = told.to_string();
+        let words = told.split("\n\nUsage:").next().unwrap_or_default().trim_start_matches("error: ").trim_end();
+        Error::input(words.lines().map(str::trim).collect::<Vec<_>>().join(" "))
+    })?;
+    arguments.run(console)
+}
+
+/// 2 for unusable input or arguments, 1 where a comparison or run failed.
+fn status(error: &Error) -> u8 {
+    match error {
+        Error::Input(_) => 2,
+        Error::Run(_) => 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        Arguments::command().debug_assert();
+    }
+}

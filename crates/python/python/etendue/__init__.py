@@ -1,0 +1,35 @@
+"""Étendue: spectral path tracing joined to a physically based camera.
+
+>>> import etendue
+>>> job = etendue.Job.open("scenes/street/street.toml", set={"render.spp": 16})
+>>> front = job.render()["front"]
+>>> front.picture.shape, front.depth.shape
+
+Arrays have rows from the top and pixels from the left; they are read-only and share the memory of the results: ``.copy()`` gives one to change.
+"""
+
+from . import chart, measure
+from ._dataset import dataset
+from ._errors import Error, Fault, InputError, RunError
+from ._etendue import Camera, Frame, Job, Results, __version__
+from ._report import Estimate, Report
+from .verbs import *
+from .verbs import __all__ as _verb_names
+
+__all__ = [
+    "Camera",
+    "Error",
+    "Estimate",
+    "Fault",
+    "Frame",
+    "InputError",
+    "Job",
+    "Report",
+    "Results",
+    "RunError",
+    "__version__",
+    "chart",
+    "dataset",
+    "measure",
+    *_verb_names,
+]

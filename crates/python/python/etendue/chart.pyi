@@ -1,0 +1,628 @@
+"""Test charts as scenes ready to render, with their truth: the charts of ``etendue chart``.
+
+Written by `ETENDUE_BLESS=1` of `tests/test_stubs.py`.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+_Path = str | PathLike[str]
+_Progress = Callable[[str, int, int], object]
+
+def dots(
+    *,
+    columns: int | None = None,
+    rows: int | None = None,
+    pitch_mm: float | None = None,
+    dot_ratio: float | None = None,
+    views: int | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Black dots over all of the field: focal length, distortion, chromatic displacement (ISO 17850, ISO 19084).
+
+    columns: Columns [default: as many as the field takes].
+    rows: Rows [default: as many as the field takes].
+    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    dot_ratio: Diameter of a dot over the distance between centres. Default: 0.5.
+    views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def checkerboard(
+    *,
+    columns: int | None = None,
+    rows: int | None = None,
+    pitch_mm: float | None = None,
+    views: int | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """A checkerboard, all of it in view: calibration.
+
+    columns: Columns [default: as many as the field takes].
+    rows: Rows [default: as many as the field takes].
+    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def circles(
+    *,
+    columns: int | None = None,
+    rows: int | None = None,
+    pitch_mm: float | None = None,
+    asymmetric: bool = False,
+    views: int | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Circles in a square or a staggered lattice, all in view: calibration.
+
+    columns: Columns [default: as many as the field takes].
+    rows: Rows [default: as many as the field takes].
+    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    asymmetric: A staggered lattice: every other cell of each row holds a circle.
+    views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def flat_field(
+    *,
+    reflectance: float | None = None,
+    exposures: int | None = None,
+    spacing: Literal["log", "linear"] | None = None,
+    lowest: float | None = None,
+    highest: float | None = None,
+    levels: Sequence[float] | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """An even white sheet in even light: vignetting, shading, photon transfer (ISO 17957, EMVA 1288).
+
+    reflectance: Reflectance of the sheet. Default: 0.9.
+    exposures: How many exposures, one camera each.
+    spacing: How they are spaced from --lowest to --highest [default: log]. One of log, linear.
+    lowest: Share of saturation that white reaches in the shortest [default: 0.003].
+    highest: The same in the longest [default: 1.3].
+    levels: The shares themselves, e.g. 0.01,0.1,0.5,1.2. One, or a sequence of them.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def backlit(
+    *,
+    exposures: int | None = None,
+    spacing: Literal["log", "linear"] | None = None,
+    lowest: float | None = None,
+    highest: float | None = None,
+    levels: Sequence[float] | None = None,
+    dark: bool = False,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """A panel that shines by itself in the dark, with a series of exposures: tone curve, photon transfer.
+
+    exposures: How many exposures, one camera each.
+    spacing: How they are spaced from --lowest to --highest [default: log]. One of log, linear.
+    lowest: Share of saturation that white reaches in the shortest [default: 0.003].
+    highest: The same in the longest [default: 1.3].
+    levels: The shares themselves, e.g. 0.01,0.1,0.5,1.2. One, or a sequence of them.
+    dark: A dark frame for each exposure.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def slanted_edges(
+    *,
+    columns: int | None = None,
+    rows: int | None = None,
+    pitch_mm: float | None = None,
+    angle_deg: float | None = None,
+    contrast: float | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Squares turned by a small angle over the field: spatial frequency response by place and direction (ISO 12233).
+
+    columns: Columns [default: as many as the field takes].
+    rows: Rows [default: as many as the field takes].
+    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    angle_deg: By how much it is turned clockwise, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45. Default: 5.
+    contrast: Luminance of light over dark. Default: 4.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def slanted_star(
+    *,
+    columns: int | None = None,
+    rows: int | None = None,
+    pitch_mm: float | None = None,
+    spokes: int | None = None,
+    angle_deg: float | None = None,
+    contrast: float | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Stars of slanted wedges: spatial frequency response in many directions (ISO 12233).
+
+    columns: Columns [default: as many as the field takes].
+    rows: Rows [default: as many as the field takes].
+    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    spokes: Dark wedges of a star. Default: 8.
+    angle_deg: By how much it is turned clockwise, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45. Default: 5.
+    contrast: Luminance of light over dark. Default: 4.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def siemens_star(
+    *,
+    cycles: int | None = None,
+    binary: bool = False,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """A star of many cycles: modulation over spatial frequency (ISO 12233).
+
+    cycles: Cycles around the centre. Default: 72.
+    binary: In black and white instead of a cosine.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def dead_leaves(
+    *,
+    smallest_px: float | None = None,
+    largest_ratio: float | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Discs upon discs, with the statistics of natural scenes: loss of texture (ISO 19567-2).
+
+    smallest_px: Radius of the smallest leaves, px. Default: 1.
+    largest_ratio: Radius of the largest leaves over the side of the chart. Default: 0.2.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def oecf_steps(
+    *,
+    steps: int | None = None,
+    density: float | None = None,
+    backlit: bool = False,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Grey steps around a ring: opto-electronic conversion function (ISO 14524).
+
+    steps: How many steps. Default: 12.
+    density: Density of the darkest step [default: 2, with --backlit 3].
+    backlit: A transparency on a light box in the dark instead of a print in even light.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def colorchecker(
+    *,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """The 24 patches of the ColorChecker by their measured spectra: colour error.
+
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def contrast_patches(
+    *,
+    columns: int | None = None,
+    rows: int | None = None,
+    pitch_mm: float | None = None,
+    decades: float | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Shining grey patches over several decades: contrast detection probability.
+
+    columns: Columns [default: as many as the field takes].
+    rows: Rows [default: as many as the field takes].
+    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    decades: Decades of luminance from the brightest patch to the darkest. Default: 3.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def flare(
+    *,
+    columns: int | None = None,
+    rows: int | None = None,
+    pitch_mm: float | None = None,
+    trap_ratio: float | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """A white field with light traps: veiling glare (ISO 18844).
+
+    columns: Columns [default: as many as the field takes].
+    rows: Rows [default: as many as the field takes].
+    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    trap_ratio: Diameter of a trap's opening over the distance between traps. Default: 0.25.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def led_flicker(
+    *,
+    frequencies_hz: Sequence[float] | None = None,
+    duty_cycles: Sequence[float] | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Lamps in pulses of several frequencies and duties, in the dark: LED flicker (IEEE P2020).
+
+    frequencies_hz: Frequencies of the columns, Hz. One, or a sequence of them. Default: 90,110,200,400.
+    duty_cycles: Duties of the rows: shares of the period that a pulse lasts. One, or a sequence of them. Default: 0.1,0.25,0.5.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def points(
+    *,
+    columns: int | None = None,
+    rows: int | None = None,
+    pitch_mm: float | None = None,
+    diameter_px: float | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Small lamps in the dark: point-spread function, chromatic displacement.
+
+    columns: Columns [default: as many as the field takes].
+    rows: Rows [default: as many as the field takes].
+    pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
+    diameter_px: Diameter of a lamp, px of the picture's middle. Default: 0.5.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def depth_wedge(
+    *,
+    steps: int | None = None,
+    far_ratio: float | None = None,
+    camera: str | None = None,
+    distance_m: float | None = None,
+    width_mm: float | None = None,
+    illuminant: str | None = None,
+    luminance_cd_m2: float | None = None,
+    white: float | None = None,
+    seed: int | None = None,
+    png: float | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """A staircase and a slanted plane with texture at known distances: depth.
+
+    steps: Steps of the staircase. Default: 8.
+    far_ratio: Distance of the farthest panel over that of the nearest. Default: 3.
+    camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
+    width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
+    illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
+    luminance_cd_m2: Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for].
+    white: The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure. Default: 0.7.
+    seed: The seed of all random numbers. Default: 0.
+    png: Write the print as chart.png too, at this many pixels an inch.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """

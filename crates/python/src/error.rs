@@ -1,0 +1,40 @@
+//! Errors as exceptions: `etendue.InputError` for unusable input, `etendue.RunError` for a run that did not succeed.
+
+use etendue::{Error, Fault};
+use pyo3::prelude::*;
+use pyo3::types::PyAny;
+
+/// The exception of an error.
+pub(crate) fn exception(py: Python<'_>, error: Error) -> PyErr {
+    let made = match error {
+        Error::Input(faults) => made(py, "InputError", |class| class.call1((told(faults),))),
+        Error::Run(reason) => {
+            made(py, "RunError", |class| class.call1((reason.trim_start_matches("error: ").trim_end(),)))
+        }
+    };
+    made.map_or_else(|failure| failure, PyErr::from_value)
+}
+
+fn made<'py>(
+    py: Python<'py>,
+    class: &str,
+    make: impl FnOnce(Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    make(py.import("etendue._errors")?.getattr(class)?)
+}
+
+type Told = (String, Option<String>, Option<u32>, Option<u32>, Option<String>);
+
+/// What `_errors.Fault` is made of.
+fn told(faults: Vec<Fault>) -> Vec<Told> {
+    let one = |fault: Fault| {
+        let file = fault.file.map(|file| file.to_string_lossy().into_owned());
+        (fault.message, file, fault.line, fault.column, fault.key)
+    };
+    faults.into_iter().map(one).collect()
+}
+
+/// Unusable input that only Python could give.
+pub(crate) fn refused(py: Python<'_>, why: impl Into<String>) -> PyErr {
+    exception(py, Error::input(why.into()))
+}

@@ -1,0 +1,44 @@
+//! What a camera's results are made of when they are asked for first, and held from then on: all arrays of one thing share it.
+
+use crate::samples::Cube;
+use crate::watch::run;
+use etendue::Error;
+use etendue_core::KeptCube;
+use etendue_core::quantity::Quantity;
+use pyo3::prelude::*;
+use std::sync::{Arc, OnceLock};
+
+/// Something that is made at most once.
+pub(crate) struct Held<T>(OnceLock<Arc<T>>);
+
+impl<T> Default for Held<T> {
+    fn default() -> Self {
+        Self(OnceLock::new())
+    }
+}
+
+impl<T: Send + Sync> Held<T> {
+    /// It, made by `make` where it is not there yet, on a pool of `threads`. Two callers at once may both make it; one's is held.
+    pub(crate) fn get(
+        &self,
+        py: Python<'_>,
+        threads: Option<u32>,
+        make: impl FnOnce() -> Result<T, Error> + Send,
+    ) -> PyResult<Arc<T>> {
+        if let Some(held) = self.0.get() {
+            return Ok(Arc::clone(held));
+        }
+        let made = Arc::new(run(py, threads, None, |_| make())?);
+        Ok(Arc::clone(self.0.get_or_init(|| made)))
+    }
+}
+
+/// The bands of a cube in one piece, wherever they are kept.
+pub(crate) fn whole<Q: Quantity<Sample = f32>>(cube: &KeptCube<Q>) -> Result<Cube, Error> {
+    let shape = [cube.bands().count(), cube.height(), cube.width()];
+    let mut samples = Vec::with_capacity(shape.iter().product());
+    for band in 0..shape[0] {
+        samples.extend_from_slice(cube.plane(band).map_err(Error::run)?.samples());
+    }
+    Ok(Cube { shape, samples })
+}

@@ -1,0 +1,236 @@
+//! Jobs.
+
+use crate::error::{exception, refused};
+use crate::results::{Results, existing};
+use crate::watch::run;
+use crate::{meshes, toml};
+use etendue::{
+    Existing, FilmMemory, Integrator, JobRequest, Message, Observer as _, Quality, RenderOptions, ShardSpec,
+    TextureMemory,
+};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// A job that was read, checked and compiled.
+#[pyclass(frozen, module = "etendue")]
+pub(crate) struct Job {
+    job: etendue::Job,
+}
+
+/// The file that a job made in Python is read as.
+const MADE: &str = "job.toml";
+
+#[pymethods]
+impl Job {
+    /// Opens a job.
+    ///
+    /// description: the path of a job file (TOML), or its keys as a dict.
+    /// set: changes of keys, as --set: a dict of dotted keys to values (None takes a key out), or texts key=value.
+    /// spp, noise, time_s (s), progressive, seed, integrator, quality, camera: as the options of `etendue render`.
+    /// files: files that the job names, made here: names to dicts or texts (TOML).
+    /// meshes: meshes that the job names: names to dicts of positions (n, 3), triangles (m, 3), and where they are wanted normals (n, 3) and uvs (n, 2),
+    /// in the unit and axes that the job states for the mesh.
+    /// folder: the folder of a job that is a dict, which its paths are relative to. Default: the working folder.
+    /// sandbox: folders beside the job's own that its files may lie in. None: they may lie anywhere.
+    /// texture_memory_mb, cache, film_memory_mb, scratch: memory of textures and films, and where larger ones are kept. No bit depends on them.
+    ///
+    /// Raises InputError with every fault of all files.
+    #[staticmethod]
+    #[pyo3(signature = (
+        description, *, set = None, spp = None, noise = None, time_s = None, progressive = false, seed = None, integrator = None, quality = None,
+        camera = None, files = None, meshes = None, folder = None, sandbox = None, texture_memory_mb = 512, cache = None, film_memory_mb = 2048,
+        scratch = None,
+    ))]
+    #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn open(
+        py: Python<'_>,
+        description: &Bound<'_, PyAny>,
+        set: Option<&Bound<'_, PyAny>>,
+        spp: Option<u64>,
+        noise: Option<f64>,
+        time_s: Option<f64>,
+        progressive: bool,
+        seed: Option<u64>,
+        integrator: Option<&str>,
+        quality: Option<&str>,
+        camera: Option<String>,
+        files: Option<&Bound<'_, PyDict>>,
+        meshes: Option<&Bound<'_, PyDict>>,
+        folder: Option<PathBuf>,
+        sandbox: Option<Vec<PathBuf>>,
+        texture_memory_mb: u32,
+        cache: Option<PathBuf>,
+        film_memory_mb: u32,
+        scratch: Option<PathBuf>,
+    ) -> PyResult<Self> {
+        let (path, text) = source(description, folder)?;
+        let integrators = [Integrator::Flat, Integrator::Direct, Integrator::Path].map(|one| (one.name(), one));
+        let qualities = [("draft", Quality::Draft), ("standard", Quality::Standard), ("reference", Quality::Reference)];
+        let request = JobRequest {
+            set: toml::changes(set)?,
+            spp,
+            noise,
+            time_s,
+            progressive,
+            seed,
+            integrator: integrator.map(|word| of_word(word, "integrator", &integrators)).transpose()?,
+            quality: quality.map(|word| of_word(word, "quality", &qualities)).transpose()?,
+            camera,
+            sandbox,
+            textures: TextureMemory { limit_bytes: u64::from(texture_memory_mb) * 1_000_000, cache },
+            films: FilmMemory { limit_bytes: u64::from(film_memory_mb) * 1_000_000, scratch },
+            ..JobRequest::new(&path)
+        };
+        let mut files = meshes::files(path.parent().unwrap_or(Path::new("")), files, meshes)?;
+        if let Some(text) = text {
+            files.add_text(&path, text);
+        }
+        let job = run(py, None, None, |watch| {
+            let job = request.open_in(&files)?;
+            job.notices().iter().for_each(|notice| watch.message(Message::Note(notice)));
+            Ok(job)
+        })?;
+        Ok(Self { job })
+    }
+
+    /// What will be modelled, what is left out and why, and what it will cost: as `etendue plan --json`.
+    fn plan<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let text = py.detach(|| serde_json::to_string(&self.job.report()));
+        let text = text.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        py.import("json")?.call_method1("loads", (text,))
+    }
+
+    /// The same in words, as `etendue plan`.
+    fn summary(&self, py: Python<'_>) -> String {
+        py.detach(|| self.job.summary())
+    }
+
+    /// Names of all files of a whole run, relative to its folder.
+    #[pyo3(signature = (frames = None))]
+    fn file_names(&self, frames: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
+        Ok(self.job.file_names(&range(frames)?))
+    }
+
+    /// Renders all cameras and keeps their light in memory.
+    ///
+    /// frames: a frame's number, or a range of consecutive ones. Default: frame 0.
+    /// threads: worker threads. Default: one a processor. No bit depends on it.
+    /// progress: called in this thread with what is worked on, how many tiles are done, and of how many, when one is; what it raises cancels the run, as
+    /// Ctrl-C does.
+    ///
+    /// Warnings go to `warnings`, notes to the logger "etendue". Other threads of Python run meanwhile.
+    #[pyo3(signature = (*, frames = None, threads = None, progress = None))]
+    fn render(
+        &self,
+        py: Python<'_>,
+        frames: Option<&Bound<'_, PyAny>>,
+        threads: Option<u32>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Results> {
+        let options = options(py, frames)?;
+        let threads = counted(py, threads)?;
+        let results = run(py, threads, progress.as_ref(), |watch| self.job.render(&options, watch))?;
+        Results::new(py, results, threads)
+    }
+
+    /// Renders camera after camera into a folder, holding one at a time: the files of `etendue render`, byte for byte. Answers with their paths.
+    ///
+    /// overwrite: replaces what an earlier run left. resume: goes on where a run of the same plan was interrupted.
+    /// shard: (i, n) renders the tiles whose number is i modulo n; `etendue.merge` joins the folders of all.
+    #[pyo3(signature = (folder, *, frames = None, overwrite = false, resume = false, shard = None, threads = None, progress = None))]
+    #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn save(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        frames: Option<&Bound<'_, PyAny>>,
+        overwrite: bool,
+        resume: bool,
+        shard: Option<(u32, u32)>,
+        threads: Option<u32>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Vec<PathBuf>> {
+        let existing = match (overwrite, resume) {
+            (true, true) => {
+                return Err(PyValueError::new_err("overwrite and resume exclude one another; give one of them"));
+            }
+            (false, true) => Existing::Resume,
+            (overwrite, false) => existing(overwrite),
+        };
+        if resume && shard.is_some() {
+            return Err(PyValueError::new_err("a shard does not resume; render it again with overwrite=True"));
+        }
+        let options = options(py, frames)?;
+        let (threads, target) = (counted(py, threads)?, (folder.as_path(), existing));
+        run(py, threads, progress.as_ref(), |watch| match shard {
+            None => self.job.save(&options, target, watch),
+            Some((index, count)) => {
+                let spec = ShardSpec { index, count };
+                self.job.save_shard(spec, options.frames.clone(), options.simd, target, watch)
+            }
+        })
+    }
+
+    fn __repr__(&self) -> String {
+        let cameras = self.job.plan().cameras.iter().map(|camera| camera.name.as_str()).collect::<Vec<_>>();
+        format!("<etendue.Job {}: {}>", self.job.request().job.display(), cameras.join(", "))
+    }
+}
+
+/// The path of a job, and its text where it is made in Python.
+fn source(description: &Bound<'_, PyAny>, folder: Option<PathBuf>) -> PyResult<(PathBuf, Option<String>)> {
+    if let Ok(keys) = description.cast::<PyDict>() {
+        return Ok((folder.unwrap_or_default().join(MADE), Some(toml::file(keys)?)));
+    }
+    if folder.is_some() {
+        return Err(PyValueError::new_err("folder: has no effect on a job file, which has its own; leave it out"));
+    }
+    let is_path = description.is_instance_of::<PyString>() || description.hasattr("__fspath__")?;
+    match is_path {
+        true => Ok((description.extract()?, None)),
+        false => Err(PyTypeError::new_err(format!(
+            "description: expected the path of a job file or a dict, not {}",
+            description.get_type().name()?
+        ))),
+    }
+}
+
+fn options(py: Python<'_>, frames: Option<&Bound<'_, PyAny>>) -> PyResult<RenderOptions> {
+    let simd = etendue_cli::simd().map_err(|error| exception(py, error))?;
+    Ok(RenderOptions { frames: range(frames)?, simd })
+}
+
+/// A number of threads that is one.
+fn counted(py: Python<'_>, threads: Option<u32>) -> PyResult<Option<u32>> {
+    match threads {
+        Some(threads) if !(1..=1024).contains(&threads) => {
+            Err(refused(py, format!("threads: expected a whole number from 1 to 1024, not {threads}")))
+        }
+        threads => Ok(threads),
+    }
+}
+
+/// A frame, or a range of consecutive ones; frame 0 where none is named.
+fn range(frames: Option<&Bound<'_, PyAny>>) -> PyResult<Range<u32>> {
+    let told = || {
+        PyTypeError::new_err("frames: expected a frame's number, or a range of consecutive frames that is not empty")
+    };
+    let Some(frames) = frames else { return Ok(0..1) };
+    if let Ok(frame) = frames.extract::<u32>() {
+        return Ok(frame..frame.checked_add(1).ok_or_else(told)?);
+    }
+    let part = |name: &str| frames.getattr(name).and_then(|part| part.extract::<u32>());
+    match (part("start"), part("stop"), part("step")) {
+        (Ok(start), Ok(stop), Ok(1)) if start < stop => Ok(start..stop),
+        _ => Err(told()),
+    }
+}
+
+fn of_word<T: Copy>(word: &str, what: &str, words: &[(&str, T)]) -> PyResult<T> {
+    let found = words.iter().find(|(name, _)| *name == word).map(|(_, value)| *value);
+    let known: Vec<&str> = words.iter().map(|(name, _)| *name).collect();
+    found.ok_or_else(|| PyValueError::new_err(format!("{what}={word:?}: expected one of {}", known.join(", "))))
+}

@@ -1,0 +1,98 @@
+//! Files that are made in Python: texts, and meshes from arrays.
+
+use crate::error::exception;
+use crate::toml;
+use etendue::{MemoryFiles, Triangles};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString};
+use std::path::Path;
+
+/// The arrays of a mesh, by their names in Python.
+const ARRAYS: [&str; 4] = ["positions", "triangles", "normals", "uvs"];
+
+/// Files by the names that the job gives them, which are relative to its folder.
+pub(crate) fn files(
+    folder: &Path,
+    texts: Option<&Bound<'_, PyDict>>,
+    meshes: Option<&Bound<'_, PyDict>>,
+) -> PyResult<MemoryFiles> {
+    let mut files = MemoryFiles::new();
+    for (name, text) in texts.into_iter().flat_map(|texts| texts.iter()) {
+        let name: String = name.extract()?;
+        let text = match text.cast::<PyDict>() {
+            Ok(keys) => toml::file(keys)?,
+            Err(_) if text.is_instance_of::<PyString>() => text.extract()?,
+            Err(_) => return Err(PyTypeError::new_err(format!("files[{name:?}]: expected a dict or a text (TOML)"))),
+        };
+        files.add_text(folder.join(name), text);
+    }
+    for (name, mesh) in meshes.into_iter().flat_map(|meshes| meshes.iter()) {
+        let name: String = name.extract()?;
+        add_mesh(&mut files, folder, &name, &mesh)?;
+    }
+    Ok(files)
+}
+
+fn add_mesh(files: &mut MemoryFiles, folder: &Path, name: &str, mesh: &Bound<'_, PyAny>) -> PyResult<()> {
+    let given = mesh.cast::<PyDict>().map_err(|_| {
+        PyTypeError::new_err(format!("meshes[{name:?}]: expected a dict of arrays: {}", ARRAYS.join(", ")))
+    })?;
+    if let Some(strange) = given.keys().iter().map(|key| key.to_string()).find(|key| !ARRAYS.contains(&key.as_str())) {
+        return Err(PyValueError::new_err(format!(
+            "meshes[{name:?}]: there is no array {strange:?}; there are {}",
+            ARRAYS.join(", ")
+        )));
+    }
+    let array = |key: &str| match given.get_item(key)? {
+        Some(array) if !array.is_none() => Ok(Some((array, format!("meshes[{name:?}][{key:?}]")))),
+        _ => Ok::<_, PyErr>(None),
+    };
+    let needed = |key: &str| {
+        array(key)?.ok_or_else(|| PyValueError::new_err(format!("meshes[{name:?}]: the array {key:?} is missing")))
+    };
+    let positions = floats::<3>(needed("positions")?)?;
+    let triangles = indices(needed("triangles")?)?;
+    let normals = array("normals")?.map(floats::<3>).transpose()?.unwrap_or_default();
+    let uvs = array("uvs")?.map(floats::<2>).transpose()?.unwrap_or_default();
+    let mesh = Triangles { positions: &positions, triangles: &triangles, normals: &normals, uvs: &uvs };
+    files.add_mesh(folder.join(name), &mesh).map_err(|error| exception(given.py(), error))
+}
+
+/// Rows of `N` numbers.
+fn floats<const N: usize>((array, told): (Bound<'_, PyAny>, String)) -> PyResult<Vec<[f32; N]>> {
+    let array = rows(&array, N, "fiu", "numbers", &told)?;
+    let bytes = bytes(&array, "float32")?;
+    Ok(bytes.as_chunks::<4>().0.iter().map(|b| f32::from_ne_bytes(*b)).collect::<Vec<_>>().as_chunks().0.to_vec())
+}
+
+/// Rows of three indices.
+fn indices((array, told): (Bound<'_, PyAny>, String)) -> PyResult<Vec<[u32; 3]>> {
+    let array = rows(&array, 3, "iu", "whole numbers", &told)?;
+    if array.getattr("size")?.extract::<usize>()? > 0 {
+        let legal = |method: &str| array.call_method0(method)?.extract::<i128>().map(|i| u32::try_from(i).is_ok());
+        if !(legal("min")? && legal("max")?) {
+            return Err(PyValueError::new_err(format!("{told}: indices of vertices are 0 or more, and below 2^32")));
+        }
+    }
+    let bytes = bytes(&array, "uint32")?;
+    Ok(bytes.as_chunks::<4>().0.iter().map(|b| u32::from_ne_bytes(*b)).collect::<Vec<_>>().as_chunks().0.to_vec())
+}
+
+/// An array of two dimensions with rows of `n`, of one of these kinds of numbers.
+fn rows<'py>(given: &Bound<'py, PyAny>, n: usize, kinds: &str, what: &str, told: &str) -> PyResult<Bound<'py, PyAny>> {
+    let array = given.py().import("numpy")?.call_method1("asarray", (given,))?;
+    let shape: Vec<usize> = array.getattr("shape")?.extract()?;
+    if !matches!(shape[..], [_, columns] if columns == n) {
+        return Err(PyValueError::new_err(format!("{told}: expected an array of shape (n, {n}), not {shape:?}")));
+    }
+    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+    match kinds.contains(&kind) {
+        true => Ok(array),
+        false => Err(PyTypeError::new_err(format!("{told}: expected {what}, not {}", array.getattr("dtype")?))),
+    }
+}
+
+fn bytes(array: &Bound<'_, PyAny>, number: &str) -> PyResult<Vec<u8>> {
+    array.call_method1("astype", (number,))?.call_method0("tobytes")?.extract()
+}

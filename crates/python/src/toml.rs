@@ -1,0 +1,136 @@
+//! Values of Python as TOML writes them.
+
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// A value as TOML writes it on one line: numbers, texts, bools, paths, lists, dicts and NumPy arrays.
+#[pyfunction]
+pub(crate) fn to_toml(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    let mut text = String::new();
+    write(&mut text, value, "")?;
+    Ok(text)
+}
+
+/// A file of the keys of a mapping, a line each.
+pub(crate) fn file(keys: &Bound<'_, PyDict>) -> PyResult<String> {
+    let mut text = String::new();
+    for (key, value) in keys {
+        let key = key_of(&key, "")?;
+        text.push_str(&quoted(&key));
+        text.push_str(" = ");
+        write(&mut text, &value, &key)?;
+        text.push('\n');
+    }
+    Ok(text)
+}
+
+/// Changes of keys, `key=value` each: of a mapping, where None takes the key out, or of a list of such texts.
+pub(crate) fn changes(set: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
+    let Some(set) = set else { return Ok(Vec::new()) };
+    let Ok(keys) = set.cast::<PyDict>() else {
+        let told = "set: expected a dict of keys to values, or a list of texts \"key=value\"";
+        return match set.is_instance_of::<PyString>() {
+            true => Err(PyTypeError::new_err(told)),
+            false => set.extract().map_err(|_| PyTypeError::new_err(told)),
+        };
+    };
+    let change = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let key = key_of(&key, "")?;
+        let mut text = format!("{key}=");
+        match value.is_none() {
+            true => text.push_str("null"),
+            false => write(&mut text, &value, &key)?,
+        }
+        Ok(text)
+    };
+    keys.iter().map(change).collect()
+}
+
+fn key_of(key: &Bound<'_, PyAny>, within: &str) -> PyResult<String> {
+    key.extract().map_err(|_| PyTypeError::new_err(format!("{}: a key is a text", named(within))))
+}
+
+fn named(key: &str) -> &str {
+    if key.is_empty() { "the description" } else { key }
+}
+
+fn write(text: &mut String, value: &Bound<'_, PyAny>, key: &str) -> PyResult<()> {
+    if let Ok(value) = value.cast::<PyBool>() {
+        text.push_str(if value.is_true() { "true" } else { "false" });
+    } else if value.is_instance_of::<PyInt>() {
+        text.push_str(&value.str()?.to_cow()?);
+    } else if let Ok(value) = value.cast::<PyFloat>() {
+        let _ = write!(text, "{}", number(value.value()));
+    } else if let Ok(value) = value.cast::<PyString>() {
+        text.push_str(&quoted(&value.to_cow()?));
+    } else if let Ok(value) = value.cast::<PyDict>() {
+        write_table(text, value, key)?;
+    } else if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
+        write_list(text, value, key)?;
+    } else if value.hasattr("tolist")? {
+        write(text, &value.call_method0("tolist")?, key)?;
+    } else if let Some(path) = value.hasattr("__fspath__")?.then(|| value.extract::<PathBuf>()).transpose()? {
+        let path =
+            path.to_str().ok_or_else(|| PyValueError::new_err(format!("{}: a path that is no text", named(key))))?;
+        text.push_str(&quoted(path));
+    } else {
+        let told = format!(
+            "{}: a {} is no value of a description: expected a number, text, bool, list, dict, path or array",
+            named(key),
+            value.get_type().name()?
+        );
+        return Err(PyTypeError::new_err(told));
+    }
+    Ok(())
+}
+
+fn write_table(text: &mut String, table: &Bound<'_, PyDict>, key: &str) -> PyResult<()> {
+    text.push_str("{ ");
+    for (i, (name, value)) in table.iter().enumerate() {
+        let name = key_of(&name, key)?;
+        let within = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
+        let _ = write!(text, "{}{} = ", if i == 0 { "" } else { ", " }, quoted(&name));
+        write(text, &value, &within)?;
+    }
+    text.push_str(" }");
+    Ok(())
+}
+
+fn write_list(text: &mut String, list: &Bound<'_, PyAny>, key: &str) -> PyResult<()> {
+    text.push('[');
+    for (i, value) in list.try_iter()?.enumerate() {
+        text.push_str(if i == 0 { "" } else { ", " });
+        write(text, &value?, &format!("{key}[{i}]"))?;
+    }
+    text.push(']');
+    Ok(())
+}
+
+/// A float keeps its point, so that it is none where a whole number is expected.
+fn number(value: f64) -> String {
+    match value {
+        _ if value.is_nan() => "nan".to_owned(),
+        f64::INFINITY => "inf".to_owned(),
+        f64::NEG_INFINITY => "-inf".to_owned(),
+        _ => format!("{value:?}"),
+    }
+}
+
+/// A basic string: what TOML does not allow in one is escaped.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            c if c.is_control() => {
+                let _ = write!(quoted, "\\u{:04X}", u32::from(c));
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}

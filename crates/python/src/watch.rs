@@ -1,0 +1,140 @@
+//! What takes long: on a thread of its own, watched by the one that called.
+
+use crate::error::exception;
+use etendue::{Error, Message, Observer, Progress};
+use etendue_cli::{Console, pool};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// How long the calling thread sleeps between looks.
+const PAUSE: Duration = Duration::from_millis(10);
+
+/// What the task tells and the calling thread hands on.
+pub(crate) struct Watch {
+    start: Instant,
+    cancelled: AtomicBool,
+    heard: Mutex<Heard>,
+}
+
+#[derive(Default)]
+struct Heard {
+    /// The newest only.
+    progress: Option<(String, usize, usize)>,
+    /// Whether each is a warning.
+    messages: Vec<(bool, String)>,
+    /// The answer of a verb.
+    answer: String,
+}
+
+impl Observer for Watch {
+    fn message(&self, message: Message<'_>) {
+        let told = match message {
+            Message::Note(text) => (false, text.to_owned()),
+            Message::Warning(text) => (true, text.to_owned()),
+        };
+        self.heard().messages.push(told);
+    }
+
+    fn progress(&self, progress: Progress<'_>) {
+        let heading = match progress.frame {
+            None => progress.heading.to_owned(),
+            Some(frame) => format!("{}, frame {} ({}/{})", progress.heading, frame.number, frame.place, frame.count),
+        };
+        self.heard().progress = Some((heading, progress.done, progress.total));
+    }
+
+    fn now_s(&self) -> Option<f64> {
+        Some(self.start.elapsed().as_secs_f64())
+    }
+
+    fn cancelled(&self) -> bool {
+        self.cancelled.load(Ordering::Relaxed)
+    }
+}
+
+impl Console for Watch {
+    fn print(&self, text: &str) {
+        self.heard().answer.push_str(text);
+    }
+
+    fn tell(&self, line: &str) {
+        self.message(Message::Note(line.trim_end()));
+    }
+
+    fn observer(&self) -> &dyn Observer {
+        self
+    }
+}
+
+impl Watch {
+    fn new() -> Self {
+        Self { start: Instant::now(), cancelled: AtomicBool::new(false), heard: Mutex::default() }
+    }
+
+    fn heard(&self) -> MutexGuard<'_, Heard> {
+        self.heard.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What a verb has answered.
+    pub(crate) fn answer(&self) -> String {
+        std::mem::take(&mut self.heard().answer)
+    }
+
+    /// Hands on what was heard: progress to the caller's function, warnings to `warnings`, notes to `logging`.
+    fn hand_on(&self, py: Python<'_>, progress: Option<&Py<PyAny>>) -> PyResult<()> {
+        py.check_signals()?;
+        let (newest, messages) = {
+            let mut heard = self.heard();
+            (heard.progress.take(), std::mem::take(&mut heard.messages))
+        };
+        if let (Some(progress), Some(newest)) = (progress, newest) {
+            progress.call1(py, newest)?;
+        }
+        for (is_warning, text) in messages {
+            match is_warning {
+                true => py.import("warnings")?.call_method1("warn", (text,))?,
+                false => {
+                    py.import("logging")?.call_method1("getLogger", ("etendue",))?.call_method1("info", (text,))?
+                }
+            };
+        }
+        Ok(())
+    }
+}
+
+/// Runs `work` on a pool of `threads` (`None`: one a processor) with Python's lock released. `progress` is called with what is worked on, how much is
+/// done, and of how much, in the calling thread. What a signal or that function raises cancels the work and is raised in its place.
+pub(crate) fn run<T: Send>(
+    py: Python<'_>,
+    threads: Option<u32>,
+    progress: Option<&Py<PyAny>>,
+    work: impl FnOnce(&Watch) -> Result<T, Error> + Send,
+) -> PyResult<T> {
+    let watch = Watch::new();
+    let pool = pool(threads).map_err(|error| exception(py, error))?;
+    let (done, raised) = py.detach(|| {
+        std::thread::scope(|scope| {
+            let task = scope.spawn(|| pool.install(|| work(&watch)));
+            let mut raised = None;
+            loop {
+                let is_done = task.is_finished();
+                if let Err(error) = Python::attach(|py| watch.hand_on(py, progress)) {
+                    watch.cancelled.store(true, Ordering::Relaxed);
+                    raised.get_or_insert(error);
+                }
+                if is_done {
+                    return (task.join(), raised);
+                }
+                std::thread::sleep(PAUSE);
+            }
+        })
+    });
+    match (raised, done) {
+        (Some(raised), _) => Err(raised),
+        (None, Ok(result)) => result.map_err(|error| exception(py, error)),
+        (None, Err(_)) => Err(PyRuntimeError::new_err("a fault in the program ended this run, where stderr says")),
+    }
+}
