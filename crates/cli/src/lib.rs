@@ -43,7 +43,7 @@ struct Arguments {
 impl Arguments {
     fn run(&self, console: &dyn Console) -> Result<(), Error> {
         for limit in &self.limits {
-            limits::set(limit).map_err(|told| Error::input(format!("--limit {limit}: {told}")))?;
+            set_limit(limit)?;
         }
         self.verb.run(console)
     }
@@ -67,6 +67,14 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             status(&error)
         }
     }
+}
+
+/// Moves a limit on what files may cost for all of the process, `NAME=N`, as `--limit`.
+///
+/// # Errors
+/// Where there is no such limit, or the number is not from 1 to its highest.
+pub fn set_limit(limit: &str) -> Result<(), Error> {
+    limits::set(limit).map_err(|told| Error::input(format!("--limit {limit}: {told}")))
 }
 
 /// Runs a verb: `arguments` are those after the program's name. Its answer is printed on the console.

@@ -10,7 +10,7 @@ use etendue::{
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyString;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -57,8 +57,8 @@ impl Job {
         integrator: Option<&str>,
         quality: Option<&str>,
         camera: Option<String>,
-        files: Option<&Bound<'_, PyDict>>,
-        meshes: Option<&Bound<'_, PyDict>>,
+        files: Option<&Bound<'_, PyAny>>,
+        meshes: Option<&Bound<'_, PyAny>>,
         folder: Option<PathBuf>,
         sandbox: Option<Vec<PathBuf>>,
         texture_memory_mb: u32,
@@ -182,8 +182,8 @@ impl Job {
 
 /// The path of a job, and its text where it is made in Python.
 fn source(description: &Bound<'_, PyAny>, folder: Option<PathBuf>) -> PyResult<(PathBuf, Option<String>)> {
-    if let Ok(keys) = description.cast::<PyDict>() {
-        return Ok((folder.unwrap_or_default().join(MADE), Some(toml::file(keys)?)));
+    if let Some(keys) = toml::mapping(description)? {
+        return Ok((folder.unwrap_or_default().join(MADE), Some(toml::file(&keys)?)));
     }
     if folder.is_some() {
         return Err(PyValueError::new_err("folder: has no effect on a job file, which has its own; leave it out"));

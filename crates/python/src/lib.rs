@@ -29,5 +29,6 @@ fn _etendue(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(verbs::call, module)?)?;
     module.add_function(wrap_pyfunction!(verbs::catalogue, module)?)?;
     module.add_function(wrap_pyfunction!(verbs::main, module)?)?;
+    module.add_function(wrap_pyfunction!(verbs::set_limit, module)?)?;
     module.add_function(wrap_pyfunction!(toml::to_toml, module)?)
 }

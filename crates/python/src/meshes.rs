@@ -5,7 +5,7 @@ use crate::toml;
 use etendue::{MemoryFiles, Triangles};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString};
+use pyo3::types::PyString;
 use std::path::Path;
 
 /// The arrays of a mesh, by their names in Python.
@@ -14,28 +14,34 @@ const ARRAYS: [&str; 4] = ["positions", "triangles", "normals", "uvs"];
 /// Files by the names that the job gives them, which are relative to its folder.
 pub(crate) fn files(
     folder: &Path,
-    texts: Option<&Bound<'_, PyDict>>,
-    meshes: Option<&Bound<'_, PyDict>>,
+    texts: Option<&Bound<'_, PyAny>>,
+    meshes: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<MemoryFiles> {
     let mut files = MemoryFiles::new();
-    for (name, text) in texts.into_iter().flat_map(|texts| texts.iter()) {
-        let name: String = name.extract()?;
-        let text = match text.cast::<PyDict>() {
-            Ok(keys) => toml::file(keys)?,
-            Err(_) if text.is_instance_of::<PyString>() => text.extract()?,
-            Err(_) => return Err(PyTypeError::new_err(format!("files[{name:?}]: expected a dict or a text (TOML)"))),
+    for (name, text) in named("files", texts)? {
+        let text = match toml::mapping(&text)? {
+            Some(keys) => toml::file(&keys)?,
+            None if text.is_instance_of::<PyString>() => text.extract()?,
+            None => return Err(PyTypeError::new_err(format!("files[{name:?}]: expected a dict or a text (TOML)"))),
         };
         files.add_text(folder.join(name), text);
     }
-    for (name, mesh) in meshes.into_iter().flat_map(|meshes| meshes.iter()) {
-        let name: String = name.extract()?;
+    for (name, mesh) in named("meshes", meshes)? {
         add_mesh(&mut files, folder, &name, &mesh)?;
     }
     Ok(files)
 }
 
+/// Things by their names, of an argument that is a mapping.
+fn named<'py>(argument: &str, given: Option<&Bound<'py, PyAny>>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+    let Some(given) = given else { return Ok(Vec::new()) };
+    let told = || PyTypeError::new_err(format!("{argument}: expected a dict of names to what they name"));
+    let given = toml::mapping(given)?.ok_or_else(told)?;
+    given.iter().map(|(name, thing)| Ok((name.extract().map_err(|_| told())?, thing))).collect()
+}
+
 fn add_mesh(files: &mut MemoryFiles, folder: &Path, name: &str, mesh: &Bound<'_, PyAny>) -> PyResult<()> {
-    let given = mesh.cast::<PyDict>().map_err(|_| {
+    let given = toml::mapping(mesh)?.ok_or_else(|| {
         PyTypeError::new_err(format!("meshes[{name:?}]: expected a dict of arrays: {}", ARRAYS.join(", ")))
     })?;
     if let Some(strange) = given.keys().iter().map(|key| key.to_string()).find(|key| !ARRAYS.contains(&key.as_str())) {

@@ -2,7 +2,7 @@
 
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -10,8 +10,22 @@ use std::path::PathBuf;
 #[pyfunction]
 pub(crate) fn to_toml(value: &Bound<'_, PyAny>) -> PyResult<String> {
     let mut text = String::new();
-    write(&mut text, value, "")?;
+    write(&mut text, value, "", DEPTH)?;
     Ok(text)
+}
+
+/// How deep values may lie in one another: a list that holds itself ends.
+const DEPTH: usize = 64;
+
+/// A mapping as a dict; `None` for what is none.
+pub(crate) fn mapping<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>>> {
+    if let Ok(dict) = value.cast::<PyDict>() {
+        return Ok(Some(dict.clone()));
+    }
+    let Ok(mapping) = value.cast::<PyMapping>() else { return Ok(None) };
+    let dict = PyDict::new(value.py());
+    dict.update(mapping)?;
+    Ok(Some(dict))
 }
 
 /// A file of the keys of a mapping, a line each.
@@ -21,7 +35,7 @@ pub(crate) fn file(keys: &Bound<'_, PyDict>) -> PyResult<String> {
         let key = key_of(&key, "")?;
         text.push_str(&quoted(&key));
         text.push_str(" = ");
-        write(&mut text, &value, &key)?;
+        write(&mut text, &value, &key, DEPTH)?;
         text.push('\n');
     }
     Ok(text)
@@ -30,7 +44,7 @@ pub(crate) fn file(keys: &Bound<'_, PyDict>) -> PyResult<String> {
 /// Changes of keys, `key=value` each: of a mapping, where None takes the key out, or of a list of such texts.
 pub(crate) fn changes(set: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
     let Some(set) = set else { return Ok(Vec::new()) };
-    let Ok(keys) = set.cast::<PyDict>() else {
+    let Some(keys) = mapping(set)? else {
         let told = "set: expected a dict of keys to values, or a list of texts \"key=value\"";
         return match set.is_instance_of::<PyString>() {
             true => Err(PyTypeError::new_err(told)),
@@ -42,7 +56,7 @@ pub(crate) fn changes(set: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
         let mut text = format!("{key}=");
         match value.is_none() {
             true => text.push_str("null"),
-            false => write(&mut text, &value, &key)?,
+            false => write(&mut text, &value, &key, DEPTH)?,
         }
         Ok(text)
     };
@@ -57,21 +71,26 @@ fn named(key: &str) -> &str {
     if key.is_empty() { "the description" } else { key }
 }
 
-fn write(text: &mut String, value: &Bound<'_, PyAny>, key: &str) -> PyResult<()> {
+fn write(text: &mut String, value: &Bound<'_, PyAny>, key: &str, depth: usize) -> PyResult<()> {
+    let Some(depth) = depth.checked_sub(1) else {
+        return Err(PyValueError::new_err(format!("{}: values lie more than {DEPTH} deep in one another", named(key))));
+    };
     if let Ok(value) = value.cast::<PyBool>() {
         text.push_str(if value.is_true() { "true" } else { "false" });
     } else if value.is_instance_of::<PyInt>() {
-        text.push_str(&value.str()?.to_cow()?);
+        // An enumeration's number, not its name.
+        let told = |_| PyValueError::new_err(format!("{}: a whole number of a description has 64 bits", named(key)));
+        text.push_str(&value.extract::<i64>().map_err(told)?.to_string());
     } else if let Ok(value) = value.cast::<PyFloat>() {
         let _ = write!(text, "{}", number(value.value()));
     } else if let Ok(value) = value.cast::<PyString>() {
         text.push_str(&quoted(&value.to_cow()?));
-    } else if let Ok(value) = value.cast::<PyDict>() {
-        write_table(text, value, key)?;
+    } else if let Some(value) = mapping(value)? {
+        write_table(text, &value, key, depth)?;
     } else if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
-        write_list(text, value, key)?;
+        write_list(text, value, key, depth)?;
     } else if value.hasattr("tolist")? {
-        write(text, &value.call_method0("tolist")?, key)?;
+        write(text, &value.call_method0("tolist")?, key, depth)?;
     } else if let Some(path) = value.hasattr("__fspath__")?.then(|| value.extract::<PathBuf>()).transpose()? {
         let path =
             path.to_str().ok_or_else(|| PyValueError::new_err(format!("{}: a path that is no text", named(key))))?;
@@ -87,23 +106,23 @@ fn write(text: &mut String, value: &Bound<'_, PyAny>, key: &str) -> PyResult<()>
     Ok(())
 }
 
-fn write_table(text: &mut String, table: &Bound<'_, PyDict>, key: &str) -> PyResult<()> {
+fn write_table(text: &mut String, table: &Bound<'_, PyDict>, key: &str, depth: usize) -> PyResult<()> {
     text.push_str("{ ");
     for (i, (name, value)) in table.iter().enumerate() {
         let name = key_of(&name, key)?;
         let within = if key.is_empty() { name.clone() } else { format!("{key}.{name}") };
         let _ = write!(text, "{}{} = ", if i == 0 { "" } else { ", " }, quoted(&name));
-        write(text, &value, &within)?;
+        write(text, &value, &within, depth)?;
     }
     text.push_str(" }");
     Ok(())
 }
 
-fn write_list(text: &mut String, list: &Bound<'_, PyAny>, key: &str) -> PyResult<()> {
+fn write_list(text: &mut String, list: &Bound<'_, PyAny>, key: &str, depth: usize) -> PyResult<()> {
     text.push('[');
     for (i, value) in list.try_iter()?.enumerate() {
         text.push_str(if i == 0 { "" } else { ", " });
-        write(text, &value?, &format!("{key}[{i}]"))?;
+        write(text, &value?, &format!("{key}[{i}]"), depth)?;
     }
     text.push(']');
     Ok(())

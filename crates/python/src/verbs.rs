@@ -25,6 +25,14 @@ pub(crate) fn call(
     }
 }
 
+/// Moves a limit on what files may cost for all of the process, as `--limit NAME=N`, which messages propose (docs/limits.md).
+///
+/// name: as on the command line, such as "picture-mib".
+#[pyfunction]
+pub(crate) fn set_limit(py: Python<'_>, name: &str, number: u64) -> PyResult<()> {
+    etendue_cli::set_limit(&format!("{name}={number}")).map_err(|error| exception(py, error))
+}
+
 /// The list of verbs with their arguments, as JSON.
 #[pyfunction]
 pub(crate) fn catalogue() -> PyResult<String> {

@@ -3,14 +3,17 @@
 use crate::error::exception;
 use etendue::{Error, Message, Observer, Progress};
 use etendue_cli::{Console, pool};
-use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long the calling thread sleeps between looks.
+/// How long the calling thread sleeps between looks, at most and at first: what is short is not held up.
 const PAUSE: Duration = Duration::from_millis(10);
+const FIRST_PAUSE: Duration = Duration::from_micros(100);
+
+/// What the caller is told after a panic, which the panic's own lines on stderr explain.
+const FAULT: &str = "a fault in the program ended this run, where stderr says; files that have their final names are whole. Please report those lines";
 
 /// What the task tells and the calling thread hands on.
 pub(crate) struct Watch {
@@ -118,9 +121,11 @@ pub(crate) fn run<T: Send>(
     let (done, raised) = py.detach(|| {
         std::thread::scope(|scope| {
             let task = scope.spawn(|| pool.install(|| work(&watch)));
-            let mut raised = None;
+            let (mut raised, mut pause) = (None, FIRST_PAUSE);
             loop {
                 let is_done = task.is_finished();
+                // What has raised is not called again.
+                let progress = progress.filter(|_| raised.is_none());
                 if let Err(error) = Python::attach(|py| watch.hand_on(py, progress)) {
                     watch.cancelled.store(true, Ordering::Relaxed);
                     raised.get_or_insert(error);
@@ -128,13 +133,14 @@ pub(crate) fn run<T: Send>(
                 if is_done {
                     return (task.join(), raised);
                 }
-                std::thread::sleep(PAUSE);
+                std::thread::sleep(pause);
+                pause = PAUSE.min(2 * pause);
             }
         })
     });
     match (raised, done) {
         (Some(raised), _) => Err(raised),
         (None, Ok(result)) => result.map_err(|error| exception(py, error)),
-        (None, Err(_)) => Err(PyRuntimeError::new_err("a fault in the program ended this run, where stderr says")),
+        (None, Err(_)) => Err(exception(py, Error::Run(FAULT.to_owned()))),
     }
 }

@@ -44,6 +44,7 @@ def test_a_dataset_has_units_and_coordinates(results):
     found = etendue.dataset(front)
     assert found["radiance"].dims == ("wavelength_nm", "y", "x") and found["depth"].attrs == {"units": "m"}
     assert np.array_equal(found["radiance"].values, front.radiance) and list(found["wavelength_nm"]) == front.wavelengths_nm
+    assert found["flow"].dims == ("y", "x", "xy") and found["radiance_variance"].attrs == {"units": "W2 m-4 sr-2 nm-2"}
     assert found.attrs == {"camera": front.name, "frame": 0} and float(found["x"][0]) == 0.5
 
 

@@ -74,6 +74,15 @@ def test_a_description_is_a_path_or_a_dict():
             etendue.Job.open(strange)
 
 
+def test_limits_are_moved_by_their_names():
+    etendue.set_limit("bases", 16)
+    with pytest.raises(etendue.InputError, match='did you mean "picture-mib"') as raised:
+        etendue.set_limit("picture-mb", 5)
+    assert raised.value.key == "limit"
+    with pytest.raises(etendue.InputError, match="from 1 to 64"):
+        etendue.set_limit("bases", 65)
+
+
 def test_files_that_are_no_pictures_are_told(tmp_path):
     file = tmp_path / "a.exr"
     file.write_bytes(b"no EXR")

@@ -1,6 +1,8 @@
 """Jobs as dicts, and meshes from arrays."""
 
+import enum
 import json
+import types
 
 import numpy as np
 import pytest
@@ -19,14 +21,14 @@ def sheet(side=9):
     return {"positions": positions, "triangles": np.concatenate([upper, lower])}
 
 
-def described(**more):
+def described(environment={"type": "uniform", "luminance_cd_m2": 1000, "illuminant": "D65"}, **more):
     return {
         "format": 1,
         "scene": {
             "materials": [{"name": "clay", "type": "diffuse", "reflectance": 0.4}],
             "meshes": [{"name": "sheet", "file": "sheet.obj", "up_axis": "z"}],
             "objects": [{"name": "sheet", "mesh": "sheet", "material": "clay"}],
-            "environment": {"type": "uniform", "luminance_cd_m2": 1000, "illuminant": "D65"},
+            **({"environment": environment} if environment else {}),
         },
         "cameras": [
             {
@@ -117,5 +119,23 @@ def test_texts_numbers_and_tables_go_through_toml(program):
     tomllib = pytest.importorskip("tomllib")
     assert tomllib.loads(f"odd = {to_toml(odd)}")["odd"] == odd
     assert json.dumps(tomllib.loads(f"x = {to_toml(np.arange(4).reshape(2, 2))}")["x"]) == "[[0, 1], [2, 3]]"
+    assert to_toml(types.MappingProxyType({"a": enum.IntEnum("Bits", {"TEN": 10}).TEN})) == '{ "a" = 10 }'
     with pytest.raises(TypeError, match="NoneType is no value"):
         to_toml([None])
+    endless = []
+    endless.append(endless)
+    with pytest.raises(ValueError, match="64 deep"):
+        to_toml(endless)
+    with pytest.raises(ValueError, match="64 bits"):
+        to_toml({"seed": 2**70})
+
+
+def test_mappings_that_are_no_dicts_describe_too():
+    mesh = types.MappingProxyType(sheet())
+    changes, meshes = types.MappingProxyType({"render.spp": 2}), types.MappingProxyType({"sheet.obj": mesh})
+    job = etendue.Job.open(types.MappingProxyType(described()), meshes=meshes, set=changes)
+    assert job.plan() == etendue.Job.open(described(), meshes={"sheet.obj": sheet()}, set={"render.spp": 2}).plan()
+    for argument in ("files", "meshes"):
+        for strange in ([1], "sheet.obj", {3: {}}):
+            with pytest.raises(TypeError, match=argument):
+                etendue.Job.open(described(), **{argument: strange})

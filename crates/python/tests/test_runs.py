@@ -7,6 +7,7 @@ import time
 
 import pytest
 from conftest import JOB
+from test_made_in_python import described, sheet
 
 import etendue
 
@@ -23,7 +24,10 @@ def test_what_the_progress_function_raises_cancels():
     class Enough(Exception):
         pass
 
-    def stop(*_):
+    calls = []
+
+    def stop(*told):
+        calls.append(told)
         raise Enough
 
     begun = time.monotonic()
@@ -31,7 +35,7 @@ def test_what_the_progress_function_raises_cancels():
     large = {"cameras.front.sensor.width_px": 460, "cameras.front.sensor.height_px": 300}
     with pytest.raises(Enough):
         etendue.Job.open(JOB, spp=1000, set=large).render(progress=stop)
-    assert time.monotonic() - begun < 60
+    assert time.monotonic() - begun < 60 and len(calls) == 1
 
 
 def test_ctrl_c_cancels_while_other_threads_run(tmp_path):
@@ -60,6 +64,11 @@ def test_notes_go_to_logging(caplog):
     with caplog.at_level("INFO", logger="etendue"):
         etendue.Job.open(JOB, noise=0.5)
     assert any("supersedes" in record.message for record in caplog.records)
+
+
+def test_warnings_go_to_warnings(tmp_path):
+    with pytest.warns(UserWarning, match="nothing gives light"):
+        etendue.Job.open(described(environment=None), meshes={"sheet.obj": sheet()}).save(tmp_path)
 
 
 def test_the_number_of_threads_does_not_change_bits(results):

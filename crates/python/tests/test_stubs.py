@@ -1,6 +1,7 @@
 """Stubs say what the package has. `ETENDUE_BLESS=1` writes those of the verbs anew."""
 
 import ast
+import inspect
 import os
 import pathlib
 
@@ -42,6 +43,30 @@ def test_classes_have_what_their_stubs_say():
         told = {n for n in defined(node.body) | fields if not n.startswith("_")}
         if name != "Fault":
             assert told - is_own <= {"faults"} and is_own <= told, (name, is_own ^ told)
+
+
+def told_parameters(function):
+    """Names of a stub's parameters, whether each is given by name alone, and its default."""
+    arguments = function.args
+    defaults = [None] * (len(arguments.args) - len(arguments.defaults)) + arguments.defaults
+    told = [(a.arg, False, d) for a, d in zip(arguments.args, defaults)] + [(a.arg, True, d) for a, d in zip(arguments.kwonlyargs, arguments.kw_defaults)]
+    return [(name, named, ast.literal_eval(default) if default else inspect.Parameter.empty) for name, named, default in told]
+
+
+def test_methods_take_what_their_stubs_say():
+    tree = ast.parse((FOLDER / "__init__.pyi").read_text())
+    methods = [(c.name, f) for c in tree.body if isinstance(c, ast.ClassDef) for f in c.body if isinstance(f, ast.FunctionDef)]
+    compared = 0
+    for name, stub in methods:
+        made = inspect.getattr_static(getattr(etendue, name), stub.name)
+        if isinstance(made, property) or inspect.isgetsetdescriptor(made) or stub.name.startswith("__"):
+            assert stub.name.startswith("__") or any(d.id == "property" for d in stub.decorator_list), (name, stub.name)
+            continue
+        parameters = inspect.signature(getattr(getattr(etendue, name), stub.name)).parameters.values()
+        found = [(p.name, p.kind is p.KEYWORD_ONLY, p.default) for p in parameters]
+        assert found == told_parameters(stub), (name, stub.name)
+        compared += 1
+    assert compared >= 10
 
 
 def test_everything_public_is_documented():

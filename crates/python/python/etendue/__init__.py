@@ -11,7 +11,7 @@ Arrays have rows from the top and pixels from the left; they are read-only and s
 from . import chart, measure
 from ._dataset import dataset
 from ._errors import Error, Fault, InputError, RunError
-from ._etendue import Camera, Frame, Job, Results, __version__
+from ._etendue import Camera, Frame, Job, Results, __version__, set_limit
 from ._report import Estimate, Report
 from .verbs import *
 from .verbs import __all__ as _verb_names
@@ -31,5 +31,6 @@ __all__ = [
     "chart",
     "dataset",
     "measure",
+    "set_limit",
     *_verb_names,
 ]

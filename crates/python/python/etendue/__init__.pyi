@@ -278,6 +278,12 @@ class Report(dict[str, Any]):
     def table(self, key: str) -> Any:
         """A table as a pandas DataFrame (the extra "pandas")."""
 
+def set_limit(name: str, number: int) -> None:
+    """Moves a limit on what files may cost for all of the process, as ``--limit NAME=N``, which messages propose (docs/limits.md).
+
+    name: as on the command line, such as "picture-mib".
+    """
+
 def dataset(camera: Camera) -> Any:
     """A camera's light, first frame and ground truth as an xarray Dataset (the extra "xarray"), each variable with its unit.
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 #: Dimensions and unit of each variable.
 _VARIABLES = {
     "radiance": (("wavelength_nm", "y", "x"), "W m-2 sr-1 nm-1"),
+    "radiance_variance": (("wavelength_nm", "y", "x"), "W2 m-4 sr-2 nm-2"),
     "irradiance": (("wavelength_nm", "y", "x"), "W m-2 nm-1"),
+    "ghosts": (("wavelength_nm", "y", "x"), "W m-2 nm-1"),
     "electrons": (("y", "x"), "e"),
     "raw": (("y", "x"), "DN"),
     "picture": (("y", "x", "rgb"), "1"),
@@ -13,29 +15,35 @@ _VARIABLES = {
     "distance": (("y", "x"), "m"),
     "normals": (("y", "x", "xyz"), "1"),
     "positions": (("y", "x", "xyz"), "m"),
+    "positions_low": (("y", "x", "xyz"), "m"),
+    "camera_space_positions": (("y", "x", "xyz"), "m"),
     "instance_ids": (("y", "x"), "1"),
     "semantic_ids": (("y", "x"), "1"),
     "material_ids": (("y", "x"), "1"),
+    "flow": (("y", "x", "xy"), "px"),
+    "disparity": (("y", "x"), "px"),
+    "disparity_visibility": (("y", "x"), "1"),
 }
 
 
 def dataset(camera):
     """A camera's light, first frame and ground truth as an xarray Dataset (the extra "xarray"), each variable with its unit.
 
-    x and y are the centres of pixels in raster coordinates, px; what the camera does not have is left out.
+    x and y are the centres of pixels in raster coordinates, px; what the camera does not have is left out, as is
+    a raw or a picture of other pixels than the ground truth's.
     """
     import numpy
     import xarray
 
+    height, width = camera.depth.shape
     variables = {}
     for name, (dimensions, unit) in _VARIABLES.items():
         array = getattr(camera, name)
-        if array is not None and (name != "raw" or array.shape == camera.depth.shape):
+        if array is not None and dict(zip(dimensions, array.shape)).items() >= {"y": height, "x": width}.items():
             variables[name] = (dimensions, array, {"units": unit})
-    height, width = camera.depth.shape
-    coordinates = {"x": numpy.arange(width) + 0.5, "y": numpy.arange(height) + 0.5, "xyz": list("xyz")}
+    coordinates = {"x": numpy.arange(width) + 0.5, "y": numpy.arange(height) + 0.5, "xyz": list("xyz"), "xy": list("xy")}
     if "picture" in variables:
         coordinates["rgb"] = list("rgb")
-    if {"radiance", "irradiance"} & set(variables):
+    if any(dimensions[0] == "wavelength_nm" for dimensions, *_ in variables.values()):
         coordinates["wavelength_nm"] = camera.wavelengths_nm
     return xarray.Dataset(variables, coordinates, {"camera": camera.name, "frame": camera.frame_numbers.start})
