@@ -3,8 +3,10 @@
 render.py SCENE_DIR OUT.npy SPP THREADS SEED... renders once for each seed, after a rendering of another seed that
 compiles the kernels; the luminance (cd/m2) of seed n goes to OUT.npy with n in place of a %. Each line of the standard
 output has a seed and the processor seconds of all threads; the first, after a #, the instruction set of the kernels.
+PEER_MITSUBA_TARGET=x86-64-v3 holds the kernels to AVX2 (PEER_MITSUBA_LANES, 8) on a machine that has more.
 """
 
+import ctypes
 import json
 import math
 import os
@@ -162,18 +164,28 @@ def render(scene, spp, seed):
     return np.mean(parts, axis=0)
 
 
+def hold(target, lanes):
+    """Kernels for a processor that is not this one. DrJit has it in its library, not in Python; Embree, which traces the rays, goes on choosing for itself."""
+    library = next(Path(dr.__file__).parent.glob("libdrjit-core.*"))
+    set_target = ctypes.CDLL(str(library))["_Z19jit_llvm_set_targetPKcS0_j"]
+    set_target.argtypes, set_target.restype = [ctypes.c_char_p, ctypes.c_char_p, ctypes.c_uint32], None
+    set_target(target.encode(), None, lanes)
+
+
 def instructions():
     """The lanes and the target of a kernel that LLVM was given."""
     with dr.scoped_set_flag(dr.JitFlag.KernelHistory, True):
         dr.eval(dr.llvm.Float([1.0, 2.0]) + 1.0)
         code = dr.kernel_history()[0]["ir"].getvalue()
     lanes, target = re.search(r"<(\d+) x float>", code)[1], re.search(r'"target-cpu"="([^"]*)"', code)[1]
-    wide = next((name for name in ("avx512f", "avx2", "neon") if f"+{name}" in code), "baseline")
+    wide = next((name for name in ("avx512f", "avx2", "neon") if f"+{name}" in code), "what that has")
     return f"LLVM {'.'.join(map(str, dr.detail.llvm_version()))} for {target}, {wide}, {lanes} lanes"
 
 
 def main(folder, out, spp, threads, *seeds):
     dr.set_thread_count(int(threads))
+    if target := os.environ.get("PEER_MITSUBA_TARGET"):
+        hold(target, int(os.environ.get("PEER_MITSUBA_LANES", "8")))
     print("#", instructions(), flush=True)
     scene = load(Path(folder))
     render(scene, min(int(spp), LAUNCH_SPP), 999)

@@ -26,6 +26,7 @@
 //! | stored raws and a camera file | pictures by its processing | [`develop()`] |
 //! | even light and a camera file | raws of the bare sensor | [`flat()`] |
 //! | an EMVA 1288 data sheet | a camera file | [`datasheet()`] |
+//! | a scene of another program | a scene and a job of the format | [`import()`] |
 //! | a camera file | a chart as a scene, with its truth | [`chart`] |
 //! | pictures | parameters of the camera with their uncertainty | [`measure`] |
 //! | two results | whether they differ, and by how much | [`compare()`] |
@@ -51,6 +52,7 @@ mod fault;
 mod film_file;
 mod film_memory;
 mod flat;
+mod import;
 mod integrator;
 mod job;
 pub mod measure;
@@ -96,6 +98,7 @@ pub use expose::{ExposeRequest, expose};
 pub use fault::Fault;
 pub use film_memory::FilmMemory;
 pub use flat::{FlatRequest, FlatSource, flat};
+pub use import::import;
 pub use integrator::Integrator;
 pub use job::{Job, JobRequest};
 pub use memory::{MemoryFiles, Triangles};

@@ -3,6 +3,7 @@
 //! | direction | what | where |
 //! | --- | --- | --- |
 //! | in | Wavefront OBJ with its MTL, glTF 2.0, PLY | [`mesh`] |
+//! | in | scenes of pbrt-v4, directive by directive | [`pbrt`] |
 //! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
 //! | in | PNG, JPEG, TIFF, OpenEXR and raw pictures to be measured | [`photograph`] |
 //! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |
@@ -39,6 +40,7 @@ pub mod inspect;
 pub mod jpeg;
 pub mod mesh;
 pub mod output;
+pub mod pbrt;
 pub mod photograph;
 pub mod photometry;
 pub mod picture;

@@ -52,7 +52,7 @@ pub static CORNERS: Limit =
 /// What meshes unpack to whose nodes repeat them.
 pub static MESH: Limit = Limit::new(
     "mesh-mib",
-    "MiB that a glTF file may unpack to on its way to a mesh: nodes may show a mesh many times, primitives share vertices, materials pictures",
+    "MiB that a glTF file may unpack to on its way to a mesh: nodes may show a mesh many times, primitives share vertices, materials pictures; text of a pbrt scene with what it includes, and what is written of it",
     4096,
     1 << 20,
 );

@@ -23,6 +23,7 @@ pub const TARGETS: &[Target] = &[
     assets::GLB,
     assets::GLTF,
     assets::PLY,
+    assets::PBRT,
     assets::MTL,
     assets::MESH_FRAME,
     assets::IES,

@@ -7,6 +7,7 @@ mod datasheet;
 mod develop;
 mod expose;
 mod flat;
+mod import;
 mod inspect;
 mod measure;
 mod merge;
@@ -42,6 +43,8 @@ subcommands! {
     Flat(flat::Flat),
     /// Make a camera file of an EMVA 1288 data sheet; figures that contradict each other are refused
     Datasheet(datasheet::DataSheet),
+    /// Write a scene of another program (glTF, pbrt) as a scene and a job of the format, and what became of what
+    Import(import::Import),
     /// Say what is in a file, with units; make a picture of it
     Inspect(inspect::Inspect),
     /// Compare two results: errors with their uncertainty; exit status 1 where they differ

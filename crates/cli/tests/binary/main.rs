@@ -31,6 +31,7 @@ mod help;
 mod hostile;
 mod hostile_outputs;
 mod identity;
+mod import;
 mod interrupted;
 mod kenney;
 mod killed;

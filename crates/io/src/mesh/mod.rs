@@ -36,4 +36,6 @@ mod vertex;
 pub use asset::read_mesh;
 pub(crate) use asset::read_mesh_in;
 pub use frame::read_mesh_frame;
+pub use gltf::{GltfCamera, GltfLight, GltfLightKind, GltfProjection, GltfStage, read_gltf_stage};
 pub(crate) use ply::is_ply;
+pub use ply::{PlacedTriangles, encode_obj, encode_ply};

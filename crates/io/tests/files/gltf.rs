@@ -57,7 +57,8 @@ fn a_file_of_another_program_stands_as_that_program_has_it() {
     assert_eq!(gold.metal, SlotNumber::Number(1.0));
     let roughness = f64::from(0.3_f32);
     assert_eq!(gold.alpha, SlotNumber::Number(roughness * roughness));
-    assert!((gold.metal_colour[1] - 196.0 / 255.0).abs() < 1e-6 && (gold.metal_colour[2] - 86.0 / 255.0).abs() < 1e-6);
+    let SlotColour::LinearSrgb([_, green, blue]) = gold.base else { panic!("{gold:?}") };
+    assert!((green - 196.0 / 255.0).abs() < 1e-6 && (blue - 86.0 / 255.0).abs() < 1e-6);
     assert_eq!(layers(&mesh, slot("matt")).over, SlotOver::Nothing);
     let print = layers(&mesh, slot("print"));
     assert_eq!(print.over, SlotOver::Coat { index: 1.5 });

@@ -10,6 +10,7 @@ mod gltf;
 mod lamps;
 mod meshes;
 mod openexr;
+mod pbrt;
 mod pixel_centres;
 mod ply;
 mod prescriptions;

@@ -249,6 +249,23 @@ def datasheet(
     Answers with the paths of what was written.
     """
 
+def import_(
+    scene: _Path,
+    *,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Write a scene of another program (glTF, pbrt) as a scene and a job of the format, and what became of what.
+
+    scene: The scene: glTF 2.0 (.glb, .gltf), pbrt-v4 (.pbrt).
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
 def inspect(
     file: _Path,
     *,

@@ -5,12 +5,10 @@ use std::path::{Path, PathBuf};
 /// A material of glTF's metallic-roughness model with its extensions: a metal and a substance that is none, side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlotLayers {
-    /// Share of light that the base of what is no metal reflects.
+    /// Share of light that the base of what is no metal reflects, and that the metal reflects at normal incidence.
     pub base: SlotColour,
     /// Share of the surface that is metal, 0 … 1.
     pub metal: SlotNumber,
-    /// What the metal reflects at normal incidence, linear sRGB, 0 … 1.
-    pub metal_colour: [f64; 3],
     /// Roughness of metal and coat: GGX α, 0 … 1.
     pub alpha: SlotNumber,
     /// What lies over the base of what is no metal.

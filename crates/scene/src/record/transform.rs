@@ -94,6 +94,19 @@ pub fn yaw_pitch_roll_quaternion(degrees: [f64; 3]) -> DQuat {
     yaw * pitch * DQuat::from_xyzw(sx, 0.0, 0.0, cx)
 }
 
+/// Yaw, pitch and roll of a rotation, degrees: what [`yaw_pitch_roll`] makes it of. Where the front points straight up or down there is no roll.
+#[must_use]
+pub fn angles_deg(rotation: DMat3) -> [f64; 3] {
+    let (x, y, z) = (rotation.x_axis, rotation.y_axis, rotation.z_axis);
+    let level = (x.x * x.x + x.y * x.y).sqrt();
+    let pitch = maths::atan2(-x.z, level);
+    let (yaw, roll) = match level > 1e-9 {
+        true => (maths::atan2(x.y, x.x), maths::atan2(y.z, z.z)),
+        false => (maths::atan2(-y.x, y.y), 0.0),
+    };
+    [yaw, pitch, roll].map(f64::to_degrees)
+}
+
 /// Sine and cosine of an angle in degrees, exact at quarter turns.
 fn sin_cos_deg(degrees: f64) -> (f64, f64) {
     let quarters = (degrees / 90.0).round();
@@ -125,6 +138,17 @@ mod tests {
             let off = DMat3::from_quat(yaw_pitch_roll_quaternion(degrees)) - yaw_pitch_roll(degrees);
             // Products of three unit quaternions and matrices, each rounded a few times; 721° as radians is rounded to 2e-15.
             assert!(off.to_cols_array().iter().all(|x| x.abs() < 1e-14), "{degrees:?} {off}");
+        }
+    }
+
+    #[test]
+    fn angles_are_found_again() {
+        for degrees in [[0.0; 3], [10.0, 20.0, 30.0], [-170.0, 85.0, -121.0], [40.0, 90.0, 30.0], [-40.0, -90.0, 30.0]]
+        {
+            let rotation = yaw_pitch_roll(degrees);
+            let off = yaw_pitch_roll(angles_deg(rotation)) - rotation;
+            // Straight up, what is left of the front's level part is rounding, below 1e-9.
+            assert!(off.to_cols_array().iter().all(|x| x.abs() < 2e-9), "{degrees:?} {off}");
         }
     }
 

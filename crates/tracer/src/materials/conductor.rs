@@ -5,7 +5,8 @@
 //! with height-correlated Smith shadowing, see `microfacet` and `beckmann`; facets are drawn from those visible. F is
 //! that of a complex index n + ik, or of a real one; what enters is absorbed (a matt base under such a surface is
 //! [`super::Coated`]). A roughness α below [`super::MIRROR_ALPHA`] is an exact mirror: the lobe would be narrower than a
-//! hundredth of a degree. The roughness may be a texture's.
+//! hundredth of a degree. The roughness may be a texture's, and so may be what a metal reflects at normal incidence: then F is Schlick's approximation
+//! (1994), F₀ + (1 − F₀)(1 − cos θ)⁵, as glTF has all metals.
 //!
 //! Light scattered among facets more than once is left out (a white surface of α = 1 loses up to six tenths), unless it
 //! is asked for: see `interreflection`.
@@ -26,8 +27,10 @@ use super::interreflection::{self, LossOfAlpha};
 use super::microfacet::{MIRROR_ALPHA, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
+use super::reflectance::Reflectance;
 use super::shading_point::ShadingPoint;
 use super::texture_check::TextureCheck;
+use crate::textures::TextureId;
 
 /// A metal, or another interface that light does not come out of again.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,8 +38,17 @@ pub struct Conductor {
     index: Index,
     alpha: Factor,
     distribution: Distribution,
-    /// F̄ at each wavelength, where light scattered more than once counts.
-    mean_fresnel: Option<Spectrum>,
+    /// F̄, where light scattered more than once counts.
+    mean_fresnel: Option<MeanFresnel>,
+}
+
+/// F over all directions, by their cosines.
+#[derive(Clone, Debug, PartialEq)]
+enum MeanFresnel {
+    /// At each wavelength.
+    Spectrum(Spectrum),
+    /// Of Schlick's approximation: F₀ + (1 − F₀)/21.
+    Schlick,
 }
 
 /// A refractive index over wavelength.
@@ -44,6 +56,8 @@ pub struct Conductor {
 enum Index {
     Complex(ComplexIndex),
     Real(Spectrum),
+    /// Known by what it reflects at normal incidence alone, a texture's colours.
+    Colour(Reflectance),
 }
 
 impl Conductor {
@@ -72,6 +86,14 @@ impl Conductor {
         }
     }
 
+    /// A metal that reflects the colours of `texture` at normal incidence and, elsewhere, as Schlick's approximation says; of roughness `alpha` (GGX α, 0 to 1).
+    ///
+    /// # Errors
+    /// Where the roughness is out of range.
+    pub fn of_texture(texture: TextureId, alpha: impl Into<Factor>) -> Result<Self, MaterialError> {
+        Ok(Self::of_index(Index::Colour(Reflectance::Texture(texture)), alpha.into().checked_alpha()?))
+    }
+
     fn of_index(index: Index, alpha: Factor) -> Self {
         Self { index, alpha, distribution: Distribution::Ggx, mean_fresnel: None }
     }
@@ -85,7 +107,7 @@ impl Conductor {
     /// The same with the light that is scattered among its facets more than once.
     #[must_use]
     pub fn with_interreflection(self) -> Self {
-        let mean = Spectrum::from_fn(|nm| self.index.mean_fresnel(nm as f32));
+        let mean = self.index.mean_fresnel();
         Self { mean_fresnel: Some(mean), ..self }
     }
 }
@@ -94,7 +116,11 @@ impl SurfaceModel for Conductor {
     type Bsdf<'a, const N: usize> = ConductorBsdf<N>;
 
     fn parameters(&self) -> Vec<Parameter<'_>> {
-        vec![Parameter::alpha(self.alpha)]
+        let mut parameters = vec![Parameter::alpha(self.alpha)];
+        if let Index::Colour(reflectance) = &self.index {
+            parameters.push(Parameter::Reflectance(reflectance));
+        }
+        parameters
     }
 
     fn passage(&self) -> Passage<'_> {
@@ -104,20 +130,25 @@ impl SurfaceModel for Conductor {
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> ConductorBsdf<N> {
         let alpha = point.factor(self.alpha);
         let rough = alpha >= MIRROR_ALPHA;
+        let fresnel = match &self.index {
+            Index::Complex(index) => {
+                Fresnel::Complex(index.n.sample(point.wavelengths), index.k.sample(point.wavelengths))
+            }
+            Index::Real(n) => Fresnel::Real(n.sample(point.wavelengths)),
+            Index::Colour(reflectance) => Fresnel::Schlick(point.reflectance(reflectance)),
+        };
         let more = self.mean_fresnel.as_ref().filter(|_| rough).map(|mean| {
             let loss = interreflection::table(self.distribution).of_alpha(alpha);
-            More { loss, tint: mean.sample(point.wavelengths).map(|mean| loss.tint(mean)) }
+            let mean = match (mean, fresnel) {
+                (MeanFresnel::Spectrum(mean), _) => mean.sample(point.wavelengths),
+                (
+                    MeanFresnel::Schlick,
+                    Fresnel::Schlick(normal) | Fresnel::Real(normal) | Fresnel::Complex(normal, _),
+                ) => normal.map(|normal| normal + (1.0 - normal) / 21.0),
+            };
+            More { loss, tint: mean.map(|mean| loss.tint(mean)) }
         });
-        ConductorBsdf {
-            fresnel: match &self.index {
-                Index::Complex(index) => {
-                    Fresnel::Complex(index.n.sample(point.wavelengths), index.k.sample(point.wavelengths))
-                }
-                Index::Real(n) => Fresnel::Real(n.sample(point.wavelengths)),
-            },
-            facets: rough.then(|| self.distribution.of_alpha(alpha)),
-            more,
-        }
+        ConductorBsdf { fresnel, facets: rough.then(|| self.distribution.of_alpha(alpha)), more }
     }
 
     fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
@@ -135,19 +166,23 @@ fn is_a_substance(index: &ComplexIndex, nm: f32) -> bool {
 }
 
 impl Index {
-    fn fresnel(&self, nm: f32, cos_i: f32) -> f32 {
+    fn mean_fresnel(&self) -> MeanFresnel {
+        let of = |fresnel: &dyn Fn(f32, f32) -> f32| {
+            MeanFresnel::Spectrum(Spectrum::from_fn(|nm| mean_over_directions(|cos_i| fresnel(nm as f32, cos_i))))
+        };
         match self {
-            Self::Complex(index) => fresnel::conductor(cos_i, index.n.at(nm), index.k.at(nm)),
-            Self::Real(n) => fresnel::dielectric(cos_i, n.at(nm)),
+            Self::Complex(index) => of(&|nm, cos_i| fresnel::conductor(cos_i, index.n.at(nm), index.k.at(nm))),
+            Self::Real(n) => of(&|nm, cos_i| fresnel::dielectric(cos_i, n.at(nm))),
+            Self::Colour(_) => MeanFresnel::Schlick,
         }
     }
+}
 
-    /// 2 ∫ F μ dμ = ∫ F dμ², by the midpoint rule.
-    fn mean_fresnel(&self, nm: f32) -> f64 {
-        const STEPS: usize = 64;
-        let at = |i: usize| f64::from(self.fresnel(nm, ((i as f32 + 0.5) / STEPS as f32).sqrt()));
-        (0..STEPS).map(at).sum::<f64>() / STEPS as f64
-    }
+/// 2 ∫ F μ dμ = ∫ F dμ², by the midpoint rule.
+fn mean_over_directions(fresnel: impl Fn(f32) -> f32) -> f64 {
+    const STEPS: usize = 64;
+    let at = |i: usize| f64::from(fresnel(((i as f32 + 0.5) / STEPS as f32).sqrt()));
+    (0..STEPS).map(at).sum::<f64>() / STEPS as f64
 }
 
 /// Indices at a path's wavelengths.
@@ -155,6 +190,8 @@ impl Index {
 enum Fresnel<const N: usize> {
     Complex(Spectral<N>, Spectral<N>),
     Real(Spectral<N>),
+    /// What is reflected at normal incidence.
+    Schlick(Spectral<N>),
 }
 
 /// Light scattered among facets more than once.
@@ -179,6 +216,11 @@ impl<const N: usize> ConductorBsdf<N> {
         match self.fresnel {
             Fresnel::Complex(n, k) => Spectral::from_fn(|i| fresnel::conductor(cos_i, n[i], k[i])),
             Fresnel::Real(n) => n.map(|n| fresnel::dielectric(cos_i, n)),
+            Fresnel::Schlick(normal) => {
+                let rest = (1.0 - cos_i).clamp(0.0, 1.0);
+                let share = (rest * rest) * (rest * rest) * rest;
+                normal.map(|normal| normal + (1.0 - normal) * share)
+            }
         }
     }
 

@@ -45,18 +45,6 @@ pub(super) fn only_value(image: &ImageAsset) -> Option<f64> {
     numbers.iter().all(|n| n == first).then(|| f64::from(*first) / 65_535.0)
 }
 
-/// The mean colour, decoded.
-pub(super) fn mean(image: &ImageAsset) -> [f64; 3] {
-    let (mut sum, mut count) = ([0.0; 3], 0.0);
-    for [r, g, b, _] in pixels(image) {
-        for (sum, v) in sum.iter_mut().zip([r, g, b]) {
-            *sum += f64::from(colour::decode(v));
-        }
-        count += 1.0;
-    }
-    sum.map(|s| s / f64::max(count, 1.0))
-}
-
 fn of(image: &ImageAsset, pixels: ImagePixels) -> ImageAsset {
     ImageAsset { width: image.width, height: image.height, pixels, hash: hash::of_bytes(&image.hash) }
 }

@@ -130,7 +130,6 @@ impl Reader<'_, '_, '_> {
         let roughness = f64::from(pbr.roughness_factor.0);
         let alpha = if is_unlit { SlotNumber::Number(1.0) } else { self.of_channel(1, roughness, true)? };
         let layers = SlotLayers {
-            metal_colour: self.metal_colour(texture, colour, &metal)?,
             over: if is_unlit { SlotOver::Nothing } else { self.over(&alpha) },
             transmission: self.transmission()?,
             emission: self.emission()?,
@@ -169,19 +168,6 @@ impl Reader<'_, '_, '_> {
             .made(texture, &format!("channel {what}"), false, |image| baked::channel(image, channel, rule))?;
         let only = self.pictures.used.get(&picture.file).and_then(baked::only_value);
         Ok(only.map_or(SlotNumber::Picture(picture), SlotNumber::Number))
-    }
-
-    /// A metal has one colour: of a picture its mean.
-    fn metal_colour(
-        &mut self,
-        texture: Option<usize>,
-        factor: [f64; 3],
-        metal: &SlotNumber,
-    ) -> Result<[f64; 3], String> {
-        let Some(texture) = texture.filter(|_| *metal != SlotNumber::Number(0.0)) else { return Ok(factor) };
-        let mean = baked::mean(self.pictures.image(texture)?);
-        self.notes.push("its metal has the mean colour of the picture: metals have one colour here".to_owned());
-        Ok(std::array::from_fn(|i| (factor[i] * mean[i]).clamp(0.0, 1.0)))
     }
 
     fn index(&mut self) -> f64 {

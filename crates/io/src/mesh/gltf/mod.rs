@@ -5,7 +5,8 @@
 //! indices into bytes, as the crate's own readers panic at damaged ones.
 //!
 //! All nodes of the scene become one mesh in the file's axes and units (+y up, +z forward, m): their transforms are applied in f64, skins as they
-//! stand at rest. Cameras, lights and animations have no place in a mesh and are reported; so is all else that is not used.
+//! stand at rest. Animations are reported, and so is all else that is not used. Lights and cameras, which have no place in a mesh, are read by themselves
+//! ([`read_gltf_stage`]).
 
 mod accessor;
 mod baked;
@@ -20,6 +21,9 @@ mod picture;
 mod placed;
 mod report;
 mod skin;
+mod stage;
+
+pub use stage::{GltfCamera, GltfLight, GltfLightKind, GltfProjection, GltfStage, read_gltf_stage};
 
 use std::path::Path;
 

@@ -8,24 +8,12 @@ use super::buffers::Buffers;
 use super::placed::PlacedMesh;
 use super::skin;
 
-/// The meshes of the scene in the order of their nodes: of the default scene, or of the first, or of all nodes where there is none.
+/// The meshes of the scene in the order of their nodes.
 pub(super) fn placed(root: &Root, buffers: &Buffers) -> Result<Vec<PlacedMesh>, String> {
-    let (roots, to_file) = tree(root)?;
-    let scene = root.scene.map_or(0, |scene| scene.value());
-    let mut open: Vec<usize> = match root.scenes.get(scene) {
-        Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
-        None => roots,
-    };
-    let mut seen = vec![false; root.nodes.len()];
-    open.reverse();
+    let (shown, to_file) = shown(root)?;
     let mut placed = Vec::new();
-    while let Some(number) = open.pop() {
-        let node =
-            root.nodes.get(number).ok_or_else(|| format!("its scene names node {number}, which is not there"))?;
-        if std::mem::replace(&mut seen[number], true) {
-            return Err(format!("its scene shows node {number} twice; export it again"));
-        }
-        open.extend(node.children.iter().flatten().rev().map(|child| child.value()));
+    for number in shown {
+        let node = &root.nodes[number];
         let Some(mesh) = node.mesh else { continue };
         let joints = match node.skin {
             None => None,
@@ -34,6 +22,30 @@ pub(super) fn placed(root: &Root, buffers: &Buffers) -> Result<Vec<PlacedMesh>, 
         placed.push(PlacedMesh { mesh: mesh.value(), to_file: to_file[number], joints });
     }
     Ok(placed)
+}
+
+/// The nodes that the scene shows, in its order: those of the default scene, or of the first, or all where there is none; and of every node of the
+/// file the way from its axes to those of the file.
+pub(super) fn shown(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), String> {
+    let (roots, to_file) = tree(root)?;
+    let scene = root.scene.map_or(0, |scene| scene.value());
+    let mut open: Vec<usize> = match root.scenes.get(scene) {
+        Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
+        None => roots,
+    };
+    let mut seen = vec![false; root.nodes.len()];
+    open.reverse();
+    let mut shown = Vec::new();
+    while let Some(number) = open.pop() {
+        let node =
+            root.nodes.get(number).ok_or_else(|| format!("its scene names node {number}, which is not there"))?;
+        if std::mem::replace(&mut seen[number], true) {
+            return Err(format!("its scene shows node {number} twice; export it again"));
+        }
+        open.extend(node.children.iter().flatten().rev().map(|child| child.value()));
+        shown.push(number);
+    }
+    Ok((shown, to_file))
 }
 
 /// The nodes without parents, and for every node the way from its axes to those of the file.

@@ -28,8 +28,8 @@ pub(super) fn unused(root: &Root) -> Vec<String> {
         primitives().filter(|p| p.attributes.contains_key(&key)).count()
     };
     let counts = [
-        (lights, "lights", "a mesh has none: give them to the scene"),
-        (root.cameras.len(), "cameras", "a mesh has none: give them to the job"),
+        (lights, "lights", "a mesh has none: `etendue import` writes them as the scene's, or give your own"),
+        (root.cameras.len(), "cameras", "a mesh has none: `etendue import` writes them as the job's, or give your own"),
         (
             root.animations.len(),
             "animations",

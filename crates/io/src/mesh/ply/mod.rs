@@ -9,10 +9,13 @@
 //! elements that the bytes of the file cannot hold, before memory is taken for them.
 
 mod assemble;
+mod encode;
 mod faces;
 mod header;
 mod input;
 mod vertices;
+
+pub use encode::{PlacedTriangles, encode_obj, encode_ply};
 
 use std::path::Path;
 

@@ -75,9 +75,14 @@ impl Layering<'_, '_, '_> {
     }
 
     fn metal(&mut self, layers: &SlotLayers) -> Option<Surface> {
-        let reflectance = upsample::reflectance_spectrum(layers.metal_colour.map(|v| v as f32));
         let alpha = self.number(&layers.alpha)?;
-        let made = Conductor::new(metal::of_reflectance(&reflectance), alpha);
+        let made = match &layers.base {
+            SlotColour::LinearSrgb(rgb) => {
+                let reflectance = upsample::reflectance_spectrum(rgb.map(|v| v as f32));
+                Conductor::new(metal::of_reflectance(&reflectance), alpha)
+            }
+            SlotColour::Picture(picture) => Conductor::of_texture(self.texture(picture)?, alpha),
+        };
         self.context.accept(self.place, made).map(|made| made.with_interreflection().into())
     }
 

@@ -97,3 +97,35 @@ fn a_white_base_under_a_mapped_coat_keeps_all_light() {
         }
     }
 }
+
+/// Schlick's approximation by its formula, at a mirror and at a white rough metal, which keeps all light that is scattered often enough; what is scattered once is in
+/// `evaluate`, F₀ at normal incidence in proportion.
+#[test]
+fn a_metal_of_a_picture_reflects_its_colours_as_schlick_says() {
+    let metal = |alpha: f64| Conductor::of_texture(TextureId(0), alpha).expect("a metal");
+    let of = |metal: Conductor| {
+        let surface = Surface::Conductor(Box::new(metal));
+        MaterialTable::new(vec![Material::new(surface)], vec![ramp()]).expect("a map")
+    };
+    let (mirror, once, all) = (of(metal(0.0)), of(metal(0.6)), of(metal(0.6).with_interreflection()));
+    assert!(mirror.needs_footprint(MaterialId(0)));
+    for i in 0..4 {
+        let normal = i as f32 / 3.0;
+        for degrees in [0.0, 40.0, 75.0] {
+            let wo = at_degrees(degrees);
+            let bsdf = mirror.bsdf(MaterialId(0), &at(i), true, &WAVELENGTHS);
+            let rest = 1.0 - wo.z;
+            let expected = normal + (1.0 - normal) * rest * rest * rest * rest * rest;
+            let found = bsdf.sample(wo, 0.5, Vec2::splat(0.5)).expect("a mirror").weight[1];
+            // Greys of a texture are upsampled in 32 bits.
+            assert!((found - expected).abs() < 1e-5, "{normal} at {degrees}: {found} for {expected}");
+        }
+    }
+    let [once, all] = [&once, &all].map(|table| table.bsdf(MaterialId(0), &at(3), true, &WAVELENGTHS));
+    for degrees in [0.0, 50.0, 80.0] {
+        let wo = at_degrees(degrees);
+        let (once, all) = (albedo(&once, wo).max_value(), albedo(&all, wo).max_value());
+        // 3e-3 is that of the table of losses, as for metals of one colour.
+        assert!((all - 1.0).abs() < 5e-3 && once < all, "{degrees}: {once} {all}");
+    }
+}

@@ -1,0 +1,174 @@
+//! glTF files: their mesh as it is, lights and cameras in our keys.
+
+use super::naming::{Names, azimuth_elevation_deg, path_between, rounded};
+use super::written::{ImportedCamera, View, Written, size_of, written};
+use crate::error::Error;
+use etendue_core::maths::f64 as maths;
+use etendue_io::Sandbox;
+use etendue_io::mesh::{GltfCamera, GltfLight, GltfLightKind, GltfProjection, GltfStage, read_gltf_stage, read_mesh};
+use etendue_scene::asset::{MeshAsset, SlotSurface};
+use etendue_scene::record::light::{LampAim, LampPlacement, LampStrength, PointLamp, SpotLamp};
+use etendue_scene::record::pose::Aim;
+use etendue_scene::record::transform::angles_deg;
+use etendue_scene::record::{
+    Body, Emission, Environment, Level, Light, LightColour, Mesh, Object, Pose, Scene, Sun, SunLevel, Transform,
+};
+use etendue_spectra::colour::BT709;
+use glam::{DAffine3, DMat3, DVec3};
+use std::path::Path;
+
+/// The disc of parallel light, whose rays are all alike in the file: as small as shadows need it, degrees.
+const PARALLEL_DEG: f64 = 0.01;
+/// The sky of a scene without light, cd/m²: an overcast day's.
+const SKY_CD_M2: f64 = 2000.0;
+
+/// From the file's axes (+y up, +z forward) to the world's (+z up, +x forward).
+fn to_world(v: DVec3) -> DVec3 {
+    DVec3::new(v.z, v.x, v.y)
+}
+
+pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
+    let stage = read_gltf_stage(file, &Sandbox::NONE).map_err(Error::input)?;
+    let mut report = Vec::new();
+    let mut scene = Scene::default();
+    let mesh = if stage.has_meshes { Some(read_mesh(file).map_err(Error::input)?) } else { None };
+    if mesh.is_some() {
+        let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+        let name = Names::default().take(&stem, "model");
+        let way = path_between(folder, file);
+        scene.meshes.push(Mesh::new(name.as_str(), &*way.to_string_lossy()));
+        let body = Body::Mesh(name.as_str().into());
+        scene.objects.push(Object::new(name.as_str(), body, Transform::default()));
+        report.push(format!("its meshes: object \"{name}\", materials and pictures as the plan tells"));
+    } else {
+        report.push("it has no meshes".to_owned());
+    }
+    let mut names = Names::default();
+    for light in &stage.lights {
+        scene.lights.extend(light_of(light, &mut names, &mut report));
+    }
+    if stage.animations > 0 {
+        report.push(format!("{} animations are not used: all stands as its nodes do", stage.animations));
+    }
+    if scene.lights.is_empty() && !mesh.as_ref().is_some_and(glows) {
+        let level = Level::Luminance(SKY_CD_M2.into());
+        let emission = Emission { colour: Some(LightColour::Illuminant("D65".into())), ..Emission::new(level) };
+        scene.environment = Some(Environment::Uniform(emission));
+        report.push(format!("it has no light: an even sky of {SKY_CD_M2} cd/m² is ours"));
+    }
+    let cameras = cameras_of(&stage, mesh.as_ref(), &mut report);
+    Ok(written(file, &scene, &cameras, report))
+}
+
+fn glows(mesh: &MeshAsset) -> bool {
+    let emits = |surface: &SlotSurface| matches!(surface, SlotSurface::Layers(layers) if layers.emission.is_some());
+    mesh.slot_materials.iter().any(|slot| slot.surface.as_ref().is_some_and(emits))
+}
+
+/// `None` of a light that gives none.
+fn light_of(light: &GltfLight, names: &mut Names, report: &mut Vec<String>) -> Option<Light> {
+    let name = names.take(&light.name, "light");
+    // The specification multiplies linear sRGB by the intensity: what a lamp of that colour has is its luminance times as much.
+    let share: f64 = light.colour.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
+    let level = light.intensity * share;
+    if level <= 0.0 {
+        report.push(format!("light \"{name}\" is dark and left out"));
+        return None;
+    }
+    let note = |kind: &str, unit: &str| {
+        let range = if light.has_range { "; its range is not used: light has none" } else { "" };
+        format!("light \"{name}\", {kind}: {level} {unit}{range}")
+    };
+    let colour = LightColour::Rgb(light.colour.into());
+    let position_m = Some(to_world(light.to_file.translation).to_array().into());
+    let ahead = to_world(light.to_file.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);
+    match light.kind {
+        GltfLightKind::Point => {
+            report.push(note("point", "cd"));
+            let placement = LampPlacement { position_m, ..LampPlacement::default() };
+            Some(Light::Point(PointLamp::new(name.as_str(), placement, LampStrength::Intensity(level.into()), colour)))
+        }
+        GltfLightKind::Spot { inner_rad, outer_rad } => {
+            report.push(note("spot, whose edge falls by our own curve between the same angles", "cd"));
+            let aim = Some(LampAim::Rotation(rounded(towards(ahead)).into()));
+            let placement = LampPlacement { position_m, aim, ..LampPlacement::default() };
+            let strength = LampStrength::Intensity(level.into());
+            // 90° in 32 bits may lie above it.
+            let full = |half_rad: f64| (2.0 * half_rad.to_degrees()).min(180.0);
+            let lamp = SpotLamp::new(name.as_str(), placement, strength, colour, full(outer_rad));
+            Some(Light::Spot(SpotLamp { inner_angle_deg: Some(full(inner_rad).into()), ..lamp }))
+        }
+        GltfLightKind::Directional => {
+            report.push(note("directional: a sun's disc of 0.01°", "lx"));
+            let [azimuth, elevation] = azimuth_elevation_deg(-ahead);
+            let sun = Sun::new(name.as_str(), elevation, azimuth, SunLevel::Illuminance(level.into()));
+            let angular_diameter_deg = Some(PARALLEL_DEG.into());
+            Some(Light::Sun(Sun { colour: Some(colour), angular_diameter_deg, ..sun }))
+        }
+    }
+}
+
+/// Yaw, pitch and roll of what looks along a unit vector, without roll.
+fn towards(ahead: DVec3) -> [f64; 3] {
+    let [azimuth, elevation] = azimuth_elevation_deg(ahead);
+    [azimuth, -elevation, 0.0]
+}
+
+fn cameras_of(stage: &GltfStage, mesh: Option<&MeshAsset>, report: &mut Vec<String>) -> Vec<ImportedCamera> {
+    let mut names = Names::default();
+    let cameras: Vec<ImportedCamera> =
+        stage.cameras.iter().map(|camera| camera_of(camera, &mut names, report)).collect();
+    match (cameras.is_empty(), mesh) {
+        (true, mesh) => {
+            report.push("it has no cameras: \"view\" is ours, which sees all of it from the front".to_owned());
+            vec![view_of(mesh)]
+        }
+        _ => cameras,
+    }
+}
+
+fn camera_of(camera: &GltfCamera, names: &mut Names, report: &mut Vec<String>) -> ImportedCamera {
+    let name = names.take(&camera.name, "camera");
+    let (view, aspect, told) = match camera.projection {
+        GltfProjection::Perspective { yfov_rad, aspect } => {
+            let told = format!("perspective of {:.4}° in height", yfov_rad.to_degrees());
+            (View::Perspective { yfov_rad }, aspect, told)
+        }
+        GltfProjection::Orthographic { half_m: [x, y] } => {
+            (View::Orthographic { width_m: 2.0 * x }, Some(x / y), format!("orthographic of {} m in width", 2.0 * x))
+        }
+    };
+    let free = if aspect.is_none() { "; its shape is ours" } else { "" };
+    report.push(format!("camera \"{name}\": {told}{free}; its near and far planes are not used"));
+    let rotation_deg = rounded(angles_deg(camera_rotation(&camera.to_file)));
+    let position_m = Some(to_world(camera.to_file.translation).to_array().into());
+    let pose = Pose { position_m, aim: Some(Aim::Rotation(rotation_deg.into())), ..Pose::default() };
+    ImportedCamera { name, pose, view, size_px: size_of(aspect.unwrap_or(4.0 / 3.0)) }
+}
+
+/// A camera's forward, left and up in the world; its node's scale does not count.
+fn camera_rotation(to_file: &DAffine3) -> DMat3 {
+    let axis = |v: DVec3| to_world(to_file.matrix3 * v);
+    let ahead = axis(DVec3::NEG_Z).normalize_or(DVec3::X);
+    let up = axis(DVec3::Y);
+    let up = (up - up.dot(ahead) * ahead).normalize_or(ahead.any_orthonormal_vector());
+    DMat3::from_cols(ahead, up.cross(ahead), up)
+}
+
+/// A view of the whole mesh, from the front and above.
+fn view_of(mesh: Option<&MeshAsset>) -> ImportedCamera {
+    const HALF_FIELD_RAD: f64 = 0.35;
+    let places = || mesh.iter().flat_map(|m| m.positions.iter().map(|p| (m.origin, p)));
+    let world =
+        |(origin, p): ([f64; 3], &[f32; 3])| to_world(DVec3::from_array(origin) + DVec3::from_array(p.map(f64::from)));
+    let bound = |pick: fn(DVec3, DVec3) -> DVec3| places().map(world).reduce(pick).unwrap_or(DVec3::ZERO);
+    let (low, high) = (bound(DVec3::min), bound(DVec3::max));
+    let (middle, radius) = (0.5 * (low + high), (0.5 * (high - low).length()).max(1e-3));
+    let from = middle + DVec3::new(0.8, 0.4, 0.45).normalize_or(DVec3::X) * radius / maths::sin(HALF_FIELD_RAD);
+    ImportedCamera {
+        name: "view".to_owned(),
+        pose: Pose::looking_at(from.to_array(), middle.to_array(), [0.0, 0.0, 1.0]),
+        view: View::Perspective { yfov_rad: 2.0 * HALF_FIELD_RAD },
+        size_px: size_of(4.0 / 3.0),
+    }
+}

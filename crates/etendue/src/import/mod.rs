@@ -1,0 +1,49 @@
+//! Scenes of other programs as files of the format: a scene, a job with its cameras, what became of what.
+//!
+//! What a file of another program says is written down in our own keys, so that it can be read, changed and built upon
+//! (docs/import.md, docs/decisions/import.md).
+
+mod gltf;
+mod naming;
+mod pbrt;
+mod written;
+
+use crate::error::Error;
+use crate::observer::{Message, Observer};
+use etendue_io::{Existing, OutputFolder};
+use std::path::{Path, PathBuf};
+use written::Written;
+
+/// What is imported, by the endings of files.
+const KINDS: &str = ".glb, .gltf or .pbrt";
+
+/// Writes `scene.toml`, `job.toml` and what they need into a folder, of a scene of another program; answers with their paths. What was
+/// mapped to what and what was dropped stands at the head of the scene and goes to the observer.
+///
+/// # Errors
+/// Where the file cannot be read or used, or the folder cannot be written.
+pub fn import(
+    file: &Path,
+    (folder, existing): (&Path, Existing),
+    observer: &dyn Observer,
+) -> Result<Vec<PathBuf>, Error> {
+    let ending = file.extension().unwrap_or_default().to_ascii_lowercase();
+    let reader = match ending.to_str() {
+        Some("glb" | "gltf") => gltf::imported,
+        Some("pbrt") => pbrt::imported,
+        _ => {
+            let shown = file.display();
+            return Err(Error::input(format!("{shown}: not a scene that is imported; expected a file of {KINDS}")));
+        }
+    };
+    // The folder may be made by this: paths between files need it.
+    let from = std::path::absolute(folder).map_err(|cause| Error::input(format!("{}: {cause}", folder.display())))?;
+    let Written { files, report } = reader(file, &from)?;
+    let mut folder = OutputFolder::open_beside(folder, existing).map_err(Error::input)?;
+    folder.claim(files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
+    for (name, bytes) in &files {
+        folder.write(name, bytes).map_err(Error::run)?;
+    }
+    report.iter().for_each(|line| observer.message(Message::Note(line)));
+    folder.commit().map_err(Error::run)
+}

@@ -1,0 +1,173 @@
+//! Spectra: rgb, tables, black bodies and names.
+
+use super::parameters::Parameters;
+use super::scenery::Scenery;
+use etendue_io::pbrt::{PbrtParameter, PbrtValues};
+use etendue_scene::record::{Colour, Curve, LightColour};
+use etendue_spectra::Spectrum;
+use etendue_spectra::colour::BT709;
+use etendue_spectra::illuminant;
+use etendue_spectra::upsample::reflectance_spectrum;
+use std::fmt::Write as _;
+
+/// The light of a parameter: its colour, and the luminance of pbrt's unit of it, cd/m². Zero luminance is no light.
+pub(super) struct LightUnit {
+    pub(super) colour: LightColour,
+    pub(super) luminance: f64,
+}
+
+fn illuminant_of(name: &str) -> LightColour {
+    LightColour::Illuminant(name.into())
+}
+
+/// The share of light at a number a wavelength.
+pub(super) fn grey(values: [f64; 3]) -> Option<f64> {
+    (values[0] == values[1] && values[1] == values[2]).then_some(values[0])
+}
+
+pub(super) fn three(name: &str, numbers: &[f64]) -> Result<[f64; 3], String> {
+    let found = numbers.len();
+    numbers.try_into().map_err(|_| format!("\"{name}\": {found} numbers, where an rgb has three"))
+}
+
+/// Wavelengths in nm and values, one after the other.
+fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
+    let pairs: Vec<(f64, f64)> = numbers.as_chunks::<2>().0.iter().map(|[nm, value]| (*nm, *value)).collect();
+    let rising = pairs.windows(2).all(|pair| pair[0].0 < pair[1].0);
+    match numbers.len().is_multiple_of(2) && !pairs.is_empty() && rising {
+        true => Ok(pairs),
+        false => Err(format!("\"{name}\": expected pairs of wavelength and value, wavelengths rising")),
+    }
+}
+
+impl Scenery {
+    /// A file of a spectrum beside the scene; its path.
+    pub(super) fn spectrum_file(&mut self, points: &[(f64, f64)]) -> String {
+        let mut text = "wavelength_nm,value\n".to_owned();
+        points.iter().for_each(|(nm, value)| writeln!(text, "{nm},{value}").expect("a text grows"));
+        let name = self.file_names.take("spectrum", "spectrum");
+        self.add_file(format!("spectra/{name}.csv"), text.into_bytes())
+    }
+
+    /// A smooth spectrum as a table.
+    pub(super) fn smooth_file(&mut self, spectrum: &Spectrum, factor: f64) -> String {
+        let points: Vec<(f64, f64)> =
+            (60..=166).map(|i| 5 * i).map(|nm| (f64::from(nm), factor * f64::from(spectrum.at(nm as f32)))).collect();
+        self.spectrum_file(&points)
+    }
+
+    /// The light of the parameter `name`; white of luminance 1 where it is not there.
+    pub(super) fn light(&mut self, parameters: Parameters<'_>, name: &str) -> Result<LightUnit, String> {
+        let Some(parameter) = parameters.find(name) else {
+            return Ok(LightUnit { colour: illuminant_of("D65"), luminance: 1.0 });
+        };
+        match (&*parameter.kind, &parameter.values) {
+            ("rgb" | "color", PbrtValues::Numbers(numbers)) => {
+                let rgb = three(name, numbers)?;
+                if rgb.iter().any(|v| *v < 0.0) {
+                    return Err(format!("\"{name}\": light below 0"));
+                }
+                let luminance = rgb.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
+                Ok(LightUnit { colour: LightColour::Rgb(rgb.into()), luminance })
+            }
+            ("blackbody", PbrtValues::Numbers(numbers)) => {
+                let kelvin = *numbers.first().ok_or("a black body without its temperature")?;
+                let legal = kelvin.clamp(500.0, 20_000.0);
+                if legal != kelvin {
+                    self.report.note(format!("a black body of {kelvin} K is one of {legal} K"));
+                }
+                Ok(LightUnit { colour: LightColour::Temperature(legal.into()), luminance: 1.0 })
+            }
+            ("spectrum", PbrtValues::Numbers(numbers)) => {
+                let points = points(name, numbers)?;
+                let file = self.spectrum_file(&points);
+                Ok(LightUnit { colour: LightColour::Spectrum(file.as_str().into()), luminance: 1.0 })
+            }
+            ("spectrum", PbrtValues::Texts(texts)) => Ok(self.named_light(texts)),
+            (kind, _) => Err(format!("\"{kind} {name}\" is no light; expected rgb, blackbody or spectrum")),
+        }
+    }
+
+    fn named_light(&mut self, texts: &[String]) -> LightUnit {
+        let name = texts.first().map_or("", String::as_str);
+        let own = name.strip_prefix("stdillum-").map(|name| name.replace('F', "FL"));
+        let known = own.filter(|name| illuminant::names().contains(&name.as_str()));
+        if known.is_none() {
+            self.report.note(format!("the light's spectrum \"{name}\" is not known: D65 in its place"));
+        }
+        LightUnit { colour: illuminant_of(known.as_deref().unwrap_or("D65")), luminance: 1.0 }
+    }
+
+    /// A share of light, 0 … 1.
+    pub(super) fn share(&mut self, parameter: &PbrtParameter) -> Result<Colour, String> {
+        let name = &parameter.name;
+        match (&*parameter.kind, &parameter.values) {
+            ("rgb" | "color", PbrtValues::Numbers(numbers)) => {
+                let rgb = three(name, numbers)?;
+                let legal = rgb.map(|v| v.clamp(0.0, 1.0));
+                if legal != rgb {
+                    self.report.note(format!("\"{name}\" beyond 0 … 1 is cut off there"));
+                }
+                Ok(grey(legal).map_or(Colour::LinearSrgb(legal.into()), |v| Colour::Grey(v.into())))
+            }
+            ("float", PbrtValues::Numbers(numbers)) if numbers.len() == 1 => {
+                let legal = numbers[0].clamp(0.0, 1.0);
+                if legal != numbers[0] {
+                    self.report.note(format!("\"{name}\" beyond 0 … 1 is cut off there"));
+                }
+                Ok(Colour::Grey(legal.into()))
+            }
+            ("spectrum", PbrtValues::Numbers(numbers)) => {
+                let points: Vec<(f64, f64)> =
+                    points(name, numbers)?.into_iter().map(|(nm, v)| (nm, v.clamp(0.0, 1.0))).collect();
+                let file = self.spectrum_file(&points);
+                Ok(Colour::Spectrum(file.as_str().into()))
+            }
+            ("spectrum", PbrtValues::Texts(texts)) => {
+                let shown = texts.first().map_or("", String::as_str);
+                self.report
+                    .note(format!("the spectrum \"{shown}\" of a surface is not known: grey of 0.5 in its place"));
+                Ok(Colour::Grey(0.5.into()))
+            }
+            (kind, _) => Err(format!("\"{kind} {name}\" is no share of light; expected rgb or spectrum")),
+        }
+    }
+
+    /// A coefficient over the wavelength, 0 or more, at the wavelengths of [`smooth_file`](Self::smooth_file); the second number says whether it is
+    /// the same at all.
+    pub(super) fn coefficient(
+        &mut self,
+        parameters: Parameters<'_>,
+        name: &str,
+        default: [f64; 3],
+    ) -> Result<(Spectrum, Option<f64>), String> {
+        let rgb = match parameters.find(name).map(|p| (&*p.kind, &p.values)) {
+            None => default,
+            Some(("rgb" | "color", PbrtValues::Numbers(numbers))) => three(name, numbers)?,
+            Some(("spectrum", PbrtValues::Numbers(numbers))) => {
+                let points = points(name, numbers)?;
+                let spectrum = Spectrum::from_points(&points, etendue_spectra::Outside::Hold);
+                return Ok((spectrum.map_err(|e| format!("\"{name}\": {e}"))?, None));
+            }
+            Some((kind, _)) => return Err(format!("\"{kind} {name}\": expected an rgb or a table of wavelengths")),
+        };
+        if rgb.iter().any(|v| *v < 0.0) {
+            return Err(format!("\"{name}\" below 0"));
+        }
+        // As pbrt has colours beyond 1: a reflectance of half the largest, times twice that.
+        let largest = rgb.iter().fold(0.0_f64, |most, v| most.max(*v));
+        if let Some(even) = grey(rgb) {
+            return Ok((Spectrum::from_fn(|_| even), Some(even)));
+        }
+        let reflectance = reflectance_spectrum(rgb.map(|v| (0.5 * v / largest) as f32));
+        Ok((Spectrum::from_fn(|nm| 2.0 * largest * f64::from(reflectance.at(nm as f32))), None))
+    }
+
+    /// A number, or a table.
+    pub(super) fn curve(&mut self, spectrum: &Spectrum, even: Option<f64>, factor: f64) -> Curve {
+        match even {
+            Some(even) => Curve::Constant((factor * even).into()),
+            None => Curve::File(self.smooth_file(spectrum, factor).as_str().into()),
+        }
+    }
+}

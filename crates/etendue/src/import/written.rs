@@ -1,0 +1,109 @@
+//! A scene, its job and its report as files.
+
+use etendue_core::maths::f64 as maths;
+use etendue_scene::record::{Pose, Scene};
+use etendue_scene::written::{File, Table};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// What an import writes.
+pub(super) struct Written {
+    /// Names within the folder, and contents.
+    pub(super) files: Vec<(String, Vec<u8>)>,
+    /// What became of what, line by line.
+    pub(super) report: Vec<String>,
+}
+
+/// A camera of an imported scene.
+pub(super) struct ImportedCamera {
+    pub(super) name: String,
+    pub(super) pose: Pose,
+    pub(super) view: View,
+    /// Columns and rows.
+    pub(super) size_px: [u64; 2],
+}
+
+/// What a camera sees.
+pub(super) enum View {
+    /// The full vertical angle, rad.
+    Perspective { yfov_rad: f64 },
+    /// The full vertical angle of what is sharp, rad; the radius of the lens, and the distance of what is sharp, m.
+    Lens { yfov_rad: f64, radius_m: f64, focus_m: f64 },
+    /// The width that is seen, m.
+    Orthographic { width_m: f64 },
+}
+
+/// Height of the sensors of imported cameras, mm: that of a film of 36 mm by 24 mm. It has no influence on what is seen.
+const SENSOR_MM: f64 = 24.0;
+/// Rows of a picture whose file says only its shape.
+const ROWS: f64 = 480.0;
+
+/// Columns and rows of a picture of this width over height.
+pub(super) fn size_of(aspect: f64) -> [u64; 2] {
+    const MAX: f64 = 16_384.0;
+    [(ROWS * aspect).round().clamp(1.0, MAX) as u64, ROWS as u64]
+}
+
+impl ImportedCamera {
+    fn to_table(&self) -> Table {
+        let [width, height] = self.size_px;
+        let (lens, sensor_mm) = self.view.lens();
+        let sensor = Table::new()
+            .with("width_px", width)
+            .with("height_px", height)
+            .with("pixel_pitch_um", 1000.0 * sensor_mm / height as f64);
+        let pose = self.pose.to_table();
+        Table::new().with("name", self.name.as_str()).and(pose).with("lens", lens).with("sensor", sensor)
+    }
+}
+
+impl View {
+    /// The lens, and the height of its sensor, mm.
+    fn lens(&self) -> (Table, f64) {
+        let of = |kind: &str| Table::new().with("type", kind);
+        match *self {
+            Self::Perspective { yfov_rad } => {
+                let focal_mm = 0.5 * SENSOR_MM / maths::tan(0.5 * yfov_rad);
+                (of("pinhole").with("focal_length_mm", focal_mm).with("f_number", 8.0), SENSOR_MM)
+            }
+            Self::Orthographic { width_m } => {
+                (of("telecentric").with("field_width_m", width_m).with("f_number", 8.0), SENSOR_MM)
+            }
+            Self::Lens { yfov_rad, radius_m, focus_m } => {
+                // The sensor is so large that the lens of this radius is of f/2; where that makes the image as far off as the object, less.
+                let image_m = |sensor_m: f64| 0.5 * sensor_m / maths::tan(0.5 * yfov_rad);
+                let focal_m = |sensor_m: f64| 1.0 / (1.0 / image_m(sensor_m) + 1.0 / focus_m);
+                let wanted_m = (4.0 * radius_m).min(0.5 * focus_m);
+                let sensor_m = 2.0 * maths::tan(0.5 * yfov_rad) / (1.0 / wanted_m - 1.0 / focus_m);
+                let f_number = 0.5 * focal_m(sensor_m) / radius_m;
+                let lens = of("thin")
+                    .with("focal_length_mm", 1000.0 * focal_m(sensor_m))
+                    .with("f_number", f_number)
+                    .with("focus_distance_m", focus_m);
+                (lens, 1000.0 * sensor_m)
+            }
+        }
+    }
+}
+
+/// `scene.toml` and `job.toml`, with the report at the head of the scene.
+pub(super) fn written(source: &Path, scene: &Scene, cameras: &[ImportedCamera], report: Vec<String>) -> Written {
+    let name = source.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let mut head = format!("Made of {name} by etendue import. What became of what:");
+    for line in &report {
+        // A control character in a name must not end the comment.
+        let plain: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        write!(head, "\n- {plain}").expect("a text grows");
+    }
+    let cameras: Vec<Table> = cameras.iter().map(ImportedCamera::to_table).collect();
+    let output = Table::new().with("radiance", true);
+    let job = Table::new().with("scene", "scene.toml").with("cameras", cameras).with("output", output);
+    let about = format!(
+        "The cameras of {name}. Size, f-number and samples are ours: the file says none of them, or not as a camera has them."
+    );
+    let files = vec![
+        ("scene.toml".to_owned(), File::new(scene.to_table()).head(head).to_string().into_bytes()),
+        ("job.toml".to_owned(), File::new(job).head(about).to_string().into_bytes()),
+    ];
+    Written { files, report }
+}

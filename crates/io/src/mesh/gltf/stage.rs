@@ -1,0 +1,181 @@
+//! What a glTF file has beside its meshes: lights and cameras in their places.
+//!
+//! Source: glTF 2.0 Specification, 3.10 (cameras), and KHR_lights_punctual.
+
+use std::path::Path;
+
+use glam::DAffine3;
+use gltf::json::Root;
+use gltf::json::extensions::scene::khr_lights_punctual::{Light, Type};
+use gltf::json::validation::Checked;
+
+use super::buffers::Buffers;
+use super::{document, nodes};
+use crate::source::read_bytes;
+use crate::{Error, Sandbox};
+
+/// The lights and cameras of a glTF file, in its axes (+y up, +z forward; m).
+#[derive(Clone, Debug, Default)]
+pub struct GltfStage {
+    /// The lights of the scene's nodes.
+    pub lights: Vec<GltfLight>,
+    /// The cameras of the scene's nodes.
+    pub cameras: Vec<GltfCamera>,
+    /// Whether a node of the scene shows a mesh.
+    pub has_meshes: bool,
+    /// How many animations it has.
+    pub animations: usize,
+}
+
+/// A punctual light.
+#[derive(Clone, Debug)]
+pub struct GltfLight {
+    /// Its name, or its node's; empty where neither has one.
+    pub name: String,
+    /// From its own axes, in which it shines along −z, to the file's.
+    pub to_file: DAffine3,
+    /// How it shines.
+    pub kind: GltfLightKind,
+    /// Linear sRGB, 0 or more.
+    pub colour: [f64; 3],
+    /// Intensity of a white light, cd; of a directional one illuminance, lx.
+    pub intensity: f64,
+    /// Whether the file says how far it reaches.
+    pub has_range: bool,
+}
+
+/// How a punctual light shines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum GltfLightKind {
+    /// Parallel light from infinitely far.
+    Directional,
+    /// Alike in all directions.
+    Point,
+    /// In a cone.
+    Spot {
+        /// Half angle within which it is not dimmed, rad.
+        inner_rad: f64,
+        /// Half angle outside of which it is dark, rad.
+        outer_rad: f64,
+    },
+}
+
+/// A camera.
+#[derive(Clone, Debug)]
+pub struct GltfCamera {
+    /// Its name, or its node's; empty where neither has one.
+    pub name: String,
+    /// From its own axes, in which it looks along −z with +y up, to the file's.
+    pub to_file: DAffine3,
+    /// How it projects.
+    pub projection: GltfProjection,
+}
+
+/// How a camera projects.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum GltfProjection {
+    /// Rectilinear.
+    Perspective {
+        /// Full vertical angle, rad.
+        yfov_rad: f64,
+        /// Width over height; `None` where the file leaves it to the viewer.
+        aspect: Option<f64>,
+    },
+    /// Parallel.
+    Orthographic {
+        /// Half of the width and of the height that are seen, m.
+        half_m: [f64; 2],
+    },
+}
+
+/// Reads lights and cameras of a glTF file, whose buffers must lie in `sandbox`.
+///
+/// # Errors
+/// As for its mesh: damaged files, numbers that no light or camera has.
+pub fn read_gltf_stage(file: &Path, sandbox: &Sandbox) -> Result<GltfStage, Error> {
+    let bytes = read_bytes(file, "scene")?;
+    read(file, &bytes, sandbox).map_err(|told| Error::new(file, told))
+}
+
+fn read(file: &Path, bytes: &[u8], sandbox: &Sandbox) -> Result<GltfStage, String> {
+    let (root, blob) = document::parse(bytes)?;
+    let _buffers = Buffers::read(file, &root, blob, sandbox)?;
+    let (shown, to_file) = nodes::shown(&root)?;
+    let mut stage = GltfStage { animations: root.animations.len(), ..GltfStage::default() };
+    for number in shown {
+        let (node, to_file) = (&root.nodes[number], to_file[number]);
+        let node_name = node.name.clone().unwrap_or_default();
+        stage.has_meshes |= node.mesh.is_some();
+        if let Some(light) = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()) {
+            stage.lights.push(light_of(&root, light.light.value(), node_name.clone(), to_file)?);
+        }
+        if let Some(camera) = node.camera {
+            stage.cameras.push(camera_of(&root, camera.value(), node_name, to_file)?);
+        }
+    }
+    Ok(stage)
+}
+
+fn light_of(root: &Root, number: usize, node_name: String, to_file: DAffine3) -> Result<GltfLight, String> {
+    let lights = root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
+    let light = lights
+        .and_then(|l| l.lights.get(number))
+        .ok_or_else(|| format!("a node has light {number}, which is not there; export it again"))?;
+    let wrong = |what: &str| format!("light {number}: {what}");
+    let legal = |v: f64| v.is_finite() && v >= 0.0;
+    let (colour, intensity) = (light.color.map(f64::from), f64::from(light.intensity));
+    if !legal(intensity) || !colour.iter().all(|v| legal(*v)) {
+        return Err(wrong("its intensity and colour must be finite numbers from 0; correct the model"));
+    }
+    Ok(GltfLight {
+        name: light.name.clone().unwrap_or(node_name),
+        to_file,
+        kind: kind_of(light).map_err(|what| wrong(&what))?,
+        colour,
+        intensity,
+        has_range: light.range.is_some(),
+    })
+}
+
+fn kind_of(light: &Light) -> Result<GltfLightKind, String> {
+    match (&light.type_, &light.spot) {
+        (Checked::Valid(Type::Directional), _) => Ok(GltfLightKind::Directional),
+        (Checked::Valid(Type::Point), _) => Ok(GltfLightKind::Point),
+        (Checked::Valid(Type::Spot), Some(spot)) => {
+            let (inner_rad, outer_rad) = (f64::from(spot.inner_cone_angle), f64::from(spot.outer_cone_angle));
+            // 32 bits of π/2 may lie above it.
+            let most = std::f64::consts::FRAC_PI_2 + 1e-6;
+            match inner_rad >= 0.0 && inner_rad < outer_rad && outer_rad <= most {
+                true => Ok(GltfLightKind::Spot { inner_rad, outer_rad }),
+                false => Err(format!("angles of {inner_rad} and {outer_rad}; expected 0 ≤ inner < outer ≤ π/2")),
+            }
+        }
+        _ => Err("no type that is known; expected directional, point, or spot with its angles".to_owned()),
+    }
+}
+
+fn camera_of(root: &Root, number: usize, node_name: String, to_file: DAffine3) -> Result<GltfCamera, String> {
+    let camera = root
+        .cameras
+        .get(number)
+        .ok_or_else(|| format!("a node has camera {number}, which is not there; export it again"))?;
+    let above = |v: f32, what: &str| match v > 0.0 && v.is_finite() {
+        true => Ok(f64::from(v)),
+        false => Err(format!("camera {number}: {what} of {v}; expected a number above 0")),
+    };
+    let projection = match (&camera.perspective, &camera.orthographic) {
+        (Some(p), _) => {
+            let yfov_rad = above(p.yfov, "yfov")?;
+            if yfov_rad >= 3.0 {
+                return Err(format!("camera {number}: yfov of {yfov_rad} rad; expected less than 3"));
+            }
+            let aspect = p.aspect_ratio.map(|a| above(a, "aspectRatio")).transpose()?;
+            GltfProjection::Perspective { yfov_rad, aspect }
+        }
+        (None, Some(o)) => {
+            GltfProjection::Orthographic { half_m: [above(o.xmag.abs(), "xmag")?, above(o.ymag.abs(), "ymag")?] }
+        }
+        (None, None) => return Err(format!("camera {number} has no projection; export it again")),
+    };
+    Ok(GltfCamera { name: camera.name.clone().unwrap_or(node_name), to_file, projection })
+}

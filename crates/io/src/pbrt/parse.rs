@@ -1,0 +1,231 @@
+//! Tokens to directives.
+
+use std::cell::Cell;
+
+use super::directive::{PbrtDirective, PbrtParameter, PbrtValues};
+use super::token::{Fault, Token, Tokens};
+
+/// The arguments of a directive.
+#[derive(Clone, Copy)]
+enum Form {
+    Plain,
+    Numbers(usize),
+    Named,
+    Typed,
+    Texture,
+    MediumInterface,
+    Setting,
+    Include,
+    /// A word without quotes.
+    Word,
+}
+
+const DIRECTIVES: &[(&str, Form)] = &[
+    ("Accelerator", Form::Typed),
+    ("ActiveTransform", Form::Word),
+    ("AreaLightSource", Form::Typed),
+    ("Attribute", Form::Typed),
+    ("AttributeBegin", Form::Plain),
+    ("AttributeEnd", Form::Plain),
+    ("Camera", Form::Typed),
+    ("ColorSpace", Form::Named),
+    ("ConcatTransform", Form::Numbers(16)),
+    ("CoordSysTransform", Form::Named),
+    ("CoordinateSystem", Form::Named),
+    ("Film", Form::Typed),
+    ("Identity", Form::Plain),
+    ("Import", Form::Include),
+    ("Include", Form::Include),
+    ("Integrator", Form::Typed),
+    ("LightSource", Form::Typed),
+    ("LookAt", Form::Numbers(9)),
+    ("MakeNamedMaterial", Form::Typed),
+    ("MakeNamedMedium", Form::Typed),
+    ("Material", Form::Typed),
+    ("MediumInterface", Form::MediumInterface),
+    ("NamedMaterial", Form::Named),
+    ("ObjectBegin", Form::Named),
+    ("ObjectEnd", Form::Plain),
+    ("ObjectInstance", Form::Named),
+    ("Option", Form::Setting),
+    ("PixelFilter", Form::Typed),
+    ("ReverseOrientation", Form::Plain),
+    ("Rotate", Form::Numbers(4)),
+    ("Sampler", Form::Typed),
+    ("Scale", Form::Numbers(3)),
+    ("Shape", Form::Typed),
+    ("Texture", Form::Texture),
+    ("Transform", Form::Numbers(16)),
+    ("TransformBegin", Form::Plain),
+    ("TransformEnd", Form::Plain),
+    ("TransformTimes", Form::Numbers(2)),
+    ("Translate", Form::Numbers(3)),
+    ("WorldBegin", Form::Plain),
+];
+
+/// A word of a file in a message.
+fn shortened(word: &str) -> String {
+    const MAX: usize = 40;
+    match word.char_indices().nth(MAX) {
+        Some((end, _)) => format!("{} …", &word[..end]),
+        None => word.to_owned(),
+    }
+}
+
+pub(super) struct Parser<'a> {
+    tokens: Tokens<'a>,
+}
+
+impl<'a> Parser<'a> {
+    pub(super) fn new(text: &'a str) -> Self {
+        Self { tokens: Tokens::new(text) }
+    }
+
+    /// The next directive and its line; `None` at the end.
+    pub(super) fn next(&mut self) -> Result<Option<(usize, PbrtDirective)>, Fault> {
+        let Some((line, token)) = self.tokens.take()? else { return Ok(None) };
+        let Token::Word(word) = token else {
+            return Err((line, "a value where a directive is expected, such as `Shape`".to_owned()));
+        };
+        let Some((name, form)) = DIRECTIVES.iter().find(|(name, _)| *name == word) else {
+            return Err((line, format!("`{}` is no directive of pbrt-v4", shortened(word))));
+        };
+        self.arguments(name, *form, line).map(|directive| Some((line, directive)))
+    }
+
+    fn arguments(&mut self, name: &'static str, form: Form, line: usize) -> Result<PbrtDirective, Fault> {
+        Ok(match form {
+            Form::Plain => PbrtDirective::Plain(name),
+            Form::Numbers(count) => PbrtDirective::Numbers(name, self.some_numbers(name, count, line)?),
+            Form::Named => PbrtDirective::Named(name, self.text(name)?.to_owned()),
+            Form::Typed => PbrtDirective::Typed(name, self.text(name)?.to_owned(), self.parameters()?),
+            Form::Texture => {
+                let words = [self.text(name)?, self.text(name)?, self.text(name)?].map(str::to_owned);
+                PbrtDirective::Texture(words, self.parameters()?)
+            }
+            Form::MediumInterface => {
+                let inside = self.text(name)?.to_owned();
+                let has_outside = matches!(self.tokens.peek()?, Some((_, Token::Text(_))));
+                let outside = if has_outside { self.text(name)?.to_owned() } else { inside.clone() };
+                PbrtDirective::MediumInterface([inside, outside])
+            }
+            Form::Setting => {
+                let setting = self.parameter()?;
+                PbrtDirective::Setting(setting.ok_or_else(|| (line, "`Option` without a parameter".to_owned()))?)
+            }
+            Form::Include => PbrtDirective::Include(self.text(name)?.to_owned()),
+            Form::Word => match self.tokens.take()? {
+                Some((_, Token::Word(word) | Token::Text(word))) => PbrtDirective::Named(name, word.to_owned()),
+                _ => return Err((line, format!("`{name}` without its word"))),
+            },
+        })
+    }
+
+    fn text(&mut self, of: &str) -> Result<&'a str, Fault> {
+        match self.tokens.take()? {
+            Some((_, Token::Text(text))) => Ok(text),
+            Some((line, _)) => Err((line, format!("`{of}` expects a quoted name here"))),
+            None => Err((self.tokens.line(), format!("the file ends within `{of}`: it may be truncated"))),
+        }
+    }
+
+    /// As many numbers as a transform has, with brackets or without.
+    fn some_numbers(&mut self, of: &str, count: usize, line: usize) -> Result<Vec<f64>, Fault> {
+        let bracketed = matches!(self.tokens.peek()?, Some((_, Token::Open)));
+        if bracketed {
+            self.tokens.take()?;
+        }
+        let mut numbers = Vec::with_capacity(count);
+        while let Some((line, Token::Word(word))) = self.tokens.peek()?
+            && numbers.len() < count
+        {
+            numbers.push(number(word).map_err(|told| (line, told))?);
+            self.tokens.take()?;
+        }
+        let closed = !bracketed || matches!(self.tokens.take()?, Some((_, Token::Close)));
+        match numbers.len() == count && closed {
+            true => Ok(numbers),
+            false => Err((line, format!("`{of}` has {} numbers; expected {count}", numbers.len()))),
+        }
+    }
+
+    fn parameters(&mut self) -> Result<Vec<PbrtParameter>, Fault> {
+        let mut parameters: Vec<PbrtParameter> = Vec::new();
+        while let Some(parameter) = self.parameter()? {
+            parameters.push(parameter);
+        }
+        Ok(parameters)
+    }
+
+    /// `"type name" value` or `"type name" [ values ]`; `None` where none follows.
+    fn parameter(&mut self) -> Result<Option<PbrtParameter>, Fault> {
+        let Some((line, Token::Text(head))) = self.tokens.peek()? else { return Ok(None) };
+        self.tokens.take()?;
+        let mut words = head.split_ascii_whitespace();
+        let (Some(kind), Some(name), None) = (words.next(), words.next(), words.next()) else {
+            let told = format!("\"{}\": expected a parameter of the form \"type name\"", shortened(head));
+            return Err((line, told));
+        };
+        let (kind, name) = (kind.to_owned(), name.to_owned());
+        let values = self.values(&name, line)?;
+        Ok(Some(PbrtParameter { kind, name, values, used: Cell::new(false) }))
+    }
+
+    fn values(&mut self, name: &str, line: usize) -> Result<PbrtValues, Fault> {
+        let truncated = || (line, format!("\"{}\" without its values: the file may be truncated", shortened(name)));
+        let (first_line, first) = self.tokens.take()?.ok_or_else(truncated)?;
+        if first != Token::Open {
+            let mut values = Collected::default();
+            values.add(first).map_err(|told| (first_line, told))?;
+            return Ok(values.finish());
+        }
+        let mut values = Collected::default();
+        loop {
+            match self.tokens.take()?.ok_or_else(truncated)? {
+                (_, Token::Close) => return Ok(values.finish()),
+                (line, token) => values.add(token).map_err(|told| (line, told))?,
+            }
+        }
+    }
+}
+
+fn number(word: &str) -> Result<f64, String> {
+    match word.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err(format!("`{}` is not finite", shortened(word))),
+        Err(_) => Err(format!("`{}` where a number is expected", shortened(word))),
+    }
+}
+
+/// Values of one sort.
+#[derive(Default)]
+struct Collected {
+    numbers: Vec<f64>,
+    texts: Vec<String>,
+    flags: Vec<bool>,
+}
+
+impl Collected {
+    fn add(&mut self, token: Token<'_>) -> Result<(), String> {
+        match token {
+            Token::Text("true") | Token::Word("true") => self.flags.push(true),
+            Token::Text("false") | Token::Word("false") => self.flags.push(false),
+            Token::Text(text) => self.texts.push(text.to_owned()),
+            Token::Word(word) => self.numbers.push(number(word)?),
+            Token::Open | Token::Close => return Err("a bracket where a value is expected".to_owned()),
+        }
+        let sorts = [!self.numbers.is_empty(), !self.texts.is_empty(), !self.flags.is_empty()];
+        match sorts.iter().filter(|some| **some).count() {
+            1 => Ok(()),
+            _ => Err("numbers, texts and truths in one list".to_owned()),
+        }
+    }
+
+    fn finish(self) -> PbrtValues {
+        match self {
+            Self { texts, .. } if !texts.is_empty() => PbrtValues::Texts(texts),
+            Self { flags, .. } if !flags.is_empty() => PbrtValues::Flags(flags),
+            Self { numbers, .. } => PbrtValues::Numbers(numbers),
+        }
+    }
+}
