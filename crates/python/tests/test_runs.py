@@ -38,7 +38,15 @@ def test_what_the_progress_function_raises_cancels():
     assert time.monotonic() - begun < 60 and len(calls) == 1
 
 
-def test_ctrl_c_cancels_while_other_threads_run(tmp_path):
+@pytest.fixture
+def interruptible():
+    """Ctrl-C as Python has it in a terminal: a shell's background jobs are started with it ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_ctrl_c_cancels_while_other_threads_run(tmp_path, interruptible):
     ticks, stopped = [], threading.Event()
 
     def tick():
