@@ -3,7 +3,7 @@
 use crate::front::Recommendation;
 use crate::report::{error_text, time_text};
 use crate::way::{SAMPLE_KEYS, WAY_KEYS, is_of};
-use etendue::{Error, JobRequest, StatedRender};
+use etendue::{Error, JobRequest, StatedRender, relative_path};
 use std::path::{Component, Path, PathBuf};
 
 /// The text of a job file in `folder` that renders `camera` of a job as recommended.
@@ -61,10 +61,7 @@ fn changes(job: &JobRequest, camera: &str) -> Vec<String> {
 fn path_from(folder: &Path, file: &Path) -> Result<PathBuf, Error> {
     let whole =
         |path: &Path| std::path::absolute(path).map_err(|error| Error::Run(format!("{}: {error}", path.display())));
-    let (folder, file) = (tidied(&whole(folder)?), tidied(&whole(file)?));
-    let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
-    let up = folder.components().skip(common).map(|_| Component::ParentDir);
-    Ok(up.chain(file.components().skip(common)).collect())
+    Ok(relative_path(&tidied(&whole(folder)?), &tidied(&whole(file)?)))
 }
 
 /// Without "." and "a/..".

@@ -2,6 +2,7 @@
 
 use crate::camera_file::read_text;
 use crate::error::Error;
+use crate::paths::relative_path;
 use etendue_charts::CameraStation;
 use etendue_io::load_assets;
 use etendue_pipeline::compile_camera;
@@ -77,7 +78,7 @@ impl ChartCamera {
             let here = if path.as_os_str().is_empty() { Path::new(".") } else { path };
             here.canonicalize().map_err(|error| Error::input(format!("{}: {error}", path.display())))
         };
-        let from_to = relative(&whole(folder)?, &whole(file)?);
+        let from_to = relative_path(&whole(folder)?, &whole(file)?);
         let text = from_to.to_str().filter(|text| !text.contains(['"', '\\']));
         let told = || Error::input(format!("{}: give a path without quotes and backslashes", file.display()));
         text.map(str::to_owned).ok_or_else(told)
@@ -98,23 +99,9 @@ impl ChartCamera {
     }
 }
 
-/// The way from a folder to a file; both are whole paths.
-fn relative(folder: &Path, file: &Path) -> PathBuf {
-    let shared = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();
-    let up = folder.components().skip(shared).map(|_| std::path::Component::ParentDir);
-    up.chain(file.components().skip(shared)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn paths_lead_from_the_folder_to_the_file() {
-        let way = |folder: &str, file: &str| relative(Path::new(folder), Path::new(file));
-        assert_eq!(way("/a/b/c", "/a/d/e.toml"), Path::new("../../d/e.toml"));
-        assert_eq!(way("/a", "/a/e.toml"), Path::new("e.toml"));
-    }
 
     #[test]
     fn stand_ins_are_whole() {

@@ -1,24 +1,19 @@
 //! glTF files: their mesh as it is, lights and cameras in our keys.
 
-use super::naming::{Names, azimuth_elevation_deg, path_between, rounded};
-use super::written::{ImportedCamera, View, Written, size_of, written};
+use super::lamps;
+use super::naming::{Names, path_between};
+use super::written::{ImportedCamera, View, Written, pose_of, size_of, written};
 use crate::error::Error;
 use etendue_core::maths::f64 as maths;
-use etendue_io::Sandbox;
 use etendue_io::mesh::{GltfCamera, GltfLight, GltfLightKind, GltfProjection, GltfStage, read_gltf_stage, read_mesh};
 use etendue_scene::asset::{MeshAsset, SlotSurface};
-use etendue_scene::record::light::{LampAim, LampPlacement, LampStrength, PointLamp, SpotLamp};
-use etendue_scene::record::pose::Aim;
-use etendue_scene::record::transform::angles_deg;
 use etendue_scene::record::{
-    Body, Emission, Environment, Level, Light, LightColour, Mesh, Object, Pose, Scene, Sun, SunLevel, Transform,
+    Body, Emission, Environment, Level, Light, LightColour, Mesh, Object, Pose, Scene, Transform,
 };
 use etendue_spectra::colour::BT709;
-use glam::{DAffine3, DMat3, DVec3};
+use glam::DVec3;
 use std::path::Path;
 
-/// The disc of parallel light, whose rays are all alike in the file: as small as shadows need it, degrees.
-const PARALLEL_DEG: f64 = 0.01;
 /// The sky of a scene without light, cd/m²: an overcast day's.
 const SKY_CD_M2: f64 = 2000.0;
 
@@ -28,7 +23,7 @@ fn to_world(v: DVec3) -> DVec3 {
 }
 
 pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
-    let stage = read_gltf_stage(file, &Sandbox::NONE).map_err(Error::input)?;
+    let stage = read_gltf_stage(file).map_err(Error::input)?;
     let mut report = Vec::new();
     let mut scene = Scene::default();
     let mesh = if stage.has_meshes { Some(read_mesh(file).map_err(Error::input)?) } else { None };
@@ -80,38 +75,24 @@ fn light_of(light: &GltfLight, names: &mut Names, report: &mut Vec<String>) -> O
         format!("light \"{name}\", {kind}: {level} {unit}{range}")
     };
     let colour = LightColour::Rgb(light.colour.into());
-    let position_m = Some(to_world(light.to_file.translation).to_array().into());
+    let position = to_world(light.to_file.translation);
     let ahead = to_world(light.to_file.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);
     match light.kind {
         GltfLightKind::Point => {
             report.push(note("point", "cd"));
-            let placement = LampPlacement { position_m, ..LampPlacement::default() };
-            Some(Light::Point(PointLamp::new(name.as_str(), placement, LampStrength::Intensity(level.into()), colour)))
+            Some(lamps::point(&name, position, level, colour))
         }
         GltfLightKind::Spot { inner_rad, outer_rad } => {
             report.push(note("spot, whose edge falls by our own curve between the same angles", "cd"));
-            let aim = Some(LampAim::Rotation(rounded(towards(ahead)).into()));
-            let placement = LampPlacement { position_m, aim, ..LampPlacement::default() };
-            let strength = LampStrength::Intensity(level.into());
             // 90° in 32 bits may lie above it.
-            let full = |half_rad: f64| (2.0 * half_rad.to_degrees()).min(180.0);
-            let lamp = SpotLamp::new(name.as_str(), placement, strength, colour, full(outer_rad));
-            Some(Light::Spot(SpotLamp { inner_angle_deg: Some(full(inner_rad).into()), ..lamp }))
+            let half_deg = [inner_rad, outer_rad].map(|rad| rad.to_degrees().min(90.0));
+            Some(lamps::spot(&name, (position, ahead), half_deg, level, colour))
         }
         GltfLightKind::Directional => {
             report.push(note("directional: a sun's disc of 0.01°", "lx"));
-            let [azimuth, elevation] = azimuth_elevation_deg(-ahead);
-            let sun = Sun::new(name.as_str(), elevation, azimuth, SunLevel::Illuminance(level.into()));
-            let angular_diameter_deg = Some(PARALLEL_DEG.into());
-            Some(Light::Sun(Sun { colour: Some(colour), angular_diameter_deg, ..sun }))
+            Some(lamps::parallel(&name, -ahead, level, colour))
         }
     }
-}
-
-/// Yaw, pitch and roll of what looks along a unit vector, without roll.
-fn towards(ahead: DVec3) -> [f64; 3] {
-    let [azimuth, elevation] = azimuth_elevation_deg(ahead);
-    [azimuth, -elevation, 0.0]
 }
 
 fn cameras_of(stage: &GltfStage, mesh: Option<&MeshAsset>, report: &mut Vec<String>) -> Vec<ImportedCamera> {
@@ -140,19 +121,10 @@ fn camera_of(camera: &GltfCamera, names: &mut Names, report: &mut Vec<String>) -
     };
     let free = if aspect.is_none() { "; its shape is ours" } else { "" };
     report.push(format!("camera \"{name}\": {told}{free}; its near and far planes are not used"));
-    let rotation_deg = rounded(angles_deg(camera_rotation(&camera.to_file)));
-    let position_m = Some(to_world(camera.to_file.translation).to_array().into());
-    let pose = Pose { position_m, aim: Some(Aim::Rotation(rotation_deg.into())), ..Pose::default() };
+    // The scale of its node does not count.
+    let axis = |v: DVec3| to_world(camera.to_file.matrix3 * v);
+    let pose = pose_of(to_world(camera.to_file.translation), axis(DVec3::NEG_Z), axis(DVec3::Y));
     ImportedCamera { name, pose, view, size_px: size_of(aspect.unwrap_or(4.0 / 3.0)) }
-}
-
-/// A camera's forward, left and up in the world; its node's scale does not count.
-fn camera_rotation(to_file: &DAffine3) -> DMat3 {
-    let axis = |v: DVec3| to_world(to_file.matrix3 * v);
-    let ahead = axis(DVec3::NEG_Z).normalize_or(DVec3::X);
-    let up = axis(DVec3::Y);
-    let up = (up - up.dot(ahead) * ahead).normalize_or(ahead.any_orthonormal_vector());
-    DMat3::from_cols(ahead, up.cross(ahead), up)
 }
 
 /// A view of the whole mesh, from the front and above.

@@ -4,6 +4,7 @@
 //! (docs/import.md, docs/decisions/import.md).
 
 mod gltf;
+mod lamps;
 mod naming;
 mod pbrt;
 mod written;

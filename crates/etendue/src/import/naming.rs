@@ -1,9 +1,10 @@
 //! Names, paths and angles as files of the format have them.
 
+use crate::paths::relative_path;
 use etendue_core::maths::f64 as maths;
 use glam::DVec3;
 use std::collections::HashMap;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// Names that were given, each with the number of the next that is like it.
 #[derive(Debug, Default)]
@@ -43,13 +44,8 @@ pub(super) fn path_between(folder: &Path, file: &Path) -> PathBuf {
     let file = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
     // Links in what exists are followed, as `..` behind a link leads elsewhere.
     let (from, to) = (real(folder), real(&file));
-    let (from, to): (Vec<Component<'_>>, Vec<Component<'_>>) = (from.components().collect(), to.components().collect());
-    let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
-    if shared == 0 {
-        return file;
-    }
-    let up = from[shared..].iter().map(|_| Component::ParentDir);
-    up.chain(to[shared..].iter().copied()).collect()
+    // Another drive: no way leads there.
+    if from.components().next() == to.components().next() { relative_path(&from, &to) } else { file }
 }
 
 /// A path whose existing part has no links.

@@ -1,8 +1,12 @@
 //! A scene, its job and its report as files.
 
+use super::naming::rounded;
 use etendue_core::maths::f64 as maths;
+use etendue_scene::record::pose::Aim;
+use etendue_scene::record::transform::angles_deg;
 use etendue_scene::record::{Pose, Scene};
 use etendue_scene::written::{File, Table};
+use glam::{DMat3, DVec3};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -42,6 +46,15 @@ const ROWS: f64 = 480.0;
 pub(super) fn size_of(aspect: f64) -> [u64; 2] {
     const MAX: f64 = 16_384.0;
     [(ROWS * aspect).round().clamp(1.0, MAX) as u64, ROWS as u64]
+}
+
+/// The pose of a camera in the world, m, that looks along `ahead`, with its picture's upper edge towards `up`; both of any length.
+pub(super) fn pose_of(position: DVec3, ahead: DVec3, up: DVec3) -> Pose {
+    let ahead = ahead.normalize_or(DVec3::X);
+    let up = (up - up.dot(ahead) * ahead).normalize_or(ahead.any_orthonormal_vector());
+    let turned = DMat3::from_cols(ahead, up.cross(ahead), up);
+    let aim = Some(Aim::Rotation(rounded(angles_deg(turned)).into()));
+    Pose { position_m: Some(position.to_array().into()), aim, ..Pose::default() }
 }
 
 impl ImportedCamera {

@@ -3,12 +3,8 @@
 use super::parameters::Parameters;
 use super::report::Report;
 use super::scenery::Graphics;
-use crate::import::naming::rounded;
-use crate::import::written::{ImportedCamera, View};
+use crate::import::written::{ImportedCamera, View, pose_of};
 use etendue_core::maths::f64 as maths;
-use etendue_scene::record::Pose;
-use etendue_scene::record::pose::Aim;
-use etendue_scene::record::transform::angles_deg;
 use glam::{DAffine3, DMat3, DVec3};
 use std::rc::Rc;
 
@@ -153,12 +149,7 @@ impl PbrtCamera {
                 View::Orthographic { width_m }
             }
         };
-        let (ahead, up) = (axis(DVec3::Z).normalize_or(DVec3::X), axis(DVec3::Y));
-        let up = (up - up.dot(ahead) * ahead).normalize_or(ahead.any_orthonormal_vector());
-        let turned = DMat3::from_cols(ahead, up.cross(ahead), up);
-        let position_m = Some((to_ours * self.to_world.translation).to_array().into());
-        let aim = Some(Aim::Rotation(rounded(angles_deg(turned)).into()));
-        let pose = Pose { position_m, aim, ..Pose::default() };
+        let pose = pose_of(to_ours * self.to_world.translation, axis(DVec3::Z), axis(DVec3::Y));
         let camera = ImportedCamera { name: "camera".to_owned(), pose, view, size_px: film.size_px };
         Placed { camera, outside: self.outside }
     }

@@ -4,10 +4,10 @@ use super::parameters::Parameters;
 use super::scenery::Scenery;
 use etendue_io::pbrt::{PbrtParameter, PbrtValues};
 use etendue_scene::record::{Colour, Curve, LightColour};
-use etendue_spectra::Spectrum;
 use etendue_spectra::colour::BT709;
 use etendue_spectra::illuminant;
 use etendue_spectra::upsample::reflectance_spectrum;
+use etendue_spectra::{Outside, Spectrum};
 use std::fmt::Write as _;
 
 /// The light of a parameter: its colour, and the luminance of pbrt's unit of it, cd/m². Zero luminance is no light.
@@ -38,6 +38,11 @@ fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
         true => Ok(pairs),
         false => Err(format!("\"{name}\": expected pairs of wavelength and value, wavelengths rising")),
     }
+}
+
+/// A spectrum of pairs of wavelength and value, whose ends are held.
+pub(super) fn table(name: &str, numbers: &[f64]) -> Result<Spectrum, String> {
+    Spectrum::from_points(&points(name, numbers)?, Outside::Hold).map_err(|e| format!("\"{name}\": {e}"))
 }
 
 impl Scenery {
@@ -98,28 +103,32 @@ impl Scenery {
         LightUnit { colour: illuminant_of(known.as_deref().unwrap_or("D65")), luminance: 1.0 }
     }
 
+    /// A share of light of a parameter called `name`, cut off at 0 and 1, which is said.
+    fn cut(&mut self, name: &str, share: f64) -> f64 {
+        let legal = share.clamp(0.0, 1.0);
+        if legal != share {
+            self.report.note(format!("\"{name}\" beyond 0 … 1 is cut off there"));
+        }
+        legal
+    }
+
+    /// The same of linear sRGB.
+    pub(super) fn share_of_rgb(&mut self, name: &str, rgb: [f64; 3]) -> Colour {
+        let legal = rgb.map(|v| self.cut(name, v));
+        grey(legal).map_or(Colour::LinearSrgb(legal.into()), |v| Colour::Grey(v.into()))
+    }
+
     /// A share of light, 0 … 1.
     pub(super) fn share(&mut self, parameter: &PbrtParameter) -> Result<Colour, String> {
         let name = &parameter.name;
         match (&*parameter.kind, &parameter.values) {
-            ("rgb" | "color", PbrtValues::Numbers(numbers)) => {
-                let rgb = three(name, numbers)?;
-                let legal = rgb.map(|v| v.clamp(0.0, 1.0));
-                if legal != rgb {
-                    self.report.note(format!("\"{name}\" beyond 0 … 1 is cut off there"));
-                }
-                Ok(grey(legal).map_or(Colour::LinearSrgb(legal.into()), |v| Colour::Grey(v.into())))
-            }
+            ("rgb" | "color", PbrtValues::Numbers(numbers)) => Ok(self.share_of_rgb(name, three(name, numbers)?)),
             ("float", PbrtValues::Numbers(numbers)) if numbers.len() == 1 => {
-                let legal = numbers[0].clamp(0.0, 1.0);
-                if legal != numbers[0] {
-                    self.report.note(format!("\"{name}\" beyond 0 … 1 is cut off there"));
-                }
-                Ok(Colour::Grey(legal.into()))
+                Ok(Colour::Grey(self.cut(name, numbers[0]).into()))
             }
             ("spectrum", PbrtValues::Numbers(numbers)) => {
                 let points: Vec<(f64, f64)> =
-                    points(name, numbers)?.into_iter().map(|(nm, v)| (nm, v.clamp(0.0, 1.0))).collect();
+                    points(name, numbers)?.into_iter().map(|(nm, v)| (nm, self.cut(name, v))).collect();
                 let file = self.spectrum_file(&points);
                 Ok(Colour::Spectrum(file.as_str().into()))
             }
@@ -145,9 +154,7 @@ impl Scenery {
             None => default,
             Some(("rgb" | "color", PbrtValues::Numbers(numbers))) => three(name, numbers)?,
             Some(("spectrum", PbrtValues::Numbers(numbers))) => {
-                let points = points(name, numbers)?;
-                let spectrum = Spectrum::from_points(&points, etendue_spectra::Outside::Hold);
-                return Ok((spectrum.map_err(|e| format!("\"{name}\": {e}"))?, None));
+                return Ok((table(name, numbers)?, None));
             }
             Some((kind, _)) => return Err(format!("\"{kind} {name}\": expected an rgb or a table of wavelengths")),
         };

@@ -2,15 +2,11 @@
 
 use super::parameters::Parameters;
 use super::scenery::{Graphics, Scenery};
-use crate::import::naming::{azimuth_elevation_deg, rounded};
+use crate::import::lamps;
 use etendue_core::maths::f64 as maths;
-use etendue_scene::record::light::{LampAim, LampPlacement, LampStrength, PointLamp, SpotLamp};
-use etendue_scene::record::{Emission, Environment, Level, Light, Sun, SunLevel};
+use etendue_scene::record::{Emission, Environment, Level};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
-
-/// The disc of parallel light, degrees.
-const PARALLEL_DEG: f64 = 0.01;
 
 impl Scenery {
     pub(super) fn light_source(
@@ -46,11 +42,9 @@ impl Scenery {
         let from = DVec3::from_array(parameters.triple("from", [0.0; 3])?);
         let candela = Self::power(parameters)?.map_or(1.0, |lm| lm / (4.0 * PI)) * scale * unit.luminance;
         let Some(candela) = self.lit("point", "cd", candela) else { return Ok(()) };
-        let position_m = Some((self.to_ours * graphics.to_world.transform_point3(from)).to_array().into());
-        let placement = LampPlacement { position_m, ..LampPlacement::default() };
+        let position = self.to_ours * graphics.to_world.transform_point3(from);
         let name = self.names.take("point", "point");
-        let strength = LampStrength::Intensity(candela.into());
-        self.scene.lights.push(Light::Point(PointLamp::new(name.as_str(), placement, strength, unit.colour)));
+        self.scene.lights.push(lamps::point(&name, position, candela, unit.colour));
         Ok(())
     }
 
@@ -69,14 +63,9 @@ impl Scenery {
         let solid_angle = TAU * ((1.0 - inner) + 0.5 * (inner - outer));
         let candela = Self::power(parameters)?.map_or(1.0, |lm| lm / solid_angle) * scale * unit.luminance;
         let Some(candela) = self.lit("spot", "cd", candela) else { return Ok(()) };
-        let [azimuth, elevation] = azimuth_elevation_deg(ahead);
-        let aim = Some(LampAim::Rotation(rounded([azimuth, -elevation, 0.0]).into()));
-        let position_m = Some((self.to_ours * from).to_array().into());
-        let placement = LampPlacement { position_m, aim, ..LampPlacement::default() };
         let name = self.names.take("spot", "spot");
-        let strength = LampStrength::Intensity(candela.into());
-        let lamp = SpotLamp::new(name.as_str(), placement, strength, unit.colour, 2.0 * outer_deg);
-        self.scene.lights.push(Light::Spot(SpotLamp { inner_angle_deg: Some((2.0 * inner_deg).into()), ..lamp }));
+        let pose = (self.to_ours * from, ahead);
+        self.scene.lights.push(lamps::spot(&name, pose, [inner_deg, outer_deg], candela, unit.colour));
         Ok(())
     }
 
@@ -90,23 +79,15 @@ impl Scenery {
         let Some(lux) = self.lit("distant", "lx", stated.unwrap_or(1.0) * scale * unit.luminance) else {
             return Ok(());
         };
-        let [azimuth, elevation, _] = {
-            let [azimuth, elevation] = azimuth_elevation_deg(towards);
-            rounded([azimuth, elevation, 0.0])
-        };
         let name = self.names.take("distant", "distant");
-        let sun = Sun::new(name.as_str(), elevation, azimuth, SunLevel::Illuminance(lux.into()));
-        let angular_diameter_deg = Some(PARALLEL_DEG.into());
-        self.scene.lights.push(Light::Sun(Sun { colour: Some(unit.colour), angular_diameter_deg, ..sun }));
+        self.scene.lights.push(lamps::parallel(&name, towards, lux, unit.colour));
         Ok(())
     }
 
     fn infinite(&mut self, parameters: Parameters<'_>, graphics: &Graphics, scale: f64) -> Result<(), String> {
         let lux = parameters.numbers("illuminance")?.and_then(|n| n.first().copied()).filter(|e| *e > 0.0);
-        for unread in ["portal"] {
-            if parameters.find(unread).is_some() {
-                self.report.note("a portal is not used: it changes noise alone");
-            }
+        if parameters.find("portal").is_some() {
+            self.report.note("a portal is not used: it changes noise alone");
         }
         let environment = match parameters.text("filename")? {
             Some(file) => {

@@ -1,5 +1,6 @@
 //! Materials.
 
+use super::colour::table;
 use super::known::{INTERFACE, KnownTexture};
 use super::parameters::Parameters;
 use super::scenery::Scenery;
@@ -10,7 +11,7 @@ use etendue_scene::record::material::{
     Coated, Conductor, Dielectric, Diffuse, Factor, Leaf, Material, Metal, Mix, Surface, ThinSheet,
 };
 use etendue_scene::record::{Colour, Reflectance};
-use etendue_spectra::{Outside, Spectrum, metal, upsample};
+use etendue_spectra::{Spectrum, metal, upsample};
 use std::fmt::Write as _;
 use std::rc::Rc;
 
@@ -147,9 +148,7 @@ impl Scenery {
             PbrtValues::Numbers(numbers) if numbers.len() == 1 => numbers[0],
             PbrtValues::Numbers(numbers) => {
                 self.report.note("an index over the wavelength is that at 587.6 nm: glass bodies do not disperse");
-                let points: Vec<(f64, f64)> = numbers.as_chunks::<2>().0.iter().map(|[nm, n]| (*nm, *n)).collect();
-                let table = Spectrum::from_points(&points, Outside::Hold).map_err(|e| format!("\"eta\": {e}"))?;
-                f64::from(table.at(587.56))
+                f64::from(table("eta", numbers)?.at(587.56))
             }
             PbrtValues::Texts(texts) => {
                 let name = texts.first().map_or("", String::as_str);
@@ -251,7 +250,12 @@ impl Scenery {
                 Ok(Metal::Named("Al".into()))
             }
             (Some(PbrtValues::Numbers(n)), Some(PbrtValues::Numbers(k))) => {
-                let [n, k] = [table("eta", n)?, table("k", k)?];
+                // A single number is the same at all wavelengths.
+                let of = |name: &str, numbers: &[f64]| match numbers {
+                    [even] => Ok(Spectrum::from_fn(|_| *even)),
+                    pairs => table(name, pairs),
+                };
+                let [n, k] = [of("eta", n)?, of("k", k)?];
                 Ok(self.index_file(|nm| f64::from(n.at(nm)), |nm| f64::from(k.at(nm))))
             }
             _ => Err("\"eta\" and \"k\": expected the name of a metal, or a table of both".to_owned()),
@@ -283,13 +287,4 @@ impl Scenery {
 
 fn plain(reflectance: f64) -> Reflectance {
     Reflectance::Plain(Colour::Grey(reflectance.into()))
-}
-
-/// A number, or pairs of wavelength and number.
-fn table(name: &str, numbers: &[f64]) -> Result<Spectrum, String> {
-    if let [even] = numbers {
-        return Ok(Spectrum::from_fn(|_| *even));
-    }
-    let points: Vec<(f64, f64)> = numbers.as_chunks::<2>().0.iter().map(|[nm, value]| (*nm, *value)).collect();
-    Spectrum::from_points(&points, Outside::Hold).map_err(|e| format!("\"{name}\": {e}"))
 }

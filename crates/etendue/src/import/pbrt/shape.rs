@@ -221,31 +221,17 @@ fn place(position: DVec3, rotation: DMat3, scale: DVec3) -> Transform {
 
 impl Triangles {
     fn of(parameters: Parameters<'_>) -> Result<Self, String> {
-        let mut mesh = Self::points(parameters)?;
-        let vertices = mesh.positions.len();
-        let indices = match parameters.numbers("indices")? {
-            Some(indices) => indices.iter().map(|i| index(*i, vertices)).collect::<Result<Vec<u32>, _>>()?,
-            None if vertices == 3 => vec![0, 1, 2],
-            None => return Err("no \"indices\"".to_owned()),
-        };
-        mesh.triangles = whole::<3, u32>("indices", &indices)?.to_vec();
-        Ok(mesh)
+        let mesh = Self::points(parameters)?;
+        let triangles = indices::<3>(parameters, mesh.positions.len())?;
+        Ok(Self { triangles, ..mesh })
     }
 
     /// Corners of a patch stand in rows: (0, 0), (1, 0), (0, 1), (1, 1).
     fn of_patches(parameters: Parameters<'_>) -> Result<Self, String> {
-        let mut mesh = Self::points(parameters)?;
-        let vertices = mesh.positions.len();
-        let indices = match parameters.numbers("indices")? {
-            Some(indices) => indices.iter().map(|i| index(*i, vertices)).collect::<Result<Vec<u32>, _>>()?,
-            None if vertices == 4 => vec![0, 1, 2, 3],
-            None => return Err("no \"indices\"".to_owned()),
-        };
-        mesh.triangles = whole::<4, u32>("indices", &indices)?
-            .iter()
-            .flat_map(|[a, b, c, d]| [[*a, *b, *d], [*a, *d, *c]])
-            .collect();
-        Ok(mesh)
+        let mesh = Self::points(parameters)?;
+        let patches = indices::<4>(parameters, mesh.positions.len())?;
+        let triangles = patches.into_iter().flat_map(|[a, b, c, d]| [[a, b, d], [a, d, c]]).collect();
+        Ok(Self { triangles, ..mesh })
     }
 
     fn points(parameters: Parameters<'_>) -> Result<Self, String> {
@@ -288,6 +274,18 @@ impl Triangles {
             uvs: self.uvs,
             positions: positions.iter().map(|p| p.to_array()).collect(),
         }
+    }
+}
+
+/// The corners of faces of `N`: of one face, in their order, where the file does not say them.
+fn indices<const N: usize>(parameters: Parameters<'_>, vertices: usize) -> Result<Vec<[u32; N]>, String> {
+    match parameters.numbers("indices")? {
+        Some(stated) => {
+            let legal = stated.iter().map(|i| index(*i, vertices)).collect::<Result<Vec<u32>, _>>()?;
+            whole::<N, u32>("indices", &legal).map(<[_]>::to_vec)
+        }
+        None if vertices == N => Ok(vec![std::array::from_fn(|i| i as u32)]),
+        None => Err("no \"indices\"".to_owned()),
     }
 }
 

@@ -164,13 +164,7 @@ impl Scenery {
         };
         Ok(match self.texture_of(parameter, true)? {
             None => Reflectance::Plain(self.share(parameter)?),
-            Some(KnownTexture::Even(rgb)) => {
-                let legal = rgb.map(|v| v.clamp(0.0, 1.0));
-                if legal != rgb {
-                    self.report.note(format!("\"{name}\" beyond 0 … 1 is cut off there"));
-                }
-                Reflectance::Plain(grey(legal).map_or(Colour::LinearSrgb(legal.into()), |v| Colour::Grey(v.into())))
-            }
+            Some(KnownTexture::Even(rgb)) => Reflectance::Plain(self.share_of_rgb(name, rgb)),
             Some(KnownTexture::Picture { name, scale }) => {
                 let scale = self.legal_scale(scale).map(Into::into);
                 Reflectance::Texture { name: name.as_str().into(), scale }

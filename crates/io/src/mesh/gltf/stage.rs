@@ -9,10 +9,9 @@ use gltf::json::Root;
 use gltf::json::extensions::scene::khr_lights_punctual::{Light, Type};
 use gltf::json::validation::Checked;
 
-use super::buffers::Buffers;
 use super::{document, nodes};
+use crate::Error;
 use crate::source::read_bytes;
-use crate::{Error, Sandbox};
 
 /// The lights and cameras of a glTF file, in its axes (+y up, +z forward; m).
 #[derive(Clone, Debug, Default)]
@@ -88,18 +87,17 @@ pub enum GltfProjection {
     },
 }
 
-/// Reads lights and cameras of a glTF file, whose buffers must lie in `sandbox`.
+/// Reads lights and cameras of a glTF file. Its buffers, which hold nothing of them, are not read.
 ///
 /// # Errors
-/// As for its mesh: damaged files, numbers that no light or camera has.
-pub fn read_gltf_stage(file: &Path, sandbox: &Sandbox) -> Result<GltfStage, Error> {
+/// Damaged files, numbers that no light or camera has.
+pub fn read_gltf_stage(file: &Path) -> Result<GltfStage, Error> {
     let bytes = read_bytes(file, "scene")?;
-    read(file, &bytes, sandbox).map_err(|told| Error::new(file, told))
+    read(&bytes).map_err(|told| Error::new(file, told))
 }
 
-fn read(file: &Path, bytes: &[u8], sandbox: &Sandbox) -> Result<GltfStage, String> {
-    let (root, blob) = document::parse(bytes)?;
-    let _buffers = Buffers::read(file, &root, blob, sandbox)?;
+fn read(bytes: &[u8]) -> Result<GltfStage, String> {
+    let (root, _) = document::parse(bytes)?;
     let (shown, to_file) = nodes::shown(&root)?;
     let mut stage = GltfStage { animations: root.animations.len(), ..GltfStage::default() };
     for number in shown {

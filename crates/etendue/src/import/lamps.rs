@@ -1,0 +1,40 @@
+//! Lights of other programs as ours: points, cones, parallel light.
+
+use super::naming::{azimuth_elevation_deg, rounded};
+use etendue_scene::record::light::{LampAim, LampPlacement, LampStrength, PointLamp, SpotLamp};
+use etendue_scene::record::{Light, LightColour, Sun, SunLevel};
+use glam::DVec3;
+
+/// The disc of parallel light, whose rays are all alike in the file: as small as shadows need it, degrees.
+const PARALLEL_DEG: f64 = 0.01;
+
+/// A point of `candela` at `position` in the world, m.
+pub(super) fn point(name: &str, position: DVec3, candela: f64, colour: LightColour) -> Light {
+    let placement = LampPlacement { position_m: Some(position.to_array().into()), ..LampPlacement::default() };
+    Light::Point(PointLamp::new(name, placement, LampStrength::Intensity(candela.into()), colour))
+}
+
+/// A cone about a unit vector from `position` in the world, m: `candela` within its inner half angle, none outside its outer one; degrees.
+pub(super) fn spot(
+    name: &str,
+    (position, ahead): (DVec3, DVec3),
+    [inner_deg, outer_deg]: [f64; 2],
+    candela: f64,
+    colour: LightColour,
+) -> Light {
+    let [azimuth, elevation] = azimuth_elevation_deg(ahead);
+    let aim = Some(LampAim::Rotation(rounded([azimuth, -elevation, 0.0]).into()));
+    let placement = LampPlacement { position_m: Some(position.to_array().into()), aim, ..LampPlacement::default() };
+    let lamp = SpotLamp::new(name, placement, LampStrength::Intensity(candela.into()), colour, 2.0 * outer_deg);
+    Light::Spot(SpotLamp { inner_angle_deg: Some((2.0 * inner_deg).into()), ..lamp })
+}
+
+/// Parallel light from a unit vector of the world, `lux` on a surface that faces it.
+pub(super) fn parallel(name: &str, from: DVec3, lux: f64, colour: LightColour) -> Light {
+    let [azimuth, elevation, _] = {
+        let [azimuth, elevation] = azimuth_elevation_deg(from);
+        rounded([azimuth, elevation, 0.0])
+    };
+    let sun = Sun::new(name, elevation, azimuth, SunLevel::Illuminance(lux.into()));
+    Light::Sun(Sun { colour: Some(colour), angular_diameter_deg: Some(PARALLEL_DEG.into()), ..sun })
+}
