@@ -18,6 +18,8 @@ pub struct RenderSettings {
     pub max_bounces: u32,
     /// Whether caustics of lamps are followed.
     pub caustics: bool,
+    /// What lights are drawn by: "gloss" or "irradiance".
+    pub light_sampling: &'static str,
     /// Side of the squares of pixels that share the tails of their paths; 1 where none do.
     pub path_reuse_px: u32,
     /// Wavelengths a path.
@@ -50,6 +52,7 @@ impl Job {
             integrator,
             max_bounces: s.max_bounces,
             caustics: s.caustics,
+            light_sampling: s.light_sampling.word(),
             path_reuse_px: s.blocks.side_px(),
             wavelengths: s.wavelengths,
             disperses: through_lens && camera.body.disperses(),

@@ -2,6 +2,7 @@
 
 use crate::Clock;
 use crate::change::{Change, header};
+use crate::edge::EdgeChart;
 use crate::frame_render::{FrameRenderer, MORE};
 use crate::study::Request;
 use crate::way::{SAMPLE_KEYS, is_of};
@@ -70,6 +71,7 @@ pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -
         }
     }
     let spp = renderer.affordable_spp(trials.len() + 1)?;
+    let edges = EdgeChart::open(&renderer)?;
     let with = renderer.pair(&renderer.own, spp)?;
     let mut dropped = Vec::new();
     let total = trials.len();
@@ -79,7 +81,7 @@ pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -
         changed.set.extend(set.iter().cloned());
         match renderer.pair(&changed, spp) {
             Ok(without) => {
-                let change = Change::of(&with, &without, renderer.job_spp)?;
+                let change = Change::of(&with, &without, renderer.job_spp)?.with_edges(edges.as_ref(), &set)?;
                 dropped.push(Dropped { effect, id, set, change });
             }
             Err(Error::Input(reason)) => {
@@ -89,6 +91,7 @@ pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -
         }
     }
     observer.progress(Progress { heading: "done", frame: None, unit: Unit::Pilots, done: total, total });
+    drop(edges);
     let cpu_s = with.seconds(renderer.job_spp);
     Ok(Ablation { spp: spp * (1 + MORE), cpu_s, camera: renderer.camera, dropped, kept })
 }

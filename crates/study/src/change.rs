@@ -1,7 +1,9 @@
 //! What a change of a job changes of its frame: time, light, numbers, picture and geometry.
 
+use crate::edge::{EdgeChart, Mtf50};
 use crate::error::Estimate;
 use crate::frame_render::RenderPair;
+use crate::light_distribution::{change_of_contrast, change_of_corners};
 use crate::pictures::{QUALITY, side_by_side};
 use etendue::{Error, GroundTruth, display_jpeg};
 use etendue_core::Plane;
@@ -30,6 +32,14 @@ pub struct Change {
     pub distance: Option<f64>,
     /// Root mean square change of the direction of a pixel's ray, in pixels of the middle of the picture.
     pub direction_px: Option<f64>,
+    /// By what factor the light of the corners (an eighth of width and height each) over that of the middle (a quarter of both) changes, of the quantity of `light`: 1 where
+    /// vignetting stays. `None` where it is dark, or the light has another size or is another quantity.
+    pub corners: Option<Estimate>,
+    /// By how much (bright − dark)/(bright + dark) changes, of the means of 16 × 16 px that 5 % are darker, and 5 % brighter, than. `None` likewise.
+    pub contrast: Option<Estimate>,
+    /// Contrast transfer without and with the change, of a chart of edges before this camera; `None` where it was not asked for, or the camera with the change makes
+    /// no picture of a chart.
+    pub mtf50: Option<[Mtf50; 2]>,
     /// The frame as the job says, with the change, and four times their difference on grey, side by side, JPEG; `None` where there is no picture of the same size.
     #[serde(skip)]
     pub jpeg: Option<Vec<u8>>,
@@ -56,17 +66,30 @@ impl Change {
             instances: is_same.then(|| part_that_differs(&truths[0].instance, &truths[1].instance)),
             distance: is_same.then(|| change_of_distance(&truths)),
             direction_px: is_same.then(|| change_of_direction(own, changed)),
+            corners: change_of_corners(own, changed),
+            contrast: change_of_contrast(own, changed),
+            mtf50: None,
             jpeg: pictures.map(|(a, b)| display_jpeg(&side_by_side(a, b), QUALITY)).transpose()?,
         })
+    }
+
+    /// With what edges tell of it.
+    pub(crate) fn with_edges(self, edges: Option<&EdgeChart<'_>>, set: &[String]) -> Result<Self, Error> {
+        let mtf50 = edges.map(|edges| edges.change(set)).transpose()?.flatten();
+        Ok(Self { mtf50, ..self })
     }
 
     /// Its figures as a row under [`header`].
     pub(crate) fn row(&self) -> String {
         let percent = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| format!("{:.2} %", 100.0 * v));
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |v| format!("{v:.2}"));
+        let factor = self.corners.map_or_else(none, crate::report::figure);
+        let points = self.contrast.map_or_else(none, crate::report::percent);
+        let middle = self.mtf50.map_or_else(none, |pair| transfer(pair.map(|mtf50| mtf50.middle)));
+        let far = self.mtf50.map_or_else(none, |pair| transfer(pair.map(|mtf50| mtf50.far)));
         let light = self.light.map_or_else(|| "–".to_owned(), crate::report::percent);
         format!(
-            "{:>8.1} s {light:>14} {:>9} {:>9} {:>9} {:>9} {:>9}",
+            "{:>8.1} s {light:>14} {:>9} {:>9} {:>9} {:>9} {:>9} {factor:>15} {points:>15} {middle:>13} {far:>13}",
             self.cpu_saved_s,
             number(self.raw_dn),
             percent(self.picture),
@@ -80,9 +103,30 @@ impl Change {
 /// What stands over the rows.
 pub(crate) fn header() -> String {
     format!(
-        "{:>10} {:>14} {:>9} {:>9} {:>9} {:>9} {:>9}",
-        "saved", "light (rms)", "raw, DN", "picture", "other ids", "distance", "rays, px"
+        "{:>10} {:>14} {:>9} {:>9} {:>9} {:>9} {:>9} {:>15} {:>15} {:>13} {:>13}",
+        "saved",
+        "light (rms)",
+        "raw, DN",
+        "picture",
+        "other ids",
+        "distance",
+        "rays, px",
+        "corners, times",
+        "contrast, by",
+        "MTF50 middle",
+        "MTF50 far"
     )
+}
+
+fn none() -> String {
+    "–".to_owned()
+}
+
+/// Frequencies without and with a change, cycles a pixel.
+fn transfer(pair: [Option<Estimate>; 2]) -> String {
+    let word = |e: Option<Estimate>| e.map_or_else(none, |e| format!("{:.3}", e.value));
+    let [without, with] = pair.map(word);
+    format!("{without} → {with}")
 }
 
 fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {

@@ -24,7 +24,7 @@ fn as_changes(job: &JobRequest, camera: &str) -> JobRequest {
 
 /// Renders the first frame of one of a job's cameras, as the job says or with changes.
 pub(crate) struct FrameRenderer<'a> {
-    request: &'a Request,
+    pub(crate) request: &'a Request,
     clock: &'a dyn Clock,
     observer: &'a dyn Observer,
     /// The job as it stands.
@@ -39,7 +39,7 @@ pub(crate) struct FrameRenderer<'a> {
 }
 
 /// Passes on the wish to stop, and no message: frames without this or that have much to warn of.
-struct Quiet<'a>(&'a dyn Observer);
+pub(crate) struct Quiet<'a>(&'a dyn Observer);
 
 impl Observer for Quiet<'_> {
     fn cancelled(&self) -> bool {
@@ -99,6 +99,11 @@ impl<'a> FrameRenderer<'a> {
         Ok((self.request.budget_s / (runs * (self.clock.seconds() - from_s))).clamp(1.0, MAX_SPP) as u32)
     }
 
+    /// The observer without its messages.
+    pub(crate) fn quiet(&self) -> Quiet<'_> {
+        Quiet(self.observer)
+    }
+
     fn now_s(&self) -> f64 {
         self.clock.processor_seconds().unwrap_or_else(|| self.clock.seconds())
     }
@@ -118,7 +123,7 @@ impl<'a> FrameRenderer<'a> {
         let job: Job = request.open()?;
         let options = RenderOptions { simd: self.request.simd, ..RenderOptions::default() };
         let mut cameras = Vec::new();
-        job.render_each(&options, &Quiet(self.observer), |camera| {
+        job.render_each(&options, &self.quiet(), |camera| {
             cameras.push(camera);
             Ok(())
         })?;

@@ -9,10 +9,12 @@
 mod ablation;
 mod budget;
 mod change;
+mod edge;
 mod error;
 mod frame_render;
 mod front;
 mod job_file;
+mod light_distribution;
 mod measured;
 mod pictures;
 mod pilot;
@@ -27,6 +29,7 @@ mod way;
 
 pub use ablation::{Ablation, Dropped, Kept, ablation, ablation_table};
 pub use change::Change;
+pub use edge::Mtf50;
 pub use error::{Currencies, Estimate};
 pub use front::{FrontPoint, Recommendation, Target};
 pub use job_file::job_file;

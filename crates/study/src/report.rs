@@ -32,7 +32,7 @@ pub(crate) fn error_text(error: &Currencies<Estimate>) -> String {
 }
 
 /// As many decimals as the first figure of the uncertainty needs, three at most.
-fn figure(e: Estimate) -> String {
+pub(crate) fn figure(e: Estimate) -> String {
     if e == Estimate::default() {
         return "0".to_owned();
     }

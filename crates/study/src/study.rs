@@ -10,20 +10,20 @@ use crate::pixels::Pixels;
 use crate::plan::share;
 use crate::stint::Stint;
 use crate::trial::Trial;
-use crate::way::{Accelerator, EXACT_BOUNCES, WayToRender};
+use crate::way::{Accelerator, EXACT_BOUNCES, LIGHT_SAMPLINGS, WayToRender};
 use etendue::{
     Error, Existing, Integrator, Job, JobRequest, LightSignal, Observer, Progress, RenderOptions, Simd, Unit,
 };
 use etendue_core::maths::f64::hypot;
 use serde::Serialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Samples of a replicate of the short and of the long pilots, and replicates of each.
 const FEW: u32 = 2;
 const MANY: u32 = 8;
 const SEEDS: u32 = 8;
 /// Ways that a study looks at, about: what its time is shared among.
-const WAYS: f64 = 17.0;
+const WAYS: f64 = 18.0;
 /// The part of the time that pilots may have; the rest is for whole frames and for trying what is recommended.
 const PILOTS_PART: f64 = 0.7;
 /// Samples that are told of a job whose pixels get as many as their noise asks for.
@@ -42,6 +42,9 @@ pub struct Request {
     pub budget_s: f64,
     /// The instruction set of the accelerator.
     pub simd: Simd,
+    /// For changes of a frame: a folder that is not there, in which a chart of edges is photographed for the contrast transfer, and which is removed; `None`: that is not
+    /// told.
+    pub edges: Option<PathBuf>,
 }
 
 /// What a study found.
@@ -194,7 +197,7 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Ways with the means of the job's own: other wavelengths, shared paths, trees.
+    /// Ways with the means of the job's own: other wavelengths, shared paths, choices of lights, trees.
     fn choices_without_bias(&self, stated: WayToRender) -> Result<Vec<WayToRender>, Error> {
         let disperses = self.job.render_settings(self.pilots.camera)?.disperses;
         let wavelengths = [1, 4, 8].into_iter().filter(|n| !disperses || *n == 1);
@@ -202,7 +205,8 @@ impl Bench<'_> {
         let shares: &[u32] = if stated.integrator == Integrator::Path { &[1, 2, 4, 8] } else { &[] };
         let shares = shares.iter().map(|px| WayToRender { path_reuse_px: *px, ..stated });
         let trees = Accelerator::ALL.into_iter().map(|accelerator| WayToRender { accelerator, ..stated });
-        Ok(wavelengths.chain(shares).chain(trees).filter(|way| *way != stated).collect())
+        let lights = LIGHT_SAMPLINGS.into_iter().map(|light_sampling| WayToRender { light_sampling, ..stated });
+        Ok(wavelengths.chain(shares).chain(lights).chain(trees).filter(|way| *way != stated).collect())
     }
 
     /// Looks at a way that others are compared with.
@@ -300,6 +304,8 @@ impl Bench<'_> {
         };
         let wavelengths = best(|own, other| WayToRender { wavelengths: other.wavelengths, ..*own }).wavelengths;
         let path_reuse_px = best(|own, other| WayToRender { path_reuse_px: other.path_reuse_px, ..*own }).path_reuse_px;
+        let light_sampling =
+            best(|own, other| WayToRender { light_sampling: other.light_sampling, ..*own }).light_sampling;
         let accelerator = best(|own, other| WayToRender { accelerator: other.accelerator, ..*own }).accelerator;
         let has_sensor = self.ways[0].bias_squares.sensor.is_some();
         let called: Vec<_> = targets(has_sensor)
@@ -309,7 +315,7 @@ impl Bench<'_> {
             .collect();
         for way in called {
             let shared = if way.integrator == Integrator::Path { path_reuse_px } else { 1 };
-            let joined = WayToRender { wavelengths, path_reuse_px: shared, accelerator, ..way };
+            let joined = WayToRender { wavelengths, path_reuse_px: shared, light_sampling, accelerator, ..way };
             let base = self.ways.iter().find(|m| m.way == way).and_then(|m| m.bias.as_ref()).map(|b| b.against);
             self.choose(joined, way, base)?;
         }

@@ -2,6 +2,7 @@
 
 use crate::Clock;
 use crate::change::{Change, header};
+use crate::edge::EdgeChart;
 use crate::frame_render::{FrameRenderer, MORE};
 use crate::study::Request;
 use crate::way::{SAMPLE_KEYS, is_of};
@@ -54,14 +55,17 @@ pub fn variations(
     let memory = requests.iter().map(|request| Ok(memory_bytes(&request.clone().open()?, camera)));
     let memory = memory.collect::<Result<Vec<_>, Error>>()?;
     let spp = renderer.affordable_spp(requests.len() + 1)?;
+    let edges = EdgeChart::open(&renderer)?;
     let stated = renderer.pair(&renderer.own, spp)?;
     let (mut varied, total) = (Vec::new(), requests.len());
     for (done, ((request, set), memory_bytes)) in requests.iter().zip(variations).zip(memory).enumerate() {
         observer.progress(Progress { heading: &set.join("; "), frame: None, unit: Unit::Pilots, done, total });
         let change = Change::of(&stated, &renderer.pair(request, spp)?, renderer.job_spp)?;
+        let change = change.with_edges(edges.as_ref(), set)?;
         varied.push(Varied { set: set.clone(), memory_bytes, change });
     }
     observer.progress(Progress { heading: "done", frame: None, unit: Unit::Pilots, done: total, total });
+    drop(edges);
     let (cpu_s, memory_bytes) = (stated.seconds(renderer.job_spp), memory_bytes(&renderer.job, camera));
     Ok(Variations { spp: spp * (1 + MORE), cpu_s, memory_bytes, camera: renderer.camera, varied })
 }

@@ -41,6 +41,8 @@ pub struct WayToRender {
     pub caustics: bool,
     /// Side of the squares of pixels that share the tails of their paths; of paths only.
     pub path_reuse_px: u32,
+    /// What lights are drawn by: "gloss" or "irradiance".
+    pub light_sampling: &'static str,
     /// Wavelengths a path.
     pub wavelengths: u32,
     /// How the hierarchies are built.
@@ -60,6 +62,7 @@ impl WayToRender {
             max_bounces: settings.max_bounces,
             caustics: settings.caustics,
             path_reuse_px: settings.path_reuse_px,
+            light_sampling: settings.light_sampling,
             wavelengths: settings.wavelengths,
             accelerator: Accelerator::ALL.into_iter().find(|a| a.name() == word).unwrap_or(Accelerator::Default),
         })
@@ -74,6 +77,7 @@ impl WayToRender {
             keys.push(("caustics", self.caustics.to_string()));
             keys.push(("path_reuse_px", self.path_reuse_px.to_string()));
         }
+        keys.push(("light_sampling", format!("\"{}\"", self.light_sampling)));
         keys.push(("wavelengths_per_path", self.wavelengths.to_string()));
         keys.push(("accelerator", format!("\"{}\"", self.accelerator.name())));
         keys
@@ -96,7 +100,8 @@ impl WayToRender {
             Accelerator::Default => String::new(),
             other => format!(", {} accelerator", other.name()),
         };
-        let wavelengths = format!("{} λ", self.wavelengths);
+        let lights = if self.light_sampling == BLIND { ", lights by irradiance" } else { "" };
+        let wavelengths = format!("{} λ{lights}", self.wavelengths);
         if self.integrator != Integrator::Path {
             return format!("{}, {wavelengths}{accelerator}", self.integrator.name());
         }
@@ -127,9 +132,14 @@ impl WayToRender {
     }
 }
 
+/// The choice of lights that does not know gloss.
+const BLIND: &str = "irradiance";
+/// What lights can be drawn by.
+pub(crate) const LIGHT_SAMPLINGS: [&str; 2] = ["gloss", BLIND];
+
 /// Keys of `[render]` that say a way.
-pub(crate) const WAY_KEYS: [&str; 6] =
-    ["integrator", "max_bounces", "caustics", "path_reuse_px", "wavelengths_per_path", "accelerator"];
+pub(crate) const WAY_KEYS: [&str; 7] =
+    ["integrator", "max_bounces", "caustics", "path_reuse_px", "light_sampling", "wavelengths_per_path", "accelerator"];
 /// Keys of `[render]` that say how many samples there are.
 pub(crate) const SAMPLE_KEYS: [&str; 6] = ["spp", "noise_threshold", "min_spp", "max_spp", "passes", "replicates"];
 

@@ -33,6 +33,10 @@ pub struct Tradeoff {
     /// changes and saves; give it once for each change: --vary render.wavelengths_per_path=1 --vary "a.b=1; a.c=2"
     #[arg(long, value_name = "KEY=VALUE", conflicts_with = "ablate", value_parser = changes)]
     pub vary: Vec<Changes>,
+    /// With --ablate or --vary: photograph a chart of slanted edges with the camera as it is and with each change, too, and tell the spatial frequencies (cycles a
+    /// pixel) at which its contrast is halved
+    #[arg(long)]
+    pub mtf50: bool,
     /// Print the study as JSON instead of as tables
     #[arg(long)]
     pub json: bool,
@@ -101,10 +105,16 @@ impl Tradeoff {
         // Its faults, and what the command line supersedes, before anything is written.
         self.job.open(console, &pool)?;
         let (folder, existing) = self.output.folder();
+        if self.mtf50 && !self.ablate && self.vary.is_empty() {
+            return Err(Error::input(
+                "--mtf50 tells what changes do to the contrast transfer: give it with --ablate or --vary",
+            ));
+        }
         self.refuse_to_replace()?;
         let mut output = OutputFolder::open(folder, existing).map_err(Error::input)?;
         let job = JobRequest::from(&self.job);
-        let request = Request { job, camera: self.job.camera.clone(), budget_s: self.time, simd };
+        let edges = self.mtf50.then(|| folder.join("edges"));
+        let request = Request { job, camera: self.job.camera.clone(), budget_s: self.time, simd, edges };
         let observer = console.observer();
         let findings = pool.install(|| match (self.ablate, self.vary.as_slice()) {
             (true, _) => ablated(&request, observer),

@@ -115,6 +115,47 @@ fn keys_are_varied_one_after_the_other() {
     assert!(files.contains_key("variations.txt") && !files.contains_key("draft.toml"));
 }
 
+/// In focus only the pixel's aperture of width a blurs an edge, by sin(πaf)/(πaf), which is one half at af = 0.6034; a longer exposure changes no edge, corner or contrast.
+#[test]
+fn edges_and_corners_tell_of_a_change() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let (job, out) = (job(place.path()), text(&place.path().join("out")));
+    let large = [
+        ("width_px = 64", "width_px = 360"),
+        ("height_px = 48", "height_px = 240"),
+        ("pixel_pitch_um = 100", "pixel_pitch_um = 15"),
+        ("exposure_s = 1e-5", "exposure_s = 2e-4"),
+        ("\"rggb\"", "\"mono\""),
+        ("{ camera = \"nikon-d5100\", peak = 0.5 }", "0.5"),
+    ];
+    let small = std::fs::read_to_string(&job).expect("the job");
+    std::fs::write(&job, large.into_iter().fold(small, |text, (from, to)| text.replace(from, to))).expect("a file");
+    let vary = ["--vary", "cameras.front.sensor.fill_factor=0.49", "--vary", "cameras.front.sensor.exposure_s=1e-4"];
+    let asked = ["tradeoff", &job, "-o", &out, "--time", "10", "--mtf50", "--json"];
+    let told = etendue(asked.into_iter().chain(vary)).ok().out;
+    let found: serde_json::Value = serde_json::from_str(&told).expect("JSON");
+    let of = |change: usize, pointer: &str| {
+        let estimate = found["varied"][change].pointer(pointer).unwrap_or_else(|| panic!("{pointer} in {told}"));
+        (estimate["value"].as_f64().expect("known"), estimate["uncertainty"].as_f64().expect("known"))
+    };
+    // 3 % for the measurement's own: edges of some twenty pixels.
+    let agrees = |(value, uncertainty): (f64, f64), expected: f64| {
+        assert!((value - expected).abs() < 0.03 * expected + 3.0 * uncertainty, "{value} ± {uncertainty}, {expected}");
+        assert!(uncertainty < 0.1 * expected, "{value} ± {uncertainty}");
+    };
+    for change in [0, 1] {
+        agrees(of(change, "/mtf50/0/middle"), 0.6034);
+        let aperture = if change == 0 { 0.7 } else { 1.0 };
+        agrees(of(change, "/mtf50/1/middle"), 0.6034 / aperture);
+        let (corners, contrast) = (of(change, "/corners"), of(change, "/contrast"));
+        assert!((corners.0 - 1.0).abs() < 0.01 && contrast.0.abs() < 0.01, "{corners:?} {contrast:?}");
+    }
+    assert!(of(0, "/mtf50/1/middle").0 > 1.2 * of(0, "/mtf50/0/middle").0);
+    let files = contents(Path::new(&out));
+    assert!(files.keys().all(|name| !name.starts_with("edges")), "the chart is gone");
+    etendue(["tradeoff", &job, "-o", &out, "--overwrite", "--mtf50"]).refused(&["--mtf50", "--ablate or --vary"]);
+}
+
 #[test]
 fn what_cannot_be_studied_is_refused() {
     let place = tempfile::tempdir().expect("a temporary folder");

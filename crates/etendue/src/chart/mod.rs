@@ -2,6 +2,7 @@
 
 mod camera;
 mod exposure;
+mod own_camera;
 
 use crate::error::Error;
 use crate::ranges::whole;
@@ -16,6 +17,7 @@ use etendue_io::png::{encode_display, encode_raw16};
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::light_meter::LightMeter;
 use glam::DVec2;
+pub use own_camera::ChartBeforeCamera;
 use std::path::{Path, PathBuf};
 
 /// The distance of a sheet before a camera that is focused nowhere in particular, m.

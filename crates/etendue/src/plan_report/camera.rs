@@ -78,6 +78,8 @@ pub struct SettingsReport {
     pub replicates: u32,
     /// Pixels whose paths share their tails; 1: none do.
     pub pixels_sharing_paths: u32,
+    /// What lights are drawn by: "gloss" or "irradiance".
+    pub light_sampling: &'static str,
     /// Wavelengths a path.
     pub wavelengths_per_path: u32,
     /// The density by which they are drawn: "uniform", "response", "response_and_source".
@@ -229,6 +231,7 @@ impl SettingsReport {
             noise_threshold: s.adaptive.map(|limit| limit.threshold),
             replicates: s.replicates,
             pixels_sharing_paths: s.blocks.len_px(),
+            light_sampling: s.light_sampling.word(),
             wavelengths_per_path: s.wavelengths,
             wavelength_density: s.wavelength_sampling.word(),
             spectral_gain: camera.spectral_gain.map(SpectralGainReport::of),

@@ -20,7 +20,7 @@ use etendue_scene::record::output::{self, DepthScale};
 use etendue_scene::record::render::{self, Accumulate, DepthMethod};
 use etendue_scene::record::{Output, Render};
 use etendue_scene::{Place, Placed};
-use etendue_tracer::integrator::Level;
+use etendue_tracer::integrator::{Level, LightSampling};
 
 /// Wavelengths of radiance itself, nm.
 const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
@@ -206,6 +206,10 @@ pub(super) fn settings(
         max_bounces: max_bounces(level, render, choices),
         // Of paths only.
         caustics: level != Level::Path || render.caustics.as_ref().is_none_or(|c| c.value),
+        light_sampling: match render.light_sampling.as_ref().map(|sampling| sampling.value) {
+            Some(render::LightSampling::Irradiance) => LightSampling::Irradiance,
+            Some(render::LightSampling::Gloss) | None => LightSampling::Gloss,
+        },
         wavelengths: wavelengths(render, body, &route, context)?,
         // Decided where all light is known.
         wavelength_sampling: WavelengthSampling::Uniform,

@@ -4,7 +4,7 @@ use super::wavelength_sampling::WavelengthSampling;
 use crate::render::block::Blocks;
 use etendue_core::Bands;
 use etendue_optics::PupilProjection;
-use etendue_tracer::integrator::Level;
+use etendue_tracer::integrator::{Level, LightSampling};
 
 /// The way to the sensor plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +40,8 @@ pub struct Settings {
     pub max_bounces: u32,
     /// Whether caustics of lamps are followed.
     pub caustics: bool,
+    /// What lights are drawn by.
+    pub light_sampling: LightSampling,
     /// Wavelengths a path: 1, 4 or 8.
     pub wavelengths: u32,
     /// The density by which they are drawn; evenly where no electrons are summed.

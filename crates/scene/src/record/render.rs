@@ -38,7 +38,7 @@ record! {
         optional integrator: Placed<Integrator> = choice();
         /// Surfaces that a path meets at most, 1 … 1 024; belongs to integrator = "path". Default: 16, or as `--quality` says.
         optional max_bounces: Placed<u64> = whole(1, 1024);
-        /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones is followed. Without it the
+        /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones, and mirrors on much less glossy surfaces, is followed. Without it the
         /// picture is darker by that light, and free of the rare bright samples that find it; and rain or snow turns only light on its way to the
         /// camera, not between matt surfaces. Belongs to integrator = "path".
         /// Default: true.
@@ -47,6 +47,8 @@ record! {
         /// much less time for the same error where light is scattered from surface to surface, but errors of the pixels of
         /// a block are then alike. Belongs to integrator = "path". Default: 1.
         optional path_reuse_px: Placed<u64> = among(&[1, 2, 4, 8]);
+        /// By what a light's chance of being drawn at a surface goes: the noise of surfaces that mirror lamps depends on it, no mean does. Default: "gloss".
+        optional light_sampling: Placed<LightSampling> = choice();
         /// Wavelengths that a path carries. Default: 4.
         optional wavelengths_per_path: Placed<u64> = among(&[1, 4, 8]);
         /// The density by which the wavelengths of pixels that sum electrons are drawn: their noise depends on it, their mean does not.
@@ -168,6 +170,16 @@ choice! {
 }
 
 choice! {
+    /// By what a light's chance of being drawn at a surface goes.
+    pub enum LightSampling {
+        /// Its irradiance, and how much of it a glossy surface sends back along the path.
+        "gloss" => Gloss,
+        /// Its irradiance alone: a path takes up to a quarter less time where surfaces are glossy and lamps are many, and their mirror images are found by luck.
+        "irradiance" => Irradiance,
+    }
+}
+
+choice! {
     /// The way to the sensor plane.
     pub enum Route {
         /// Every sample goes through the lens.
@@ -219,6 +231,7 @@ impl Render {
             max_bounces: None,
             caustics: None,
             path_reuse_px: None,
+            light_sampling: None,
             wavelengths_per_path: None,
             wavelength_density: None,
             route: None,
@@ -288,6 +301,7 @@ impl Render {
             max_bounces: a.max_bounces.or(b.max_bounces),
             caustics: a.caustics.or(b.caustics),
             path_reuse_px: a.path_reuse_px.or(b.path_reuse_px),
+            light_sampling: a.light_sampling.or(b.light_sampling),
             wavelengths_per_path: a.wavelengths_per_path.or(b.wavelengths_per_path),
             wavelength_density: a.wavelength_density.or(b.wavelength_density),
             route: a.route.or(b.route),

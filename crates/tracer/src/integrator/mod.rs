@@ -34,5 +34,5 @@ mod tests;
 pub use level::Level;
 pub use mis::Strategies;
 pub use path_tracer::PathTracer;
-pub use settings::PathSettings;
+pub use settings::{LightSampling, PathSettings};
 pub use surroundings::Surroundings;

@@ -12,7 +12,7 @@ use super::caustic::History;
 use super::cone::Cone;
 use super::effects::Effects;
 use super::medium::Medium;
-use super::{Level, PathTracer};
+use super::{Level, LightSampling, PathTracer};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::lights::{LightSample, LightSampleContext, ReceiverGloss};
@@ -254,11 +254,16 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// What the choice among lights is told of a surface: nothing where light that lobes send on is left out as a caustic.
+    /// What the choice among lights is told of a surface: nothing where light that lobes send on is left out as a caustic, or lobes do not count.
     #[inline(always)]
     fn gloss(&self, vertex: &Vertex<'a, N>) -> Option<ReceiverGloss> {
-        let counts = self.follows(self.history.would_be_caustic(f32::INFINITY));
-        if counts { ReceiverGloss::new(&vertex.bsdf.gloss(vertex.frame.wo), &vertex.frame) } else { None }
+        let asked = self.tracer.settings.light_sampling == LightSampling::Gloss;
+        if !asked || !self.follows(self.history.is_matt()) {
+            return None;
+        }
+        let gloss = vertex.bsdf.gloss(vertex.frame.wo);
+        let counting = gloss.keeping(|lobe| self.follows(self.history.would_be_caustic(lobe.density_at_axis())));
+        ReceiverGloss::new(&counting, &vertex.frame)
     }
 
     #[inline(always)]

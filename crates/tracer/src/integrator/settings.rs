@@ -3,6 +3,26 @@
 use super::level::Level;
 use super::mis::Strategies;
 
+/// What a light's chance of being drawn at a surface goes by. No mean depends on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightSampling {
+    /// Its irradiance, and how much of it the surface's narrow lobes send back along the path.
+    Gloss,
+    /// Its irradiance alone: cheaper at glossy surfaces, and noisier where they mirror lamps.
+    Irradiance,
+}
+
+impl LightSampling {
+    /// Its word in the key `light_sampling`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Gloss => "gloss",
+            Self::Irradiance => "irradiance",
+        }
+    }
+}
+
 /// How paths are followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
@@ -19,6 +39,8 @@ pub struct PathSettings {
     pub cone_spread_rad: f32,
     /// Which ways of finding light are used.
     pub strategies: Strategies,
+    /// What lights are drawn by.
+    pub light_sampling: LightSampling,
     /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones is followed (`caustic.rs`).
     /// Without it the picture is darker by that light, and free of the rare bright samples that find it.
     pub caustics: bool,
@@ -35,6 +57,7 @@ impl Default for PathSettings {
             samples: 1,
             cone_spread_rad: 0.0,
             strategies: Strategies::Both,
+            light_sampling: LightSampling::Gloss,
             caustics: true,
             only_airlight: false,
         }

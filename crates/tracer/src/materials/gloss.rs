@@ -52,6 +52,16 @@ impl GlossLobe {
         Self { about: About::Direction(direction), width: width2.sqrt(), peak, f0: 1.0 }
     }
 
+    /// About the density by which the lobe alone is sampled at its axis, 1/sr: that of a kernel whose integral is 1.
+    pub(crate) fn density_at_axis(&self) -> f32 {
+        let kernel = core::f32::consts::FRAC_1_PI / (self.width * self.width).max(f32::MIN_POSITIVE);
+        match self.about {
+            // Half vectors turn by half of what directions do.
+            About::HalfVector => 0.25 * kernel,
+            About::Direction(_) => kernel,
+        }
+    }
+
     /// F at the axis, for a viewer of this cosine.
     pub(crate) fn fresnel_at_axis(&self, cos_o: f32) -> f32 {
         schlick(self.f0, cos_o)
@@ -65,6 +75,16 @@ impl Gloss {
     /// A matt part alone, of mean bsdf `matt`, 1/sr.
     pub(super) fn over(matt: f32) -> Self {
         Self { matt, ..Self::MATT }
+    }
+
+    /// With those lobes alone that `keep` says.
+    pub(crate) fn keeping(mut self, keep: impl Fn(&GlossLobe) -> bool) -> Self {
+        for lobe in &mut self.lobes {
+            if lobe.peak > 0.0 && !keep(lobe) {
+                *lobe = GlossLobe::NONE;
+            }
+        }
+        self
     }
 
     /// With another lobe; of too many the weakest is left out.

@@ -6,7 +6,7 @@ use crate::plan::path_cost::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, TWO_BOUNCES_CPU
 use crate::plan::{CameraPlan, FrameCost, Plan, Settings};
 use crate::render::block::Blocks;
 use etendue_core::EffectStatus;
-use etendue_tracer::integrator::Level;
+use etendue_tracer::integrator::{Level, LightSampling};
 
 const GROUP: EffectGroup = EffectGroup::LightTransport;
 
@@ -19,6 +19,7 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
         later_bounces(camera, paths),
         beyond_the_limit(&camera.settings),
         caustics(camera),
+        light_sampling(camera),
         path_reuse(camera),
         adaptive_sampling(camera),
         never("polarisation"),
@@ -97,6 +98,20 @@ fn caustics(camera: &CameraPlan) -> PlannedEffect {
     };
     let effect = PlannedEffect::new(GROUP, "caustics", status).described_by("render.caustics");
     effect.dropped_by([of_camera(camera, "render.caustics", "false")])
+}
+
+fn light_sampling(camera: &CameraPlan) -> PlannedEffect {
+    let status = match camera.settings.light_sampling {
+        LightSampling::Gloss => {
+            let text = "at glossy surfaces, lights are drawn by what the surface sends back of them, too";
+            EffectStatus::WhereNeeded(text.to_owned())
+        }
+        LightSampling::Irradiance => EffectStatus::LeftOut(
+            "lights are drawn by their irradiance alone: mirror images of lamps are noisier".to_owned(),
+        ),
+    };
+    let effect = PlannedEffect::new(GROUP, "lights drawn by gloss", status).described_by("render.light_sampling");
+    effect.dropped_by([of_camera(camera, "render.light_sampling", "irradiance")])
 }
 
 fn path_reuse(camera: &CameraPlan) -> PlannedEffect {

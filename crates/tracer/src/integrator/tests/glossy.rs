@@ -66,3 +66,20 @@ fn drawn_and_met_light_agree_on_gloss() {
         assert!(both.standard_error() < 0.01 * both.mean, "{name}: {both:?}");
     }
 }
+
+/// Lights drawn by their irradiance alone: the same light, and more noise where a narrow lobe mirrors lamps.
+#[test]
+fn lights_drawn_without_regard_to_gloss_give_the_same() {
+    let look = ray([-6.0, 0.0, 1.3], [30.0, -1.0, 0.0]);
+    let mut noisier = 0;
+    for (name, surface) in glossy_surfaces() {
+        let ready = floor_under(&surface, road_lamps());
+        let by = |light_sampling| ready.look(&look, 1024, PathSettings { light_sampling, ..bounces(1) });
+        let (gloss, irradiance) = (by(LightSampling::Gloss), by(LightSampling::Irradiance));
+        agree(&irradiance, &gloss);
+        let ratio = irradiance.standard_error() / gloss.standard_error();
+        assert!(ratio > 0.9, "{name}: {ratio}");
+        noisier += u32::from(ratio > 2.0);
+    }
+    assert!(noisier >= 2, "{noisier} surfaces mirror lamps here");
+}

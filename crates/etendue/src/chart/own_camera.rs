@@ -1,0 +1,138 @@
+//! A chart before a camera of a job, as the job's files and changes of keys say it: for what a measurement sees of a change.
+
+use super::camera::ChartCamera;
+use super::{ChartRequest, make};
+use crate::error::Error;
+use crate::job::JobRequest;
+use crate::memory::MemoryFiles;
+use crate::observer::Observer;
+use crate::render_options::RenderOptions;
+use etendue_io::Existing;
+use etendue_scene::CameraSetup;
+use etendue_scene::record::render::Integrator;
+use etendue_scene::record::{Camera, Output, Render};
+use etendue_scene::written::File;
+use etendue_scene::{Description, Overrides};
+use std::path::{Path, PathBuf};
+
+/// The distance of a chart before a lens that is focused at infinity, m: its blur there is that of infinity.
+const FAR_M: f64 = 1000.0;
+const CAMERA: &str = "job-camera.toml";
+const JOB: &str = "job.toml";
+const CHANGED: &str = "changed.toml";
+const PHOTOGRAPHS: &str = "photographs";
+
+/// A chart in a folder, made for a camera of a job. Exposure and distance are those of the camera as the job says it.
+#[derive(Clone, Debug)]
+pub struct ChartBeforeCamera {
+    folder: PathBuf,
+    camera: String,
+}
+
+impl ChartBeforeCamera {
+    /// Makes the chart of `request` before a camera of a job: the request's own camera does not count, and where it says no distance the chart stands where the job's
+    /// camera is focused, 1 km away at most. The folder is for this alone.
+    ///
+    /// # Errors
+    /// Where the job has faults or no such camera, the chart does not fit the camera, or the folder cannot be written.
+    pub fn make(request: &ChartRequest, (job, camera): (&JobRequest, &str), folder: &Path) -> Result<Self, Error> {
+        let setup = setup(job, camera)?;
+        let failed = |error| Error::run(format!("{}: {error}", folder.display()));
+        std::fs::create_dir_all(folder).map_err(failed)?;
+        // From the root of the file system, as files that are written name others so.
+        let folder = &folder.canonicalize().map_err(failed)?;
+        let file = folder.join(CAMERA);
+        write(&file, &File::new(of_constant_exposure(setup.camera).to_table()))?;
+        let given = file.to_string_lossy().into_owned();
+        let focus_m = ChartCamera::load(&given)?.body.lens.focus_distance_m();
+        let far = focus_m.filter(|m| !(m.is_finite() && *m < FAR_M)).map(|_| FAR_M);
+        let request = ChartRequest { camera: given, distance_m: request.distance_m.or(far), ..request.clone() };
+        make(&request, (folder, Existing::Refuse))?;
+        Ok(Self { folder: folder.to_owned(), camera: camera.to_owned() })
+    }
+
+    /// What the chart is and where, for a measurement.
+    #[must_use]
+    pub fn truth(&self) -> PathBuf {
+        self.folder.join("truth.json")
+    }
+
+    /// Photographs the chart by the camera as `job` says it now, directly lit, with `spp` samples a pixel: the path of the developed picture, of a camera without
+    /// processing of its raw picture. Changes of the scene, of poses and of samples have no part in it. A further photograph takes the place of the one before.
+    /// Runs on the caller's thread pool.
+    ///
+    /// # Errors
+    /// Where the job has faults, the camera makes no such picture, the observer cancels, or the folder cannot be written.
+    pub fn photograph(
+        &self,
+        job: &JobRequest,
+        spp: u32,
+        options: &RenderOptions,
+        observer: &dyn Observer,
+    ) -> Result<PathBuf, Error> {
+        let changed = setup(job, &self.camera)?;
+        let mut chart = load(&self.folder.join(JOB), &Overrides::default())?;
+        let mut station = chart.cameras.swap_remove(0);
+        station.camera = of_constant_exposure(changed.camera);
+        station.render = directly_lit(changed.render, spp);
+        let has_picture = station.camera.isp.is_some();
+        let no = || Some(false.into());
+        station.output =
+            Output { picture: Some(has_picture.into()), ground_truth: no(), radiance: no(), ..station.output };
+        chart.cameras = vec![station];
+        let file = self.folder.join(CHANGED);
+        write(&file, &File::new(chart.to_table()))?;
+        let request = JobRequest { films: job.films.clone(), textures: job.textures.clone(), ..JobRequest::new(file) };
+        let folder = self.folder.join(PHOTOGRAPHS);
+        let written = request.open()?.save(options, (&folder, Existing::Replace), observer)?;
+        let start = if has_picture { "picture." } else { "raw." };
+        let is_picture =
+            |path: &&PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(start));
+        let none = || Error::input(format!("camera {}: it makes no picture to measure", self.camera));
+        written.iter().find(is_picture).cloned().ok_or_else(none)
+    }
+}
+
+fn load(file: &Path, overrides: &Overrides) -> Result<Description, Error> {
+    let files = MemoryFiles::new();
+    let sandbox = JobRequest::new(file).folders()?;
+    let description = Description::load(file, &|path| files.read(path, &sandbox), overrides);
+    description.map_err(|faults| Error::inputs(faults.list()))
+}
+
+/// A camera of a job, with the names of its files from the root of the file system.
+fn setup(job: &JobRequest, camera: &str) -> Result<CameraSetup, Error> {
+    let file = job.job.canonicalize().map_err(|error| Error::input(format!("{}: {error}", job.job.display())))?;
+    let description = load(&file, &job.overrides())?;
+    let setup = description.cameras.into_iter().find(|setup| setup.name.value == camera);
+    setup.ok_or_else(|| Error::input(format!("{}: no camera {camera}", job.job.display())))
+}
+
+/// What changes the exposure from frame to frame follows the scene, of which the chart is none.
+fn of_constant_exposure(mut camera: Camera) -> Camera {
+    if let Some(electronics) = &mut camera.sensor.electronics {
+        electronics.auto_exposure = None;
+    }
+    camera
+}
+
+/// Flat sheets light nothing but the camera.
+fn directly_lit(render: Render, spp: u32) -> Render {
+    Render {
+        spp: Some(u64::from(spp).into()),
+        replicates: Some(1.into()),
+        integrator: Some(Integrator::Direct.into()),
+        passes: Vec::new(),
+        noise_threshold: None,
+        min_spp: None,
+        max_spp: None,
+        max_bounces: None,
+        caustics: None,
+        path_reuse_px: None,
+        ..render
+    }
+}
+
+fn write(path: &Path, file: &File) -> Result<(), Error> {
+    std::fs::write(path, file.to_string()).map_err(|error| Error::run(format!("{}: {error}", path.display())))
+}

@@ -1,0 +1,102 @@
+//! What a change does to how light is spread over a picture: fall-off towards the corners, and contrast.
+
+use crate::error::Estimate;
+use crate::frame_render::RenderPair;
+use etendue_core::Plane;
+use etendue_core::quantity::WatchedSignal;
+
+/// Side of the cells whose means the contrast is of, px.
+const CELL_PX: usize = 16;
+/// Parts of the cells that are darker than the dark end, and than the bright end, of the contrast.
+const ENDS: [f64; 2] = [0.05, 0.95];
+
+/// A figure of two renderings that err independently, the second of so many times the first one's samples: their mean by samples, and what their difference says of it.
+fn pooled([few, many]: [f64; 2], more: f64) -> Option<Estimate> {
+    let value = (few + more * many) / (1.0 + more);
+    // Variances are σ² and σ²/more: that of the mean is σ²/(1 + more), of the difference σ²(1 + 1/more).
+    let uncertainty = (few - many).abs() * more.sqrt() / (1.0 + more);
+    value.is_finite().then_some(Estimate { value, uncertainty })
+}
+
+/// One figure of both renderings of two frames of equal size.
+fn of_both(
+    (own, changed): (&RenderPair, &RenderPair),
+    figure: impl Fn(&Plane<WatchedSignal>, &Plane<WatchedSignal>) -> Option<f64>,
+) -> Option<Estimate> {
+    let of = |own: &crate::frame_render::FrameRender, changed: &crate::frame_render::FrameRender| {
+        let ((kind, a), (other, b)) = own.light.as_ref().zip(changed.light.as_ref())?;
+        let fits = kind == other && (a.width(), a.height()) == (b.width(), b.height());
+        if fits { figure(a, b) } else { None }
+    };
+    let few = of(&own.few, &changed.few)?;
+    let many = of(&own.many, &changed.many)?;
+    pooled([few, many], crate::frame_render::MORE.into())
+}
+
+/// By what factor the light of the corners (an eighth of width and height each) over that of the middle (a quarter of both) changes: 1 where it does not. `None`
+/// where it is dark there, or the light has another size or quantity.
+pub(crate) fn change_of_corners(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
+    of_both((own, changed), |own, changed| {
+        let factor = corners_over_middle(changed)? / corners_over_middle(own)?;
+        factor.is_finite().then_some(factor)
+    })
+}
+
+/// By how much (bright − dark)/(bright + dark) changes, of the cells of 16 × 16 px that only 5 % are darker, and brighter, than. `None` likewise.
+pub(crate) fn change_of_contrast(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
+    of_both((own, changed), |own, changed| Some(contrast(changed)? - contrast(own)?))
+}
+
+fn mean(plane: &Plane<WatchedSignal>, [x0, y0]: [usize; 2], [x1, y1]: [usize; 2]) -> f64 {
+    let rows = (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y)));
+    let (sum, count) = rows.fold((0.0, 0.0), |(sum, n), (x, y)| (sum + f64::from(plane.at(x, y)), n + 1.0));
+    sum / count
+}
+
+fn corners_over_middle(plane: &Plane<WatchedSignal>) -> Option<f64> {
+    let (w, h) = (plane.width(), plane.height());
+    let (dx, dy) = ((w / 8).max(1), (h / 8).max(1));
+    let corner = |x0: usize, y0: usize| mean(plane, [x0, y0], [x0 + dx, y0 + dy]);
+    let corners = (corner(0, 0) + corner(w - dx, 0) + corner(0, h - dy) + corner(w - dx, h - dy)) / 4.0;
+    let middle = mean(plane, [3 * w / 8, 3 * h / 8], [(5 * w / 8).max(3 * w / 8 + 1), (5 * h / 8).max(3 * h / 8 + 1)]);
+    (corners > 0.0 && middle > 0.0).then(|| corners / middle)
+}
+
+fn contrast(plane: &Plane<WatchedSignal>) -> Option<f64> {
+    let (w, h) = (plane.width(), plane.height());
+    let starts = (0..h).step_by(CELL_PX).flat_map(|y| (0..w).step_by(CELL_PX).map(move |x| [x, y]));
+    let mut cells: Vec<f64> =
+        starts.map(|[x, y]| mean(plane, [x, y], [(x + CELL_PX).min(w), (y + CELL_PX).min(h)])).collect();
+    cells.sort_by(f64::total_cmp);
+    let [dark, bright] = ENDS.map(|part| cells[((cells.len() - 1) as f64 * part).round() as usize]);
+    (bright + dark > 0.0).then(|| (bright - dark) / (bright + dark))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plane(light: impl Fn(usize, usize) -> f32) -> Plane<WatchedSignal> {
+        let (w, h) = (64, 48);
+        let samples = (0..h).flat_map(|y| (0..w).map(move |x| (x, y))).map(|(x, y)| light(x, y)).collect();
+        Plane::from_samples(w, h, samples).expect("one a pixel")
+    }
+
+    #[test]
+    fn corners_and_contrast_of_known_pictures() {
+        let even = plane(|_, _| 3.0);
+        assert_eq!((corners_over_middle(&even), contrast(&even)), (Some(1.0), Some(0.0)));
+        let halves = plane(|x, _| if x < 32 { 1.0 } else { 3.0 });
+        assert_eq!(contrast(&halves), Some(0.5));
+        let vignetted = plane(|x, y| if (24..40).contains(&x) && (18..30).contains(&y) { 4.0 } else { 1.0 });
+        assert_eq!(corners_over_middle(&vignetted), Some(0.25));
+        let dark = plane(|_, _| 0.0);
+        assert_eq!((corners_over_middle(&dark), contrast(&dark)), (None, None));
+    }
+
+    #[test]
+    fn two_renderings_are_weighed_by_their_samples() {
+        let pooled = pooled([1.0, 2.0], 3.0).expect("numbers");
+        assert!((pooled.value - 1.75).abs() < 1e-12 && (pooled.uncertainty - 3f64.sqrt() / 4.0).abs() < 1e-12);
+    }
+}
