@@ -95,7 +95,7 @@ fn write_value(f: &mut fmt::Formatter<'_>, item: &Item) -> fmt::Result {
 }
 
 /// A value in one line.
-struct InLine<'a>(&'a Item);
+pub(super) struct InLine<'a>(pub(super) &'a Item);
 
 impl fmt::Display for InLine<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
