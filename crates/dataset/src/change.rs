@@ -17,21 +17,17 @@ pub(crate) fn of_choice(preset: &Preset, choice: usize) -> Vec<Change> {
     preset.choices[choice].iter().map(|change| (change.value.clone(), change.place.clone())).collect()
 }
 
-/// Refuses keys that are not there and values that they do not take, by the ends of every distribution and all values and choices, one at a time over the changes
-/// `others` of a whole sample: all faults before anything is rendered.
-pub(crate) fn check(variations: &Variations, others: &[Change], job: &JobRequest) -> Result<(), Error> {
+/// Refuses keys that are not there and values that they do not take, by the ends of every distribution and all values and choices, one at a time in the place of
+/// what a sample has drawn: all faults before anything is rendered. `groups` are the sample's: of each preset, then of each variation.
+pub(crate) fn check(variations: &Variations, groups: &[Vec<Change>], job: &JobRequest) -> Result<(), Error> {
     // What is wrong without any change is told of the job alone.
     job.check_changes(&[])?;
-    let of_keys = variations.vary.iter().map(|entry| {
-        ends(&entry.distribution).iter().map(|value| of_value(entry, value).collect()).collect::<Vec<Vec<Change>>>()
-    });
-    let of_presets =
-        variations.presets.iter().map(|preset| (0..preset.choices.len()).map(|i| of_choice(preset, i)).collect());
     let mut faults = Vec::new();
-    for alternatives in of_keys.chain(of_presets) {
-        for changes in alternatives {
-            let all = [others, &changes].concat();
-            match job.check_changes(&all) {
+    for (place, alternatives) in alternatives(variations).iter().enumerate() {
+        for alternative in alternatives {
+            let mut all = groups.to_vec();
+            all[place].clone_from(alternative);
+            match job.check_changes(&all.concat()) {
                 Err(Error::Input(found)) => faults.extend(found),
                 other => other?,
             }
@@ -40,6 +36,14 @@ pub(crate) fn check(variations: &Variations, others: &[Change], job: &JobRequest
     faults.sort_by(|a, b| (&a.file, a.line, a.column, &a.message).cmp(&(&b.file, b.line, b.column, &b.message)));
     faults.dedup();
     if faults.is_empty() { Ok(()) } else { Err(Error::Input(faults)) }
+}
+
+/// The choices of each preset, then the ends of each variation.
+fn alternatives(variations: &Variations) -> Vec<Vec<Vec<Change>>> {
+    let choices = |preset: &Preset| (0..preset.choices.len()).map(|choice| of_choice(preset, choice)).collect();
+    let ends =
+        |entry: &Variation| ends(&entry.distribution).iter().map(|value| of_value(entry, value).collect()).collect();
+    variations.presets.iter().map(choices).chain(variations.vary.iter().map(ends)).collect()
 }
 
 /// The least and the greatest value, or all.

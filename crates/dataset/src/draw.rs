@@ -35,8 +35,8 @@ pub(crate) struct Drawn {
     pub(crate) split: Split,
     /// Of its light and its noise.
     pub(crate) seed: u64,
-    /// Of the job, in the order of the file: presets before keys, which come last and hold.
-    pub(crate) changes: Vec<Change>,
+    /// Of the job, preset by preset and then variation by variation, in the order of the file: what comes last holds.
+    pub(crate) groups: Vec<Vec<Change>>,
 }
 
 impl Drawn {
@@ -46,16 +46,21 @@ impl Drawn {
         let fraction = variations.and_then(|v| v.validation_fraction.as_ref()).map_or(0.0, |fraction| fraction.value);
         // Names that no key has: keys are not empty and have no blank at their ends.
         let split = if stream(" split").unit_f64() < fraction { Split::Val } else { Split::Train };
-        let mut changes = Vec::new();
+        let mut groups = Vec::new();
         for preset in variations.map_or(&[][..], |v| &v.presets) {
             let choice = weighted(&preset.weights, preset.choices.len(), &mut stream(&preset_name(&preset.name)));
-            changes.extend(of_choice(preset, choice));
+            groups.push(of_choice(preset, choice));
         }
         for entry in variations.map_or(&[][..], |v| &v.vary) {
             let value = value(&entry.distribution, &mut stream(&entry.key[0].value));
-            changes.extend(of_value(entry, &value));
+            groups.push(of_value(entry, &value).collect());
         }
-        Self { split, seed: stream(" light").double_word() >> 1, changes }
+        Self { split, seed: stream(" light").double_word() >> 1, groups }
+    }
+
+    /// The changes as `--set` takes them.
+    pub(crate) fn set(&self) -> Vec<String> {
+        self.groups.iter().flatten().map(|(change, _)| change.clone()).collect()
     }
 }
 
@@ -132,7 +137,7 @@ mod tests {
     }
 
     fn texts(drawn: &Drawn) -> Vec<&str> {
-        drawn.changes.iter().map(|(text, _)| text.as_str()).collect()
+        drawn.groups.iter().flatten().map(|(text, _)| text.as_str()).collect()
     }
 
     /// The values of a key over some samples.

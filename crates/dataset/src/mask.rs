@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn texts_are_those_of_coco_s_api() {
         // By pycocotools 2.0.11, mask.frPyObjects of the same counts.
-        assert_eq!(text(&[0, 2, 2, 1, 1]), "022O0");
+        assert_eq!(text(&[0, 2, 2, 1, 1]), "022OO");
         assert_eq!(text(&[6, 1, 40, 4, 5, 4, 5, 4, 21]), "61X13mN000`0");
     }
 }

@@ -23,9 +23,10 @@ impl Picture<'_> {
     }
 }
 
-/// Hands the pictures of a camera's frames over, one after the other.
+/// Hands the pictures of a camera's frames over, one after the other; `warn` is told of pixels without valid light.
 pub(crate) fn each(
     results: &CameraResults,
+    warn: &dyn Fn(&str),
     mut take: impl FnMut(&Picture<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let truth = results.ground_truth();
@@ -44,6 +45,10 @@ pub(crate) fn each(
             let problem =
                 "its pictures are a region, or of binned or skipped pixels, and its ground truth is of all pixels";
             return Err(Error::input(format!("camera {camera}: {problem}; take these keys out")));
+        }
+        if !taken.raw.invalid.is_empty() {
+            let count = taken.raw.invalid.len();
+            warn(&format!("{camera}, frame {frame}: {count} pixels have no valid light; their digital number is 0"));
         }
         let (extension, bytes) = file?;
         let (pose, time_s) = results.pose(frame);

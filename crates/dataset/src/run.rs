@@ -37,7 +37,7 @@ pub fn dataset(
     let set = Set::of(request, &base, (variations, text_hash(request)?))?;
     if let Some(variations) = &set.variations {
         let first = Drawn::of(Some(variations), set.seed, request.samples.start);
-        change::check(variations, &first.changes, &request.job)?;
+        change::check(variations, &first.groups, &request.job)?;
     }
     let writers = writers(&set)?;
     let mut folder = OutputFolder::open(root, existing).map_err(Error::input)?;
@@ -89,10 +89,11 @@ fn check_folder(set: &Set, root: &Path, existing: Existing) -> Result<(), Error>
     let found = read_regular(&path, &DESCRIPTION).ok().and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
     let Some(Value::Object(found)) = found else { return refuse("this is not the file of a data set") };
     let Value::Object(ours) = &set.facts else { return Ok(()) };
-    let differs = ours.iter().find(|(key, value)| found.get(*key) != Some(*value)).map(|(key, _)| key);
-    match differs {
-        None => Ok(()),
-        Some(key) => refuse(&format!("the data set here has another \"{key}\"; give another folder")),
+    let differs = ours.iter().filter(|(key, value)| found.get(*key) != Some(*value));
+    let differs: Vec<String> = differs.map(|(key, _)| format!("\"{key}\"")).collect();
+    match differs.is_empty() {
+        true => Ok(()),
+        false => refuse(&format!("the data set here has another {}; give another folder", differs.join(", "))),
     }
 }
 
@@ -134,14 +135,15 @@ impl Run<'_> {
 
     fn sample(&mut self, sample: u32, observer: &OfSample<'_>) -> Result<(), Error> {
         let drawn = Drawn::of(self.set.variations.as_ref(), self.set.seed, sample);
-        let set: Vec<String> = drawn.changes.iter().map(|(change, _)| change.clone()).collect();
+        let set = drawn.set();
         let job = self.job(&drawn, &set).map_err(|error| of_sample(error, sample, &set))?;
         self.set.check_classes(&job, sample)?;
         let plan = job.plan().hash_text();
         let mut record = SampleRecord { sample, split: drawn.split, seed: drawn.seed, set, plan, pictures: Vec::new() };
         let options = RenderOptions { frames: self.request.frames.clone(), simd: self.request.simd };
         job.render_each(&options, observer, |camera| {
-            picture::each(&camera, |picture| {
+            let warn = |told: &str| self.observer.message(Message::Warning(&format!("sample {sample}, {told}")));
+            picture::each(&camera, &warn, |picture| {
                 let SampleRecord { split, pictures, .. } = &mut record;
                 for writer in self.writers {
                     writer.picture(self.set, (sample, *split), picture, self.folder)?;

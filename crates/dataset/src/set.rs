@@ -15,6 +15,8 @@ pub(crate) struct Set {
     pub(crate) frames: Range<u32>,
     /// Names, in the order of the job.
     pub(crate) cameras: Vec<String>,
+    /// Rectified pairs: the left and the right camera.
+    pub(crate) pairs: Vec<(String, String)>,
     /// Names and ids of the scene's classes, in the order of the ids.
     pub(crate) classes: Vec<(String, u32)>,
     pub(crate) variations: Option<Variations>,
@@ -40,6 +42,12 @@ impl Set {
         let mut classes = plan.classes.clone();
         classes.sort_by_key(|(_, id)| *id);
         let cameras: Vec<String> = plan.cameras.iter().map(|camera| camera.name.clone()).collect();
+        let pairs = plan.cameras.iter().filter_map(|left| {
+            let right = left.products.annotations.disparity?.right;
+            let right = plan.cameras.iter().find(|camera| camera.index == right)?;
+            Some((left.name.clone(), right.name.clone()))
+        });
+        let pairs = pairs.collect();
         let facts = json!({
             "format": 1,
             "program": format!("etendue {}", env!("CARGO_PKG_VERSION")),
@@ -51,7 +59,7 @@ impl Set {
             "cameras": cameras,
             "classes": classes.iter().map(|(name, id)| json!({ "name": name, "id": id })).collect::<Vec<_>>(),
         });
-        Ok(Self { seed, formats, frames: request.frames.clone(), cameras, classes, variations, facts })
+        Ok(Self { seed, formats, frames: request.frames.clone(), cameras, pairs, classes, variations, facts })
     }
 
     /// The id of a class; `None` of what has none.

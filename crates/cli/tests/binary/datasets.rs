@@ -126,8 +126,12 @@ fn a_run_that_was_interrupted_goes_on_and_leaves_what_is_done() {
     place.run("part", &["--samples", "0..3", "--resume"]).ok();
     assert_eq!(fs::metadata(&first).expect("a file").modified().expect("a time"), before, "it is left");
     assert!(place.files("part") == place.files("whole"));
-    place.run("part", &["--samples", "0..4", "--resume", "--seed", "4"]).refused(&["dataset.json", "another \"seed\""]);
-    place.run("part", &["--samples", "0..4", "--overwrite", "--frames", "0..2"]).refused(&["another \"frames\""]);
+    place.run("part", &["--samples", "0..4", "--resume", "--seed", "4"]).refused(&[
+        "dataset.json",
+        "another ",
+        "\"seed\"",
+    ]);
+    place.run("part", &["--samples", "0..4", "--overwrite", "--frames", "0..2"]).refused(&["another ", "\"frames\""]);
 }
 
 /// Files of more than so many blocks of 512 bytes cannot be written, as on a full disk.

@@ -1,5 +1,5 @@
 //! KITTI's object benchmark (Geiger, Lenz, Urtasun 2012), a folder for each camera: `kitti/CAMERA/training` with `image_2`, `calib` and `label_2`, and the splits in
-//! `kitti/CAMERA/ImageSets`.
+//! `kitti/CAMERA/ImageSets`. Where the camera is the left one of a rectified pair (`disparity_to`), `image_3` has the right one's pictures.
 //!
 //! Frames are numbered through all samples: sample × frames of a sample + place of the frame. Coordinates of pixels are KITTI's, whose pixel centres are whole numbers: half a pixel less than
 //! the raster's. A label is an object that is seen in a pixel and whose class has a type of KITTI.
@@ -18,7 +18,7 @@
 use super::{Writer, write};
 use crate::draw::Split;
 use crate::picture::Picture;
-use crate::record::{ObjectRecord, PictureRecord, SolidRecord};
+use crate::record::{ObjectRecord, PictureRecord, SampleRecord, SolidRecord};
 use crate::records::Records;
 use crate::set::Set;
 use core::f64::consts::{PI, TAU};
@@ -30,7 +30,7 @@ use std::fmt::Write as _;
 pub(super) struct Kitti;
 
 /// Types by the names of classes, in lower case.
-const TYPES: [(&str, &str); 12] = [
+const TYPES: [(&str, &str); 10] = [
     ("car", "Car"),
     ("van", "Van"),
     ("truck", "Truck"),
@@ -41,8 +41,6 @@ const TYPES: [(&str, &str); 12] = [
     ("rider", "Cyclist"),
     ("tram", "Tram"),
     ("misc", "Misc"),
-    ("dont-care", "DontCare"),
-    ("dontcare", "DontCare"),
 ];
 
 impl Writer for Kitti {
@@ -53,12 +51,24 @@ impl Writer for Kitti {
         picture: &Picture<'_>,
         folder: &mut OutputFolder,
     ) -> Result<(), Error> {
-        let record = &picture.record;
-        let number = number(set, sample, record.frame);
-        let root = format!("kitti/{}/training", record.camera);
-        write(folder, &format!("{root}/image_2/{number}.png"), &picture.bytes)?;
-        write(folder, &format!("{root}/calib/{number}.txt"), calibration(record).as_bytes())?;
-        write(folder, &format!("{root}/label_2/{number}.txt"), labels(set, record).as_bytes())
+        let (record, number) = (&picture.record, number(set, sample, picture.record.frame));
+        write(folder, &format!("{}/image_2/{number}.png", root(&record.camera)), &picture.bytes)?;
+        for (left, _) in set.pairs.iter().filter(|(_, right)| *right == record.camera) {
+            write(folder, &format!("{}/image_3/{number}.png", root(left)), &picture.bytes)?;
+        }
+        write(folder, &format!("{}/label_2/{number}.txt", root(&record.camera)), labels(set, record).as_bytes())
+    }
+
+    fn sample(&self, set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
+        for picture in &record.pictures {
+            let right = set.pairs.iter().find(|(left, _)| *left == picture.camera).map(|(_, right)| right);
+            let is_other = |other: &&PictureRecord| Some(&other.camera) == right && other.frame == picture.frame;
+            let right = record.pictures.iter().find(is_other);
+            let number = number(set, record.sample, picture.frame);
+            let name = format!("{}/calib/{number}.txt", root(&picture.camera));
+            write(folder, &name, calibration(picture, right).as_bytes())?;
+        }
+        Ok(())
     }
 
     fn finish(&self, set: &Set, records: &Records, folder: &mut OutputFolder) -> Result<(), Error> {
@@ -83,13 +93,17 @@ fn number(set: &Set, sample: u32, frame: u32) -> String {
     format!("{:06}", u64::from(sample) * set.frame_count() + u64::from(frame - set.frames.start))
 }
 
-/// The lines of a calibration: all cameras of KITTI are this one.
-fn calibration(picture: &PictureRecord) -> String {
-    let [fx, skew, cx, fy, cy] = picture.camera_matrix_px.expect("checked for all cameras of the format");
-    let projection = numbers(&[fx, skew, cx - 0.5, 0.0, 0.0, fy, cy - 0.5, 0.0, 0.0, 0.0, 1.0, 0.0]);
+/// The folder of a camera.
+fn root(camera: &str) -> String {
+    format!("kitti/{camera}/training")
+}
+
+/// The lines of a calibration: the cameras 0 and 2 of KITTI are this one, 1 and 3 the right one of its pair, or this one where it has none.
+fn calibration(picture: &PictureRecord, right: Option<&PictureRecord>) -> String {
+    let of = [projection(picture, picture), projection(right.unwrap_or(picture), picture)];
     let mut text = String::new();
     for camera in 0..4 {
-        let _ = writeln!(text, "P{camera}: {projection}");
+        let _ = writeln!(text, "P{camera}: {}", numbers(&of[camera % 2]));
     }
     let _ = writeln!(text, "R0_rect: {}", numbers(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]));
     let scanner = [0.0, -1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0];
@@ -97,6 +111,15 @@ fn calibration(picture: &PictureRecord) -> String {
     let same = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
     let _ = writeln!(text, "Tr_imu_to_velo: {}", numbers(&same));
     text
+}
+
+/// From points in the frame of the camera `from` to pixels of a camera that is turned as it is.
+fn projection(picture: &PictureRecord, from: &PictureRecord) -> [f64; 12] {
+    let [fx, skew, cx, fy, cy] = picture.camera_matrix_px.expect("checked for all cameras of the format");
+    let [w, x, y, z] = from.pose.rotation_wxyz;
+    let to_right_m = DVec3::from_array(picture.pose.position_m) - DVec3::from_array(from.pose.position_m);
+    let base_m = (DQuat::from_xyzw(x, y, z, w).inverse() * to_right_m).x;
+    [fx, skew, cx - 0.5, 0.0 - fx * base_m, 0.0, fy, cy - 0.5, 0.0, 0.0, 0.0, 1.0, 0.0]
 }
 
 fn numbers(numbers: &[f64]) -> String {

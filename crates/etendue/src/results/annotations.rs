@@ -49,7 +49,7 @@ impl CameraResults {
     /// The same as `boxes.json` says it, with names, classes and conventions.
     #[must_use]
     pub fn boxes_json(&self) -> Value {
-        boxes_json(&self.plan, &self.frame_view(), &self.boxes())
+        self.boxes_json_of(&self.ground_truth().instance)
     }
 
     /// The same of identities that are known, those of [`ground_truth`](Self::ground_truth).
