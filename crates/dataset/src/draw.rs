@@ -74,8 +74,9 @@ fn value(distribution: &Distribution, random: &mut NoiseStream) -> String {
         Distribution::Uniform(range) => number_text(random.random_range(range.min.value..range.max.value)),
         Distribution::LogUniform(range) => {
             let (min, max) = (range.min.value, range.max.value);
+            let part = random.random_range(0.0..1.0);
             // Rounding of the logarithms does not lead beyond the ends.
-            number_text(exp(random.random_range(ln(min)..ln(max))).clamp(min, max))
+            number_text(exp(ln(min) + part * (ln(max) - ln(min))).clamp(min, max))
         }
         Distribution::Normal(normal) => number_text(truncated(normal, random)),
         Distribution::Integer(range) => random.random_range(range.min.value..=range.max.value).to_string(),
@@ -107,12 +108,15 @@ fn weighted(weights: &[Placed<f64>], count: usize, random: &mut NoiseStream) -> 
     if weights.is_empty() {
         return random.random_range(0..count);
     }
-    let mut left = random.random_range(0.0..weights.iter().map(|weight| weight.value).sum());
-    for (index, weight) in weights.iter().enumerate() {
-        if left < weight.value {
+    // Over the greatest, so that their sum is finite.
+    let greatest = weights.iter().map(|weight| weight.value).fold(0.0, f64::max);
+    let parts: Vec<f64> = weights.iter().map(|weight| weight.value / greatest).collect();
+    let mut left = random.random_range(0.0..parts.iter().sum());
+    for (index, part) in parts.iter().enumerate() {
+        if left < *part {
             return index;
         }
-        left -= weight.value;
+        left -= part;
     }
     // Rounding of the sum: the last that may be drawn.
     weights.iter().rposition(|weight| weight.value > 0.0).expect("a checked file has a weight above 0")

@@ -1,12 +1,19 @@
 //! The records of all samples that are in a folder.
 
 use crate::record::SampleRecord;
-use crate::run::{SAMPLES, record_name};
 use etendue::Error;
 use etendue_io::read_regular;
 use etendue_scene::limits::DESCRIPTION;
 use std::io;
 use std::path::{Path, PathBuf};
+
+/// The folder of the samples' records.
+const SAMPLES: &str = "samples";
+
+/// The name of a sample's record.
+pub(crate) fn record_name(sample: u32) -> String {
+    format!("{SAMPLES}/{sample:06}.json")
+}
 
 /// The samples of a folder, in the order of their numbers; one is in memory at a time.
 pub(crate) struct Records {

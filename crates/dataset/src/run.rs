@@ -6,7 +6,7 @@ use crate::format::{Writer, writers};
 use crate::observer::OfSample;
 use crate::picture;
 use crate::record::SampleRecord;
-use crate::records::Records;
+use crate::records::{Records, record_name};
 use crate::request::DatasetRequest;
 use crate::set::{Set, hex};
 use etendue::{Error, Existing, Job, JobRequest, Message, Observer, OutputFolder, RenderOptions, open_variations};
@@ -17,8 +17,6 @@ use std::path::{Path, PathBuf};
 
 /// What the set is made of.
 const FACTS: &str = "dataset.json";
-/// The folder of the samples' records.
-pub(crate) const SAMPLES: &str = "samples";
 
 /// Makes the samples of a data set and writes them in the formats asked for; answers with the paths of what it wrote. Samples get their names one after the
 /// other: a run that is interrupted keeps those that are whole, and one that goes on ([`Existing::Resume`]) leaves them. What is made of all samples, such as
@@ -95,11 +93,6 @@ fn check_folder(set: &Set, root: &Path, existing: Existing) -> Result<(), Error>
         true => Ok(()),
         false => refuse(&format!("the data set here has another {}; give another folder", differs.join(", "))),
     }
-}
-
-/// The name of a sample's record.
-pub(crate) fn record_name(sample: u32) -> String {
-    format!("{SAMPLES}/{sample:06}.json")
 }
 
 struct Run<'a> {

@@ -81,7 +81,7 @@ fn a_sample_is_the_same_alone_or_in_a_run_and_in_pieces() {
 #[test]
 fn a_sample_is_what_render_makes_of_its_changes() {
     let place = Place::new();
-    place.run("set", &["--samples", "5..6", "--format", "yolo"]).ok();
+    place.run("set", &["--samples", "5..6", "--format", "yolo", "--set=output.boxes=true"]).ok();
     let record = json(&place.path("set/samples/000005.json"));
     let changes: Vec<String> = record["set"]
         .as_array()
@@ -143,27 +143,36 @@ fn with_blocks(blocks: u32, arguments: &[String]) -> (Option<i32>, String) {
     (ran.status.code(), String::from_utf8_lossy(&ran.stderr).into_owned())
 }
 
+/// Pictures of two sizes: the files of some samples do not fit where those of others do.
+const TWO_SIZES: &str =
+    "format = 1\n[[vary]]\nkey = \"cameras.front.sensor.width_px\"\ntype = \"choice\"\nvalues = [24, 700]\n";
+
 #[test]
 fn a_disk_that_fills_keeps_whole_samples_and_a_run_goes_on() {
     let place = Place::new();
-    place.run("whole", &["--samples", "0..4"]).ok();
+    let file = text(&place.path("sizes.toml"));
+    fs::write(&file, TWO_SIZES).expect("written");
+    let arguments =
+        |folder: &str, more: &[&str]| place.arguments(&file, folder, &[&["--samples", "0..6"], more].concat());
+    etendue(arguments("whole", &[])).ok();
     let whole = place.files("whole");
-    let longest = |of: &str| {
-        whole.iter().filter(|(name, _)| name.contains(of)).map(|(_, bytes)| bytes.len()).max().expect("files")
+    let bytes_of = |sample: usize| {
+        let name = format!("000{sample:03}");
+        whole.iter().filter(|(file, _)| file.contains(&name)).map(|(_, bytes)| bytes.len()).max().expect("files")
     };
-    let (record, all) = (longest("samples/"), longest("annotations/"));
-    assert!(record < all, "the file of all samples does not fit where one's do: {record} {all}");
-    let blocks = u32::try_from(record.div_ceil(512)).expect("small");
-    let (status, told) = with_blocks(blocks, &place.arguments(VARIATIONS, "part", &["--samples", "0..4"]));
+    let large = (0..6).find(|sample| bytes_of(*sample) > 20_000).expect("one of 700 columns");
+    assert!(large > 0 && (0..large).all(|sample| bytes_of(sample) < 16_000), "some that fit come first");
+    let (status, told) = with_blocks(36, &arguments("part", &[]));
     assert_eq!(status, Some(1), "{told}");
-    assert!(told.contains("kept 4 samples that are whole; with --resume a run goes on"), "{told}");
+    let kept = if large == 1 { "1 sample that is whole".to_owned() } else { format!("{large} samples that are whole") };
+    assert!(told.contains(&format!("kept {kept}; with --resume a run goes on")), "{told}");
     let part = place.files("part");
-    assert!(part.keys().all(|name| !name.contains("annotations")), "{:?}", part.keys());
-    assert!(part.iter().all(|(name, bytes)| whole[name] == *bytes), "whole files or none");
-    let (status, told) = with_blocks(1, &place.arguments(VARIATIONS, "none", &["--samples", "0..4"]));
+    assert_eq!(part.keys().filter(|name| name.starts_with("samples/")).count(), large);
+    assert!(part.iter().all(|(name, bytes)| whole.get(name) == Some(bytes)), "whole files or none: {:?}", part.keys());
+    let (status, told) = with_blocks(1, &arguments("none", &[]));
     assert!(status == Some(1) && told.contains("nothing of this run was kept"), "{told}");
     assert!(!place.path("none").exists());
-    place.run("part", &["--samples", "0..4", "--resume"]).ok();
+    etendue(arguments("part", &["--resume"])).ok();
     assert!(place.files("part") == whole);
 }
 

@@ -8,7 +8,7 @@
 //! - `mask` holds the pixels that would show the object were it alone, `mask_visib` those that do, 255; files are numbered by the place in `scene_gt.json`.
 //! - `cam_K` counts pixel centres as whole numbers, as OpenCV does.
 
-use super::{Writer, write};
+use super::writer::{Writer, write};
 use crate::draw::Split;
 use crate::picture::Picture;
 use crate::record::{ObjectRecord, PictureRecord, SampleRecord};

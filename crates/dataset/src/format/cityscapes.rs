@@ -4,7 +4,7 @@
 //! 3 (out of roi), what has no class or one that Cityscapes does not have 0 (unlabeled). Objects of labels that have instances are label × 1000 + their place among those of the label in the picture, in the order
 //! of their identities; from the 1001st on, as a group, they have the label alone.
 
-use super::{Writer, write};
+use super::writer::{Writer, write};
 use crate::draw::Split;
 use crate::picture::Picture;
 use crate::record::PictureRecord;

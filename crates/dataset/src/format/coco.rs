@@ -3,7 +3,7 @@
 //! `coco/SPLIT/NNNNNN_CAMERA_FFFF.png`, `coco/annotations/instances_SPLIT.json`. An annotation is an object that has a class and is seen in a pixel; `bbox` is about the pixels that show it (left, top,
 //! width, height; px), `area` their number, `segmentation` its mask. Categories are the scene's classes with their ids.
 
-use super::{Writer, write};
+use super::writer::{Writer, write};
 use crate::draw::Split;
 use crate::picture::Picture;
 use crate::record::{PictureRecord, SampleRecord};

@@ -15,7 +15,7 @@
 //!
 //! Left out: a laser scanner and an inertial sensor. `Tr_velo_to_cam` places a scanner at the camera, x forward, y left, z up; no scans are written.
 
-use super::{Writer, write};
+use super::writer::{Writer, write};
 use crate::draw::Split;
 use crate::picture::Picture;
 use crate::record::{ObjectRecord, PictureRecord, SampleRecord, SolidRecord};

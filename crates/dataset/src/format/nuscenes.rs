@@ -12,7 +12,7 @@
 //! Times are µs from the beginning of the simulated world. Left out: lidar and radar (`num_lidar_pts` and `num_radar_pts` are 0), attributes, velocities but for those that follow from positions, and maps: `map` names a
 //! picture of one pixel, as readers ask for one.
 
-use super::{Writer, write};
+use super::writer::{Writer, write};
 use crate::draw::Split;
 use crate::picture::Picture;
 use crate::record::{ObjectRecord, PictureRecord, Pose, SampleRecord};

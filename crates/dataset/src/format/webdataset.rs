@@ -3,7 +3,7 @@
 //! Of each picture four members with one stem: the picture, `.json` (its record: camera, pose, boxes, masks), `.instance.png` (identities of the ground truth, 16 bits), `.depth.npy` (32-bit floats, m; +∞ the sky, NaN where there is
 //! none). A sample is first a part in `webdataset/parts`; shards that are complete take their parts' place, others keep them for a run that goes on.
 
-use super::{Writer, write};
+use super::writer::{Writer, write};
 use crate::draw::Split;
 use crate::picture::Picture;
 use crate::record::SampleRecord;

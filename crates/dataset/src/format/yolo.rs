@@ -3,7 +3,7 @@
 //! A line is an object that has a class and is seen in a pixel: the place of its class among the scene's classes (from 0, in the order of their ids), and centre, width and height of the box about the pixels that
 //! show it, in parts of the picture's width and height. A picture without objects has an empty file.
 
-use super::{Writer, write};
+use super::writer::{Writer, write};
 use crate::draw::Split;
 use crate::picture::Picture;
 use crate::record::PictureRecord;
