@@ -36,7 +36,11 @@ def boxes(tmp_path_factory):
 def drive(tmp_path_factory):
     """Two frames of the pair of the drive, whose cameras a car carries."""
     folder = tmp_path_factory.mktemp("drive") / "set"
-    changes = {f"cameras.{camera}.sensor.{key}": value for camera in ("left", "right") for key, value in (("width_px", 120), ("height_px", 76), ("pixel_pitch_um", 48))}
+    sizes = {"left": (96, 60, 60), "right": (48, 30, 120)}
+    keys = ("width_px", "height_px", "pixel_pitch_um")
+    changes = {f"cameras.{camera}.sensor.{key}": value for camera, values in sizes.items() for key, value in zip(keys, values, strict=True)}
+    # A pair has pictures of one size.
+    changes["cameras.left.output"] = None
     etendue.dataset(
         ROOT / "scenes/drive/drive.toml",
         variations=ROOT / "scenes/datasets/drive.toml",

@@ -94,8 +94,18 @@ fn write_value(f: &mut fmt::Formatter<'_>, item: &Item) -> fmt::Result {
     f.write_str("]")
 }
 
+impl Item {
+    /// The value in one line, as TOML writes it. A path that is not UTF-8 has no text (an empty one).
+    #[must_use]
+    pub fn in_one_line(&self) -> String {
+        let mut line = String::new();
+        let written = write!(line, "{}", InLine(self));
+        if written.is_ok() { line } else { String::new() }
+    }
+}
+
 /// A value in one line.
-pub(super) struct InLine<'a>(pub(super) &'a Item);
+struct InLine<'a>(&'a Item);
 
 impl fmt::Display for InLine<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -15,7 +15,6 @@ mod tests;
 pub use bytes::FileHash;
 pub use file::File;
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::document::join;
@@ -145,14 +144,6 @@ impl Table {
 }
 
 impl Item {
-    /// The value in one line, as TOML writes it. A path that is not UTF-8 has no text (an empty one).
-    #[must_use]
-    pub fn in_one_line(&self) -> String {
-        let mut line = String::new();
-        let written = write!(line, "{}", layout::InLine(self));
-        if written.is_ok() { line } else { String::new() }
-    }
-
     /// A value at a place.
     pub(crate) fn at(place: &Place, value: Value) -> Self {
         Self { value, place: place.clone() }
