@@ -38,7 +38,7 @@ impl fmt::Display for Fault {
 /// The same at a key of a description.
 fn at(message: String, place: &etendue_scene::Place) -> Fault {
     let (line, column) = place.line_column().unzip();
-    let file = Some(place.file().to_path_buf()).filter(|_| place.is_stated());
+    let file = Some(place.stating_file().to_path_buf()).filter(|_| place.is_stated());
     let key = Some(place.key().into_owned()).filter(|key| !key.is_empty());
     Fault { message, file, line, column, key }
 }

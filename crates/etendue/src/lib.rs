@@ -78,6 +78,7 @@ mod shard_spec;
 mod stated_render;
 mod stored_radiance;
 mod tone_curve;
+mod variations;
 mod weather;
 
 pub use camera_file::open_camera;
@@ -113,7 +114,9 @@ pub use raw_file::Levels;
 pub use render_options::RenderOptions;
 pub use render_settings::RenderSettings;
 pub use results::{CameraResults, Files, Results};
+pub use rig::{PinholeView, pinhole_view};
 pub use sampled_light::{LightSampling, LightSignal, SampledLight, SampledPixel};
 pub use shard_spec::ShardSpec;
 pub use stated_render::StatedRender;
+pub use variations::open_variations;
 pub use weather::{WeatherRequest, weather};

@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | [`encode_raw16`] | 16 bit grey | digital number in proportion to light, not stretched, with the gAMA chunk of 1; the side-car states its bits |
 //! | [`encode_companded16`] | 16 bit grey | companded digital number; the side-car states its bits and lines |
+//! | [`encode_grey8`], [`encode_grey16`] | 8 and 16 bit grey | labels, masks and identities, as the caller states them |
 //! | [`encode_depth16`] | 16 bit grey | metres × the scale of the convention; 0 is invalid |
 //! | [`encode_display`] | 8 bit RGB | encoded for display, with the chunk that says how: sRGB, or gAMA and cHRM |
 //! | [`encode_display16`] | 16 bit RGB | the same of 10 to 16 bits, scaled to 16 by repeating the upper bits, with the sBIT chunk |
@@ -90,8 +91,13 @@ pub(crate) fn with_text(file: Vec<u8>, keyword: &str, text: &str) -> Vec<u8> {
     with_chunk(file, *b"tEXt", &[keyword.as_bytes(), b"\0", text.as_bytes()].concat())
 }
 
-/// Numbers of 16 bits, one a pixel.
-pub(crate) fn encode_grey16(width: usize, height: usize, values: &[u16]) -> Result<Vec<u8>, EncodeError> {
+/// Numbers of 8 bits, one a pixel: labels and masks.
+pub fn encode_grey8(width: usize, height: usize, values: &[u8]) -> Result<Vec<u8>, EncodeError> {
+    encode(width, height, values, ExtendedColorType::L8)
+}
+
+/// Numbers of 16 bits, one a pixel: identities, lengths.
+pub fn encode_grey16(width: usize, height: usize, values: &[u16]) -> Result<Vec<u8>, EncodeError> {
     // The encoder takes 16-bit values in the machine's byte order.
     let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_ne_bytes()).collect();
     encode(width, height, &bytes, ExtendedColorType::L16)

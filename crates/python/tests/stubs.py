@@ -25,7 +25,8 @@ def value_type(argument):
     if argument["kind"] == "switch":
         return "bool"
     if argument["words"]:
-        return f"Literal[{', '.join(repr(word) for word in argument['words'])}]".replace("'", '"')
+        words = f"Literal[{', '.join(repr(word) for word in argument['words'])}]".replace("'", '"')
+        return f"{words} | Sequence[{words}]" if argument["listed"] else words
     if argument["name"] == "set":
         return "Mapping[str, Any] | Sequence[str]"
     if argument["value"] == "KEY=VALUE":

@@ -41,7 +41,7 @@ def test_attributes_in_tables_are_there(results):
 def test_a_dataset_has_units_and_coordinates(results):
     pytest.importorskip("xarray")
     front = results.cameras[0]
-    found = etendue.dataset(front)
+    found = etendue.to_xarray(front)
     assert found["radiance"].dims == ("wavelength_nm", "y", "x") and found["depth"].attrs == {"units": "m"}
     assert np.array_equal(found["radiance"].values, front.radiance) and list(found["wavelength_nm"]) == front.wavelengths_nm
     assert found["flow"].dims == ("y", "x", "xy") and found["radiance_variance"].attrs == {"units": "W2 m-4 sr-2 nm-2"}

@@ -134,22 +134,26 @@ pub(crate) fn parse(file: &Arc<Path>, text: &str, faults: &mut Faults) -> Node {
 }
 
 /// Gives the tree of the value of an override, all of it at the place of the override; `None` where it is no TOML value.
-pub(crate) fn parse_override(file: &Arc<Path>, set: &Arc<str>, value: &str, key: &str) -> Option<Node> {
+pub(crate) fn parse_override(value: &str, key: &str, place: &dyn Fn(&Arc<str>) -> Place) -> Option<Node> {
     let parsed = DeValue::parse(value).ok()?;
-    let builder = Builder { spots: Spots::Set { file: file.clone(), text: set.clone() } };
+    let builder = Builder { spots: Spots::Override(place) };
     Some(builder.node(parsed, &key.into()))
 }
 
 /// Where byte offsets are.
 enum Spots<'a> {
-    File { file: Arc<Path>, lines: LineIndex<'a> },
-    Set { file: Arc<Path>, text: Arc<str> },
+    File {
+        file: Arc<Path>,
+        lines: LineIndex<'a>,
+    },
+    /// The place of a key that an override changes.
+    Override(&'a dyn Fn(&Arc<str>) -> Place),
 }
 
 impl Spots<'_> {
     fn place(&self, offset: usize, key: &Arc<str>) -> Place {
         match self {
-            Self::Set { file, text } => Place::set(file.clone(), text.clone(), key.clone()),
+            Self::Override(place) => place(key),
             Self::File { file, lines } => {
                 let (line, column) = lines.line_column(offset);
                 Place::at(file.clone(), line, column, key.clone())

@@ -17,8 +17,32 @@ use crate::suggest::nearest;
 /// Changes to a description, in order.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
-    texts: Vec<Arc<str>>,
+    texts: Vec<Text>,
     flags: Vec<Flag>,
+}
+
+/// A `key=value`.
+#[derive(Clone, Debug)]
+struct Text {
+    text: Arc<str>,
+    /// Where a file states it; `None`: it is of the command line.
+    by: Option<Arc<Place>>,
+}
+
+impl Text {
+    /// Of a key of `file` that it changes.
+    fn place(&self, file: &Path, key: &str) -> Place {
+        match &self.by {
+            Some(by) => Place::change(file.into(), by.clone(), key.into()),
+            None => Place::set(file.into(), self.text.clone(), key.into()),
+        }
+    }
+}
+
+impl From<&str> for Text {
+    fn from(text: &str) -> Self {
+        Self { text: text.into(), by: None }
+    }
 }
 
 /// A key of `[render]` that a flag of the command line sets for all cameras.
@@ -38,6 +62,11 @@ impl Overrides {
     /// Adds `text`, a `key=value`, after the others.
     pub fn push(&mut self, text: &str) {
         self.texts.push(text.into());
+    }
+
+    /// The same of a change that a file of changes states at `by`, where its faults are told.
+    pub fn push_stated(&mut self, text: &str, by: &Place) {
+        self.texts.push(Text { text: text.into(), by: Some(Arc::new(by.clone())) });
     }
 
     /// Sets `key` of `[render]` for all cameras, over what files and the other changes say; faults are told of the flag of
@@ -81,15 +110,16 @@ impl Flag {
         }
         let Some(render) = entry_or_table(job, "render", &place("render")).as_table_mut() else { return };
         render.remove(self.key);
-        let value = parse_override(&file, &self.text, &self.value, &key)
-            .map_or_else(|| Value::Text(self.value.clone()), |node| node.value);
+        let at = |key: &Arc<str>| Place::set(file.clone(), self.text.clone(), key.clone());
+        let value =
+            parse_override(&self.value, &key, &at).map_or_else(|| Value::Text(self.value.clone()), |node| node.value);
         let node = Node { place: place(&key), value };
         render.entries.push(Entry { key: self.key.to_owned(), place: place(&key), node });
     }
 }
 
-fn note_no_pair(document: &Node, text: &Arc<str>, faults: &mut Faults) {
-    let place = Place::set(document.place.file().into(), text.clone(), "".into());
+fn note_no_pair(document: &Node, text: &Text, faults: &mut Faults) {
+    let place = text.place(document.place.file(), "");
     faults.add(&place, "this is no key=value", "give a dotted key, \"=\" and a value: render.spp=16");
 }
 
@@ -99,22 +129,22 @@ const REMOVED: &str = "null";
 /// Parts that a key may have: as deep as the TOML reader follows tables. No description comes near.
 const DEEPEST: usize = 80;
 
-fn note_too_deep(document: &Node, text: &Arc<str>, parts: usize, faults: &mut Faults) {
-    let place = Place::set(document.place.file().into(), text.clone(), "".into());
+fn note_too_deep(document: &Node, text: &Text, parts: usize, faults: &mut Faults) {
+    let place = text.place(document.place.file(), "");
     let problem = format!("this key has {parts} parts, and no description is deeper than {DEEPEST}");
     faults.add(&place, problem, "correct the key: render.spp=16");
 }
 
 /// One `key=value`.
 struct Change<'t> {
-    text: &'t Arc<str>,
+    text: &'t Text,
     path: Vec<&'t str>,
     value: &'t str,
 }
 
 impl<'t> Change<'t> {
-    fn parse(text: &'t Arc<str>) -> Option<Self> {
-        let (key, value) = text.split_once('=')?;
+    fn parse(text: &'t Text) -> Option<Self> {
+        let (key, value) = text.text.split_once('=')?;
         let path: Vec<_> = key.trim().split('.').map(str::trim).collect();
         let whole = path.iter().all(|part| !part.is_empty()) && !value.trim().is_empty();
         whole.then_some(Self { text, path, value: value.trim() })
@@ -149,7 +179,7 @@ impl<'t> Change<'t> {
 
     /// Takes the entry `last` out of `node`; one that is not there is a fault.
     fn take_out(&self, node: &mut Node, last: &str, faults: &mut Faults) {
-        let place = Place::set(node.place.file().into(), self.text.clone(), join(&node.place.key(), last).into());
+        let place = self.text.place(node.place.file(), &join(&node.place.key(), last));
         let parent = node.place.key().into_owned();
         let is_taken = match &mut node.value {
             Value::Table(table) => table.remove(last).is_some(),
@@ -174,7 +204,7 @@ impl<'t> Change<'t> {
     /// The entry `part` of `node`; a table that is not there yet is made.
     fn step<'n>(&self, node: &'n mut Node, part: &str, faults: &mut Faults) -> Option<&'n mut Node> {
         let parent = node.place.key().into_owned();
-        let place = Place::set(node.place.file().into(), self.text.clone(), join(&parent, part).into());
+        let place = self.text.place(node.place.file(), &join(&parent, part));
         match &mut node.value {
             Value::Table(table) => Some(entry_or_table(table, part, &place)),
             Value::List(list) => entry_of_list(list, part, &place, faults),
@@ -189,8 +219,8 @@ impl<'t> Change<'t> {
     fn put(&self, node: &mut Node, last: &str, faults: &mut Faults) {
         let file: Arc<Path> = node.place.file().into();
         let key = join(&node.place.key(), last);
-        let place = Place::set(file.clone(), self.text.clone(), key.as_str().into());
-        let value = parse_override(&file, self.text, self.value, &key)
+        let place = self.text.place(&file, &key);
+        let value = parse_override(self.value, &key, &|key| self.text.place(&file, key))
             .unwrap_or_else(|| Node { place: place.clone(), value: Value::Text(self.value.to_owned()) });
         match &mut node.value {
             Value::Table(table) => match table.get_mut(last) {

@@ -8,7 +8,8 @@ use std::sync::{Arc, LazyLock};
 
 /// Where a value or a fault stands.
 ///
-/// Displays as `file:line:column: key`, and as `--set key=value` or the flag as typed for a value given on the command line.
+/// Displays as `file:line:column: key`, and as `--set key=value` or the flag as typed for a value given on the command line. A value that a file
+/// of changes sets has that file's line and the key that it changes.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
     file: Arc<Path>,
@@ -20,9 +21,14 @@ pub struct Place {
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Spot {
-    At { line: u32, column: u32 },
+    At {
+        line: u32,
+        column: u32,
+    },
     Set(Arc<str>),
     Flag(Arc<str>),
+    /// A change that another file states: where.
+    Change(Arc<Place>),
     Unstated,
 }
 
@@ -66,21 +72,35 @@ impl Place {
         Self { file, spot: Spot::Flag(text), key, element: None }
     }
 
+    /// A change of `key` of `file` that another file states at `by`.
+    pub(crate) fn change(file: Arc<Path>, by: Arc<Place>, key: Arc<str>) -> Self {
+        Self { file, spot: Spot::Change(by), key, element: None }
+    }
+
     /// The place of a value of the list at the key.
     pub(crate) fn of_element(self, index: u32) -> Self {
         Self { element: Some(index), ..self }
     }
 
-    /// Whether the command line says it, by an override or a flag.
+    /// Whether the command line says it, by an override, a flag or a file of changes.
     #[must_use]
     pub fn is_command_line(&self) -> bool {
-        matches!(self.spot, Spot::Set(_) | Spot::Flag(_))
+        matches!(self.spot, Spot::Set(_) | Spot::Flag(_) | Spot::Change(_))
     }
 
     /// The file the value belongs to (for an override: the file it changes).
     #[must_use]
     pub fn file(&self) -> &Path {
         &self.file
+    }
+
+    /// The file that [`line_column`](Self::line_column) is of: the one that states the value.
+    #[must_use]
+    pub fn stating_file(&self) -> &Path {
+        match &self.spot {
+            Spot::Change(by) => by.stating_file(),
+            _ => &self.file,
+        }
     }
 
     /// The dotted key; empty for the file as a whole. Entries with a name are called by it: `cameras.front.lens`.
@@ -97,6 +117,7 @@ impl Place {
     pub fn line_column(&self) -> Option<(u32, u32)> {
         match self.spot {
             Spot::At { line, column } => Some((line, column)),
+            Spot::Change(ref by) => by.line_column(),
             Spot::Set(_) | Spot::Flag(_) | Spot::Unstated => None,
         }
     }
@@ -114,6 +135,10 @@ impl fmt::Display for Place {
             Spot::At { line, column } => write!(f, "{}:{line}:{column}", self.file.display())?,
             Spot::Set(text) => return write_set(f, text),
             Spot::Flag(text) => return f.write_str(text),
+            Spot::Change(by) => match by.line_column() {
+                Some((line, column)) => write!(f, "{}:{line}:{column}", by.file().display())?,
+                None => by.fmt(f)?,
+            },
             Spot::Unstated => return f.write_str("a value that no file states"),
         }
         let key = self.key();

@@ -3,6 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use crate::reader::{Record, Rule as _, record};
+use crate::record::variations::Variations;
 use crate::record::weather::Weather;
 use crate::record::{Camera, DataSheet, Job, Scene};
 
@@ -19,6 +20,8 @@ pub enum FileKind {
     DataSheet,
     /// What is laid over stored radiance.
     Weather,
+    /// What differs from sample to sample of a data set.
+    Variations,
 }
 
 /// The JSON Schema (draft 2020-12) of a kind of file. That of jobs, scenes and cameras is a choice: a file with a `base` ("then")
@@ -31,6 +34,7 @@ pub fn schema(kind: FileKind) -> Json {
         FileKind::Job => based::<Job>("Étendue job"),
         FileKind::DataSheet => unbased::<DataSheet>("EMVA 1288 data sheet"),
         FileKind::Weather => unbased::<Weather>("Étendue weather"),
+        FileKind::Variations => unbased::<Variations>("Étendue variations"),
     }
 }
 

@@ -1,10 +1,10 @@
-//! Jobs, scenes, cameras, weather, data sheets, changes of keys, and whole plans.
+//! Jobs, scenes, cameras, weather, variations, data sheets, changes of keys, and whole plans.
 
 use super::seeds::{repository, stored, write};
 use super::target::{TREE, Target, told};
 use etendue::{Existing, JobRequest, TextureMemory, Unobserved};
 use etendue_scene::limits::DESCRIPTION;
-use etendue_scene::{Description, Overrides, load_camera, load_datasheet, load_weather};
+use etendue_scene::{Description, Overrides, load_camera, load_datasheet, load_variations, load_weather};
 use std::path::Path;
 
 /// What TOML is made of, and words of our format that lead to other files or forms.
@@ -133,6 +133,17 @@ pub(super) const WEATHER: Target = Target {
     file: "weather.toml",
     prepare: |_| repository(["scenes/weather/koschmieder.toml", "scenes/weather/streaks.toml"]),
     read: |file| told(load_weather(file, &text)),
+    words: WORDS,
+    is_text: true,
+    times: TREE,
+    constant_bytes: CONSTANT,
+};
+
+pub(super) const VARIATIONS: Target = Target {
+    name: "variations",
+    file: "variations.toml",
+    prepare: |_| repository(["scenes/datasets/boxes.toml", "scenes/datasets/drive.toml"]),
+    read: |file| told(load_variations(file, &text)),
     words: WORDS,
     is_text: true,
     times: TREE,

@@ -16,6 +16,7 @@ pub const TARGETS: &[Target] = &[
     descriptions::SCENE,
     descriptions::CAMERA,
     descriptions::WEATHER,
+    descriptions::VARIATIONS,
     descriptions::DATASHEET,
     descriptions::SET,
     descriptions::PLAN,

@@ -2,6 +2,7 @@
 
 use etendue::{Levels, ShardSpec};
 use etendue_scene::record::render::MAX_SEED;
+use etendue_scene::record::variations::MAX_SAMPLES;
 
 /// A seed, as the key `seed` admits it.
 pub fn seed(text: &str) -> Result<u64, String> {
@@ -21,6 +22,15 @@ pub fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
         0 => Err(expected()),
         count if count > MAX_FRAMES => Err(format!("{count} frames; one run takes at most {MAX_FRAMES}")),
         _ => Ok(range),
+    }
+}
+
+/// Numbers of samples of a data set.
+pub fn samples(text: &str) -> Result<std::ops::Range<u32>, String> {
+    let range = frames(text)?;
+    match u64::from(range.end) <= MAX_SAMPLES {
+        true => Ok(range),
+        false => Err(format!("sample {}; a data set has at most {MAX_SAMPLES}", range.end - 1)),
     }
 }
 

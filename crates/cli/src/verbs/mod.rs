@@ -3,6 +3,7 @@
 mod calibrate;
 mod chart;
 mod compare;
+mod dataset;
 mod datasheet;
 mod develop;
 mod expose;
@@ -33,6 +34,8 @@ subcommands! {
     Plan(plan::Plan),
     /// Tell what each choice of rendering costs in time and error for a job, and recommend settings
     Tradeoff(tradeoff::Tradeoff),
+    /// Make a data set of a job that is varied sample after sample: COCO, KITTI, Cityscapes and others
+    Dataset(dataset::Dataset),
     /// Photograph a stored radiance image (rendered with route = "pupil") by another lens and sensor
     Expose(expose::Expose),
     /// Lay fog, rain or snow over a stored radiance image (rendered with route = "pupil"), by its distances

@@ -3,7 +3,7 @@
 use crate::support::etendue;
 
 /// What it does, one verb each.
-const VERBS: [&str; 13] = [
+const VERBS: [&str; 14] = [
     "render",
     "rig",
     "merge",
@@ -17,6 +17,7 @@ const VERBS: [&str; 13] = [
     "calibrate",
     "schema",
     "tradeoff",
+    "dataset",
 ];
 /// Those whose options are their subcommands'.
 const GROUPS: [&str; 2] = ["chart", "measure"];

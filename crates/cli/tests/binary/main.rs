@@ -14,6 +14,7 @@ mod bytes;
 mod charts;
 mod compared;
 mod concurrent;
+mod datasets;
 mod datasheet;
 mod develop;
 mod display;

@@ -8,6 +8,7 @@
 //! - [`GoldenSequence`] does so where nobody knows yet how many samples there will be.
 //! - [`NoiseStream`] serves the sensor: independent words from a counter-based generator.
 //! - [`number_of_name`] serves what belongs to a scene: a number by name alone.
+//! - [`stream_of_name`] serves what is varied from sample to sample of a data set.
 
 mod address;
 mod golden_sequence;
@@ -20,7 +21,7 @@ mod sobol;
 
 pub use address::{Draw, FrameAddress, Pixel, PixelAddress};
 pub use golden_sequence::GoldenSequence;
-pub use named::number_of_name;
+pub use named::{number_of_name, stream_of_name};
 pub use noise::{NoiseDraw, NoiseKey, NoiseStream};
 pub use path::PathStream;
 pub use philox::philox4x32;

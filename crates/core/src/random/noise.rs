@@ -99,6 +99,11 @@ impl NoiseStream {
         NoiseKey::new(seed, camera, frame, capture, draw).stream(pixel)
     }
 
+    /// The stream `number` of a key of 64 bits, apart from those of all pixels: pictures have no such row.
+    pub(super) fn of_key(key: u64, number: u32) -> Self {
+        Self { key: [key as u32, (key >> 32) as u32], counter: [0, 0, number, u32::MAX], words: [0; 4], used: 4 }
+    }
+
     /// The next 32 bits.
     #[inline]
     pub fn word(&mut self) -> u32 {

@@ -10,11 +10,12 @@ use etendue_core::quantity::{Disparity, Identity};
 use etendue_io::Provenance;
 use etendue_io::correspondence::{encode_flo, encode_kitti_disparity, encode_kitti_flow, encode_pfm};
 use etendue_io::exr::{self, encode_disparity, encode_motion};
-use etendue_pipeline::boxes::{ObjectBoxes, object_boxes};
+use etendue_pipeline::boxes::{ObjectBoxes, object_boxes, silhouettes};
 use etendue_pipeline::frame_view::FrameView;
 use etendue_pipeline::motion::{MotionTruth, NeighbourTruth, disparity, motion_truth};
 use etendue_pipeline::plan::{CorrespondenceFormat, Products};
 use serde_json::Value;
+use std::collections::BTreeMap;
 
 impl CameraResults {
     /// Optical flow, visibility and motion in space of the first of the frames: against the next frame, and then against the one before it,
@@ -48,7 +49,21 @@ impl CameraResults {
     /// The same as `boxes.json` says it, with names, classes and conventions.
     #[must_use]
     pub fn boxes_json(&self) -> Value {
-        boxes_json(&self.plan, &self.frame_view(), &self.boxes())
+        self.boxes_json_of(&self.ground_truth().instance)
+    }
+
+    /// The same of identities that are known, those of [`ground_truth`](Self::ground_truth).
+    #[must_use]
+    pub fn boxes_json_of(&self, instances: &Plane<Identity>) -> Value {
+        let boxes = object_boxes(&self.plan, &self.frame_view(), instances, self.simd);
+        boxes_json(&self.plan, &self.frame_view(), &boxes)
+    }
+
+    /// The pixels (row by row from the top left) that would show each object of the first of the frames were it alone, or that show it in the ground
+    /// truth's `instances`, by identity. Traced anew at each call, on the caller's thread pool.
+    #[must_use]
+    pub fn silhouettes(&self, instances: &Plane<Identity>) -> BTreeMap<u32, Vec<usize>> {
+        silhouettes(&self.plan, &self.frame_view(), instances, self.simd)
     }
 
     fn frame_view(&self) -> FrameView<'_> {

@@ -1,10 +1,11 @@
 //! One camera's results in memory.
 
-use super::frames::frames;
+use super::frames::{encoded, frames};
 use crate::error::Error;
 use crate::render_options::RenderOptions;
-use etendue_core::Plane;
+use crate::rig;
 use etendue_core::quantity::MeanElectrons;
+use etendue_core::{CameraPose, Plane};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::photograph::{Frame, Light, take, take_with_breakdown};
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
@@ -119,6 +120,29 @@ impl CameraResults {
             frames(&self.camera().body, light, (self.frames.clone(), state), address, signal_breakdown)
         });
         kept.into_iter().chain(anew.into_iter().flatten())
+    }
+
+    /// The file of a frame's picture as `render` writes it: its extension and its bytes; `None` where the camera does not process its raws.
+    ///
+    /// # Errors
+    /// Where the picture cannot be encoded.
+    pub fn picture_file(&self, frame: &Frame) -> Option<Result<(&'static str, Vec<u8>), Error>> {
+        let (picture, development) = frame.picture.as_ref().zip(self.camera().body.development.as_ref())?;
+        let bytes = encoded(&picture.display, development).map_err(|error| Error::Run(format!("picture: {error}")));
+        Some(bytes.map(|bytes| (development.format.extension(), bytes)))
+    }
+
+    /// Where the camera stands half-way through a frame's first exposure, and when that is, s: what `frame.NNNN.json` states.
+    #[must_use]
+    pub fn pose(&self, frame: u32) -> (CameraPose, f64) {
+        let camera = self.camera();
+        (rig::pose(camera, frame), camera.timing.capture(frame, 0).middle_s())
+    }
+
+    /// The plan that the camera is of.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
     }
 
     /// The numbers of the run's frames that these results are of: one where light depends on time.

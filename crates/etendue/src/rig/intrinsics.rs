@@ -4,7 +4,7 @@ use etendue_optics::{Front, Lens};
 use etendue_pipeline::plan::CameraBody;
 use etendue_projection::model::Perspective;
 use etendue_projection::plane::DistortionTerms;
-use etendue_projection::{Calibration, Model, Sense};
+use etendue_projection::{Calibration, CameraMatrix, Model, Sense};
 use glam::DVec2;
 
 /// Farthest (px) that the calibration may see a point from where the camera does.
@@ -40,6 +40,19 @@ pub(super) fn calibration(body: &CameraBody) -> Result<Calibration, String> {
     match farthest_px(body, &found) {
         off if off <= TOLERANCE_PX => Ok(found),
         off => Err(format!("its projection differs from every model by {off:.2e} px")),
+    }
+}
+
+/// The camera matrix of a camera whose pictures are rectilinear, in raster coordinates.
+///
+/// # Errors
+/// The rest of a sentence that begins with the camera: why there is none.
+pub(super) fn pinhole(body: &CameraBody) -> Result<CameraMatrix, String> {
+    let found = calibration(body)?;
+    let straight = Perspective::new(DistortionTerms::default(), [0.0; 2]).map_err(|error| error.to_string())?;
+    match found.model() {
+        Model::Perspective(model) if *model == straight => Ok(found.matrix()),
+        _ => Err("its pictures are distorted, and the format knows a camera matrix alone".to_owned()),
     }
 }
 

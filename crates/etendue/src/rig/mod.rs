@@ -8,6 +8,9 @@
 //! | `colmap/cameras.txt`, `images.txt`, `points3D.txt` | all cameras, and the pose of every frame in the world |
 
 mod intrinsics;
+mod view;
+
+pub use view::{PinholeView, pinhole_view};
 
 use crate::error::Error;
 use crate::observer::{Message, Observer};
@@ -172,7 +175,7 @@ fn add_colmap(found: &[Calibrated<'_>], none: &[String], frames: &Range<u32>, ri
 }
 
 /// Half-way through the frame's first exposure, as the side-car states it.
-fn pose(camera: &CameraPlan, frame: u32) -> CameraPose {
+pub(crate) fn pose(camera: &CameraPlan, frame: u32) -> CameraPose {
     let frame = if camera.time == TimeDependence::None { 0 } else { frame };
     camera.path.at(camera.timing.capture(frame, 0).middle_s())
 }

@@ -9,10 +9,10 @@ Arrays have rows from the top and pixels from the left; they are read-only and s
 """
 
 from . import chart, measure
-from ._dataset import dataset
 from ._errors import Error, Fault, InputError, RunError
 from ._etendue import Camera, Frame, Job, Results, __version__, set_limit
 from ._report import Estimate, Report
+from ._xarray import to_xarray
 from .verbs import *
 from .verbs import __all__ as _verb_names
 
@@ -29,8 +29,8 @@ __all__ = [
     "RunError",
     "__version__",
     "chart",
-    "dataset",
     "measure",
     "set_limit",
+    "to_xarray",
     *_verb_names,
 ]

@@ -284,7 +284,7 @@ def set_limit(name: str, number: int) -> None:
     name: as on the command line, such as "picture-mib".
     """
 
-def dataset(camera: Camera) -> Any:
+def to_xarray(camera: Camera) -> Any:
     """A camera's light, first frame and ground truth as an xarray Dataset (the extra "xarray"), each variable with its unit.
 
     x and y are the centres of pixels in raster coordinates, px; what the camera does not have is left out.

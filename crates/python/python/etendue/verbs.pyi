@@ -126,6 +126,61 @@ def tradeoff(
     Answers with a dict.
     """
 
+def dataset(
+    job: _Path,
+    *,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
+    spp: int | None = None,
+    noise: float | None = None,
+    integrator: Literal["flat", "direct", "path"] | None = None,
+    quality: Literal["draft", "standard", "reference"] | None = None,
+    camera: str | None = None,
+    seed: int | None = None,
+    sandboxed: bool = False,
+    allow_outside: _Path | Sequence[_Path] | None = None,
+    texture_memory: int | None = None,
+    cache: _Path | None = None,
+    film_memory: int | None = None,
+    scratch: _Path | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    variations: _Path | None = None,
+    samples: range | tuple[int, int] | None = None,
+    frames: range | tuple[int, int] | None = None,
+    format: Literal["coco", "kitti", "cityscapes", "yolo", "bop", "webdataset", "nuscenes"] | None = None,
+    resume: bool = False,
+    threads: int | None = None,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Make a data set of a job that is varied sample after sample: COCO, KITTI, Cityscapes and others.
+
+    job: The job file (TOML).
+    set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
+    spp: Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's].
+    noise: As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp.
+    integrator: How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]. One of flat, direct, path.
+    quality: A preset of samples and bounces, for what the job file leaves open. One of draft, standard, reference.
+    camera: Render only this camera of the job.
+    seed: The seed of all random numbers [default: the job's, or 0].
+    sandboxed: Refuse every file outside the folder of the job, whoever names it and through whatever link: for the jobs of others (docs/limits.md).
+    allow_outside: With --sandboxed: files may lie in this folder, too. One, or a sequence of them.
+    texture_memory: Memory of textures. Where they need more, the large ones are kept in tiles on the disk and read where they are looked up. The result does not depend on it. Default: 512.
+    cache: The folder of these tiles, which another run finds again [default: etendue in $XDG_CACHE_HOME, else in ~/.cache].
+    film_memory: Memory of the bands of one film: their means and variances, 8 bytes a pixel and band. Larger ones are kept in a scratch file on the disk, and files, effects and electrons are made of it some rows or one band at a time. The result does not depend on it. Default: 2048.
+    scratch: The folder of these scratch files, which are gone when the run ends [default: that of --cache].
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    variations: The variations file (TOML): keys of the job, its scene and its cameras with how their values are drawn [default: nothing varies but noise].
+    samples: Samples to make, first to last (the last excluded); each is the same alone or among all. Default: 0..1.
+    frames: Frames of each sample, first to last (the last excluded). Default: 0..1.
+    format: Formats to write, with commas between them [default: those of the variations file, or coco]. One of coco, kitti, cityscapes, yolo, bop, webdataset, nuscenes. One, or a sequence of them.
+    resume: Go on with the data set that is in the folder: samples that are whole are kept, and more may be added.
+    threads: Worker threads [default: one a processor]. The result does not depend on it.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
 def expose(
     radiance: _Path,
     *,
@@ -362,13 +417,13 @@ def calibrate(
     """
 
 def schema(
-    kind: Literal["scene", "camera", "job", "datasheet", "weather"],
+    kind: Literal["scene", "camera", "job", "datasheet", "variations", "weather"],
     *,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
     """Print the JSON Schema of a file kind, for editors.
 
-    kind: The kind of file. One of scene, camera, job, datasheet, weather.
+    kind: The kind of file. One of scene, camera, job, datasheet, variations, weather.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a dict.

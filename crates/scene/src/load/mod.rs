@@ -20,6 +20,7 @@ use crate::preset;
 use crate::reader::{Rule as _, record};
 use crate::record::job::CameraSource;
 use crate::record::render::{check_levels, check_merged};
+use crate::record::variations::Variations;
 use crate::record::weather::Weather;
 use crate::record::{Camera, CameraEntry, DataSheet, Job, Output, Pose, Render, Scene, Sequence};
 use crate::written::Table;
@@ -186,6 +187,17 @@ pub fn load_weather(file: &Path, read: &ReadText<'_>) -> Result<Weather, Faults>
     let document = files::single(file, read, &mut faults);
     let weather = document.and_then(|d| record::<Weather>().read(&d, &mut faults));
     faults.or(weather)
+}
+
+/// Reads a variations file.
+///
+/// # Errors
+/// All faults of the file.
+pub fn load_variations(file: &Path, read: &ReadText<'_>) -> Result<Variations, Faults> {
+    let mut faults = Faults::none();
+    let document = files::single(file, read, &mut faults);
+    let variations = document.and_then(|d| record::<Variations>().read(&d, &mut faults));
+    faults.or(variations)
 }
 
 /// Reads an EMVA 1288 data sheet.

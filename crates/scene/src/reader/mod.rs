@@ -4,12 +4,14 @@
 //! `variants!` writes an enum told apart by the word under one key, `keyed!` an enum told apart by which key is given.
 //! Every key that no record takes is a fault.
 
+mod any_value;
 pub(crate) mod macros;
 mod number;
 mod rule;
 mod table;
 mod word;
 
+pub(crate) use any_value::any_value;
 pub(crate) use macros::{choice, keyed, record, variant, variants};
 pub(crate) use number::{Number, among, number, percentile, vector, whole};
 pub(crate) use rule::{Kind, Rule, RuleExt, either, exactly, keyed_by_name, list, record};

@@ -32,6 +32,7 @@ pub mod sequence;
 pub mod shape;
 pub mod texture;
 pub mod transform;
+pub mod variations;
 pub mod vertex_animation;
 pub mod weather;
 

@@ -94,6 +94,16 @@ fn write_value(f: &mut fmt::Formatter<'_>, item: &Item) -> fmt::Result {
     f.write_str("]")
 }
 
+impl Item {
+    /// The value in one line, as TOML writes it. A path that is not UTF-8 has no text (an empty one).
+    #[must_use]
+    pub fn in_one_line(&self) -> String {
+        let mut line = String::new();
+        let written = write!(line, "{}", InLine(self));
+        if written.is_ok() { line } else { String::new() }
+    }
+}
+
 /// A value in one line.
 struct InLine<'a>(&'a Item);
 

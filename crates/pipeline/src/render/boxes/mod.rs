@@ -116,13 +116,51 @@ fn visible(ids: &Plane<Identity>) -> BTreeMap<u32, (usize, PixelBox)> {
     found
 }
 
+/// The pixels (row by row from the top left) that would show each object of these identities were it alone, or that show it in the ground truth `ids`. On the
+/// caller's pool.
+#[must_use]
+pub fn silhouettes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, simd: Simd) -> BTreeMap<u32, Vec<usize>> {
+    let looks = LookAt::new(plan, frame, simd);
+    let time_s = frame.interval().middle_s();
+    let mut found: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    ids.samples()
+        .iter()
+        .enumerate()
+        .filter(|(_, id)| **id > 0)
+        .for_each(|(at, id)| found.entry(*id).or_default().push(at));
+    let numbered = plan.world.instances().iter().enumerate().filter(|(_, instance)| instance.instance_id > 0);
+    for (index, instance) in numbered {
+        let amodal = Amodal::of(plan, frame, instance, time_s);
+        if amodal.image.is_none() && !found.contains_key(&instance.instance_id) {
+            continue;
+        }
+        let Some(pixels) = alone_pixels(&looks, index as u32, &amodal, ids) else { continue };
+        let seen = found.remove(&instance.instance_id).unwrap_or_default();
+        let mut all: Vec<usize> = pixels.map(|(x, y)| y * ids.width() + x).chain(seen).collect();
+        all.sort_unstable();
+        all.dedup();
+        if !all.is_empty() {
+            found.insert(instance.instance_id, all);
+        }
+    }
+    found
+}
+
 /// Number and box of the pixels that would show an instance were it alone; `None` where none would.
 fn alone(looks: &LookAt<'_>, index: u32, amodal: &Amodal, ids: &Plane<Identity>) -> Option<(usize, PixelBox)> {
-    let (width, height) = (ids.width(), ids.height());
-    let [columns, rows] = amodal.pixels(width, height)?;
-    let pixels = rows.into_par_iter().flat_map_iter(|y| columns.clone().map(move |x| (x, y)));
-    let shown = pixels.filter(|(x, y)| looks.meets_alone(DVec2::new(*x as f64, *y as f64) + 0.5, index));
-    let counted = shown.map(|(x, y)| (1, PixelBox::of_pixel(x, y)));
+    let counted = alone_pixels(looks, index, amodal, ids)?.map(|(x, y)| (1, PixelBox::of_pixel(x, y)));
     // Least and greatest of whole numbers: the same in any order.
     counted.reduce_with(|a, b| (a.0 + b.0, a.1.about(&b.1)))
+}
+
+/// Columns and rows of these pixels; `None` where the object lies outside the picture.
+fn alone_pixels<'a>(
+    looks: &'a LookAt<'_>,
+    index: u32,
+    amodal: &Amodal,
+    ids: &Plane<Identity>,
+) -> Option<impl ParallelIterator<Item = (usize, usize)> + use<'a>> {
+    let [columns, rows] = amodal.pixels(ids.width(), ids.height())?;
+    let pixels = rows.into_par_iter().flat_map_iter(move |y| columns.clone().map(move |x| (x, y)));
+    Some(pixels.filter(move |(x, y)| looks.meets_alone(DVec2::new(*x as f64, *y as f64) + 0.5, index)))
 }

@@ -13,11 +13,13 @@ pub(super) enum File {
     Job,
     DataSheet,
     Weather,
+    Variations,
 }
 
 impl File {
     /// In the order in which they are searched for tables: what belongs to files of its own comes before the job that may hold it.
-    pub(super) const ALL: [Self; 5] = [Self::Scene, Self::Camera, Self::Job, Self::DataSheet, Self::Weather];
+    pub(super) const ALL: [Self; 6] =
+        [Self::Scene, Self::Camera, Self::Job, Self::DataSheet, Self::Weather, Self::Variations];
 
     pub(super) fn word(self) -> &'static str {
         match self {
@@ -26,6 +28,7 @@ impl File {
             Self::Job => "job",
             Self::DataSheet => "datasheet",
             Self::Weather => "weather",
+            Self::Variations => "variations",
         }
     }
 
@@ -37,6 +40,7 @@ impl File {
             Self::Job => FileKind::Job,
             Self::DataSheet => FileKind::DataSheet,
             Self::Weather => FileKind::Weather,
+            Self::Variations => FileKind::Variations,
         });
         schema.get("else").unwrap_or(&schema).clone()
     }

@@ -26,7 +26,7 @@ _VARIABLES = {
 }
 
 
-def dataset(camera):
+def to_xarray(camera):
     """A camera's light, first frame and ground truth as an xarray Dataset (the extra "xarray"), each variable with its unit.
 
     x and y are the centres of pixels in raster coordinates, px; what the camera does not have is left out, as is

@@ -1,0 +1,189 @@
+//! BOP (Hodaň et al. 2018): poses of objects, depth and masks, `bop/SPLIT/SCENE`.
+//!
+//! A scene is a camera of a sample: sample × cameras + the camera's place in the job; its pictures are numbered by frames. Objects are those of the ground truth that have a class, with their identities as `obj_id`.
+//!
+//! - A model's frame is that of the object's own mesh, its origin in the middle of the object's box; lengths are mm. `models/models_info.json` has that box; its `diameter` is the box's
+//!   diagonal, which the greatest distance of two points of the mesh does not exceed. Models themselves are left out.
+//! - `depth` is the distance along the axis, 0 where there is none or it is beyond 65 535 units of `bop_depth_unit_mm` (`depth_scale`).
+//! - `mask` holds the pixels that would show the object were it alone, `mask_visib` those that do, 255; files are numbered by the place in `scene_gt.json`.
+//! - `cam_K` counts pixel centres as whole numbers, as OpenCV does.
+
+use super::writer::{Writer, write};
+use crate::draw::Split;
+use crate::picture::Picture;
+use crate::record::{ObjectRecord, PictureRecord, SampleRecord};
+use crate::records::Records;
+use crate::set::Set;
+use etendue::{Error, OutputFolder};
+use etendue_core::Plane;
+use etendue_core::quantity::Length;
+use etendue_io::png::{encode_depth16, encode_grey8, stored_depth};
+use glam::{DMat3, DQuat, DVec3};
+use serde_json::{Map, Value, json};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+pub(super) struct Bop {
+    depth_unit_mm: f64,
+    /// Of the sample that is being made: `scene_gt_info` by camera and frame.
+    counted: RefCell<BTreeMap<(String, u32), Vec<Value>>>,
+}
+
+impl Bop {
+    pub(super) fn of(set: &Set) -> Self {
+        let unit = set.variations.as_ref().and_then(|variations| variations.bop_depth_unit_mm.as_ref());
+        Self { depth_unit_mm: unit.map_or(1.0, |unit| unit.value), counted: RefCell::default() }
+    }
+
+    fn units_per_m(&self) -> f64 {
+        1000.0 / self.depth_unit_mm
+    }
+}
+
+fn scene(set: &Set, (sample, split): (u32, Split), camera: &str) -> String {
+    let place = set.cameras.iter().position(|known| known == camera).expect("a camera of the job");
+    format!("bop/{}/{:06}", split.name(), sample as usize * set.cameras.len() + place)
+}
+
+/// What BOP knows of a picture.
+fn objects(picture: &PictureRecord) -> impl Iterator<Item = &ObjectRecord> {
+    picture.objects.iter().filter(|object| object.class.is_some())
+}
+
+impl Writer for Bop {
+    fn picture(
+        &self,
+        set: &Set,
+        sample: (u32, Split),
+        picture: &Picture<'_>,
+        folder: &mut OutputFolder,
+    ) -> Result<(), Error> {
+        let (record, truth) = (&picture.record, picture.truth);
+        let (scene, number) = (scene(set, sample, &record.camera), record.frame);
+        write(folder, &format!("{scene}/rgb/{number:06}.{}", record.extension), &picture.bytes)?;
+        let mut encoded = |name: String, bytes: Result<Vec<u8>, _>| {
+            let bytes = bytes.map_err(|error: etendue_io::exr::EncodeError| Error::Run(format!("{name}: {error}")))?;
+            write(folder, &name, &bytes)
+        };
+        encoded(format!("{scene}/depth/{number:06}.png"), encode_depth16(&truth.depth, self.units_per_m()))?;
+        let silhouettes = picture.silhouettes();
+        let (mut counted, ids) = (Vec::new(), truth.instance.samples());
+        for (place, object) in objects(record).enumerate() {
+            let whole = silhouettes.get(&object.id).map_or(&[][..], Vec::as_slice);
+            let seen: Vec<usize> = whole.iter().copied().filter(|at| ids[*at] == object.id).collect();
+            for (kind, pixels) in [("mask", whole), ("mask_visib", &seen)] {
+                let mut mask = vec![0; ids.len()];
+                pixels.iter().for_each(|at| mask[*at] = 255);
+                let bytes = encode_grey8(record.width_px, record.height_px, &mask);
+                encoded(format!("{scene}/{kind}/{number:06}_{place:06}.png"), bytes)?;
+            }
+            counted.push(self.info(object, whole, seen.len(), &truth.depth));
+        }
+        self.counted.borrow_mut().insert((record.camera.clone(), number), counted);
+        Ok(())
+    }
+
+    fn sample(&self, set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
+        let counted = self.counted.take();
+        for camera in &set.cameras {
+            let scene = scene(set, (record.sample, record.split), camera);
+            let pictures = || record.pictures.iter().filter(|picture| picture.camera == *camera);
+            let by_number = |of: &dyn Fn(&PictureRecord) -> Value| -> Value {
+                pictures().map(|picture| (picture.frame.to_string(), of(picture))).collect::<Map<_, _>>().into()
+            };
+            let poses = |picture: &PictureRecord| objects(picture).map(pose).collect::<Vec<_>>().into();
+            let counts = |picture: &PictureRecord| {
+                counted.get(&(picture.camera.clone(), picture.frame)).cloned().unwrap_or_default().into()
+            };
+            for (name, facts) in [
+                ("scene_camera", by_number(&|picture| self.camera(picture))),
+                ("scene_gt", by_number(&poses)),
+                ("scene_gt_info", by_number(&counts)),
+            ] {
+                write(folder, &format!("{scene}/{name}.json"), format!("{facts}\n").as_bytes())?;
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(&self, _set: &Set, records: &Records, folder: &mut OutputFolder) -> Result<(), Error> {
+        let mut models: BTreeMap<u32, (String, DVec3)> = BTreeMap::new();
+        for record in records.each() {
+            let record = record.map_err(Error::run)?;
+            for object in record.pictures.iter().flat_map(objects) {
+                let size_mm = 1000.0 * DVec3::from_array(object.box_3d.size_m);
+                let (name, known_mm) = models.entry(object.id).or_insert_with(|| (object.name.clone(), size_mm));
+                if *name != object.name || (*known_mm - size_mm).abs().max_element() > 1e-6 * size_mm.max_element() {
+                    return Err(another_model(&record, object, name));
+                }
+            }
+        }
+        let facts: Map<String, Value> = models.iter().map(|(id, (_, size))| (id.to_string(), model(*size))).collect();
+        write(folder, "bop/models/models_info.json", format!("{}\n", Value::Object(facts)).as_bytes())?;
+        let names: Map<String, Value> =
+            models.into_iter().map(|(id, (name, _))| (id.to_string(), name.into())).collect();
+        write(folder, "bop/models/names.json", format!("{}\n", Value::Object(names)).as_bytes())
+    }
+}
+
+fn another_model(record: &SampleRecord, object: &ObjectRecord, known: &str) -> Error {
+    Error::input(format!(
+        "--format bop: object {} is \"{known}\" in one sample and \"{}\" of another size or name in sample {}, and a model of BOP keeps its size; leave \
+         the format out, or vary poses and not scales and objects",
+        object.id, object.name, record.sample
+    ))
+}
+
+impl Bop {
+    fn camera(&self, picture: &PictureRecord) -> Value {
+        let [fx, skew, cx, fy, cy] = picture.camera_matrix_px.expect("checked for all cameras of the format");
+        let [w, x, y, z] = picture.pose.rotation_wxyz;
+        let from_world = DMat3::from_quat(DQuat::from_xyzw(x, y, z, w)).transpose();
+        let place_mm = from_world * (-1000.0 * DVec3::from_array(picture.pose.position_m));
+        json!({
+            "cam_K": [fx, skew, cx - 0.5, 0.0, fy, cy - 0.5, 0.0, 0.0, 1.0],
+            "depth_scale": self.depth_unit_mm,
+            "cam_R_w2c": rows(from_world),
+            "cam_t_w2c": place_mm.to_array(),
+        })
+    }
+
+    fn info(&self, object: &ObjectRecord, whole: &[usize], seen: usize, depth: &Plane<Length>) -> Value {
+        let is_valid = |at: &&usize| stored_depth(depth.samples()[**at], self.units_per_m()) > 0;
+        let corners = |found: Option<[f64; 4]>| match found {
+            Some([left, top, right, bottom]) => {
+                let (left, top) = (left.floor(), top.floor());
+                [left, top, right.ceil() - left, bottom.ceil() - top].map(|x| x as i64)
+            }
+            None => [-1; 4],
+        };
+        json!({
+            "bbox_obj": corners(object.amodal_box_px),
+            "bbox_visib": corners(object.visible_box_px),
+            "px_count_all": whole.len(),
+            "px_count_valid": whole.iter().filter(is_valid).count(),
+            "px_count_visib": seen,
+            "visib_fract": if whole.is_empty() { 0.0 } else { seen as f64 / whole.len() as f64 },
+        })
+    }
+}
+
+fn pose(object: &ObjectRecord) -> Value {
+    let [w, x, y, z] = object.box_3d.camera.rotation_wxyz;
+    let rotation = DMat3::from_quat(DQuat::from_xyzw(x, y, z, w));
+    let place_mm = object.box_3d.camera.centre_m.map(|m| 1000.0 * m);
+    json!({ "cam_R_m2c": rows(rotation), "cam_t_m2c": place_mm, "obj_id": object.id })
+}
+
+fn rows(matrix: DMat3) -> [f64; 9] {
+    matrix.transpose().to_cols_array()
+}
+
+fn model(size_mm: DVec3) -> Value {
+    let [x, y, z] = size_mm.to_array();
+    json!({
+        "diameter": size_mm.length(),
+        "min_x": -x / 2.0, "min_y": -y / 2.0, "min_z": -z / 2.0,
+        "size_x": x, "size_y": y, "size_z": z,
+    })
+}

@@ -1,0 +1,32 @@
+//! The formats: the closed list, one file each.
+
+mod bop;
+mod cityscapes;
+mod coco;
+mod kitti;
+mod nuscenes;
+mod webdataset;
+mod writer;
+mod yolo;
+
+use crate::set::Set;
+use etendue::Error;
+use etendue_scene::record::variations::SetFormat;
+pub(crate) use writer::Writer;
+
+/// The writers of a set.
+pub(crate) fn writers(set: &Set) -> Result<Vec<Box<dyn Writer>>, Error> {
+    set.formats.iter().map(|format| writer(*format, set)).collect()
+}
+
+fn writer(format: SetFormat, set: &Set) -> Result<Box<dyn Writer>, Error> {
+    Ok(match format {
+        SetFormat::Coco => Box::new(coco::Coco),
+        SetFormat::Kitti => Box::new(kitti::Kitti),
+        SetFormat::Cityscapes => Box::new(cityscapes::Cityscapes::of(set)?),
+        SetFormat::Yolo => Box::new(yolo::Yolo),
+        SetFormat::Bop => Box::new(bop::Bop::of(set)),
+        SetFormat::WebDataset => Box::new(webdataset::WebDataset::of(set)),
+        SetFormat::NuScenes => Box::new(nuscenes::NuScenes),
+    })
+}

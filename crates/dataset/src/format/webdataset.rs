@@ -1,0 +1,141 @@
+//! WebDataset (Aizman et al. 2019): shards in tar, `webdataset/SPLIT-NNNNNN.tar`, of `shard_samples` samples each by their numbers.
+//!
+//! Of each picture four members with one stem: the picture, `.json` (its record: camera, pose, boxes, masks), `.instance.png` (identities of the ground truth, 16 bits), `.depth.npy` (32-bit floats, m; +∞ the sky, NaN where there is
+//! none). A sample is first a part in `webdataset/parts`; shards that are complete take their parts' place, others keep them for a run that goes on.
+
+use super::writer::{Writer, write};
+use crate::draw::Split;
+use crate::picture::Picture;
+use crate::record::SampleRecord;
+use crate::records::Records;
+use crate::set::Set;
+use crate::tar;
+use etendue::{Error, OutputFolder};
+use etendue_core::Plane;
+use etendue_core::quantity::{Identity, Length};
+use etendue_io::png::encode_grey16;
+use serde_json::json;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+pub(super) struct WebDataset {
+    shard_samples: u32,
+    /// The files of the sample that is being made.
+    part: RefCell<Vec<u8>>,
+}
+
+/// Samples of a shard that have parts, by split and the shard's number.
+type Shards = BTreeMap<(Split, u32), Vec<u32>>;
+
+impl WebDataset {
+    pub(super) fn of(set: &Set) -> Self {
+        let stated = set.variations.as_ref().and_then(|variations| variations.shard_samples.as_ref());
+        // A million at most.
+        Self { shard_samples: stated.map_or(1000, |count| count.value as u32), part: RefCell::default() }
+    }
+
+    fn shards(&self, records: &Records) -> Result<Shards, Error> {
+        let mut shards = Shards::new();
+        for record in records.each() {
+            let SampleRecord { sample, split, .. } = record.map_err(Error::run)?;
+            shards.entry((split, sample / self.shard_samples)).or_default().push(sample);
+        }
+        Ok(shards)
+    }
+
+    /// Whether all samples of a shard's numbers are there.
+    fn is_complete(&self, records: &Records, shard: u32) -> bool {
+        let count = records.numbers().iter().filter(|sample| **sample / self.shard_samples == shard).count();
+        count == self.shard_samples as usize
+    }
+}
+
+fn part(sample: u32) -> String {
+    format!("webdataset/parts/{sample:06}.tar")
+}
+
+fn parts(folder: &OutputFolder, samples: &[u32]) -> Vec<PathBuf> {
+    samples.iter().map(|sample| folder.path().join(part(*sample))).collect()
+}
+
+impl Writer for WebDataset {
+    fn picture(
+        &self,
+        _set: &Set,
+        (sample, _): (u32, Split),
+        picture: &Picture<'_>,
+        _folder: &mut OutputFolder,
+    ) -> Result<(), Error> {
+        let record = &picture.record;
+        let stem = record.stem(sample);
+        let failed = |error: &dyn std::fmt::Display| Error::Run(format!("{stem}: {error}"));
+        let facts = json!({ "sample": sample, "picture": record }).to_string();
+        let ids = identities(&picture.truth.instance).map_err(|error| failed(&error))?;
+        let mut part = self.part.borrow_mut();
+        for (extension, bytes) in [
+            (record.extension.as_str(), picture.bytes.as_slice()),
+            ("json", facts.as_bytes()),
+            ("instance.png", &ids),
+            ("depth.npy", &npy(&picture.truth.depth)),
+        ] {
+            tar::add(&mut part, &format!("{stem}.{extension}"), bytes);
+        }
+        Ok(())
+    }
+
+    fn sample(&self, _set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
+        write(folder, &part(record.sample), &self.part.take())
+    }
+
+    fn finish(&self, _set: &Set, records: &Records, folder: &mut OutputFolder) -> Result<(), Error> {
+        for ((split, shard), samples) in self.shards(records)? {
+            let parts = parts(folder, &samples);
+            // A shard that was complete has taken its parts' place.
+            if parts.iter().any(|part| !part.exists()) && self.is_complete(records, shard) {
+                continue;
+            }
+            let name = format!("webdataset/{}-{shard:06}.tar", split.name());
+            folder.write_with(&name, |file| joined(&parts, file)).map_err(Error::run)?;
+        }
+        Ok(())
+    }
+
+    fn tidy(&self, records: &Records, folder: &mut OutputFolder) -> Result<(), Error> {
+        for ((_, shard), samples) in self.shards(records)? {
+            if self.is_complete(records, shard) {
+                let names: Vec<String> = samples.iter().map(|sample| part(*sample)).collect();
+                folder.remove(names.iter().map(String::as_str)).map_err(Error::run)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn joined(parts: &[PathBuf], file: &mut impl Write) -> io::Result<()> {
+    for part in parts {
+        let unread = |cause: io::Error| io::Error::other(format!("{}: {cause}", part.display()));
+        io::copy(&mut File::open(part).map_err(unread)?, file)?;
+    }
+    file.write_all(&tar::END)
+}
+
+fn identities(ids: &Plane<Identity>) -> Result<Vec<u8>, String> {
+    let narrow = |id: &u32| u16::try_from(*id).map_err(|_| format!("identity {id} is beyond 16 bits"));
+    let narrow = ids.samples().iter().map(narrow).collect::<Result<Vec<u16>, _>>()?;
+    encode_grey16(ids.width(), ids.height(), &narrow).map_err(|error| error.to_string())
+}
+
+/// NumPy's format 1.0: a head that ends at a multiple of 64 bytes, and the numbers in little-endian order, row by row.
+fn npy(plane: &Plane<Length>) -> Vec<u8> {
+    let (height, width) = (plane.height(), plane.width());
+    let facts = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({height}, {width}), }}");
+    let length = (10 + facts.len() + 1).next_multiple_of(64) - 10;
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend_from_slice(&(length as u16).to_le_bytes());
+    bytes.extend_from_slice(format!("{facts:<width$}\n", width = length - 1).as_bytes());
+    plane.samples().iter().for_each(|value| bytes.extend_from_slice(&value.to_le_bytes()));
+    bytes
+}

@@ -1,0 +1,42 @@
+//! Data sets: a job, varied sample after sample, written in the formats of those who train and test by pictures.
+//!
+//! ```no_run
+//! use etendue::{Existing, JobRequest, Unobserved};
+//! use etendue_dataset::{DatasetRequest, dataset};
+//!
+//! # fn main() -> Result<(), etendue::Error> {
+//! let job = JobRequest::new("scenes/cornell/cornell.toml");
+//! let variations = "scenes/cornell/variations.toml".into();
+//! let request = DatasetRequest { variations: Some(variations), samples: 0..100, ..DatasetRequest::new(job) };
+//! dataset(&request, ("out/boxes".as_ref(), Existing::Refuse), &Unobserved)?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! A *sample* is the job with one draw of all that varies; its pictures are those of all cameras and frames. Sample 70 000 is the same alone or among
+//! all: what is drawn is a function of seed, key and number ([`etendue_core::random::stream_of_name`]).
+//!
+//! | folder | holds |
+//! | --- | --- |
+//! | `dataset.json` | what the set is made of; a run that goes on must agree with it |
+//! | `samples/NNNNNN.json` | a sample: what was drawn, and the truth of its pictures; with this file it is done |
+//! | `coco`, `kitti`, … | a format each, whole by itself |
+//!
+//! Masks, boxes, poses and depth are those of the pipeline's ground truth; nothing is found anew here.
+
+mod change;
+mod draw;
+mod format;
+mod mask;
+mod observer;
+mod picture;
+mod record;
+mod records;
+mod request;
+mod run;
+mod set;
+mod tar;
+
+pub use etendue_scene::record::variations::SetFormat;
+pub use request::DatasetRequest;
+pub use run::dataset;

@@ -1,0 +1,45 @@
+//! What an observer of the whole set is told of one sample's work.
+
+use etendue::{ImageTile, Message, Observer, Progress};
+
+/// The work of one sample as a part of all.
+pub(crate) struct OfSample<'a> {
+    pub(crate) all: &'a dyn Observer,
+    /// Samples that are done, and of how many.
+    pub(crate) done: usize,
+    pub(crate) total: usize,
+    /// The number of the sample.
+    pub(crate) sample: u32,
+    /// Whether what is no error is passed on: it is the same of most samples.
+    pub(crate) tells: bool,
+}
+
+impl Observer for OfSample<'_> {
+    fn message(&self, message: Message<'_>) {
+        if self.tells {
+            self.all.message(message);
+        }
+    }
+
+    fn progress(&self, progress: Progress<'_>) {
+        let heading = format!("sample {}, {}", self.sample, progress.heading);
+        let done = self.done * progress.total + progress.done;
+        self.all.progress(Progress { heading: &heading, done, total: self.total * progress.total, ..progress });
+    }
+
+    fn wants_tiles(&self) -> bool {
+        self.all.wants_tiles()
+    }
+
+    fn tile(&self, tile: &ImageTile<'_>) {
+        self.all.tile(tile);
+    }
+
+    fn now_s(&self) -> Option<f64> {
+        self.all.now_s()
+    }
+
+    fn cancelled(&self) -> bool {
+        self.all.cancelled()
+    }
+}

@@ -1,0 +1,80 @@
+//! A picture with its truth, of a camera's results.
+
+use crate::mask;
+use crate::record::{PictureRecord, Pose, objects};
+use etendue::{CameraResults, Error, GroundTruth, PinholeView, pinhole_view};
+use etendue_core::CameraPose;
+use glam::DQuat;
+use std::collections::BTreeMap;
+
+/// A picture of a sample with its truth.
+pub(crate) struct Picture<'a> {
+    pub(crate) record: PictureRecord,
+    /// The file's bytes.
+    pub(crate) bytes: Vec<u8>,
+    pub(crate) truth: &'a GroundTruth,
+    results: &'a CameraResults,
+}
+
+impl Picture<'_> {
+    /// The pixels that would show each object were it alone.
+    pub(crate) fn silhouettes(&self) -> BTreeMap<u32, Vec<usize>> {
+        self.results.silhouettes(&self.truth.instance)
+    }
+}
+
+/// Hands the pictures of a camera's frames over, one after the other; `warn` is told of pixels without valid light.
+pub(crate) fn each(
+    results: &CameraResults,
+    warn: &dyn Fn(&str),
+    mut take: impl FnMut(&Picture<'_>) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let truth = results.ground_truth();
+    let (width_px, height_px) = (truth.instance.width(), truth.instance.height());
+    let masks = mask::run_lengths(truth.instance.samples(), width_px);
+    let mut objects = objects(results.boxes_json_of(&truth.instance));
+    for object in &mut objects {
+        object.mask_rle = masks.get(&object.id).map(|runs| mask::text(runs));
+    }
+    let camera = results.name();
+    let view = pinhole_view(results.camera()).ok();
+    for (frame, taken) in results.frame_numbers().zip(results.frames()) {
+        let file = results.picture_file(&taken).ok_or_else(|| no_picture(camera))?;
+        let size = taken.picture.as_ref().map(|picture| (picture.display.width(), picture.display.height()));
+        if size != Some((width_px, height_px)) {
+            let problem =
+                "its pictures are a region, or of binned or skipped pixels, and its ground truth is of all pixels";
+            return Err(Error::input(format!("camera {camera}: {problem}; take these keys out")));
+        }
+        if !taken.raw.invalid.is_empty() {
+            let count = taken.raw.invalid.len();
+            warn(&format!("{camera}, frame {frame}: {count} pixels have no valid light; their digital number is 0"));
+        }
+        let (extension, bytes) = file?;
+        let (pose, time_s) = results.pose(frame);
+        let record = PictureRecord {
+            camera: camera.to_owned(),
+            frame,
+            time_s,
+            extension: extension.to_owned(),
+            width_px,
+            height_px,
+            camera_matrix_px: view.map(|view| view.matrix_px),
+            pose: pose_record(&pose),
+            mount: view.and_then(|PinholeView { mount, .. }| mount).as_ref().map(pose_record),
+            objects: objects.clone(),
+        };
+        take(&Picture { record, bytes, truth: &truth, results })?;
+    }
+    Ok(())
+}
+
+/// Of a camera without processing.
+pub(crate) fn no_picture(camera: &str) -> Error {
+    Error::input(format!("camera {camera}: it makes no picture; give it a sensor with electronics and [isp]"))
+}
+
+fn pose_record(pose: &CameraPose) -> Pose {
+    let [x, y, z, w] = DQuat::from_mat3(&pose.rotation).to_array();
+    Pose { position_m: pose.position_m.to_array(), rotation_wxyz: [w, x, y, z] }
+}

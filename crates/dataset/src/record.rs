@@ -1,0 +1,100 @@
+//! The record of a sample: what was drawn and the truth of its pictures, in `samples/NNNNNN.json`.
+
+use crate::draw::Split;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// A sample that is done.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct SampleRecord {
+    pub(crate) sample: u32,
+    pub(crate) split: Split,
+    /// Of its light and noise.
+    pub(crate) seed: u64,
+    /// What was drawn: changes of keys as `--set` takes them.
+    pub(crate) set: Vec<String>,
+    /// The hash of the sample's plan.
+    pub(crate) plan: String,
+    pub(crate) pictures: Vec<PictureRecord>,
+}
+
+/// A picture of a sample.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct PictureRecord {
+    pub(crate) camera: String,
+    pub(crate) frame: u32,
+    /// Half-way through the exposure.
+    pub(crate) time_s: f64,
+    /// `png` or `jpg`.
+    pub(crate) extension: String,
+    pub(crate) width_px: usize,
+    pub(crate) height_px: usize,
+    /// fx, skew, cx, fy, cy in raster coordinates; `None` where pictures are not rectilinear.
+    pub(crate) camera_matrix_px: Option<[f64; 5]>,
+    /// From the camera's frame to the world.
+    pub(crate) pose: Pose,
+    /// From the camera's frame to the frame that carries it.
+    pub(crate) mount: Option<Pose>,
+    pub(crate) objects: Vec<ObjectRecord>,
+}
+
+/// A place and a rotation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Pose {
+    pub(crate) position_m: [f64; 3],
+    pub(crate) rotation_wxyz: [f64; 4],
+}
+
+/// An object of a picture: its keys are those of `boxes.json`, and its mask.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct ObjectRecord {
+    pub(crate) id: u32,
+    pub(crate) name: String,
+    pub(crate) class: Option<String>,
+    pub(crate) visible_box_px: Option<[f64; 4]>,
+    pub(crate) amodal_box_px: Option<[f64; 4]>,
+    pub(crate) amodal_box_in_picture_px: Option<[f64; 4]>,
+    pub(crate) is_cut: bool,
+    pub(crate) visible_pixels: usize,
+    pub(crate) alone_pixels: usize,
+    pub(crate) visible_fraction: f64,
+    pub(crate) truncated_fraction: Option<f64>,
+    pub(crate) box_3d: SolidRecord,
+    /// The pixels that show it, as COCO's compressed run lengths; `None` where none does.
+    #[serde(default)]
+    pub(crate) mask_rle: Option<String>,
+}
+
+/// A box in space.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct SolidRecord {
+    pub(crate) size_m: [f64; 3],
+    pub(crate) camera: Stance,
+    pub(crate) world: Stance,
+}
+
+/// Where a box stands.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Stance {
+    pub(crate) centre_m: [f64; 3],
+    pub(crate) rotation_wxyz: [f64; 4],
+}
+
+impl PictureRecord {
+    /// The part of file names that no other picture of the set has.
+    pub(crate) fn stem(&self, sample: u32) -> String {
+        format!("{sample:06}_{}_{:04}", self.camera, self.frame)
+    }
+
+    /// Those that some pixel shows, with their masks.
+    pub(crate) fn visible(&self) -> impl Iterator<Item = (&ObjectRecord, &str, [f64; 4])> {
+        self.objects.iter().filter_map(|object| Some((object, object.mask_rle.as_deref()?, object.visible_box_px?)))
+    }
+}
+
+/// The objects of a frame's boxes.
+pub(crate) fn objects(boxes: Value) -> Vec<ObjectRecord> {
+    let Value::Object(mut boxes) = boxes else { return Vec::new() };
+    let objects = boxes.remove("objects").unwrap_or_default();
+    serde_json::from_value(objects).expect("objects of the library have the keys of boxes.json")
+}

@@ -1,0 +1,52 @@
+//! The records of all samples that are in a folder.
+
+use crate::record::SampleRecord;
+use etendue::Error;
+use etendue_io::read_regular;
+use etendue_scene::limits::DESCRIPTION;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The folder of the samples' records.
+const SAMPLES: &str = "samples";
+
+/// The name of a sample's record.
+pub(crate) fn record_name(sample: u32) -> String {
+    format!("{SAMPLES}/{sample:06}.json")
+}
+
+/// The samples of a folder, in the order of their numbers; one is in memory at a time.
+pub(crate) struct Records {
+    root: PathBuf,
+    samples: Vec<u32>,
+}
+
+impl Records {
+    /// Of the folder of a data set.
+    pub(crate) fn of(root: &Path) -> Result<Self, Error> {
+        let entries = std::fs::read_dir(root.join(SAMPLES)).map_err(Error::run)?;
+        let mut samples = Vec::new();
+        for entry in entries {
+            let name = entry.map_err(Error::run)?.file_name();
+            let number = name.to_str().and_then(|name| name.strip_suffix(".json")).and_then(|stem| stem.parse().ok());
+            samples.extend(number.filter(|sample| record_name(*sample).ends_with(&*name.to_string_lossy())));
+        }
+        samples.sort_unstable();
+        Ok(Self { root: root.to_path_buf(), samples })
+    }
+
+    /// The numbers of the samples.
+    pub(crate) fn numbers(&self) -> &[u32] {
+        &self.samples
+    }
+
+    /// One after the other.
+    pub(crate) fn each(&self) -> impl Iterator<Item = io::Result<SampleRecord>> + '_ {
+        self.samples.iter().map(|sample| {
+            let path = self.root.join(record_name(*sample));
+            let unread = |why: String| io::Error::other(format!("{}: {why}", path.display()));
+            let bytes = read_regular(&path, &DESCRIPTION).map_err(|cause| unread(cause.to_string()))?;
+            serde_json::from_slice(&bytes).map_err(|why| unread(format!("this is not the record of a sample: {why}")))
+        })
+    }
+}

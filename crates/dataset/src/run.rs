@@ -1,0 +1,171 @@
+//! Sample after sample, each whole or not there; then what is made of all.
+
+use crate::change;
+use crate::draw::Drawn;
+use crate::format::{Writer, writers};
+use crate::observer::OfSample;
+use crate::picture;
+use crate::record::SampleRecord;
+use crate::records::{Records, record_name};
+use crate::request::DatasetRequest;
+use crate::set::{Set, hex};
+use etendue::{Error, Existing, Job, JobRequest, Message, Observer, OutputFolder, RenderOptions, open_variations};
+use etendue_io::{hash, read_regular, sidecar};
+use etendue_scene::limits::DESCRIPTION;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// What the set is made of.
+const FACTS: &str = "dataset.json";
+
+/// Makes the samples of a data set and writes them in the formats asked for; answers with the paths of what it wrote. Samples get their names one after the
+/// other: a run that is interrupted keeps those that are whole, and one that goes on ([`Existing::Resume`]) leaves them. What is made of all samples, such as
+/// COCO's file, is of all that are in the folder. Runs on the caller's thread pool.
+///
+/// # Errors
+/// All faults of the job and of the variations, before anything is rendered; a sample whose plan cannot be made; a folder that holds another data set; where the
+/// observer cancels, light is not finite, or the folder cannot be written.
+pub fn dataset(
+    request: &DatasetRequest,
+    (root, existing): (&Path, Existing),
+    observer: &dyn Observer,
+) -> Result<Vec<PathBuf>, Error> {
+    let variations = request.variations.as_deref().map(open_variations).transpose()?;
+    let base = request.job.clone().open()?;
+    let set = Set::of(request, &base, (variations, text_hash(request)?))?;
+    if let Some(variations) = &set.variations {
+        let first = Drawn::of(Some(variations), set.seed, request.samples.start);
+        change::check(variations, &first.groups, &request.job)?;
+    }
+    let writers = writers(&set)?;
+    let mut folder = OutputFolder::open(root, existing).map_err(Error::input)?;
+    check_folder(&set, root, existing)?;
+    let mut run = Run { request, existing, set: &set, writers: &writers, folder: &mut folder, observer, made: 0 };
+    let written = run.samples();
+    let made = run.made;
+    if written.is_err() {
+        observer.message(Message::Note(&kept(root, made)));
+    }
+    let mut written = written?;
+    let mut whole = folder.again(Existing::Replace).map_err(Error::run)?;
+    let records = Records::of(root)?;
+    writers.iter().try_for_each(|writer| writer.finish(&set, &records, &mut whole)).inspect_err(|_| {
+        observer.message(Message::Note(&kept(root, made)));
+    })?;
+    written.extend(whole.publish().map_err(Error::run)?);
+    writers.iter().try_for_each(|writer| writer.tidy(&records, &mut whole))?;
+    written.retain(|path| path.exists());
+    Ok(written)
+}
+
+fn kept(root: &Path, made: usize) -> String {
+    let folder = root.display();
+    let samples = if made == 1 { "1 sample that is whole" } else { &format!("{made} samples that are whole") };
+    match made {
+        0 => format!("{folder}: nothing of this run was kept"),
+        _ => format!("{folder}: kept {samples}; with --resume a run goes on"),
+    }
+}
+
+fn text_hash(request: &DatasetRequest) -> Result<Option<String>, Error> {
+    let Some(file) = &request.variations else { return Ok(None) };
+    let bytes =
+        read_regular(file, &DESCRIPTION).map_err(|cause| Error::input(format!("{}: {cause}", file.display())))?;
+    Ok(Some(hex(&hash::of_bytes(&bytes))))
+}
+
+/// Refuses a folder that holds another data set, or one that nobody asked to go on with.
+fn check_folder(set: &Set, root: &Path, existing: Existing) -> Result<(), Error> {
+    let path = root.join(FACTS);
+    if !path.exists() {
+        return Ok(());
+    }
+    let refuse = |problem: &str| Err(Error::input(format!("{}: {problem}", path.display())));
+    if existing == Existing::Refuse {
+        return refuse("a data set is here already; go on with it by --resume, or give another folder");
+    }
+    let found = read_regular(&path, &DESCRIPTION).ok().and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
+    let Some(Value::Object(found)) = found else { return refuse("this is not the file of a data set") };
+    let Value::Object(ours) = &set.facts else { return Ok(()) };
+    let differs = ours.iter().filter(|(key, value)| found.get(*key) != Some(*value));
+    let differs: Vec<String> = differs.map(|(key, _)| format!("\"{key}\"")).collect();
+    match differs.is_empty() {
+        true => Ok(()),
+        false => refuse(&format!("the data set here has another {}; give another folder", differs.join(", "))),
+    }
+}
+
+struct Run<'a> {
+    request: &'a DatasetRequest,
+    existing: Existing,
+    set: &'a Set,
+    writers: &'a [Box<dyn Writer>],
+    folder: &'a mut OutputFolder,
+    observer: &'a dyn Observer,
+    /// Samples that this run has made.
+    made: usize,
+}
+
+impl Run<'_> {
+    fn samples(&mut self) -> Result<Vec<PathBuf>, Error> {
+        let is_done = |sample: &u32| self.folder.path().join(record_name(*sample)).exists();
+        let keeps = self.existing == Existing::Resume;
+        let left: Vec<u32> = self.request.samples.clone().filter(|sample| !(keeps && is_done(sample))).collect();
+        let mut written = Vec::new();
+        for (done, sample) in left.iter().enumerate() {
+            if !self.folder.path().join(FACTS).exists() {
+                self.json(FACTS, &self.set.facts)?;
+            }
+            let all = self.observer;
+            let observer = OfSample { all, done, total: left.len(), sample: *sample, tells: done == 0 };
+            self.sample(*sample, &observer)?;
+            // The record is the last of its files, so that a sample that has one is whole.
+            written.extend(self.folder.publish().map_err(Error::run)?);
+            self.made += 1;
+        }
+        Ok(written)
+    }
+
+    fn sample(&mut self, sample: u32, observer: &OfSample<'_>) -> Result<(), Error> {
+        let drawn = Drawn::of(self.set.variations.as_ref(), self.set.seed, sample);
+        let set = drawn.set();
+        let job = self.job(&drawn, &set).map_err(|error| of_sample(error, sample, &set))?;
+        self.set.check_classes(&job, sample)?;
+        let plan = job.plan().hash_text();
+        let mut record = SampleRecord { sample, split: drawn.split, seed: drawn.seed, set, plan, pictures: Vec::new() };
+        let options = RenderOptions { frames: self.request.frames.clone(), simd: self.request.simd };
+        job.render_each(&options, observer, |camera| {
+            let warn = |told: &str| self.observer.message(Message::Warning(&format!("sample {sample}, {told}")));
+            picture::each(&camera, &warn, |picture| {
+                let SampleRecord { split, pictures, .. } = &mut record;
+                for writer in self.writers {
+                    writer.picture(self.set, (sample, *split), picture, self.folder)?;
+                }
+                pictures.push(picture.record.clone());
+                Ok(())
+            })
+        })?;
+        self.writers.iter().try_for_each(|writer| writer.sample(self.set, &record, self.folder))?;
+        self.json(&record_name(sample), &record)
+    }
+
+    fn job(&self, drawn: &Drawn, set: &[String]) -> Result<Job, Error> {
+        let mut request = JobRequest { seed: Some(drawn.seed), ..self.request.job.clone() };
+        request.set.extend(set.iter().cloned());
+        request.open()
+    }
+
+    fn json(&mut self, name: &str, facts: &impl serde::Serialize) -> Result<(), Error> {
+        let bytes = sidecar::encode(facts).map_err(|error| Error::Run(format!("{name}: {error}")))?;
+        self.folder.write(name, &bytes).map_err(Error::run)
+    }
+}
+
+/// Which sample the faults are of, and what it drew.
+fn of_sample(error: Error, sample: u32, set: &[String]) -> Error {
+    let Error::Input(mut faults) = error else { return error };
+    for fault in &mut faults {
+        fault.message = format!("sample {sample} ({}): {}", set.join("; "), fault.message);
+    }
+    Error::Input(faults)
+}

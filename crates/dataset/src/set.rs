@@ -1,0 +1,161 @@
+//! What is the same for all samples: cameras, classes, formats; and the file that says so.
+
+use crate::picture::no_picture;
+use crate::request::DatasetRequest;
+use etendue::{Error, Job, pinhole_view};
+use etendue_scene::Placed;
+use etendue_scene::record::variations::{SetFormat, Variations};
+use serde_json::{Value, json};
+use std::ops::Range;
+
+/// What is the same for all samples.
+pub(crate) struct Set {
+    pub(crate) seed: u64,
+    pub(crate) formats: Vec<SetFormat>,
+    pub(crate) frames: Range<u32>,
+    /// Names, in the order of the job.
+    pub(crate) cameras: Vec<String>,
+    /// Rectified pairs: the left and the right camera.
+    pub(crate) pairs: Vec<(String, String)>,
+    /// Names and ids of the scene's classes, in the order of the ids.
+    pub(crate) classes: Vec<(String, u32)>,
+    pub(crate) variations: Option<Variations>,
+    /// What `dataset.json` says.
+    pub(crate) facts: Value,
+}
+
+impl Set {
+    /// Of a request and its job without variations. Cameras that a format cannot describe are refused.
+    pub(crate) fn of(
+        request: &DatasetRequest,
+        job: &Job,
+        (variations, text_hash): (Option<Variations>, Option<String>),
+    ) -> Result<Self, Error> {
+        let stated = variations.as_ref().and_then(|v| v.seed.as_ref()).map(|seed| seed.value);
+        let seed = request.job.seed.or(stated).unwrap_or(0);
+        let formats = formats(request, variations.as_ref());
+        check_cameras(job, &formats)?;
+        let plan = job.plan();
+        if let Some(variations) = &variations {
+            check_class_names(variations, &plan.classes)?;
+        }
+        let mut classes = plan.classes.clone();
+        classes.sort_by_key(|(_, id)| *id);
+        let cameras: Vec<String> = plan.cameras.iter().map(|camera| camera.name.clone()).collect();
+        let pairs = plan.cameras.iter().filter_map(|left| {
+            let right = left.products.annotations.disparity?.right;
+            let right = plan.cameras.iter().find(|camera| camera.index == right)?;
+            Some((left.name.clone(), right.name.clone()))
+        });
+        let pairs = pairs.collect();
+        let facts = json!({
+            "format": 1,
+            "program": format!("etendue {}", env!("CARGO_PKG_VERSION")),
+            "plan": plan.hash_text(),
+            "variations": text_hash,
+            "seed": seed,
+            "formats": formats.iter().map(|format| name(*format)).collect::<Vec<_>>(),
+            "frames": [request.frames.start, request.frames.end],
+            "cameras": cameras,
+            "classes": classes.iter().map(|(name, id)| json!({ "name": name, "id": id })).collect::<Vec<_>>(),
+        });
+        Ok(Self { seed, formats, frames: request.frames.clone(), cameras, pairs, classes, variations, facts })
+    }
+
+    /// The id of a class; `None` of what has none.
+    pub(crate) fn class_id(&self, class: Option<&str>) -> Option<u32> {
+        self.classes.iter().find(|(name, _)| Some(name.as_str()) == class).map(|(_, id)| *id)
+    }
+
+    /// Its place among the classes, from 0.
+    pub(crate) fn class_place(&self, class: Option<&str>) -> Option<usize> {
+        self.classes.iter().position(|(name, _)| Some(name.as_str()) == class)
+    }
+
+    /// Pictures of a camera in a sample.
+    pub(crate) fn frame_count(&self) -> u64 {
+        u64::from(self.frames.end - self.frames.start)
+    }
+
+    /// Refuses a sample whose classes are others: numbers would not mean the same in all files.
+    pub(crate) fn check_classes(&self, job: &Job, sample: u32) -> Result<(), Error> {
+        let mut classes = job.plan().classes.clone();
+        classes.sort_by_key(|(_, id)| *id);
+        if classes == self.classes {
+            return Ok(());
+        }
+        let problem = "its scene has other [classes] than that of the job as it stands";
+        Err(Error::input(format!("sample {sample}: {problem}; give all scenes that are varied the same classes")))
+    }
+}
+
+/// As asked for, each once, else as the file says, else COCO.
+fn formats(request: &DatasetRequest, variations: Option<&Variations>) -> Vec<SetFormat> {
+    let stated = variations.map_or(Vec::new(), |v| v.formats.iter().map(|format| format.value).collect());
+    let asked = [&request.formats, &stated].into_iter().find(|list| !list.is_empty()).cloned();
+    let mut formats = asked.unwrap_or_else(|| vec![SetFormat::Coco]);
+    formats.sort_unstable();
+    formats.dedup();
+    formats
+}
+
+/// The word of a format.
+pub(crate) fn name(format: SetFormat) -> &'static str {
+    match format {
+        SetFormat::Coco => "coco",
+        SetFormat::Kitti => "kitti",
+        SetFormat::Cityscapes => "cityscapes",
+        SetFormat::Yolo => "yolo",
+        SetFormat::Bop => "bop",
+        SetFormat::WebDataset => "webdataset",
+        SetFormat::NuScenes => "nuscenes",
+    }
+}
+
+/// Refuses names for classes that the scene does not have.
+fn check_class_names(variations: &Variations, classes: &[(String, u32)]) -> Result<(), Error> {
+    let names = variations.cityscapes_labels.iter().chain(&variations.kitti_types).map(|(class, _)| class);
+    let unknown = names.filter(|name| !classes.iter().any(|(known, _)| *known == name.value));
+    let known = || classes.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
+    let told = |name: &Placed<String>| {
+        format!("{}: the scene has no class \"{}\"; give one of its [classes]: {}", name.place, name.value, known())
+    };
+    let faults: Vec<String> = unknown.map(told).collect();
+    if faults.is_empty() { Ok(()) } else { Err(Error::inputs(faults)) }
+}
+
+/// Longest name of a camera in an archive, whose names have 100 characters.
+const MAX_NAME_IN_TAR: usize = 70;
+
+fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
+    let needs_matrix = [SetFormat::Kitti, SetFormat::Bop, SetFormat::NuScenes];
+    let needs_png = [SetFormat::Kitti, SetFormat::Cityscapes];
+    for camera in &job.plan().cameras {
+        let refuse = |format: SetFormat, why: &str| {
+            Err(Error::input(format!("--format {}: camera {}: {why}", name(format), camera.name)))
+        };
+        let Some(development) = &camera.body.development else { return Err(no_picture(&camera.name)) };
+        if let Some(format) = formats.iter().find(|format| needs_png.contains(format))
+            && development.format.extension() != "png"
+        {
+            return refuse(*format, "its pictures are JPEG, and the format has PNG; set isp.format to \"png\"");
+        }
+        if formats.contains(&SetFormat::WebDataset) && camera.name.len() > MAX_NAME_IN_TAR {
+            return refuse(
+                SetFormat::WebDataset,
+                &format!("its name is longer than {MAX_NAME_IN_TAR} characters; rename it"),
+            );
+        }
+        if let Some(format) = formats.iter().find(|format| needs_matrix.contains(format))
+            && let Err(why) = pinhole_view(camera)
+        {
+            return refuse(*format, &format!("{why}; leave the format out, or take a lens without distortion"));
+        }
+    }
+    Ok(())
+}
+
+/// Bytes as digits.
+pub(crate) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,51 @@
+//! Values of any kind, which another key will read.
+
+use serde_json::{Value as Json, json};
+
+use super::rule::{Kind, Rule};
+use crate::document::{Node, Value};
+use crate::fault::Faults;
+use crate::written::{Item, Table, Value as Said};
+
+/// A value that a key of another file takes: its kind and range are that key's to judge.
+pub(crate) const fn any_value() -> AnyValue {
+    AnyValue
+}
+
+/// See [`any_value`].
+pub(crate) struct AnyValue;
+
+impl Rule for AnyValue {
+    type Out = Item;
+    fn takes(&self, kind: Kind) -> bool {
+        kind != Kind::Foreign
+    }
+    fn expected(&self) -> String {
+        "a value that the key takes".to_owned()
+    }
+    fn schema(&self) -> Json {
+        json!({})
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Item> {
+        let value = match &node.value {
+            Value::Flag(flag) => Said::Flag(*flag),
+            Value::Whole(number) => u64::try_from(*number).map_or(Said::Number(*number as f64), Said::Whole),
+            Value::Number(number) if number.is_finite() => Said::Number(*number),
+            Value::Text(text) => Said::Text(text.clone()),
+            Value::Moment(text) => Said::Moment(text.clone()),
+            Value::List(list) => Said::List(list.iter().map(|entry| self.read(entry, faults)).collect::<Option<_>>()?),
+            Value::Table(table) => {
+                let mut said = Table::new().in_line();
+                for entry in &table.entries {
+                    said.put(&entry.key, self.read(&entry.node, faults)?);
+                }
+                Said::Table(said)
+            }
+            Value::Number(_) | Value::Foreign(_) | Value::Unreadable => return self.refuse(node, faults),
+        };
+        Some(Item::at(&node.place, value))
+    }
+    fn write(&self, value: &Item) -> Option<Item> {
+        Some(value.clone())
+    }
+}
