@@ -114,6 +114,6 @@ pub use render_options::RenderOptions;
 pub use render_settings::RenderSettings;
 pub use results::{CameraResults, Files, Results};
 pub use sampled_light::{LightSampling, LightSignal, SampledLight, SampledPixel};
-pub use shard_spec::ShardSpec;
+pub use shard_spec::{ShardRequest, ShardSpec};
 pub use stated_render::StatedRender;
 pub use weather::{WeatherRequest, weather};

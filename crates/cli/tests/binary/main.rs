@@ -47,6 +47,7 @@ mod progressive;
 mod raw_files;
 mod sandboxed;
 mod sequences;
+mod shards_elsewhere;
 mod shared_light;
 mod shared_paths;
 mod support;
