@@ -50,6 +50,7 @@ mod sequences;
 mod shards_elsewhere;
 mod shared_light;
 mod shared_paths;
+mod slurm;
 mod support;
 mod textures;
 mod tradeoff;
