@@ -1,6 +1,6 @@
 //! From a job file and what changes it to a plan, and from a plan to results.
 
-use crate::delivery::{SoFar, check_finite, check_frames, deliver, films_of, shots_of};
+use crate::delivery::{SoFar, check_frames, deliver, films_of};
 use crate::error::Error;
 use crate::exposures::Exposures;
 use crate::film_memory::{self, FilmMemory};
@@ -13,17 +13,13 @@ use crate::refine::{Progress, state, timed};
 use crate::render_options::RenderOptions;
 use crate::results::{CameraResults, DoneFrames, Kept, Results, Sequence, file_names};
 use crate::rig;
-use crate::shard_spec::ShardSpec;
 use etendue_io::{Existing, OutputFolder, Sandbox, TextureMemory, complete_assets};
-use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::effects::PlannedEffect;
 use etendue_pipeline::plan::{CameraPlan, Passes};
-use etendue_pipeline::render::Shot;
 use etendue_pipeline::summary::Summary;
 use etendue_pipeline::tile::Shard;
 use etendue_pipeline::{Choices, Plan, Refinement, compile};
 use etendue_scene::{Description, Overrides};
-use etendue_tracer::accel::Simd;
 use std::cell::RefCell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};

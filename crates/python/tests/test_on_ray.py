@@ -124,16 +124,23 @@ def descends_from(process, ancestor):
 def test_a_driver_that_is_killed_goes_on_where_it_was(moving, tmp_path):
     out = tmp_path / "out"
     command = [sys.executable, "-m", "etendue.cluster", str(moving), "-o", str(out), "--shards", "4", "--frames", "0..2", "--spp", str(SPP)]
-    first = subprocess.Popen(command, stderr=subprocess.PIPE)
     films = lambda: list(out.glob(".cluster/shard-*/*.film.exr"))
-    deadline = time.monotonic() + 120
-    while len(films()) < 3:
-        assert first.poll() is None and time.monotonic() < deadline, "it renders"
-        time.sleep(0.05)
-    first.kill()
-    first.wait()
+
+    def ended_by(number, count, *more):
+        """Sends a signal when so many films are finished."""
+        driver = subprocess.Popen([*command, *more], stderr=subprocess.PIPE, text=True, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        deadline = time.monotonic() + 120
+        while len(films()) < count:
+            assert driver.poll() is None and time.monotonic() < deadline, "it renders"
+            time.sleep(0.05)
+        driver.send_signal(number)
+        return driver.communicate()[1], driver.returncode
+
+    told, status = ended_by(signal.SIGINT, 1)
+    assert status == 130 and "--resume" in told and "Traceback" not in told, told
+    assert ended_by(signal.SIGKILL, 4, "--resume")[1] == -signal.SIGKILL
     kept = {path: path.stat().st_mtime_ns for path in films()}
-    assert 3 <= len(kept) < 16 and contents(out).keys() == {name for name in contents(out) if name.startswith(".cluster")}
+    assert 4 <= len(kept) < 16 and contents(out).keys() == {name for name in contents(out) if name.startswith(".cluster")}
     unasked = subprocess.run(command, capture_output=True, text=True)
     assert unasked.returncode == 2 and "--resume" in unasked.stderr
     again = subprocess.run([*command, "--resume"], capture_output=True, text=True)
