@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import sys
+import types
 
 import pytest
 from conftest import ROOT, contents
@@ -165,6 +166,29 @@ def test_without_ray_it_says_how_to_get_it(monkeypatch, capsys):
 def test_addresses_without_a_cluster_are_refused_at_once(address):
     with pytest.raises(etendue.InputError, match="--address"):
         driver._check_answers(address)
+
+
+def test_what_fails_on_a_worker_is_a_run_that_failed():
+    class RayError(Exception):
+        pass
+
+    class RayTaskError(RayError):
+        cause = OSError(28, "No space left on device")
+
+    def lost(reference):
+        raise reference
+
+    ray = types.SimpleNamespace(exceptions=types.SimpleNamespace(RayError=RayError, RayTaskError=RayTaskError), get=lost)
+    tasks = driver._Tasks(ray, None, 3, None)
+    refused, failed = RayTaskError(), RayTaskError()
+    refused.cause = etendue.InputError([("job.toml: changed", None, None, None, None)])
+    for error, expected, told in [
+        (failed, etendue.RunError, "front.film.exr, shard 1: a worker failed .OSError: .* No space left"),
+        (refused, etendue.InputError, "job.toml: changed"),
+        (RayError("the node died\nlong story"), etendue.RunError, "lost 4 times .RayError: the node died.; go on with --resume"),
+    ]:
+        with pytest.raises(expected, match=told):
+            tasks._got(error, "front.film.exr", 1)
 
 
 def test_the_page_names_every_option_and_its_python_is_that_of_the_package():

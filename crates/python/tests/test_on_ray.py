@@ -97,7 +97,12 @@ def test_a_node_that_is_killed_changes_no_byte(moving, tmp_path, nodes, monkeypa
     assert tasks[-1][1:] == (12, 12) and any(not float(done).is_integer() for _, done, _ in tasks)
 
 
-def test_a_worker_process_that_is_killed_is_replaced(moving, tmp_path, nodes):
+def test_a_worker_process_that_is_killed_is_replaced(moving, tmp_path, nodes, monkeypatch):
+    with monkeypatch.context() as other:
+        other.setattr(driver, "__version__", "0.0.1")
+        with pytest.raises(etendue.RunError, match="version .* and the driver 0.0.1"):
+            etendue.cluster.render(moving, tmp_path / "out", shards=2)
+    assert not (tmp_path / "out").exists()
     killed = []
 
     def kill_one(what, done, total):

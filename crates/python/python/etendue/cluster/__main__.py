@@ -47,10 +47,11 @@ def parser():
 
 def show(what, done, total):
     """On a terminal one line that changes; elsewhere a line a step."""
-    text = f"{what} {done:.1f}/{total}" if isinstance(done, float) else f"{what} {done}/{total}"
+    whole = float(done).is_integer()
+    text = f"{what} {int(done)}/{total}" if whole else f"{what} {done:.1f}/{total}"
     if sys.stderr.isatty():
         print(f"\r\x1b[K{text}", end="" if done < total else "\n", file=sys.stderr, flush=True)
-    elif text != show.last and float(done).is_integer():
+    elif whole and text != show.last:
         print(text, file=sys.stderr, flush=True)
         show.last = text
 

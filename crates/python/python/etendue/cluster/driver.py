@@ -114,9 +114,12 @@ class _Tasks:
         try:
             return self.ray.get(reference)
         except exceptions.RayTaskError as error:
-            raise error.cause from None
+            if isinstance(error.cause, (InputError, RunError)):
+                raise error.cause from None
+            why = str(error.cause).partition("\n")[0]
+            raise RunError(f"{film}, shard {shard}: a worker failed ({type(error.cause).__name__}: {why}); go on with --resume") from None
         except exceptions.RayError as error:
-            why = str(error).splitlines()[0]
+            why = str(error).partition("\n")[0]
             raise RunError(f"{film}, shard {shard}: its worker was lost {self.retries + 1} times ({type(error).__name__}: {why}); go on with --resume") from None
 
 
@@ -135,7 +138,8 @@ def _connected(ray, address):
     try:
         ray.init(address=address, log_to_driver=False, logging_level="warning")
     except (ConnectionError, ValueError, RuntimeError) as cause:
-        raise _refused("--address", f"--address {address}: there is no Ray cluster ({str(cause).splitlines()[0]})") from None
+        why = str(cause).partition("\n")[0]
+        raise _refused("--address", f"--address {address}: there is no Ray cluster ({why})") from None
     try:
         yield
     finally:
