@@ -15,6 +15,14 @@ ci:
 python:
     ETENDUE_PYTHON="$(.ci/python)" cargo test --workspace --test package --test binary -- the_package help
 
+# Runs on a Ray cluster of two nodes, one of which is killed (400 MB of PyPI)
+cluster:
+    ETENDUE_PYTHON_CLUSTER="$(.ci/python cluster)" cargo test -p etendue-python --test package -- a_cluster
+
+# The notebooks of docs/notebooks, run from top to bottom
+notebooks:
+    ETENDUE_PYTHON_NOTEBOOKS="$(.ci/python notebooks)" cargo test -p etendue-python --test package -- notebooks
+
 # A wheel of the Python package, in target/wheels
 wheel:
     "$(.ci/python)" -m pip wheel --no-deps --wheel-dir target/wheels ./crates/python

@@ -1,6 +1,6 @@
 //! From a job file and what changes it to a plan, and from a plan to results.
 
-use crate::delivery::{SoFar, check_finite, check_frames, deliver, films_of, shots_of};
+use crate::delivery::{SoFar, check_frames, deliver, films_of};
 use crate::error::Error;
 use crate::exposures::Exposures;
 use crate::film_memory::{self, FilmMemory};
@@ -13,17 +13,13 @@ use crate::refine::{Progress, state, timed};
 use crate::render_options::RenderOptions;
 use crate::results::{CameraResults, DoneFrames, Kept, Results, Sequence, file_names};
 use crate::rig;
-use crate::shard_spec::ShardSpec;
 use etendue_io::{Existing, OutputFolder, Sandbox, TextureMemory, complete_assets};
-use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::effects::PlannedEffect;
 use etendue_pipeline::plan::{CameraPlan, Passes};
-use etendue_pipeline::render::Shot;
 use etendue_pipeline::summary::Summary;
 use etendue_pipeline::tile::Shard;
 use etendue_pipeline::{Choices, Plan, Refinement, compile};
 use etendue_scene::{Description, Overrides};
-use etendue_tracer::accel::Simd;
 use std::cell::RefCell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -102,7 +98,7 @@ impl JobRequest {
     /// All faults of the job and of the files that it names.
     pub fn open_in(self, files: &MemoryFiles) -> Result<Job, Error> {
         self.check()?;
-        let sandbox = self.folders()?;
+        let sandbox = self.folders()?.noting();
         let description = Description::load(&self.job, &|path| files.read(path, &sandbox), &self.overrides());
         let description = description.map_err(|faults| Error::inputs(faults.list()))?;
         let assets = complete_assets(files.assets().clone(), &description.assets(), &self.textures, &sandbox);
@@ -110,8 +106,9 @@ impl JobRequest {
         let plan = compile(&description, &assets, &self.choices()).map_err(Error::inputs)?;
         let mut plan = self.narrowed(plan)?;
         plan.film_limit = Some(self.films.limit(self.textures.cache.as_ref()));
-        let plan = Arc::new(plan);
-        Ok(Job { request: self, plan })
+        let (plan, mut files) = (Arc::new(plan), sandbox.looked_for());
+        files.retain(|path| path.is_file());
+        Ok(Job { request: self, plan, files: files.into() })
     }
 
     /// Where the files of the job may lie.
@@ -203,6 +200,7 @@ impl JobRequest {
 pub struct Job {
     request: JobRequest,
     plan: Arc<Plan>,
+    files: Arc<[PathBuf]>,
 }
 
 impl Job {
@@ -249,6 +247,13 @@ impl Job {
     #[must_use]
     pub fn notices(&self) -> &[String] {
         &self.plan.notices
+    }
+
+    /// The files that were read: the job and all that it names, by the paths that they were read by. What a program made in memory is not among
+    /// them.
+    #[must_use]
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// The names of all files of a whole run, relative to its output folder.
@@ -393,37 +398,11 @@ impl Job {
         folder.commit().map_err(Error::run)
     }
 
-    /// Renders the tiles of one shard: a film for each group of cameras of equal light, with the first of these; where light depends on time,
-    /// of each of the frames.
-    pub(crate) fn render_shard(
-        &self,
-        (spec, frames): (ShardSpec, &Range<u32>),
-        simd: Simd,
-        observer: &dyn Observer,
-        mut take: impl FnMut(&CameraPlan, Shot, Film) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        self.warn(observer);
-        film_memory::check(&self.plan)?;
-        check_frames(&self.plan, frames)?;
-        let shard = spec.shard()?;
-        let done = DoneFrames::default();
-        let films = films_of(&self.plan, frames, &done);
-        let mut exposures = Exposures::new((&self.plan, frames), films, (shard, simd), observer);
-        for group in self.plan.by_light() {
-            for shot in shots_of(group[0], frames) {
-                let film = exposures.film((&group, shot), None, |_, _| Ok(()))?;
-                check_finite(group[0], &film)?;
-                take(group[0], shot, film)?;
-            }
-        }
-        Ok(())
-    }
-
     pub(crate) fn shared_plan(&self) -> &Arc<Plan> {
         &self.plan
     }
 
-    fn warn(&self, observer: &dyn Observer) {
+    pub(crate) fn warn(&self, observer: &dyn Observer) {
         self.plan.warnings().iter().for_each(|warning| observer.message(Message::Warning(warning)));
     }
 }

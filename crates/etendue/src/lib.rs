@@ -116,7 +116,7 @@ pub use render_settings::RenderSettings;
 pub use results::{CameraResults, Files, Results};
 pub use rig::{PinholeView, pinhole_view};
 pub use sampled_light::{LightSampling, LightSignal, SampledLight, SampledPixel};
-pub use shard_spec::ShardSpec;
+pub use shard_spec::{ShardRequest, ShardSpec};
 pub use stated_render::StatedRender;
 pub use variations::open_variations;
 pub use weather::{WeatherRequest, weather};

@@ -17,13 +17,14 @@ use etendue_tracer::accel::Simd;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
-/// Joins the folders of all shards of one run to the files of an unsharded one, byte for byte, and answers with their paths. Runs on
-/// the caller's thread pool.
+/// Joins the folders of all shards of one run to the files of an unsharded one, byte for byte, and answers with their paths. `job` is where the job
+/// file is now, where the shards were rendered from another place. Runs on the caller's thread pool.
 ///
 /// # Errors
 /// Where shards are missing, given twice or of different runs, the job has changed since, or the folder cannot be written.
 pub fn merge(
     shards: &[PathBuf],
+    job: Option<&Path>,
     simd: Simd,
     (folder, existing): (&Path, Existing),
     observer: &dyn Observer,
@@ -32,7 +33,10 @@ pub fn merge(
         shards.iter().map(|folder| Ok((Manifest::read(folder)?, folder))).collect::<Result<_, Error>>()?;
     shards.sort_by_key(|(manifest, _)| manifest.index);
     check_complete(&shards)?;
-    let manifest = shards[0].0.clone();
+    let mut manifest = shards[0].0.clone();
+    if let Some(job) = job {
+        manifest.request.job = job.to_path_buf();
+    }
     let job = manifest.request.clone().open()?;
     check_same_plan(job.plan(), &manifest)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
@@ -55,7 +59,7 @@ pub fn merge(
 fn check_complete(shards: &[(Manifest, &PathBuf)]) -> Result<(), Error> {
     let Some((first, _)) = shards.first() else { return Err(Error::input("no shards: give the folders of all")) };
     for (manifest, folder) in shards {
-        if !of_one_run(manifest, first) {
+        if !manifest.is_of_run(first) {
             return Err(refuse(folder, "it is a shard of another run; give the shards of one run"));
         }
     }
@@ -72,12 +76,6 @@ fn check_complete(shards: &[(Manifest, &PathBuf)]) -> Result<(), Error> {
             &format!("{} of {} shards are given; give the folders of all", shards.len(), first.count),
         )),
     }
-}
-
-/// Whether two shards were cut from one run: the same plan, cameras, frames and tiles.
-fn of_one_run(a: &Manifest, b: &Manifest) -> bool {
-    let cut = |m: &Manifest| (m.plan_hash.clone(), m.count, m.frames.clone(), m.tile_px.clone());
-    cut(a) == cut(b) && a.request.camera == b.request.camera
 }
 
 fn refuse(folder: &Path, why: &str) -> Error {

@@ -4,14 +4,16 @@
 //! and refuses shards of another plan.
 
 use crate::camera_file::read_text;
-use crate::delivery::shots_of;
+use crate::delivery::{check_finite, check_frames, shots_of};
 use crate::error::Error;
+use crate::exposures::Exposures;
 use crate::film_file::{self, film_name};
+use crate::film_memory;
 use crate::job::{Job, JobRequest};
 use crate::observer::Observer;
 use crate::results::writer::write_exr;
 use crate::results::{Kept, metadata};
-use crate::shard_spec::ShardSpec;
+use crate::shard_spec::{ShardRequest, ShardSpec};
 use etendue_io::{Existing, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
@@ -22,25 +24,21 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 impl Job {
-    /// The names of the files of a shard, relative to its folder.
-    fn shard_names(&self, frames: &Range<u32>) -> Vec<String> {
-        let groups = self.plan().by_light();
-        let of_group = |group: &Vec<&CameraPlan>| {
-            shots_of(group[0], frames).into_iter().map(|shot| film_name(group[0], shot)).collect::<Vec<_>>()
-        };
-        let films = groups.iter().flat_map(of_group);
-        films.chain([MANIFEST.to_owned()]).collect()
+    /// The names of the films of a shard, relative to its folder: one for each group of cameras of equal light, called after the first of these; where
+    /// light depends on time, of each of the frames and of each capture that has a light of its own.
+    #[must_use]
+    pub fn film_names(&self, frames: &Range<u32>) -> Vec<String> {
+        self.films(frames).map(|(group, shot)| film_name(group[0], shot)).collect()
     }
 
-    /// Renders one shard of a run over `frames` into a folder, for [`merge`](crate::merge::merge), and answers with the paths of
-    /// its files. Runs on the caller's thread pool.
+    /// Renders one shard of a run into a folder, or some of its films, for [`merge`](crate::merge::merge), and answers with the paths of its files. Films
+    /// that were rendered each by itself go to one folder. Runs on the caller's thread pool.
     ///
     /// # Errors
-    /// Where the observer cancels, light is not finite, or the folder cannot be written.
+    /// Where a film is none of the job's, the observer cancels, light is not finite, or the folder cannot be written.
     pub fn save_shard(
         &self,
-        spec: ShardSpec,
-        frames: Range<u32>,
+        asked: &ShardRequest,
         simd: Simd,
         (folder, existing): (&Path, Existing),
         observer: &dyn Observer,
@@ -50,13 +48,16 @@ impl Job {
                 "a shard is rendered in the passes of its job: give them by the key render.passes in the place of --progressive or --time",
             ));
         }
-        let (request, plan_hash, tile_px) = (self.request().clone(), self.plan().hash_text(), tile_sides(self.plan()));
-        let ShardSpec { index, count } = spec;
-        let manifest = Manifest { request, frames: frames.clone(), index, count, plan_hash, tile_px }.encoded()?;
+        let names = self.asked_films(asked)?;
+        let manifest = self.manifest(asked);
+        if !asked.films.is_empty() {
+            manifest.check_beside(folder)?;
+        }
+        let manifest = manifest.encoded()?;
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
-        folder.claim(self.shard_names(&frames).iter().map(String::as_str)).map_err(Error::input)?;
+        folder.claim(names.iter().map(String::as_str).chain([MANIFEST])).map_err(Error::input)?;
         let kept = Kept::of_run(&folder, observer);
-        self.render_shard((spec, &frames), simd, observer, |camera, shot, film| {
+        self.render_shard((asked, &names), simd, observer, |camera, shot, film| {
             let facts = metadata::provenance(self.plan(), camera, shot.frame);
             write_exr(&mut folder, &film_name(camera, shot), film_file::image(&film, &facts))
         })?;
@@ -65,7 +66,65 @@ impl Job {
         kept.all();
         Ok(written)
     }
+
+    /// The films of a run: cameras of equal light, and which of their pictures.
+    fn films<'a>(&'a self, frames: &'a Range<u32>) -> impl Iterator<Item = (Vec<&'a CameraPlan>, Shot)> {
+        let groups = self.plan().by_light().into_iter();
+        groups.flat_map(|group| shots_of(group[0], frames).into_iter().map(move |shot| (group.clone(), shot)))
+    }
+
+    /// The names of the films that a request asks for; refused where one is none of the job's.
+    fn asked_films(&self, asked: &ShardRequest) -> Result<Vec<String>, Error> {
+        let mut names = self.film_names(&asked.frames);
+        if let Some(unknown) = asked.films.iter().find(|name| !names.contains(name)) {
+            let some = names.iter().take(MAX_TOLD).cloned().collect::<Vec<_>>().join(", ");
+            let more =
+                names.len().checked_sub(MAX_TOLD + 1).map(|n| format!(" and {} more", n + 1)).unwrap_or_default();
+            return Err(Error::input(format!("--film {unknown}: no film of these frames; there are {some}{more}")));
+        }
+        names.retain(|name| asked.films.is_empty() || asked.films.contains(name));
+        Ok(names)
+    }
+
+    fn manifest(&self, asked: &ShardRequest) -> Manifest {
+        let ShardSpec { index, count } = asked.spec;
+        Manifest {
+            request: self.request().clone(),
+            frames: asked.frames.clone(),
+            index,
+            count,
+            plan_hash: self.plan().hash_text(),
+            tile_px: tile_sides(self.plan()),
+        }
+    }
+
+    /// Renders the tiles of one shard: the films of these names, each with the first camera of its group.
+    fn render_shard(
+        &self,
+        (asked, names): (&ShardRequest, &[String]),
+        simd: Simd,
+        observer: &dyn Observer,
+        mut take: impl FnMut(&CameraPlan, Shot, Film) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let (plan, frames, shard) = (self.plan(), &asked.frames, asked.spec.shard()?);
+        self.warn(observer);
+        film_memory::check(plan)?;
+        check_frames(plan, frames)?;
+        let films: Vec<_> =
+            self.films(frames).filter(|(group, shot)| names.contains(&film_name(group[0], *shot))).collect();
+        let cameras = films.iter().map(|(group, _)| group[0]);
+        let mut exposures = Exposures::new((plan, frames), cameras, (shard, simd), observer);
+        for (group, shot) in &films {
+            let film = exposures.film((group, *shot), None, |_, _| Ok(()))?;
+            check_finite(group[0], &film)?;
+            take(group[0], *shot, film)?;
+        }
+        Ok(())
+    }
 }
+
+/// Films that a message names at most.
+const MAX_TOLD: usize = 6;
 
 /// The name of a shard's manifest in its folder.
 const MANIFEST: &str = "shard.json";
@@ -102,6 +161,28 @@ impl Manifest {
         let text = read_text(&path).map_err(explain)?;
         serde_json::from_str(&text)
             .map_err(|error| explain(format!("this is no shard manifest of this version ({error})")))
+    }
+
+    /// Refuses a folder of a shard of another run: films that were rendered each by itself belong together.
+    fn check_beside(&self, folder: &Path) -> Result<(), Error> {
+        let path = folder.join(MANIFEST);
+        if !path.exists() {
+            return Ok(());
+        }
+        let there = Self::read(folder)?;
+        match there.index == self.index && there.is_of_run(self) {
+            true => Ok(()),
+            false => Err(Error::input(format!(
+                "{}: films of another run or shard are here; choose another output folder, or render the whole shard",
+                path.display()
+            ))),
+        }
+    }
+
+    /// Whether two shards were cut from one run: the same plan, cameras, frames and tiles.
+    pub(crate) fn is_of_run(&self, other: &Self) -> bool {
+        let cut = |m: &Self| (m.plan_hash.clone(), m.count, m.frames.clone(), m.tile_px.clone());
+        cut(self) == cut(other) && self.request.camera == other.request.camera
     }
 
     /// The bytes of the file; refused where a path is no text.

@@ -2,20 +2,26 @@
 //!
 //! A path is followed as the system would, part by part, through every symbolic link; where it ends must lie in one of the folders. It is checked before a
 //! file is looked for, so that nothing is learnt of what is outside. Who may change the folders while a job is read could still lead out of them.
+//!
+//! As every file of a job is asked for here, this is also where its files are known.
 
+use std::collections::BTreeSet;
 use std::io;
 use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Where files may be read from.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct Sandbox {
     /// Without links; `None`: anywhere.
     folders: Option<Vec<PathBuf>>,
+    /// What was looked for, of all clones together; `None`: it is not noted.
+    looked_for: Option<Arc<Mutex<BTreeSet<PathBuf>>>>,
 }
 
 impl Sandbox {
     /// Files may lie anywhere.
-    pub const NONE: Self = Self { folders: None };
+    pub const NONE: Self = Self { folders: None, looked_for: None };
 
     /// Files lie in the folder of `job`, or in one of `further`.
     ///
@@ -29,7 +35,22 @@ impl Sandbox {
             found.ok_or_else(|| format!("--allow-outside {}: there is no such folder", folder.display()))
         });
         let folders = std::iter::once(Ok(own)).chain(allowed).collect::<Result<_, _>>()?;
-        Ok(Self { folders: Some(folders) })
+        Ok(Self { folders: Some(folders), looked_for: None })
+    }
+
+    /// The same, and from now on it notes which files may be looked for.
+    #[must_use]
+    pub fn noting(self) -> Self {
+        Self { looked_for: Some(Arc::default()), ..self }
+    }
+
+    /// Which files were looked for, by the paths that they were looked for by; some need not be there. None unless it [notes](Self::noting) them.
+    #[must_use]
+    pub fn looked_for(&self) -> Vec<PathBuf> {
+        let noted = self.looked_for.as_ref();
+        noted.map_or_else(Vec::new, |noted| {
+            noted.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
+        })
     }
 
     /// Whether a file may be looked for.
@@ -37,12 +58,24 @@ impl Sandbox {
     /// # Errors
     /// Where its path leads out, in words.
     pub fn check(&self, path: &Path) -> Result<(), String> {
-        let Some(folders) = &self.folders else { return Ok(()) };
-        let end = end_of(path).ok();
-        if end.is_some_and(|end| folders.iter().any(|folder| end.starts_with(folder))) {
+        if self.admits(path) {
+            self.note(path);
             return Ok(());
         }
         Err("this path leads out of the job's folder, to which --sandboxed keeps it; put the file there, or allow its folder with --allow-outside".to_owned())
+    }
+}
+
+impl Sandbox {
+    fn admits(&self, path: &Path) -> bool {
+        let Some(folders) = &self.folders else { return true };
+        end_of(path).is_ok_and(|end| folders.iter().any(|folder| end.starts_with(folder)))
+    }
+
+    fn note(&self, path: &Path) {
+        if let Some(noted) = &self.looked_for {
+            noted.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_path_buf());
+        }
     }
 }
 
@@ -110,6 +143,10 @@ mod tests {
         sandbox.check(Path::new("/etc/passwd")).expect_err("absolute");
         sandbox.check(Path::new("a.obj")).expect_err("relative to where the program runs");
         assert_eq!(Sandbox::NONE.check(Path::new("/etc/passwd")), Ok(()));
+        let noting = sandbox.noting();
+        let copy = noting.clone();
+        ["job/a.csv", "job/x/../a.obj"].iter().for_each(|path| drop(copy.check(&root.join(path))));
+        assert_eq!(noting.looked_for(), [root.join("job/x/../a.obj")], "what leads out is not looked for");
         assert!(Sandbox::about(&root.join("job/job.toml"), &[root.join("none")]).is_err());
     }
 }

@@ -5,8 +5,8 @@ use crate::results::{Results, existing};
 use crate::watch::run;
 use crate::{meshes, toml};
 use etendue::{
-    Existing, FilmMemory, Integrator, JobRequest, Message, Observer as _, Quality, RenderOptions, ShardSpec,
-    TextureMemory,
+    Existing, FilmMemory, Integrator, JobRequest, Message, Observer as _, Quality, RenderOptions, ShardRequest,
+    ShardSpec, TextureMemory,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -108,6 +108,19 @@ impl Job {
         py.detach(|| self.job.summary())
     }
 
+    /// Paths of the files that were read: the job and all that it names, as they were named.
+    #[getter]
+    fn files(&self) -> Vec<PathBuf> {
+        self.job.files().to_vec()
+    }
+
+    /// Names of the films of a shard, relative to its folder: one for each camera (of cameras of equal light one together); where light depends on time,
+    /// of each of the frames and captures.
+    #[pyo3(signature = (frames = None))]
+    fn film_names(&self, frames: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
+        Ok(self.job.film_names(&range(frames)?))
+    }
+
     /// Names of all files of a whole run, relative to its folder.
     #[pyo3(signature = (frames = None))]
     fn file_names(&self, frames: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
@@ -140,7 +153,8 @@ impl Job {
     ///
     /// overwrite: replaces what an earlier run left. resume: goes on where a run of the same plan was interrupted.
     /// shard: (i, n) renders the tiles whose number is i modulo n; `etendue.merge` joins the folders of all.
-    #[pyo3(signature = (folder, *, frames = None, overwrite = false, resume = false, shard = None, threads = None, progress = None))]
+    /// films: the only films of the shard to render, of `film_names()`; `merge` wants all of them in the folder. None: all.
+    #[pyo3(signature = (folder, *, frames = None, overwrite = false, resume = false, shard = None, films = None, threads = None, progress = None))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn save(
         &self,
@@ -150,6 +164,7 @@ impl Job {
         overwrite: bool,
         resume: bool,
         shard: Option<(u32, u32)>,
+        films: Option<Vec<String>>,
         threads: Option<u32>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Vec<PathBuf>> {
@@ -163,13 +178,20 @@ impl Job {
         if resume && shard.is_some() {
             return Err(PyValueError::new_err("a shard does not resume; render it again with overwrite=True"));
         }
+        if films.is_some() && shard.is_none() {
+            return Err(PyValueError::new_err("films: a shard has films; give shard=(i, n), or leave it out"));
+        }
+        if films.as_ref().is_some_and(Vec::is_empty) {
+            return Err(PyValueError::new_err("films: expected one name or more; None takes all of them"));
+        }
         let options = options(py, frames)?;
         let (threads, target) = (counted(py, threads)?, (folder.as_path(), existing));
         run(py, threads, progress.as_ref(), |watch| match shard {
             None => self.job.save(&options, target, watch),
             Some((index, count)) => {
-                let spec = ShardSpec { index, count };
-                self.job.save_shard(spec, options.frames.clone(), options.simd, target, watch)
+                let (spec, frames) = (ShardSpec { index, count }, options.frames.clone());
+                let asked = ShardRequest { spec, frames, films: films.clone().unwrap_or_default() };
+                self.job.save_shard(&asked, options.simd, target, watch)
             }
         })
     }

@@ -1,5 +1,6 @@
 //! The package's own tests, in Python (`tests/test_*.py`), of the module that this workspace builds. `ETENDUE_PYTHON` names an interpreter that has NumPy and
-//! what the extra "test" of `pyproject.toml` lists; without it they are skipped.
+//! what the extra "test" of `pyproject.toml` lists; without it they are skipped. `ETENDUE_PYTHON_CLUSTER` and
+//! `ETENDUE_PYTHON_NOTEBOOKS` name one that has the extra of that name as well.
 
 use etendue_testkit::skip::skipped;
 use std::path::{Path, PathBuf};
@@ -12,29 +13,36 @@ fn built() -> PathBuf {
 
 /// The package as it is installed: the files of Python with the module beside them.
 fn install(folder: &Path) {
-    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("python/etendue");
     let package = folder.join("etendue");
-    std::fs::create_dir_all(&package).expect("a folder of the package");
-    for file in std::fs::read_dir(sources).expect("the files of Python") {
-        let file = file.expect("a file");
-        if file.file_type().expect("a type").is_file() {
-            std::fs::copy(file.path(), package.join(file.file_name())).expect("copied");
-        }
-    }
+    copy(&Path::new(env!("CARGO_MANIFEST_DIR")).join("python/etendue"), &package);
     let module = built().join(format!("{}_etendue{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX));
     let name = if cfg!(windows) { "_etendue.pyd" } else { "_etendue.abi3.so" };
     std::fs::copy(&module, package.join(name)).unwrap_or_else(|cause| panic!("{}: {cause}", module.display()));
 }
 
-#[test]
-fn the_package_does_what_its_tests_say() {
-    let Some(python) = std::env::var_os("ETENDUE_PYTHON") else {
-        return skipped("the_package_does_what_its_tests_say", "ETENDUE_PYTHON names no interpreter");
+/// A folder of files of Python with those below it.
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("a folder of the package");
+    for entry in std::fs::read_dir(from).expect("the files of Python") {
+        let entry = entry.expect("an entry");
+        let (path, target) = (entry.path(), to.join(entry.file_name()));
+        match entry.file_type().expect("a type").is_dir() {
+            false => drop(std::fs::copy(&path, &target).expect("copied")),
+            true if entry.file_name() == "__pycache__" => {}
+            true => copy(&path, &target),
+        }
+    }
+}
+
+/// Runs the tests that bear a mark with the interpreter that a variable names; skipped where it names none.
+fn passes(test: &str, variable: &str, mark: &str) {
+    let Some(python) = std::env::var_os(variable) else {
+        return skipped(test, &format!("{variable} names no interpreter"));
     };
-    let folder = built().join("python-package");
+    let folder = built().join(format!("python-package-{test}"));
     install(&folder);
     let mut command = Command::new(python);
-    command.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "tests"]);
+    command.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "-m", mark, "tests"]);
     command.current_dir(env!("CARGO_MANIFEST_DIR")).env("PYTHONPATH", &folder).env("PYTHONDONTWRITEBYTECODE", "1");
     let program =
         built().parent().expect("the folder of programs").join(format!("etendue{}", std::env::consts::EXE_SUFFIX));
@@ -44,4 +52,20 @@ fn the_package_does_what_its_tests_say() {
     let output = command.output().expect("Python runs");
     let told = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned()).concat();
     assert!(output.status.success(), "{told}");
+}
+
+#[test]
+fn the_package_does_what_its_tests_say() {
+    passes("the_package_does_what_its_tests_say", "ETENDUE_PYTHON", "not cluster and not notebooks");
+}
+
+#[test]
+fn notebooks_run_from_top_to_bottom() {
+    passes("notebooks_run_from_top_to_bottom", "ETENDUE_PYTHON_NOTEBOOKS", "notebooks");
+}
+
+/// `just cluster`: Ray takes 400 MB of disk and a minute.
+#[test]
+fn a_cluster_gives_the_bytes_of_one_machine() {
+    passes("a_cluster_gives_the_bytes_of_one_machine", "ETENDUE_PYTHON_CLUSTER", "cluster");
 }

@@ -3,7 +3,7 @@
 use super::seeds::{repository, stored, write};
 use super::target::{RECORDS, TREE, Target, told};
 use etendue::measure::{DistortionRequest, SfrRequest, distortion, sfr};
-use etendue::{Existing, Job, RenderOptions, ShardSpec, Simd, Unobserved, merge};
+use etendue::{Existing, Job, RenderOptions, ShardRequest, ShardSpec, Simd, Unobserved, merge};
 use etendue_io::emva_descriptor::read_emva_descriptor;
 use etendue_io::inspect::inspect;
 use etendue_io::photograph::read_photograph;
@@ -115,15 +115,15 @@ fn shard(folder: &Path) -> [Vec<u8>; 2] {
     write(folder, "job.toml", JOB);
     let job = Job::open(folder.join("job.toml")).expect("the job is legal");
     let place = (folder, Existing::Replace);
-    job.save_shard(ShardSpec { index: 0, count: 1 }, 0..1, RenderOptions::default().simd, place, &Unobserved)
-        .expect("a shard");
+    let whole = ShardRequest::whole(ShardSpec { index: 0, count: 1 }, 0..1);
+    job.save_shard(&whole, RenderOptions::default().simd, place, &Unobserved).expect("a shard");
     ["front.film.exr", "shard.json"].map(|name| fs::read(folder.join(name)).expect("of the shard"))
 }
 
 fn merged(file: &Path) -> String {
     let folder = file.parent().expect("a folder");
     let out = folder.join("out");
-    let told = told(merge(&[folder.to_owned()], Simd::Scalar, (&out, Existing::Replace), &Unobserved));
+    let told = told(merge(&[folder.to_owned()], None, Simd::Scalar, (&out, Existing::Replace), &Unobserved));
     let _ = fs::remove_dir_all(&out);
     told
 }

@@ -13,6 +13,9 @@ pub struct Merge {
     /// The folders of all shards
     #[arg(required = true, value_name = "DIR")]
     pub shards: Vec<PathBuf>,
+    /// Where the job file is, where the shards were rendered from another place, as on another machine [default: as they state it]
+    #[arg(long, value_name = "JOB.toml")]
+    pub job: Option<PathBuf>,
     #[command(flatten)]
     pub output: Output,
 }
@@ -20,6 +23,8 @@ pub struct Merge {
 impl Merge {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let simd = simd()?;
-        print_written(console, || etendue::merge(&self.shards, simd, self.output.folder(), console.observer()))
+        print_written(console, || {
+            etendue::merge(&self.shards, self.job.as_deref(), simd, self.output.folder(), console.observer())
+        })
     }
 }

@@ -1,7 +1,7 @@
 //! `etendue plan`: what will be modelled, what is left out and why, and what it will cost.
 
 use crate::args::job::JobArgs;
-use crate::console::Console;
+use crate::console::{Console, print_paths};
 use crate::machine;
 use clap::Args;
 use etendue::Error;
@@ -14,11 +14,18 @@ pub struct Plan {
     /// Print one JSON document: cameras, settings, effects with their costs and what leaving each out would bring, remarks (docs/plan.md)
     #[arg(long)]
     pub json: bool,
+    /// Print only the paths of the files that the job reads, itself among them, one a line: what another machine needs to render it
+    #[arg(long, conflicts_with = "json")]
+    pub files: bool,
 }
 
 impl Plan {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let job = self.job.open(console, &machine::pool(None)?)?;
+        if self.files {
+            print_paths(console, job.files());
+            return Ok(());
+        }
         if !self.json {
             console.print(&job.summary());
             return Ok(());

@@ -7,7 +7,7 @@ use crate::console::{Console, print_paths};
 use crate::display::{Display, Displaying};
 use crate::machine;
 use clap::Args;
-use etendue::{Error, Existing, JobRequest, RenderOptions, ShardSpec};
+use etendue::{Error, Existing, JobRequest, RenderOptions, ShardRequest, ShardSpec};
 use std::path::Path;
 
 /// `etendue render`
@@ -42,6 +42,10 @@ pub struct Render {
     /// Render only the tiles whose number is I modulo N; join the shards with `etendue merge`
     #[arg(long, value_name = "I/N", value_parser = shard)]
     pub shard: Option<ShardSpec>,
+    /// Of a shard only this film, by the name of its file, as front.film.exr or left.0003.0.film.exr (once or several times); `etendue merge`
+    /// wants all films of a shard in its folder
+    #[arg(long, value_name = "FILE", requires = "shard")]
+    pub film: Vec<String>,
 }
 
 impl Render {
@@ -60,7 +64,10 @@ impl Render {
         let observer = Displaying::new(console.observer(), display);
         let written = pool.install(|| match self.shard {
             None => job.save(&RenderOptions { frames, simd }, folder, &observer),
-            Some(spec) => job.save_shard(spec, frames, simd, folder, &observer),
+            Some(spec) => {
+                let asked = ShardRequest { spec, frames, films: self.film.clone() };
+                job.save_shard(&asked, simd, folder, &observer)
+            }
         });
         observer.finish();
         print_paths(console, &written?);

@@ -95,6 +95,14 @@ class Job:
     def summary(self) -> str:
         """The same in words, as ``etendue plan``."""
 
+    @property
+    def files(self) -> list[Path]:
+        """Paths of the files that were read: the job and all that it names, as they were named."""
+
+    def film_names(self, frames: int | range | None = None) -> list[str]:
+        """Names of the films of a shard, relative to its folder: one for each camera (of cameras of equal light one together); where light depends
+        on time, of each of the frames and captures."""
+
     def file_names(self, frames: int | range | None = None) -> list[str]:
         """Names of all files of a whole run, relative to its folder."""
 
@@ -119,6 +127,7 @@ class Job:
         overwrite: bool = False,
         resume: bool = False,
         shard: tuple[int, int] | None = None,
+        films: Sequence[str] | None = None,
         threads: int | None = None,
         progress: _Progress | None = None,
     ) -> list[Path]:
@@ -126,6 +135,7 @@ class Job:
 
         overwrite: replaces what an earlier run left. resume: goes on where a run of the same plan was interrupted.
         shard: (i, n) renders the tiles whose number is i modulo n; ``etendue.merge`` joins the folders of all.
+        films: the only films of the shard to render, of ``film_names()``; ``merge`` wants all of them in the folder. None: all.
 
         Answers with the paths of what was written.
         """

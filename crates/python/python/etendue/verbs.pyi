@@ -16,6 +16,7 @@ _Progress = Callable[[str, int, int], object]
 def merge(
     shards: _Path | Sequence[_Path],
     *,
+    job: _Path | None = None,
     output: _Path,
     overwrite: bool = False,
     progress: _Progress | None = None,
@@ -23,6 +24,7 @@ def merge(
     """Join the shards of one job to the result of an unsharded run, byte for byte.
 
     shards: The folders of all shards. One, or a sequence of them.
+    job: Where the job file is, where the shards were rendered from another place, as on another machine [default: as they state it].
     output: Folder for the results; made where missing.
     overwrite: Replace results that are already there.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.

@@ -1,0 +1,198 @@
+"""The driver: cuts a job into tasks, hands them to Ray, stores what is finished, and joins it."""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+
+import numpy as np
+
+from .. import Job, __version__, merge
+from .._errors import InputError, RunError
+from .bundle import gather
+from .store import Store
+
+#: Shards of a run at most.
+MAX_SHARDS = 65_536
+#: How long the driver waits for tasks before it looks at their progress, s.
+LOOK_EVERY_S = 0.5
+#: How long a cluster may take to answer, s.
+ANSWER_S = 10
+
+
+def render(
+    job,
+    folder,
+    *,
+    shards,
+    frames=None,
+    address=None,
+    threads=None,
+    retries=3,
+    overwrite=False,
+    resume=False,
+    progress=None,
+    **options,
+):
+    """Renders a job on the machines of a Ray cluster into a folder: the files of ``etendue render``, byte for byte. Answers with their paths.
+
+    job: the path of a job file. What it reads is sent to the machines, which need a Python with the same etendue and no folder in common.
+    shards: parts of each film, 1 to 65536: every task renders one part of the light of one camera (of cameras of equal light together), where light
+    depends on time of one frame.
+    frames: a frame's number, or a range of consecutive ones. Default: frame 0.
+    address: of the cluster, "host:port", or "auto" for that of this machine, or "local" for this machine alone. None: that of RAY_ADDRESS, or else this machine alone. Where Ray is
+    initialised already it is taken as it is.
+    threads: processors of a task. Default: those of the smallest machine. No bit depends on it.
+    retries: how often a task is done again whose worker was lost, 0 to 1000.
+    overwrite: replaces what an earlier run left. resume: goes on where a run of the same job, frames and shards was interrupted.
+    progress: called with what is worked on, how much is done (parts of a task counted as such) and of how much; what it raises cancels, as Ctrl-C does.
+    options: set, spp, noise, seed, integrator, quality, camera of ``Job.open``.
+
+    Raises InputError where the input is unusable, RunError where the run failed: what is finished is kept for ``resume``.
+    """
+    _check(shards, retries, threads, overwrite, resume, options)
+    import ray
+    import ray.util.scheduling_strategies
+
+    opened = Job.open(job, **options)
+    films, first_last = opened.film_names(frames), _bounds(frames)
+    # As JSON gives it back.
+    run = {"version": __version__, "plan_hash": opened.plan()["hash"], "frames": first_last, "shards": shards, "camera": options.get("camera")}
+    bundle = gather(job, opened.files)
+    store = Store(folder)
+    try:
+        store.open(run, opened.file_names(frames), overwrite=overwrite, resume=resume)
+        done = [(film, shard) for film in films for shard in range(shards) if store.has(film, shard)]
+        tasks = [(film, shard) for film in films for shard in range(shards) if not store.has(film, shard)]
+        if tasks:
+            with _connected(ray, address):
+                run = {**run, "options": options, "threads": _threads(ray, threads)}
+                _Tasks(ray, store, retries, progress).run(bundle, tasks, run, len(done))
+        paths = merge(store.shards(shards), job=job, output=folder, overwrite=overwrite or resume, progress=progress)
+        store.remove()
+        return paths
+    finally:
+        store.close()
+
+
+class _Tasks:
+    """The tasks of a run, and what is left of them."""
+
+    def __init__(self, ray, store, retries, progress):
+        self.ray, self.store, self.retries, self.tell = ray, store, retries, progress or (lambda *told: None)
+
+    def run(self, bundle, tasks, run, done):
+        """Runs the tasks and stores what they give; ``done`` others were finished before."""
+        from .worker import Progress, render_film
+
+        ray = self.ray
+        # It lives where the driver does: no lost machine takes it along.
+        here = ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy(ray.get_runtime_context().get_node_id(), soft=False)
+        progress = Progress.options(scheduling_strategy=here).remote()
+        sent = ray.put(_sent(ray, bundle))
+        remote = ray.remote(render_film).options(num_cpus=run["threads"], max_retries=self.retries, scheduling_strategy="SPREAD")
+        pending = {remote.remote(sent, task, run, progress): task for task in tasks}
+        total = done + len(tasks)
+        try:
+            while pending:
+                ready, _ = ray.wait(list(pending), num_returns=1, timeout=LOOK_EVERY_S)
+                for reference in ready:
+                    film, shard = pending[reference]
+                    self.store.add(film, shard, self._got(reference, film, shard))
+                    del pending[reference]
+                self.tell("tasks", self._so_far(progress, pending, total), total)
+        finally:
+            for reference in pending:
+                ray.cancel(reference)
+
+    def _so_far(self, progress, pending, total):
+        told = self.ray.get(progress.told.remote())
+        return total - len(pending) + sum(told.get(task, (0.0, None))[0] for task in pending.values())
+
+    def _got(self, reference, film, shard):
+        exceptions = self.ray.exceptions
+        try:
+            return self.ray.get(reference)
+        except exceptions.RayTaskError as error:
+            if isinstance(error.cause, (InputError, RunError)):
+                raise error.cause from None
+            why = str(error.cause).partition("\n")[0]
+            raise RunError(f"{film}, shard {shard}: a worker failed ({type(error.cause).__name__}: {why}); go on with --resume") from None
+        except exceptions.RayError as error:
+            why = str(error).partition("\n")[0]
+            raise RunError(f"{film}, shard {shard}: its worker was lost {self.retries + 1} times ({type(error).__name__}: {why}); go on with --resume") from None
+
+
+def _sent(ray, bundle):
+    """The bundle with its contents in the object store: as arrays, which workers read in place."""
+    references = {name: ray.put(np.frombuffer(content, dtype=np.uint8)) for name, content in bundle.contents.items()}
+    return type(bundle)(bundle.job, bundle.files, bundle.folders, references)
+
+
+@contextlib.contextmanager
+def _connected(ray, address):
+    if ray.is_initialized():
+        yield
+        return
+    _check_answers(address)
+    try:
+        ray.init(address=address, log_to_driver=False, logging_level="warning")
+    except (ConnectionError, ValueError, RuntimeError) as cause:
+        why = str(cause).partition("\n")[0]
+        raise _refused("--address", f"--address {address}: there is no Ray cluster ({why})") from None
+    try:
+        yield
+    finally:
+        ray.shutdown()
+
+
+def _check_answers(address):
+    """Refuses an address at which nothing listens: Ray itself would try for minutes."""
+    if address in (None, "auto", "local"):
+        return
+    host, _, port = address.rpartition(":")
+    if not host or not port.isdigit() or "/" in host:
+        raise _refused("--address", f"--address {address}: expected auto, local or HOST:PORT, as ray start tells it")
+    try:
+        socket.create_connection((host, int(port)), timeout=ANSWER_S).close()
+    except (OSError, OverflowError) as cause:
+        raise _refused("--address", f"--address {address}: nothing answers there ({cause}); start a cluster with ray start --head") from None
+
+
+def _threads(ray, asked):
+    """Processors of a task: those of the smallest machine unless others are asked for."""
+    counts = [int(node["Resources"].get("CPU", 0)) for node in ray.nodes() if node["Alive"]]
+    counts = [count for count in counts if count > 0]
+    if not counts:
+        raise _refused("--address", "the cluster has no machine with processors")
+    if asked is not None and asked > max(counts):
+        raise _refused("--threads", f"--threads {asked}: the largest machine of the cluster has {max(counts)} processors; give as many or fewer")
+    return min(counts) if asked is None else asked
+
+
+OPTIONS = ("set", "spp", "noise", "seed", "integrator", "quality", "camera")
+
+
+def _check(shards, retries, threads, overwrite, resume, options):
+    ranges = [("shards", shards, 1, MAX_SHARDS), ("retries", retries, 0, 1000), ("threads", threads, 1, 1024)]
+    ranges += [("spp", options.get("spp"), 1, 2**32 - 1), ("seed", options.get("seed"), 0, 2**63 - 1)]
+    for name, value, least, most in ranges:
+        if value is None and name in ("threads", "spp", "seed"):
+            continue
+        if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
+            raise _refused(f"--{name}", f"--{name} {value}: expected a whole number from {least} to {most}")
+    if overwrite and resume:
+        raise _refused("--resume", "--resume and --overwrite exclude one another; give one of them")
+    unknown = [name for name in options if name not in OPTIONS]
+    if unknown:
+        raise TypeError(f"{unknown[0]}: no option of a run on a cluster; there are {', '.join(OPTIONS)}")
+
+
+def _bounds(frames):
+    if frames is None:
+        return [0, 1]
+    return [frames.start, frames.stop] if isinstance(frames, range) else [int(frames), int(frames) + 1]
+
+
+def _refused(key, why):
+    return InputError([(why, None, None, None, key)])

@@ -1,0 +1,134 @@
+"""What a run has finished, in the folder ``.cluster`` of its results: the next run goes on after it.
+
+``run.json`` says of which run; ``shard-00003`` is the folder of a shard as ``etendue render --shard`` writes it. A file is under its name when it is whole.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import shutil
+from pathlib import Path
+
+from .._errors import InputError, RunError
+
+try:
+    import fcntl
+except ImportError:
+    fcntl = None
+
+FOLDER = ".cluster"
+MANIFEST = "shard.json"
+
+
+class Store:
+    """The finished films of one run, one driver's at a time."""
+
+    def __init__(self, results):
+        self.results = Path(results)
+        self.folder = self.results / FOLDER
+        self._lock, self._taken = None, False
+
+    def open(self, run, names, *, overwrite, resume):
+        """Takes the folder for the run that the dict ``run`` describes and whose results have these names. Raises InputError where what is there is in the way."""
+        old = self._old()
+        if old is not None and not (overwrite or resume):
+            raise _refused(self.folder, "a run was interrupted here; go on with --resume, or begin anew with --overwrite")
+        if old is None and not overwrite:
+            there = next((name for name in names if (self.results / name).exists()), None)
+            if there is not None:
+                raise _refused(self.results / there, "it is there already; choose another output folder, or --overwrite it")
+        if old is not None and resume and old != run:
+            differ = ", ".join(key for key in run if old.get(key) != run[key])
+            raise _refused(self.folder, f"it is of a run with other values of {differ}; repeat that run, or begin anew with --overwrite")
+        self._take()
+        if overwrite:
+            self._empty()
+        if old is None or overwrite:
+            self._write(self.folder / "run.json", json.dumps(run, indent=1).encode())
+
+    def has(self, film, shard):
+        """Whether a film of a shard is finished."""
+        folder = self._shard(shard)
+        return (folder / film).is_file() and (folder / MANIFEST).is_file()
+
+    def add(self, film, shard, files):
+        """A finished film with its shard's manifest, name to bytes. Adding it again changes nothing."""
+        self._shard(shard).mkdir(exist_ok=True)
+        self._check_beside(self._shard(shard) / MANIFEST, bytes(files[MANIFEST]))
+        for name in (MANIFEST, film):
+            self._write(self._shard(shard) / name, files[name])
+
+    def shards(self, count):
+        """The folders of all shards, for ``merge``."""
+        return [self._shard(shard) for shard in range(count)]
+
+    def remove(self):
+        """Removes all that is kept: the results are there."""
+        shutil.rmtree(self.folder)
+
+    def close(self):
+        """Lets another driver take the folder, and leaves none behind where nothing is finished."""
+        if self._taken and not any(self.folder.glob("shard-*/*")):
+            shutil.rmtree(self.folder, ignore_errors=True)
+            with contextlib.suppress(OSError):
+                self.results.rmdir()
+        self._let_go()
+
+    def _let_go(self):
+        if self._lock is not None:
+            os.close(self._lock)
+        self._lock, self._taken = None, False
+
+    def _shard(self, shard):
+        return self.folder / f"shard-{shard:05}"
+
+    def _check_beside(self, path, manifest):
+        """Films of a shard were cut alike: tiles are no part of the plan's hash."""
+        cut = lambda text: {key: value for key, value in json.loads(text).items() if key != "request"}
+        if path.exists() and cut(path.read_bytes()) != cut(manifest):
+            raise RunError(f"{path}: its films have other tiles (render.tile_px); begin anew with --overwrite")
+
+    def _old(self):
+        try:
+            return json.loads((self.folder / "run.json").read_text())
+        except (FileNotFoundError, NotADirectoryError):
+            return None
+        except ValueError:
+            raise _refused(self.folder / "run.json", "it is damaged; remove the folder, or begin anew with --overwrite") from None
+
+    def _take(self):
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as cause:
+            raise _refused(self.folder, f"the folder cannot be made: {cause.strerror}") from None
+        try:
+            if fcntl is not None:
+                self._lock = os.open(self.folder, os.O_RDONLY)
+                fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            self._taken = True
+        except OSError:
+            self._let_go()
+            raise _refused(self.folder, "another run writes into this folder; wait for it, or choose another") from None
+
+    def _empty(self):
+        for entry in self.folder.iterdir():
+            shutil.rmtree(entry) if entry.is_dir() else entry.unlink()
+
+    def _write(self, path, content):
+        new = path.with_name(path.name + ".new")
+        try:
+            with open(new, "wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(new, path)
+        except OSError as cause:
+            with contextlib.suppress(OSError):
+                new.unlink()
+            raise RunError(f"{path}: cannot be written: {cause.strerror}") from None
+
+
+def _refused(path, why):
+    return InputError([(f"{path}: {why}", str(path), None, None, None)])

@@ -1,0 +1,206 @@
+"""What a run on a cluster sends, keeps and refuses: all of it that needs no Ray."""
+
+import ast
+import inspect
+import os
+import re
+import shutil
+import sys
+import types
+
+import pytest
+from conftest import ROOT, contents
+
+import etendue
+from etendue.cluster import __main__ as command
+from etendue.cluster import bundle, driver, store
+
+
+# glTF with buffers and pictures beside it; a material library; lamps that were measured; base files, cameras and a trajectory.
+@pytest.mark.parametrize("name", ["crates/cli/tests/jobs/small/small.toml", "scenes/gltf/gltf.toml", "scenes/drive/drive.toml"])
+def test_a_bundle_is_all_that_a_job_needs_elsewhere(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(ROOT / "docs")
+    here = os.path.relpath(ROOT / name)
+    job = etendue.Job.open(here)
+    sent = bundle.gather(here, job.files)
+    assert len(sent.files) == len(job.files) and sent.job == (ROOT / name).relative_to("/").as_posix()
+    there = sent.write(tmp_path)
+    assert contents(tmp_path).keys() == sent.files.keys()
+    assert etendue.Job.open(there).plan()["hash"] == job.plan()["hash"]
+    next(iter(sorted(tmp_path.rglob("*.obj")) or sorted(tmp_path.rglob("*.glb")))).unlink()
+    with pytest.raises(etendue.InputError):
+        etendue.Job.open(there)
+
+
+def test_links_and_equal_files_are_sent_as_what_they_hold(tmp_path, monkeypatch):
+    (tmp_path / "real/deep").mkdir(parents=True)
+    (tmp_path / "job").mkdir()
+    for name in ("real/a.obj", "real/deep/b.obj", "job/c.obj"):
+        (tmp_path / name).write_text("v 0 0 0")
+    (tmp_path / "job/linked").symlink_to(tmp_path / "real")
+    (tmp_path / "job/job.toml").write_text("1")
+    monkeypatch.chdir(tmp_path)
+    paths = [bundle.Path(name) for name in ("job/job.toml", "job/linked/a.obj", "job/linked/deep/../deep/b.obj", "job/c.obj")]
+    sent = bundle.gather("job/job.toml", paths)
+    assert len(sent.contents) == 2
+    away = tmp_path / "away"
+    sent.write(away)
+    for path in paths:
+        assert (away / str(tmp_path)[1:] / path).read_bytes() == path.read_bytes()
+    # Through the link .. is the folder of "real", where another a.obj lies than in "job".
+    (tmp_path / "job/a.obj").write_text("v 1 1 1")
+    (tmp_path / "a.obj").write_text("v 2 2 2")
+    with pytest.raises(etendue.InputError, match="link"):
+        bundle.gather("job/job.toml", [bundle.Path("job/a.obj"), bundle.Path("job/linked/../a.obj")])
+
+
+def test_files_of_absolute_paths_are_refused(tmp_path, monkeypatch):
+    shutil.copytree(ROOT / "crates/cli/tests/jobs/small", tmp_path / "small")
+    mesh = tmp_path / "small/tower.obj"
+    file = tmp_path / "small/small.toml"
+    file.write_text(re.sub(r'"tower\.obj"', f'"{mesh}"', file.read_text()))
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(etendue.InputError, match="absolute path") as refused:
+        bundle.gather("small/small.toml", etendue.Job.open("small/small.toml").files)
+    assert str(mesh) in {fault.file for fault in refused.value.faults}
+
+
+RUN = {"version": "1", "plan_hash": "ab", "frames": [0, 1], "shards": 2, "camera": None}
+
+
+def opened(folder, run=RUN, names=("front/camera.json",), overwrite=False, resume=False):
+    kept = store.Store(folder)
+    kept.open(run, names, overwrite=overwrite, resume=resume)
+    return kept
+
+
+def test_what_is_finished_is_found_again_and_nothing_else(tmp_path):
+    kept = opened(tmp_path)
+    with pytest.raises(etendue.InputError, match="another run"):
+        opened(tmp_path, resume=True)
+    kept.add("front.film.exr", 1, {"front.film.exr": b"film", "shard.json": b"{}"})
+    kept.close()
+    with pytest.raises(etendue.InputError, match="--resume"):
+        opened(tmp_path)
+    for change in ({"shards": 3}, {"plan_hash": "cd"}, {"frames": [0, 2]}):
+        with pytest.raises(etendue.InputError, match=next(iter(change))):
+            opened(tmp_path, {**RUN, **change}, resume=True)
+    again = opened(tmp_path, resume=True)
+    assert [again.has("front.film.exr", shard) for shard in range(2)] == [False, True] and not again.has("rear.film.exr", 1)
+    # A driver that was killed while it wrote.
+    (tmp_path / ".cluster/shard-00000").mkdir()
+    (tmp_path / ".cluster/shard-00000/front.film.exr.new").write_bytes(b"fi")
+    assert not again.has("front.film.exr", 0)
+    with pytest.raises(etendue.RunError, match="tile_px"):
+        again.add("rear.film.exr", 1, {"rear.film.exr": b"film", "shard.json": b'{"tile_px": [8]}'})
+    again.add("rear.film.exr", 1, {"rear.film.exr": b"film", "shard.json": b'{"request": {"job": "elsewhere"}}'})
+    again.close()
+    anew = opened(tmp_path, overwrite=True)
+    assert not anew.has("front.film.exr", 1) and [path.name for path in anew.folder.iterdir()] == ["run.json"]
+    anew.close()
+    assert not tmp_path.exists(), "a run of which nothing is finished leaves nothing"
+
+
+def test_results_that_are_there_are_not_replaced_unasked(tmp_path):
+    (tmp_path / "front").mkdir()
+    (tmp_path / "front/camera.json").write_text("{}")
+    for resume in (False, True):
+        with pytest.raises(etendue.InputError, match="--overwrite"):
+            opened(tmp_path, resume=resume)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(etendue.InputError, match="cannot be made"):
+        opened(tmp_path / "file")
+    assert (tmp_path / "front/camera.json").read_text() == "{}"
+
+
+def test_a_store_that_cannot_be_written_is_a_run_that_failed(tmp_path):
+    kept = opened(tmp_path)
+    (kept.folder / "shard-00000").mkdir()
+    (kept.folder / "shard-00000/front.film.exr.new").symlink_to("/dev/full")
+    with pytest.raises(etendue.RunError, match="No space left"):
+        kept.add("front.film.exr", 0, {"front.film.exr": b"film", "shard.json": b"{}"})
+    assert not kept.has("front.film.exr", 0) and sorted(path.name for path in kept.folder.rglob("*.*")) == ["run.json", "shard.json"]
+    kept.close()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["x.toml", "--shards", "2"], "-o/--output"),
+        (["x.toml", "-o", "out"], "--shards"),
+        (["x.toml", "-o", "out", "--shards", "2", "--frames", "3..3"], "FIRST < END"),
+        (["x.toml", "-o", "out", "--shards", "two"], "invalid int value"),
+        (["x.toml", "-o", "out", "--shards", "2", "--overwrit"], "unrecognized"),
+    ],
+)
+def test_arguments_that_are_wrong_end_with_status_2(arguments, told, capsys):
+    with pytest.raises(SystemExit) as ended:
+        command.main(arguments)
+    assert ended.value.code == 2 and told in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        (["--shards", "0"], "--shards 0: expected a whole number from 1 to 65536"),
+        (["--shards", "2", "--retries", "-1"], "--retries -1"),
+        (["--shards", "2", "--threads", "0"], "--threads 0"),
+        (["--shards", "2", "--spp", "-1"], "--spp -1: expected a whole number from 1"),
+        (["--shards", "2", "--seed", "9223372036854775808"], "--seed"),
+        (["--shards", "2", "--resume", "--overwrite"], "exclude one another"),
+    ],
+)
+def test_values_that_are_wrong_are_refused_before_anything(more, told, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(command.importlib.util, "find_spec", lambda name: True)
+    assert command.main(["no/such/job.toml", "-o", str(tmp_path / "out"), *more]) == 2
+    assert told in capsys.readouterr().err and not (tmp_path / "out").exists()
+
+
+def test_without_ray_it_says_how_to_get_it(monkeypatch, capsys):
+    monkeypatch.setattr(command.importlib.util, "find_spec", lambda name: None)
+    assert command.main(["x.toml", "-o", "out", "--shards", "2"]) == 2
+    assert "[cluster]" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("address", ["ray://a:1", "a", "127.0.0.1:1", "127.0.0.1:99999999"])
+def test_addresses_without_a_cluster_are_refused_at_once(address):
+    with pytest.raises(etendue.InputError, match="--address"):
+        driver._check_answers(address)
+
+
+def test_what_fails_on_a_worker_is_a_run_that_failed():
+    class RayError(Exception):
+        pass
+
+    class RayTaskError(RayError):
+        cause = OSError(28, "No space left on device")
+
+    def lost(reference):
+        raise reference
+
+    ray = types.SimpleNamespace(exceptions=types.SimpleNamespace(RayError=RayError, RayTaskError=RayTaskError), get=lost)
+    tasks = driver._Tasks(ray, None, 3, None)
+    refused, failed = RayTaskError(), RayTaskError()
+    refused.cause = etendue.InputError([("job.toml: changed", None, None, None, None)])
+    for error, expected, told in [
+        (failed, etendue.RunError, "front.film.exr, shard 1: a worker failed .OSError: .* No space left"),
+        (refused, etendue.InputError, "job.toml: changed"),
+        (RayError("the node died\nlong story"), etendue.RunError, "lost 4 times .RayError: the node died.; go on with --resume"),
+    ]:
+        with pytest.raises(expected, match=told):
+            tasks._got(error, "front.film.exr", 1)
+
+
+def test_the_page_names_every_option_and_its_python_is_that_of_the_package():
+    page = (ROOT / "docs/cluster.md").read_text()
+    options = [word for action in command.parser()._actions for word in action.option_strings if word.startswith("--")]
+    assert len(options) == 16 and all(f"`{word}" in page for word in options if word not in ("--help", "--output"))
+    (block,) = re.findall(r"```python\n(.*?)```", page, re.S)
+    called = next(node for node in ast.walk(ast.parse(block)) if isinstance(node, ast.Call) and ast.unparse(node.func) == "etendue.cluster.render")
+    inspect.signature(driver.render).bind(*called.args, **{keyword.arg: keyword.value for keyword in called.keywords})
+
+
+def test_options_of_other_verbs_are_no_options_here():
+    with pytest.raises(TypeError, match="time_s"):
+        driver.render("x.toml", "out", shards=1, time_s=10)
+    assert "ray" not in sys.modules
