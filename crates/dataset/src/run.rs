@@ -33,6 +33,7 @@ pub fn dataset(
     let variations = request.variations.as_deref().map(open_variations).transpose()?;
     let base = request.job.clone().open()?;
     let set = Set::of(request, &base, (variations, text_hash(request)?))?;
+    set.idle_keys().iter().for_each(|told| observer.message(Message::Note(told)));
     if let Some(variations) = &set.variations {
         let first = Drawn::of(Some(variations), set.seed, request.samples.start);
         change::check(variations, &first.groups, &request.job)?;

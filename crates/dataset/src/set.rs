@@ -77,6 +77,19 @@ impl Set {
         u64::from(self.frames.end - self.frames.start)
     }
 
+    /// Keys of the variations that no format of the run reads, in sentences.
+    pub(crate) fn idle_keys(&self) -> Vec<String> {
+        let Some(file) = &self.variations else { return Vec::new() };
+        let keys = [
+            (file.shard_samples.is_some(), "shard_samples", SetFormat::WebDataset),
+            (file.bop_depth_unit_mm.is_some(), "bop_depth_unit_mm", SetFormat::Bop),
+            (!file.cityscapes_labels.is_empty(), "cityscapes_labels", SetFormat::Cityscapes),
+            (!file.kitti_types.is_empty(), "kitti_types", SetFormat::Kitti),
+        ];
+        let idle = keys.into_iter().filter(|(is_given, _, format)| *is_given && !self.formats.contains(format));
+        idle.map(|(_, key, format)| format!("\"{key}\" has no effect without the format {}", name(format))).collect()
+    }
+
     /// Refuses a sample whose classes are others: numbers would not mean the same in all files.
     pub(crate) fn check_classes(&self, job: &Job, sample: u32) -> Result<(), Error> {
         let mut classes = job.plan().classes.clone();

@@ -245,7 +245,8 @@ mod tests {
     fn a_tilted_box_is_within_the_upright_one() {
         let found = upright(DQuat::from_rotation_z(0.3) * DQuat::from_rotation_x(PI / 2.0));
         // Height of a bar of 4 m that rises by 0.3 rad, 1 m thick.
-        let height = 4.0 * 0.3_f64.sin() + 0.3_f64.cos();
+        let (sin, cos) = etendue_core::maths::f64::sin_cos(0.3);
+        let height = 4.0 * sin + cos;
         assert!((found.height_m - height).abs() < 1e-12, "{}", found.height_m);
     }
 }

@@ -149,7 +149,7 @@ def dataset(
     variations: _Path | None = None,
     samples: range | tuple[int, int] | None = None,
     frames: range | tuple[int, int] | None = None,
-    format: Literal["coco", "kitti", "cityscapes", "yolo", "bop", "webdataset", "nuscenes"] | None = None,
+    format: Literal["coco", "kitti", "cityscapes", "yolo", "bop", "webdataset", "nuscenes"] | Sequence[Literal["coco", "kitti", "cityscapes", "yolo", "bop", "webdataset", "nuscenes"]] | None = None,
     resume: bool = False,
     threads: int | None = None,
     progress: _Progress | None = None,
