@@ -64,7 +64,7 @@ fn notebooks_run_from_top_to_bottom() {
     passes("notebooks_run_from_top_to_bottom", "ETENDUE_PYTHON_NOTEBOOKS", "notebooks");
 }
 
-/// `just cluster`: Ray takes 400 MB of disk and a minute.
+/// `just cluster`: Ray takes 400 MB of disk and 2.5 minutes.
 #[test]
 fn a_cluster_gives_the_bytes_of_one_machine() {
     passes("a_cluster_gives_the_bytes_of_one_machine", "ETENDUE_PYTHON_CLUSTER", "cluster");

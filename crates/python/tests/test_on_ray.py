@@ -17,8 +17,8 @@ from etendue.cluster import driver
 ray = pytest.importorskip("ray")
 pytestmark = pytest.mark.cluster
 
-# No task of these is shorter than a second on any machine, so that some are under way at any time.
-SPP = 600
+# A task of these takes some seconds, so that some are under way at any time and tell their progress.
+SPP = 2400
 # Many tiles a task, so that its progress is told; no bit depends on it.
 FINE = {"render.tile_px": 8}
 MORE = """
@@ -103,6 +103,20 @@ def test_a_worker_process_that_is_killed_is_replaced(moving, tmp_path, nodes, mo
         with pytest.raises(etendue.RunError, match="version .* and the driver 0.0.1"):
             etendue.cluster.render(moving, tmp_path / "out", shards=2)
     assert not (tmp_path / "out").exists()
+    steps = []
+
+    def give_up(*step):
+        steps.append(step)
+        if len(steps) == 20:
+            raise TimeoutError
+
+    # Tasks of many minutes.
+    with pytest.raises(TimeoutError):
+        etendue.cluster.render(moving, tmp_path / "out", shards=8, spp=400 * SPP, progress=give_up)
+    deadline = time.monotonic() + 30
+    while ray.available_resources().get("CPU", 0) < 2:
+        assert time.monotonic() < deadline, "tasks of a run that was cancelled end, in a cluster that goes on"
+        time.sleep(0.2)
     killed = []
 
     def kill_one(what, done, total):

@@ -102,8 +102,8 @@ class _Tasks:
                     del pending[reference]
                 self.tell("tasks", self._so_far(progress, pending, total), total)
         finally:
-            for reference in pending:
-                ray.cancel(reference)
+            # What is pending ends when it cannot tell its progress any more. (Ray 2.60 aborts the driver where it cancels a task that ends.)
+            ray.kill(progress)
 
     def _so_far(self, progress, pending, total):
         told = self.ray.get(progress.told.remote())

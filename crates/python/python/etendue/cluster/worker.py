@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import _thread
 import dataclasses
 import os
 import tempfile
-import time
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -34,22 +35,59 @@ class Progress:
         return self._tasks
 
 
+class _Line:
+    """A thread that tells the driver how far a task is, and interrupts the task when the driver has given up."""
+
+    def __init__(self, progress, task):
+        self.part, self.is_cut = 0.0, False
+        self._progress, self._task, self._node = progress, task, ray.get_runtime_context().get_node_id()
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._tell, daemon=True)
+
+    def __enter__(self):
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self._ended.set()
+        self._thread.join()
+
+    def _tell(self):
+        while True:
+            try:
+                ray.get(self._progress.tell.remote(self._task, self.part, self._node))
+            except ray.exceptions.ActorDiedError:
+                self.is_cut = True
+                # As Ctrl-C: rendering ends before the next pixel.
+                _thread.interrupt_main()
+                return
+            except ray.exceptions.RayError:
+                pass
+            if self._ended.wait(TELL_EVERY_S):
+                return
+
+
 def render_film(bundle, task, run, progress):
-    """The files of the film ``task`` (name of the film, number of the shard) of a run: name to an array of bytes."""
+    """The files of the film ``task`` (name of the film, number of the shard) of a run: name to an array of bytes. Empty where the driver has given up."""
     _check_version(run)
+    line = _Line(progress, task)
+    try:
+        with line:
+            return _rendered(bundle, task, run, line)
+    except KeyboardInterrupt:
+        if line.is_cut:
+            return {}
+        raise
+
+
+def _rendered(bundle, task, run, line):
     film, shard = task
-    node = ray.get_runtime_context().get_node_id()
-    progress.tell.remote(task, 0.0, node)
     # One task reads and renders with the processors that it has.
     os.environ["RAYON_NUM_THREADS"] = str(run["threads"])
     job = _job(bundle, run)
-    told_s = time.monotonic()
 
     def tell(_, done, total):
-        nonlocal told_s
-        if time.monotonic() - told_s >= TELL_EVERY_S:
-            told_s = time.monotonic()
-            progress.tell.remote(task, done / total, node)
+        line.part = done / total
 
     with tempfile.TemporaryDirectory(prefix="etendue-") as folder:
         paths = job.save(
