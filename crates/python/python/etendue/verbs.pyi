@@ -99,6 +99,7 @@ def tradeoff(
     threads: int | None = None,
     ablate: bool = False,
     vary: Mapping[str, Any] | str | Sequence[Mapping[str, Any] | str] | None = None,
+    mtf50: bool = False,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
     """Tell what each choice of rendering costs in time and error for a job, and recommend settings.
@@ -123,6 +124,7 @@ def tradeoff(
     threads: Worker threads [default: one a processor]. Times are those of as many.
     ablate: Leave out one effect of the plan after the other instead, and tell what that changes and saves.
     vary: Compare the frame with this change of a key instead (as of --set; several keys with ';' between them), and tell what it changes and saves; give it once for each change: --vary render.wavelengths_per_path=1 --vary "a.b=1; a.c=2". One, or a sequence of them.
+    mtf50: With --ablate or --vary: photograph a chart of slanted edges with the camera as it is and with each change, too, and tell the spatial frequencies (cycles a pixel) at which its contrast is halved.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a dict.

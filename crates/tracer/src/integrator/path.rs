@@ -16,7 +16,7 @@ use super::{Level, LightSampling, PathTracer};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::lights::{LightSample, LightSampleContext, ReceiverGloss};
-use crate::materials::{Bsdf, BsdfSample, BsdfValue, Event, ShadingFrame};
+use crate::materials::{Bsdf, BsdfSample, BsdfValue, Event, GlossLobe, ShadingFrame};
 use crate::media::Phase;
 use crate::precipitation::NearHit;
 use crate::textures::Lookup;
@@ -261,9 +261,8 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         if !asked || !self.follows(self.history.is_matt()) {
             return None;
         }
-        let gloss = vertex.bsdf.gloss(vertex.frame.wo);
-        let counting = gloss.keeping(|lobe| self.follows(self.history.would_be_caustic(lobe.density_at_axis())));
-        ReceiverGloss::new(&counting, &vertex.frame)
+        let counts = |lobe: &GlossLobe| self.follows(self.history.would_be_caustic(lobe.density_at_axis()));
+        ReceiverGloss::new(&vertex.bsdf.gloss(vertex.frame.wo).keeping(counts), &vertex.frame)
     }
 
     #[inline(always)]
