@@ -22,7 +22,7 @@ shift 2
 case $out in -*) refuse "expected an output folder after the job, not '$out'" ;; esac
 for option; do
     case $option in
-    -o | -o* | --output* | --shard | --shard=* | --overwrite | --resume | --progressive | --time | --time=* | --threads | --threads=*)
+    -o | -o* | --output* | --shard | --shard=* | --film | --film=* | --overwrite | --resume | --progressive | --time | --time=* | --threads | --threads=*)
         refuse "$option: this script decides it; leave it out" ;;
     esac
 done

@@ -130,6 +130,10 @@ fn check_class_names(variations: &Variations, classes: &[(String, u32)]) -> Resu
     let names = variations.cityscapes_labels.iter().chain(&variations.kitti_types).map(|(class, _)| class);
     let unknown = names.filter(|name| !classes.iter().any(|(known, _)| *known == name.value));
     let known = || classes.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
+    if let Some((_, kind)) = variations.kitti_types.iter().find(|(_, kind)| kind.value.contains(char::is_whitespace)) {
+        let problem = "a type of KITTI is one word, the first column of its labels; leave out blanks";
+        return Err(Error::input(format!("{}: \"{}\": {problem}", kind.place, kind.value.escape_debug())));
+    }
     let told = |name: &Placed<String>| {
         format!("{}: the scene has no class \"{}\"; give one of its [classes]: {}", name.place, name.value, known())
     };
@@ -138,7 +142,7 @@ fn check_class_names(variations: &Variations, classes: &[(String, u32)]) -> Resu
 }
 
 /// Longest name of a camera in an archive, whose names have 100 characters.
-const MAX_NAME_IN_TAR: usize = 70;
+const MAX_NAME_IN_TAR: usize = 69;
 
 fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
     let needs_matrix = [SetFormat::Kitti, SetFormat::Bop, SetFormat::NuScenes];

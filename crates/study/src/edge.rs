@@ -104,7 +104,8 @@ fn of_report(report: &Report) -> Mtf50 {
 
 /// Weighed by what is known of each; `None` where nothing is.
 fn weighted_mean(estimates: impl Iterator<Item = Estimate>) -> Option<Estimate> {
-    let (sum, weight) = estimates.fold((0.0, 0.0), |(sum, weight), e| {
+    let known = estimates.filter(|e| e.value.is_finite() && !e.uncertainty.is_nan());
+    let (sum, weight) = known.fold((0.0, 0.0), |(sum, weight), e| {
         let own = 1.0 / (e.uncertainty * e.uncertainty).max(LEAST_VARIANCE);
         (sum + own * e.value, weight + own)
     });
@@ -136,6 +137,7 @@ mod tests {
             (mean.value - 0.32).abs() < 1e-12 && (mean.uncertainty - 0.01 * 0.8_f64.sqrt()).abs() < 1e-12,
             "{mean:?}"
         );
+        assert_eq!(weighted_mean([of(0.3, 0.01), of(0.4, f64::NAN)].into_iter()), Some(of(0.3, 0.01)));
         assert_eq!(weighted_mean(std::iter::empty()), None);
         assert_eq!(weighted_mean([of(1.0, f64::INFINITY)].into_iter()), None);
     }

@@ -6,6 +6,8 @@
 //!   diagonal, which the greatest distance of two points of the mesh does not exceed. Models themselves are left out.
 //! - `depth` is the distance along the axis, 0 where there is none or it is beyond 65 535 units of `bop_depth_unit_mm` (`depth_scale`).
 //! - `mask` holds the pixels that would show the object were it alone, `mask_visib` those that do, 255; files are numbered by the place in `scene_gt.json`.
+//! - `px_count_all` and `visib_fract` are of the pixels within the picture, where BOP's own tools also count what lies beyond it: an object that the picture's edge cuts and nothing
+//!   hides has the fraction 1 here.
 //! - `cam_K` counts pixel centres as whole numbers, as OpenCV does.
 
 use super::writer::{Writer, write};

@@ -49,13 +49,13 @@ fn lines(set: &Set, picture: &PictureRecord) -> String {
     text
 }
 
-/// Both splits must be named: where a set has one of them, it serves as the other as well.
+/// Folders are said from that of the file, as readers take them where no `path` is stated. Both splits must be named: where a set has one of them, it serves as the other as well.
 fn data(set: &Set, has: [bool; 2]) -> String {
     let folder = |split: Split| {
         let named = if has[split as usize] || !has.contains(&true) { split } else { Split::ALL[1 - split as usize] };
         format!("images/{}", named.name())
     };
-    let mut text = format!("path: .\ntrain: {}\nval: {}\nnames:\n", folder(Split::Train), folder(Split::Val));
+    let mut text = format!("train: {}\nval: {}\nnames:\n", folder(Split::Train), folder(Split::Val));
     for (place, (name, _)) in set.classes.iter().enumerate() {
         // Names in quotes of JSON are names in quotes of YAML.
         let _ = writeln!(text, "  {place}: {}", serde_json::Value::from(name.as_str()));

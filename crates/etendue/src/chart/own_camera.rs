@@ -7,7 +7,7 @@ use crate::job::JobRequest;
 use crate::memory::MemoryFiles;
 use crate::observer::Observer;
 use crate::render_options::RenderOptions;
-use etendue_io::Existing;
+use etendue_io::{Existing, Sandbox};
 use etendue_scene::CameraSetup;
 use etendue_scene::record::render::Integrator;
 use etendue_scene::record::{Camera, Output, Render};
@@ -71,7 +71,7 @@ impl ChartBeforeCamera {
         observer: &dyn Observer,
     ) -> Result<PathBuf, Error> {
         let changed = setup(job, &self.camera)?;
-        let mut chart = load(&self.folder.join(JOB), &Overrides::default())?;
+        let mut chart = load(&self.folder.join(JOB), &Sandbox::NONE, &Overrides::default())?;
         let mut station = chart.cameras.swap_remove(0);
         station.camera = of_constant_exposure(changed.camera);
         station.render = directly_lit(changed.render, spp);
@@ -93,17 +93,19 @@ impl ChartBeforeCamera {
     }
 }
 
-fn load(file: &Path, overrides: &Overrides) -> Result<Description, Error> {
+fn load(file: &Path, sandbox: &Sandbox, overrides: &Overrides) -> Result<Description, Error> {
     let files = MemoryFiles::new();
-    let sandbox = JobRequest::new(file).folders()?;
-    let description = Description::load(file, &|path| files.read(path, &sandbox), overrides);
+    let description = Description::load(file, &|path| files.read(path, sandbox), overrides);
     description.map_err(|faults| Error::inputs(faults.list()))
 }
 
 /// A camera of a job, with the names of its files from the root of the file system.
 fn setup(job: &JobRequest, camera: &str) -> Result<CameraSetup, Error> {
-    let file = job.job.canonicalize().map_err(|error| Error::input(format!("{}: {error}", job.job.display())))?;
-    let description = load(&file, &job.overrides())?;
+    let told = |error| Error::input(format!("{}: {error}", job.job.display()));
+    // The folder alone: names are from that of a link, not from that of its target.
+    let parent = job.job.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let file = parent.canonicalize().map_err(told)?.join(job.job.file_name().unwrap_or_default());
+    let description = load(&file, &job.folders()?, &job.overrides())?;
     let setup = description.cameras.into_iter().find(|setup| setup.name.value == camera);
     setup.ok_or_else(|| Error::input(format!("{}: no camera {camera}", job.job.display())))
 }

@@ -41,7 +41,7 @@ pub struct PathSettings {
     pub strategies: Strategies,
     /// What lights are drawn by.
     pub light_sampling: LightSampling,
-    /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones is followed (`caustic.rs`).
+    /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones, and mirrors on much less glossy ones, is followed (`caustic.rs`).
     /// Without it the picture is darker by that light, and free of the rare bright samples that find it.
     pub caustics: bool,
     /// Whether only light counts that media scatter into the camera's rays before these meet a surface, a drop or a flake.

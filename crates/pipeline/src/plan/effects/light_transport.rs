@@ -92,7 +92,7 @@ fn caustics(camera: &CameraPlan) -> PlannedEffect {
         EffectStatus::WhereNeeded(text.to_owned())
     } else {
         EffectStatus::LeftOut(match settings.level {
-            Level::Path => "caustics = false leaves out light thrown by smooth surfaces on matt ones".to_owned(),
+            Level::Path => "caustics = false leaves out light thrown by smooth surfaces on matt ones, by mirrors on much less glossy ones".to_owned(),
             Level::Flat | Level::Direct => "they need paths: integrator = \"path\"".to_owned(),
         })
     };
