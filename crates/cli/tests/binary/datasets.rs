@@ -225,6 +225,13 @@ fn bad_variations_are_refused_where_they_stand() {
             ),
             &["variations.toml:1:", "no class \"dog\"", "wall, block, lamp"],
         ),
+        (
+            format!(
+                "kitti_types = {{ block = \"Big box\" }}\n{}",
+                vary(exposure, "type = \"uniform\"\nmin = 1e-4\nmax = 1e-3")
+            ),
+            &["variations.toml:1:", "Big box", "one word"],
+        ),
     ] {
         place.run_of(&file, &[]).refused(phrases);
         assert!(!place.path("out").exists(), "{file}");
