@@ -20,6 +20,8 @@ const WHITE: f64 = 0.3;
 /// The field position, % of half the diagonal, up to which edges are of the middle, and from which on they are far out.
 const MIDDLE_PERCENT: f64 = 30.0;
 const FAR_PERCENT: f64 = 60.0;
+/// Least distance of squares, px: 0.3 of it is the width of the part about an edge that is measured, 16 px at least.
+const COLUMN_PX: usize = 72;
 /// No edge is known better than this, (cycles a pixel)².
 const LEAST_VARIANCE: f64 = 1e-8;
 
@@ -62,8 +64,7 @@ impl<'a> EdgeChart<'a> {
         let made = parent.and_then(|()| std::fs::create_dir(path));
         made.map_err(|error| Error::Run(format!("{}: {error}", path.display())))?;
         let folder = Folder(path.clone());
-        let design =
-            design::SlantedEdges { size: design::GridSize::default(), angle_deg: ANGLE_DEG, contrast: CONTRAST };
+        let design = design::SlantedEdges { size: grid(renderer), angle_deg: ANGLE_DEG, contrast: CONTRAST };
         // The camera is the job's.
         let request = ChartRequest { white: WHITE, ..ChartRequest::new(design.into(), "") };
         let chart = ChartBeforeCamera::make(&request, (&renderer.own, &renderer.camera), path)?;
@@ -90,6 +91,14 @@ impl<'a> EdgeChart<'a> {
         request.input.truth.truth = Some(self.chart.truth());
         Ok(of_report(&sfr(&request)?))
     }
+}
+
+/// Squares whose edges have the pixels that a measurement needs: five columns, fewer in a small picture.
+fn grid(renderer: &FrameRenderer<'_>) -> design::GridSize {
+    let plan = renderer.job.plan();
+    let own = plan.cameras.iter().find(|camera| camera.name == renderer.camera);
+    let columns = own.map(|camera| (camera.body.raster.width() / COLUMN_PX).clamp(1, 5) as u32);
+    design::GridSize { columns, ..design::GridSize::default() }
 }
 
 /// Means over the edges of a report.
