@@ -10,14 +10,16 @@ pub(crate) struct OfSample<'a> {
     pub(crate) total: usize,
     /// The number of the sample.
     pub(crate) sample: u32,
-    /// Whether what is no error is passed on: it is the same of most samples.
+    /// Whether notes are passed on: they are the same of most samples. Warnings always are, with the sample's number.
     pub(crate) tells: bool,
 }
 
 impl Observer for OfSample<'_> {
     fn message(&self, message: Message<'_>) {
-        if self.tells {
-            self.all.message(message);
+        match message {
+            Message::Note(_) if self.tells => self.all.message(message),
+            Message::Note(_) => {}
+            Message::Warning(told) => self.all.message(Message::Warning(&format!("sample {}: {told}", self.sample))),
         }
     }
 

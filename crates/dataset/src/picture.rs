@@ -1,14 +1,17 @@
 //! A picture with its truth, of a camera's results.
 
+use crate::draw::Split;
 use crate::mask;
 use crate::record::{PictureRecord, Pose, objects};
-use etendue::{CameraResults, Error, GroundTruth, PinholeView, pinhole_view};
+use etendue::{CameraResults, Error, GroundTruth, camera_mount, pinhole_view};
 use etendue_core::CameraPose;
 use glam::DQuat;
 use std::collections::BTreeMap;
 
 /// A picture of a sample with its truth.
 pub(crate) struct Picture<'a> {
+    /// The number of its sample, and what that is for.
+    pub(crate) sample: (u32, Split),
     pub(crate) record: PictureRecord,
     /// The file's bytes.
     pub(crate) bytes: Vec<u8>,
@@ -25,7 +28,7 @@ impl Picture<'_> {
 
 /// Hands the pictures of a camera's frames over, one after the other; `warn` is told of pixels without valid light.
 pub(crate) fn each(
-    results: &CameraResults,
+    (results, sample): (&CameraResults, (u32, Split)),
     warn: &dyn Fn(&str),
     mut take: impl FnMut(&Picture<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
@@ -61,10 +64,10 @@ pub(crate) fn each(
             height_px,
             camera_matrix_px: view.map(|view| view.matrix_px),
             pose: pose_record(&pose),
-            mount: view.and_then(|PinholeView { mount, .. }| mount).as_ref().map(pose_record),
+            mount: camera_mount(results.camera()).as_ref().map(pose_record),
             objects: objects.clone(),
         };
-        take(&Picture { record, bytes, truth: &truth, results })?;
+        take(&Picture { sample, record, bytes, truth: &truth, results })?;
     }
     Ok(())
 }

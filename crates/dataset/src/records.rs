@@ -3,7 +3,7 @@
 use crate::record::SampleRecord;
 use etendue::Error;
 use etendue_io::read_regular;
-use etendue_scene::limits::DESCRIPTION;
+use etendue_scene::limits::FILE;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -22,7 +22,16 @@ pub(crate) struct Records {
 }
 
 impl Records {
-    /// Of the folder of a data set.
+    /// Of the folder of a data set, which may have no sample yet.
+    pub(crate) fn in_folder(root: &Path) -> Result<Self, Error> {
+        if root.join(SAMPLES).exists() {
+            Self::of(root)
+        } else {
+            Ok(Self { root: root.to_path_buf(), samples: Vec::new() })
+        }
+    }
+
+    /// Of the folder of a data set that has samples.
     pub(crate) fn of(root: &Path) -> Result<Self, Error> {
         let entries = std::fs::read_dir(root.join(SAMPLES)).map_err(Error::run)?;
         let mut samples = Vec::new();
@@ -45,7 +54,7 @@ impl Records {
         self.samples.iter().map(|sample| {
             let path = self.root.join(record_name(*sample));
             let unread = |why: String| io::Error::other(format!("{}: {why}", path.display()));
-            let bytes = read_regular(&path, &DESCRIPTION).map_err(|cause| unread(cause.to_string()))?;
+            let bytes = read_regular(&path, &FILE).map_err(|cause| unread(cause.to_string()))?;
             serde_json::from_slice(&bytes).map_err(|why| unread(format!("this is not the record of a sample: {why}")))
         })
     }

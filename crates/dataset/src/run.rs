@@ -41,6 +41,10 @@ pub fn dataset(
     let writers = writers(&set)?;
     let mut folder = OutputFolder::open(root, existing).map_err(Error::input)?;
     check_folder(&set, root, existing)?;
+    if existing == Existing::Replace {
+        let records = Records::in_folder(root)?;
+        writers.iter().try_for_each(|writer| writer.check_replaced(&records, &request.samples, &folder))?;
+    }
     let mut run = Run { request, existing, set: &set, writers: &writers, folder: &mut folder, observer, made: 0 };
     let written = run.samples();
     let made = run.made;
@@ -137,12 +141,11 @@ impl Run<'_> {
         let options = RenderOptions { frames: self.request.frames.clone(), simd: self.request.simd };
         job.render_each(&options, observer, |camera| {
             let warn = |told: &str| self.observer.message(Message::Warning(&format!("sample {sample}, {told}")));
-            picture::each(&camera, &warn, |picture| {
-                let SampleRecord { split, pictures, .. } = &mut record;
+            picture::each((&camera, (sample, drawn.split)), &warn, |picture| {
                 for writer in self.writers {
-                    writer.picture(self.set, (sample, *split), picture, self.folder)?;
+                    writer.picture(self.set, picture, self.folder)?;
                 }
-                pictures.push(picture.record.clone());
+                record.pictures.push(picture.record.clone());
                 Ok(())
             })
         })?;

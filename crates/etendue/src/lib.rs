@@ -114,7 +114,7 @@ pub use raw_file::Levels;
 pub use render_options::RenderOptions;
 pub use render_settings::RenderSettings;
 pub use results::{CameraResults, Files, Results};
-pub use rig::{PinholeView, pinhole_view};
+pub use rig::{PinholeView, camera_mount, pinhole_view};
 pub use sampled_light::{LightSampling, LightSignal, SampledLight, SampledPixel};
 pub use shard_spec::{ShardRequest, ShardSpec};
 pub use stated_render::StatedRender;

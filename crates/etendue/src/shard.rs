@@ -50,18 +50,21 @@ impl Job {
         }
         let names = self.asked_films(asked)?;
         let manifest = self.manifest(asked);
-        if !asked.films.is_empty() {
-            manifest.check_beside(folder)?;
-        }
-        let manifest = manifest.encoded()?;
+        // That of a film of the same shard before says the same.
+        let is_there = !asked.films.is_empty() && manifest.is_beside(folder)?;
+        let manifest = if is_there { None } else { Some(manifest.encoded()?) };
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
-        folder.claim(names.iter().map(String::as_str).chain([MANIFEST])).map_err(Error::input)?;
+        folder
+            .claim(names.iter().map(String::as_str).chain(manifest.as_ref().map(|_| MANIFEST)))
+            .map_err(Error::input)?;
         let kept = Kept::of_run(&folder, observer);
         self.render_shard((asked, &names), simd, observer, |camera, shot, film| {
             let facts = metadata::provenance(self.plan(), camera, shot.frame);
             write_exr(&mut folder, &film_name(camera, shot), film_file::image(&film, &facts))
         })?;
-        folder.write(MANIFEST, &manifest).map_err(Error::run)?;
+        if let Some(manifest) = &manifest {
+            folder.write(MANIFEST, manifest).map_err(Error::run)?;
+        }
         let written = folder.commit().map_err(Error::run)?;
         kept.all();
         Ok(written)
@@ -163,15 +166,15 @@ impl Manifest {
             .map_err(|error| explain(format!("this is no shard manifest of this version ({error})")))
     }
 
-    /// Refuses a folder of a shard of another run: films that were rendered each by itself belong together.
-    fn check_beside(&self, folder: &Path) -> Result<(), Error> {
+    /// Whether films of this shard are there; refuses a folder of another: films that were rendered each by itself belong together.
+    fn is_beside(&self, folder: &Path) -> Result<bool, Error> {
         let path = folder.join(MANIFEST);
         if !path.exists() {
-            return Ok(());
+            return Ok(false);
         }
         let there = Self::read(folder)?;
         match there.index == self.index && there.is_of_run(self) {
-            true => Ok(()),
+            true => Ok(true),
             false => Err(Error::input(format!(
                 "{}: films of another run or shard are here; choose another output folder, or render the whole shard",
                 path.display()

@@ -25,8 +25,8 @@ const COLUMN_PX: usize = 72;
 /// No edge is known better than this, (cycles a pixel)².
 const LEAST_VARIANCE: f64 = 1e-8;
 
-/// Spatial frequencies at which the response of edges falls to one half, cycles a pixel; means over the edges of a part of the field, weighed by what is known of each.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+/// Spatial frequencies at which the response of edges falls to one half, cycles a pixel; means over the edges of a part of the field that are measured without and with a change.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Mtf50 {
     /// Up to 30 % of half the picture's diagonal from its middle; `None`: no edge there has one.
     pub middle: Option<Estimate>,
@@ -40,7 +40,7 @@ pub(crate) struct EdgeChart<'a> {
     chart: ChartBeforeCamera,
     /// Held for its end alone.
     _folder: Folder,
-    stated: Mtf50,
+    stated: Vec<Edge>,
 }
 
 /// A folder that was made here.
@@ -68,21 +68,22 @@ impl<'a> EdgeChart<'a> {
         // The camera is the job's.
         let request = ChartRequest { white: WHITE, ..ChartRequest::new(design.into(), "") };
         let chart = ChartBeforeCamera::make(&request, (&renderer.own, &renderer.camera), path)?;
-        let mut own = Self { renderer, chart, _folder: folder, stated: Mtf50::default() };
+        let mut own = Self { renderer, chart, _folder: folder, stated: Vec::new() };
         own.stated = own.measure(&[])?;
         Ok(Some(own))
     }
 
-    /// Without and with these changes of keys; `None` where the camera with them makes no picture of the chart in which edges can be measured.
+    /// Without and with these changes of keys, over the edges that are measured in both; `None` where the camera with them makes no picture of the chart in which edges can be
+    /// measured.
     pub(crate) fn change(&self, set: &[String]) -> Result<Option<[Mtf50; 2]>, Error> {
         match self.measure(set) {
-            Ok(changed) => Ok(Some([self.stated, changed])),
+            Ok(changed) => Ok(Some(in_both(&self.stated, &changed))),
             Err(Error::Input(_)) => Ok(None),
             Err(other) => Err(other),
         }
     }
 
-    fn measure(&self, set: &[String]) -> Result<Mtf50, Error> {
+    fn measure(&self, set: &[String]) -> Result<Vec<Edge>, Error> {
         let mut job = self.renderer.own.clone();
         job.set.extend(set.iter().cloned());
         let options = RenderOptions { simd: self.renderer.request.simd, ..RenderOptions::default() };
@@ -101,53 +102,108 @@ fn grid(renderer: &FrameRenderer<'_>) -> design::GridSize {
     design::GridSize { columns, ..design::GridSize::default() }
 }
 
-/// Means over the edges of a report.
-fn of_report(report: &Report) -> Mtf50 {
-    let edges: Vec<(f64, Estimate)> = report.tables().filter(|table| table.key == "edges").flat_map(of_table).collect();
-    let mean = |is_in: &dyn Fn(f64) -> bool| {
-        let inside = edges.iter().filter(|(field, _)| is_in(*field)).map(|(_, mtf50)| *mtf50);
-        weighted_mean(inside)
-    };
-    Mtf50 { middle: mean(&|field| field <= MIDDLE_PERCENT), far: mean(&|field| field >= FAR_PERCENT) }
+/// An edge whose response falls to one half.
+#[derive(Clone, Debug, PartialEq)]
+struct Edge {
+    /// Where the measurement sought it, and across which of its sides.
+    place: [String; 2],
+    field_percent: f64,
+    mtf50: Estimate,
 }
 
-/// Weighed by what is known of each; `None` where nothing is.
-fn weighted_mean(estimates: impl Iterator<Item = Estimate>) -> Option<Estimate> {
-    let known = estimates.filter(|e| e.value.is_finite() && !e.uncertainty.is_nan());
-    let (sum, weight) = known.fold((0.0, 0.0), |(sum, weight), e| {
-        let own = 1.0 / (e.uncertainty * e.uncertainty).max(LEAST_VARIANCE);
-        (sum + own * e.value, weight + own)
-    });
-    (weight > 0.0).then(|| Estimate { value: sum / weight, uncertainty: 1.0 / weight.sqrt() })
+/// The edges of a report.
+fn of_report(report: &Report) -> Vec<Edge> {
+    report.tables().filter(|table| table.key == "edges").flat_map(of_table).collect()
 }
 
-/// Field positions in per cent, and the frequencies there.
-fn of_table(table: &Table) -> Vec<(f64, Estimate)> {
-    let column = |key: &str| table.columns.iter().position(|(own, _)| *own == key);
-    let Some((field, mtf50)) = column("field_percent").zip(column("mtf50_cycles_per_px")) else { return Vec::new() };
-    let of_row = |row: &Vec<Cell>| match (&row[field], &row[mtf50]) {
-        (Cell::Number(field, _), Cell::Estimate(e)) => {
-            Some((*field, Estimate { value: e.value, uncertainty: e.standard_uncertainty }))
-        }
+fn of_table(table: &Table) -> Vec<Edge> {
+    let column =
+        |key: &str| table.columns.iter().position(|(own, _)| *own == key).expect("a column of the measurement");
+    let [at, direction, field, mtf50] = ["at_px", "direction", "field_percent", "mtf50_cycles_per_px"].map(column);
+    let of_row = |row: &Vec<Cell>| match (&row[at], &row[direction], &row[field], &row[mtf50]) {
+        (Cell::Text(at), Cell::Text(direction), Cell::Number(field_percent, _), Cell::Estimate(e)) => Some(Edge {
+            place: [at.clone(), direction.clone()],
+            field_percent: *field_percent,
+            mtf50: Estimate { value: e.value, uncertainty: e.standard_uncertainty },
+        }),
         _ => None,
     };
     table.rows.iter().filter_map(of_row).collect()
+}
+
+/// Means of two photographs over the edges that both know, with weights of both, so that an edge that one of them has not moves neither.
+fn in_both(without: &[Edge], with: &[Edge]) -> [Mtf50; 2] {
+    let pair =
+        |edge: &Edge| with.iter().find(|other| other.place == edge.place).map(|other| [edge.clone(), other.clone()]);
+    let pairs: Vec<[Edge; 2]> = without.iter().filter_map(pair).collect();
+    let mean = |is_in: &dyn Fn(f64) -> bool| {
+        let inside = pairs.iter().filter(|[edge, _]| is_in(edge.field_percent));
+        weighted_means(inside.map(|pair| pair.clone().map(|edge| edge.mtf50)))
+    };
+    let (middle, far) = (mean(&|field| field <= MIDDLE_PERCENT), mean(&|field| field >= FAR_PERCENT));
+    [0, 1].map(|i| Mtf50 { middle: middle.map(|pair| pair[i]), far: far.map(|pair| pair[i]) })
+}
+
+/// Means of pairs, each weighed by what is known of both together; `None` where nothing is.
+fn weighted_means(pairs: impl Iterator<Item = [Estimate; 2]>) -> Option<[Estimate; 2]> {
+    let (mut sums, mut variances, mut whole) = ([0.0; 2], [0.0; 2], 0.0);
+    for pair in pairs {
+        let both: f64 = pair.iter().map(|e| e.uncertainty * e.uncertainty).sum();
+        let is_known = both.is_finite() && pair.iter().all(|e| e.value.is_finite());
+        let weight = if is_known { 1.0 / both.max(LEAST_VARIANCE) } else { continue };
+        whole += weight;
+        for (i, e) in pair.iter().enumerate() {
+            sums[i] += weight * e.value;
+            variances[i] += weight * weight * e.uncertainty * e.uncertainty;
+        }
+    }
+    let mean = |i: usize| Estimate { value: sums[i] / whole, uncertainty: variances[i].sqrt() / whole };
+    (whole > 0.0).then(|| [0, 1].map(mean))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn of(value: f64, uncertainty: f64) -> Estimate {
+        Estimate { value, uncertainty }
+    }
+
     #[test]
     fn edges_that_are_badly_known_weigh_little() {
-        let of = |value, uncertainty| Estimate { value, uncertainty };
-        let mean = weighted_mean([of(0.3, 0.01), of(0.4, 0.02), of(9.0, f64::INFINITY)].into_iter()).expect("known");
+        let exact = of(0.5, 0.0);
+        let pairs = [
+            [of(0.3, 0.01), exact],
+            [of(0.4, 0.02), exact],
+            [of(9.0, f64::INFINITY), exact],
+            [exact, of(1.0, f64::NAN)],
+        ];
+        let [mean, other] = weighted_means(pairs.into_iter()).expect("known");
         assert!(
             (mean.value - 0.32).abs() < 1e-12 && (mean.uncertainty - 0.01 * 0.8_f64.sqrt()).abs() < 1e-12,
             "{mean:?}"
         );
-        assert_eq!(weighted_mean([of(0.3, 0.01), of(0.4, f64::NAN)].into_iter()), Some(of(0.3, 0.01)));
-        assert_eq!(weighted_mean(std::iter::empty()), None);
-        assert_eq!(weighted_mean([of(1.0, f64::INFINITY)].into_iter()), None);
+        assert!((other.value - 0.5).abs() < 1e-12 && other.uncertainty == 0.0, "{other:?}");
+        assert_eq!(weighted_means([].into_iter()), None);
+        assert_eq!(weighted_means([[of(1.0, f64::INFINITY); 2]].into_iter()), None);
+    }
+
+    #[test]
+    fn an_edge_that_one_photograph_does_not_know_moves_no_mean() {
+        let edge = |at: &str, field_percent, value| Edge {
+            place: [at.to_owned(), "horizontal".to_owned()],
+            field_percent,
+            mtf50: of(value, 0.01),
+        };
+        let without = [edge("1,1", 10.0, 0.3), edge("2,1", 20.0, 0.9), edge("9,9", 80.0, 0.2)];
+        let with = [edge("9,9", 80.0, 0.25), edge("1,1", 10.0, 0.4)];
+        let [a, b] = in_both(&without, &with);
+        let value = |e: Option<Estimate>| e.expect("known").value;
+        let found = [value(a.middle), value(b.middle), value(a.far), value(b.far)];
+        let all_near =
+            found.iter().zip([0.3, 0.4, 0.2, 0.25]).all(|(found, expected)| (found - expected).abs() < 1e-12);
+        assert!(all_near, "{found:?}");
+        let [none, _] = in_both(&without, &[]);
+        assert_eq!(none, Mtf50 { middle: None, far: None });
     }
 }

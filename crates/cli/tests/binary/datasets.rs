@@ -250,6 +250,43 @@ fn bad_variations_are_refused_where_they_stand() {
     place.run_of(&file, &["--samples", "0..2000000"]).refused(&["--samples"]);
 }
 
+/// A model of BOP keeps its size: a sample that breaks that is not kept, and the set of those before is whole.
+#[test]
+fn bop_keeps_the_samples_before_one_of_another_size() {
+    let place = Place::new();
+    let file =
+        "format = 1\n[[vary]]\nkey = \"scene.objects.short-block.scale\"\ntype = \"uniform\"\nmin = 0.5\nmax = 0.9\n";
+    let run = |more: &[&str]| place.run_of(file, &[&["--format", "bop,yolo"], more].concat());
+    drop(run(&["--samples", "0..3"]).refused(&["--format bop", "\"short-block\"", "sample 1", "keeps its size"]));
+    let samples: Vec<_> = place.files("out/samples").into_keys().collect();
+    assert_eq!(samples, ["000000.json"]);
+    run(&["--samples", "0..1", "--resume"]).ok();
+    assert!(place.path("out/bop/models/models_info.json").exists() && place.path("out/yolo/data.yaml").exists());
+    drop(run(&["--samples", "1..2", "--resume"]).refused(&["\"short-block\"", "sample 1", "keeps its size"]));
+}
+
+/// A complete shard has no parts any more, of which one could be made anew.
+#[test]
+fn samples_of_a_complete_shard_are_made_anew_together() {
+    let place = Place::new();
+    let file = "format = 1\nshard_samples = 2\n[[vary]]\nkey = \"cameras.front.sensor.exposure_s\"\ntype = \"uniform\"\nmin = 1e-5\nmax = 2e-5\n";
+    let run = |more: &[&str]| place.run_of(file, &[&["--format", "webdataset"], more].concat());
+    run(&["--samples", "0..3"]).ok();
+    let whole = place.files("out");
+    drop(run(&["--samples", "1..3", "--overwrite"]).refused(&[
+        "--samples 1..3",
+        "samples 0 to 1 is complete",
+        "--samples 0..2",
+    ]));
+    assert!(place.files("out") == whole, "nothing was touched");
+    run(&["--samples", "0..3", "--overwrite"]).ok();
+    run(&["--samples", "2..3", "--overwrite"]).ok();
+    assert!(place.files("out") == whole);
+    fs::remove_file(place.path("out/webdataset/train-000000.tar")).expect("it was there");
+    let lost = run(&["--samples", "0..3", "--resume"]);
+    assert!(lost.status == 1 && lost.err.contains("webdataset/parts/000000.tar"), "{}", lost.err);
+}
+
 #[test]
 fn variations_that_ship_are_whole() {
     let plan = |job: &str, variations: &str, more: &[&str]| {

@@ -41,7 +41,7 @@ fn films_of_shards_that_were_rendered_elsewhere_are_merged_to_the_same_bytes() {
         let part = folder(&shard[..1]);
         let run = |films: &[&str]| {
             let films = films.iter().flat_map(|film| ["--film", film]);
-            let run = ["render", &away, "-o", &part, "--shard", shard, "--frames", "0..2", "--overwrite"];
+            let run = ["render", &away, "-o", &part, "--shard", shard, "--frames", "0..2"];
             etendue(run.into_iter().chain(films)).ok();
         };
         run(&[&films[2]]);

@@ -29,12 +29,48 @@ pub(super) struct Bop {
     depth_unit_mm: f64,
     /// Of the sample that is being made: `scene_gt_info` by camera and frame.
     counted: RefCell<BTreeMap<(String, u32), Vec<Value>>>,
+    /// Of the samples that are whole and of those made since; `None` before the first of a run is made.
+    models: RefCell<Option<Models>>,
+}
+
+/// Names and sizes of objects, mm, by their identities.
+#[derive(Default)]
+struct Models(BTreeMap<u32, (String, DVec3)>);
+
+impl Models {
+    /// Of all records but one, which is made anew.
+    fn of(records: &Records, without: Option<u32>) -> Result<Self, Error> {
+        let mut models = Self::default();
+        for record in records.each() {
+            let record = record.map_err(Error::run)?;
+            if Some(record.sample) != without {
+                models.add(&record)?;
+            }
+        }
+        Ok(models)
+    }
+
+    /// A model of BOP keeps its size.
+    fn add(&mut self, record: &SampleRecord) -> Result<(), Error> {
+        for object in record.pictures.iter().flat_map(objects) {
+            let size_mm = 1000.0 * DVec3::from_array(object.box_3d.size_m);
+            let (name, known_mm) = self.0.entry(object.id).or_insert_with(|| (object.name.clone(), size_mm));
+            if *name != object.name || (*known_mm - size_mm).abs().max_element() > 1e-6 * size_mm.max_element() {
+                return Err(another_model(record, object, name));
+            }
+        }
+        Ok(())
+    }
 }
 
 impl Bop {
     pub(super) fn of(set: &Set) -> Self {
         let unit = set.variations.as_ref().and_then(|variations| variations.bop_depth_unit_mm.as_ref());
-        Self { depth_unit_mm: unit.map_or(1.0, |unit| unit.value), counted: RefCell::default() }
+        Self {
+            depth_unit_mm: unit.map_or(1.0, |unit| unit.value),
+            counted: RefCell::default(),
+            models: RefCell::default(),
+        }
     }
 
     fn units_per_m(&self) -> f64 {
@@ -53,15 +89,9 @@ fn objects(picture: &PictureRecord) -> impl Iterator<Item = &ObjectRecord> {
 }
 
 impl Writer for Bop {
-    fn picture(
-        &self,
-        set: &Set,
-        sample: (u32, Split),
-        picture: &Picture<'_>,
-        folder: &mut OutputFolder,
-    ) -> Result<(), Error> {
+    fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
         let (record, truth) = (&picture.record, picture.truth);
-        let (scene, number) = (scene(set, sample, &record.camera), record.frame);
+        let (scene, number) = (scene(set, picture.sample, &record.camera), record.frame);
         write(folder, &format!("{scene}/rgb/{number:06}.{}", record.extension), &picture.bytes)?;
         let mut encoded = |name: String, bytes: Result<Vec<u8>, _>| {
             let bytes = bytes.map_err(|error: etendue_io::exr::EncodeError| Error::Run(format!("{name}: {error}")))?;
@@ -87,6 +117,13 @@ impl Writer for Bop {
 
     fn sample(&self, set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
         let counted = self.counted.take();
+        // Before the sample has a record, so that one of another size is never among those that are whole.
+        let mut models = self.models.borrow_mut();
+        if models.is_none() {
+            let records = Records::in_folder(folder.path())?;
+            *models = Some(Models::of(&records, Some(record.sample))?);
+        }
+        models.get_or_insert_default().add(record)?;
         for camera in &set.cameras {
             let scene = scene(set, (record.sample, record.split), camera);
             let pictures = || record.pictures.iter().filter(|picture| picture.camera == *camera);
@@ -109,17 +146,7 @@ impl Writer for Bop {
     }
 
     fn finish(&self, _set: &Set, records: &Records, folder: &mut OutputFolder) -> Result<(), Error> {
-        let mut models: BTreeMap<u32, (String, DVec3)> = BTreeMap::new();
-        for record in records.each() {
-            let record = record.map_err(Error::run)?;
-            for object in record.pictures.iter().flat_map(objects) {
-                let size_mm = 1000.0 * DVec3::from_array(object.box_3d.size_m);
-                let (name, known_mm) = models.entry(object.id).or_insert_with(|| (object.name.clone(), size_mm));
-                if *name != object.name || (*known_mm - size_mm).abs().max_element() > 1e-6 * size_mm.max_element() {
-                    return Err(another_model(&record, object, name));
-                }
-            }
-        }
+        let Models(models) = Models::of(records, None)?;
         let facts: Map<String, Value> = models.iter().map(|(id, (_, size))| (id.to_string(), model(*size))).collect();
         write(folder, "bop/models/models_info.json", format!("{}\n", Value::Object(facts)).as_bytes())?;
         let names: Map<String, Value> =
@@ -130,8 +157,8 @@ impl Writer for Bop {
 
 fn another_model(record: &SampleRecord, object: &ObjectRecord, known: &str) -> Error {
     Error::input(format!(
-        "--format bop: object {} is \"{known}\" in one sample and \"{}\" of another size or name in sample {}, and a model of BOP keeps its size; leave \
-         the format out, or vary poses and not scales and objects",
+        "--format bop: object {} is \"{known}\" in one sample and \"{}\" of another size or name in sample {}, and a model of BOP keeps its size; vary \
+         poses and not scales and objects, or make the set in another folder without the format",
         object.id, object.name, record.sample
     ))
 }

@@ -5,7 +5,6 @@
 //! of their identities; from the 1001st on, as a group, they have the label alone.
 
 use super::writer::{Writer, write};
-use crate::draw::Split;
 use crate::picture::Picture;
 use crate::record::PictureRecord;
 use crate::records::Records;
@@ -107,13 +106,8 @@ fn city(camera: &str) -> String {
 }
 
 impl Writer for Cityscapes {
-    fn picture(
-        &self,
-        set: &Set,
-        (sample, split): (u32, Split),
-        picture: &Picture<'_>,
-        folder: &mut OutputFolder,
-    ) -> Result<(), Error> {
+    fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, split) = picture.sample;
         let record = &picture.record;
         let city = city(&record.camera);
         let stem = format!("{}/{city}/{city}_{sample:06}_{:06}", split.name(), record.frame);

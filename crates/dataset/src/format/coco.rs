@@ -16,13 +16,8 @@ use std::io::{self, Write};
 pub(super) struct Coco;
 
 impl Writer for Coco {
-    fn picture(
-        &self,
-        _set: &Set,
-        (sample, split): (u32, Split),
-        picture: &Picture<'_>,
-        folder: &mut OutputFolder,
-    ) -> Result<(), Error> {
+    fn picture(&self, _set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, split) = picture.sample;
         let name = format!("coco/{}/{}", split.name(), file_name(&picture.record, sample));
         write(folder, &name, &picture.bytes)
     }

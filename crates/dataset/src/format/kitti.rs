@@ -44,13 +44,8 @@ const TYPES: [(&str, &str); 10] = [
 ];
 
 impl Writer for Kitti {
-    fn picture(
-        &self,
-        set: &Set,
-        (sample, _): (u32, Split),
-        picture: &Picture<'_>,
-        folder: &mut OutputFolder,
-    ) -> Result<(), Error> {
+    fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, _) = picture.sample;
         let (record, number) = (&picture.record, number(set, sample, picture.record.frame));
         write(folder, &format!("{}/image_2/{number}.png", root(&record.camera)), &picture.bytes)?;
         for (left, _) in set.pairs.iter().filter(|(_, right)| *right == record.camera) {

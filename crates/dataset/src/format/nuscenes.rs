@@ -41,13 +41,8 @@ const TABLES: [(&str, RowsOf); 7] = [
 ];
 
 impl Writer for NuScenes {
-    fn picture(
-        &self,
-        _set: &Set,
-        (sample, _): (u32, Split),
-        picture: &Picture<'_>,
-        folder: &mut OutputFolder,
-    ) -> Result<(), Error> {
+    fn picture(&self, _set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, _) = picture.sample;
         write(folder, &format!("nuscenes/{}", file_name(sample, &picture.record)), &picture.bytes)
     }
 

@@ -19,6 +19,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::PathBuf;
 
 pub(super) struct WebDataset {
@@ -62,13 +63,24 @@ fn parts(folder: &OutputFolder, samples: &[u32]) -> Vec<PathBuf> {
 }
 
 impl Writer for WebDataset {
-    fn picture(
-        &self,
-        _set: &Set,
-        (sample, _): (u32, Split),
-        picture: &Picture<'_>,
-        _folder: &mut OutputFolder,
-    ) -> Result<(), Error> {
+    /// A shard that is complete has no parts: its samples are made anew together.
+    fn check_replaced(&self, records: &Records, samples: &Range<u32>, folder: &OutputFolder) -> Result<(), Error> {
+        let shard = |sample: u32| sample / self.shard_samples;
+        let lost = |sample: &&u32| !samples.contains(sample) && !folder.path().join(part(**sample)).exists();
+        let is_touched = |sample: &&u32| (shard(samples.start)..=shard(samples.end - 1)).contains(&shard(**sample));
+        let Some(sample) = records.numbers().iter().filter(is_touched).find(lost) else { return Ok(()) };
+        let (first, end) = (shard(*sample) * self.shard_samples, (shard(*sample) + 1) * self.shard_samples);
+        Err(Error::input(format!(
+            "--samples {}..{}: the shard of samples {first} to {} is complete, and its samples are made anew together; give --samples {first}..{end} \
+             with --overwrite, or --resume",
+            samples.start,
+            samples.end,
+            end - 1
+        )))
+    }
+
+    fn picture(&self, _set: &Set, picture: &Picture<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, _) = picture.sample;
         let record = &picture.record;
         let stem = record.stem(sample);
         let failed = |error: &dyn std::fmt::Display| Error::Run(format!("{stem}: {error}"));
@@ -94,10 +106,11 @@ impl Writer for WebDataset {
         for ((split, shard), samples) in self.shards(records)? {
             let parts = parts(folder, &samples);
             // A shard that was complete has taken its parts' place.
-            if parts.iter().any(|part| !part.exists()) && self.is_complete(records, shard) {
+            let name = format!("webdataset/{}-{shard:06}.tar", split.name());
+            let is_made = self.is_complete(records, shard) && parts.iter().all(|part| !part.exists());
+            if is_made && folder.path().join(&name).exists() {
                 continue;
             }
-            let name = format!("webdataset/{}-{shard:06}.tar", split.name());
             folder.write_with(&name, |file| joined(&parts, file)).map_err(Error::run)?;
         }
         Ok(())

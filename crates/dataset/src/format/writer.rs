@@ -1,22 +1,21 @@
 //! What a format writes, and when.
 
-use crate::draw::Split;
 use crate::picture::Picture;
 use crate::record::SampleRecord;
 use crate::records::Records;
 use crate::set::Set;
 use etendue::{Error, OutputFolder};
+use std::ops::Range;
 
 /// Writes one format.
 pub(crate) trait Writer {
+    /// Refuses to make samples anew in the place of ones that are in the folder, where what is made of them is not to be had in part.
+    fn check_replaced(&self, _records: &Records, _samples: &Range<u32>, _folder: &OutputFolder) -> Result<(), Error> {
+        Ok(())
+    }
+
     /// The files of one picture.
-    fn picture(
-        &self,
-        set: &Set,
-        sample: (u32, Split),
-        picture: &Picture<'_>,
-        folder: &mut OutputFolder,
-    ) -> Result<(), Error>;
+    fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error>;
 
     /// The files of one sample, after those of its pictures.
     fn sample(&self, _set: &Set, _record: &SampleRecord, _folder: &mut OutputFolder) -> Result<(), Error> {

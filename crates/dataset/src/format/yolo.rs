@@ -15,13 +15,8 @@ use std::fmt::Write as _;
 pub(super) struct Yolo;
 
 impl Writer for Yolo {
-    fn picture(
-        &self,
-        set: &Set,
-        (sample, split): (u32, Split),
-        picture: &Picture<'_>,
-        folder: &mut OutputFolder,
-    ) -> Result<(), Error> {
+    fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, split) = picture.sample;
         let (split, stem) = (split.name(), picture.record.stem(sample));
         let image = format!("yolo/images/{split}/{stem}.{}", picture.record.extension);
         write(folder, &image, &picture.bytes)?;

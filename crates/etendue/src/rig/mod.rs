@@ -10,7 +10,7 @@
 mod intrinsics;
 mod view;
 
-pub use view::{PinholeView, pinhole_view};
+pub use view::{PinholeView, camera_mount, pinhole_view};
 
 use crate::error::Error;
 use crate::observer::{Message, Observer};

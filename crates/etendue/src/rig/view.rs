@@ -21,6 +21,11 @@ pub struct PinholeView {
 pub fn pinhole_view(camera: &CameraPlan) -> Result<PinholeView, String> {
     let matrix = intrinsics::pinhole(&camera.body)?;
     let matrix_px = [matrix.fx, matrix.skew, matrix.cx, matrix.fy, matrix.cy];
-    let mount = camera.mount.pose.filter(|_| camera.mount.frame.is_some());
-    Ok(PinholeView { matrix_px, mount })
+    Ok(PinholeView { matrix_px, mount: camera_mount(camera) })
+}
+
+/// From a camera's frame to the frame of the scene that carries it, m; `None` where none does, or where the camera moves in it.
+#[must_use]
+pub fn camera_mount(camera: &CameraPlan) -> Option<CameraPose> {
+    camera.mount.pose.filter(|_| camera.mount.frame.is_some())
 }
