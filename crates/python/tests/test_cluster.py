@@ -1,6 +1,7 @@
 """What a run on a cluster sends, keeps and refuses: all of it that needs no Ray."""
 
 import ast
+import errno
 import inspect
 import os
 import re
@@ -101,12 +102,60 @@ def test_what_is_finished_is_found_again_and_nothing_else(tmp_path):
     assert not tmp_path.exists(), "a run of which nothing is finished leaves nothing"
 
 
+def test_a_driver_that_ends_meanwhile_leaves_its_folder_to_nobody(tmp_path, monkeypatch):
+    """Another driver ends, with all that it kept, when this one has opened the folder and not locked it yet; then before it has opened it."""
+    flock, mkdir, ended = store.fcntl.flock, store.Path.mkdir, []
+
+    def ends(first):
+        if not ended:
+            ended.append(first)
+            first.remove()
+
+    first = opened(tmp_path)
+    with monkeypatch.context() as meanwhile:
+        meanwhile.setattr(store.fcntl, "flock", lambda *lock: (ends(first), flock(*lock)))
+        second = opened(tmp_path)
+    assert (tmp_path / ".cluster/run.json").is_file() and os.path.samestat(os.fstat(second._lock), os.stat(second.folder))
+    first.close()
+    assert second.folder.is_dir(), "who has ended removes nothing of the next"
+    with monkeypatch.context() as meanwhile:
+        ended.clear()
+        meanwhile.setattr(store.Path, "mkdir", lambda path, **how: (mkdir(path, **how), ends(second)))
+        third = opened(tmp_path, resume=True)
+    assert (tmp_path / ".cluster/run.json").is_file(), "what the other kept is not taken for there"
+    with pytest.raises(etendue.InputError, match="another run"):
+        opened(tmp_path, resume=True)
+    third.close()
+
+
+def test_a_refused_driver_changes_nothing(tmp_path):
+    kept = opened(tmp_path)
+    kept._let_go()
+    for more in ({}, {"run": {**RUN, "shards": 3}, "resume": True}):
+        with pytest.raises(etendue.InputError):
+            opened(tmp_path, **more)
+    assert (tmp_path / ".cluster/run.json").is_file()
+    opened(tmp_path, resume=True).close()
+    assert not tmp_path.exists()
+
+
+@pytest.mark.parametrize(("number", "told"), [("ENOLCK", "cannot be locked: No locks available"), ("EWOULDBLOCK", "another run")])
+def test_why_a_folder_is_not_locked_is_said(number, told, tmp_path, monkeypatch):
+    def refuse(*lock):
+        raise OSError(getattr(errno, number), os.strerror(getattr(errno, number)))
+
+    monkeypatch.setattr(store.fcntl, "flock", refuse)
+    with pytest.raises(etendue.InputError, match=told):
+        opened(tmp_path / "out")
+
+
 def test_results_that_are_there_are_not_replaced_unasked(tmp_path):
     (tmp_path / "front").mkdir()
     (tmp_path / "front/camera.json").write_text("{}")
     for resume in (False, True):
         with pytest.raises(etendue.InputError, match="--overwrite"):
             opened(tmp_path, resume=resume)
+    assert not (tmp_path / ".cluster").exists()
     (tmp_path / "file").write_text("")
     with pytest.raises(etendue.InputError, match="cannot be made"):
         opened(tmp_path / "file")
@@ -189,6 +238,12 @@ def test_what_fails_on_a_worker_is_a_run_that_failed():
     ]:
         with pytest.raises(expected, match=told):
             tasks._got(error, "front.film.exr", 1)
+    gone = types.SimpleNamespace(told=types.SimpleNamespace(remote=lambda: RayError("The actor died\nlong story")))
+    with pytest.raises(etendue.RunError, match="progress was lost .RayError: The actor died.; go on with --resume"):
+        tasks._so_far(gone, {}, 1)
+    ray.get = lambda reference: reference
+    with pytest.raises(etendue.RunError, match="front.film.exr, shard 1: its worker gave up"):
+        tasks._got({}, "front.film.exr", 1)
 
 
 def test_the_page_names_every_option_and_its_python_is_that_of_the_package():

@@ -106,21 +106,30 @@ class _Tasks:
             ray.kill(progress)
 
     def _so_far(self, progress, pending, total):
-        told = self.ray.get(progress.told.remote())
+        try:
+            told = self.ray.get(progress.told.remote())
+        except self.ray.exceptions.RayError as error:
+            raise RunError(f"the process that gathers progress was lost ({_named(error)}); go on with --resume") from None
         return total - len(pending) + sum(told.get(task, (0.0, None))[0] for task in pending.values())
 
     def _got(self, reference, film, shard):
         exceptions = self.ray.exceptions
         try:
-            return self.ray.get(reference)
+            files = self.ray.get(reference)
         except exceptions.RayTaskError as error:
             if isinstance(error.cause, (InputError, RunError)):
                 raise error.cause from None
-            why = str(error.cause).partition("\n")[0]
-            raise RunError(f"{film}, shard {shard}: a worker failed ({type(error.cause).__name__}: {why}); go on with --resume") from None
+            raise RunError(f"{film}, shard {shard}: a worker failed ({_named(error.cause)}); go on with --resume") from None
         except exceptions.RayError as error:
-            why = str(error).partition("\n")[0]
-            raise RunError(f"{film}, shard {shard}: its worker was lost {self.retries + 1} times ({type(error).__name__}: {why}); go on with --resume") from None
+            raise RunError(f"{film}, shard {shard}: its worker was lost {self.retries + 1} times ({_named(error)}); go on with --resume") from None
+        if not files:
+            raise RunError(f"{film}, shard {shard}: its worker gave up, for the process that gathers progress was lost; go on with --resume")
+        return files
+
+
+def _named(error):
+    """An exception in one line."""
+    return f"{type(error).__name__}: " + str(error).partition("\n")[0]
 
 
 def _sent(ray, bundle):
