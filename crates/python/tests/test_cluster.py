@@ -25,6 +25,7 @@ def test_a_bundle_is_all_that_a_job_needs_elsewhere(name, tmp_path, monkeypatch)
     job = etendue.Job.open(here)
     sent = bundle.gather(here, job.files)
     assert len(sent.files) == len(job.files) and sent.job == (ROOT / name).relative_to("/").as_posix()
+    assert len(bundle.open_copy(sent, {}, job.plan()["hash"]).files) == len(job.files)
     there = sent.write(tmp_path)
     assert contents(tmp_path).keys() == sent.files.keys()
     assert etendue.Job.open(there).plan()["hash"] == job.plan()["hash"]
@@ -55,15 +56,55 @@ def test_links_and_equal_files_are_sent_as_what_they_hold(tmp_path, monkeypatch)
         bundle.gather("job/job.toml", [bundle.Path("job/a.obj"), bundle.Path("job/linked/../a.obj")])
 
 
-def test_files_of_absolute_paths_are_refused(tmp_path, monkeypatch):
+@pytest.fixture
+def absolute(tmp_path, monkeypatch):
+    """A job in "small" of this folder that names a mesh below its own folder by an absolute path, and that path."""
     shutil.copytree(ROOT / "crates/cli/tests/jobs/small", tmp_path / "small")
     mesh = tmp_path / "small/tower.obj"
     file = tmp_path / "small/small.toml"
     file.write_text(re.sub(r'"tower\.obj"', f'"{mesh}"', file.read_text()))
     monkeypatch.chdir(tmp_path)
+    return mesh
+
+
+# Where the job is opened by an absolute path too, its list of files does not tell how they were named.
+@pytest.mark.parametrize("folder", ["small", "{}/small", "{}/small/../small"])
+def test_files_of_absolute_paths_are_refused(folder, absolute, tmp_path):
+    folder = bundle.Path(folder.format(tmp_path))
     with pytest.raises(etendue.InputError, match="absolute path") as refused:
-        bundle.gather("small/small.toml", etendue.Job.open("small/small.toml").files)
-    assert str(mesh) in {fault.file for fault in refused.value.faults}
+        *_, plan_hash, sent = driver._read(folder / "small.toml", None, {})
+        bundle.open_copy(sent, {}, plan_hash)
+    named = {fault.file for fault in refused.value.faults}
+    assert str(absolute) in named and str(folder / "small.toml") not in named
+
+
+def test_steps_above_the_root_are_refused(tmp_path, monkeypatch):
+    (tmp_path / "mesh.obj").write_text("v 0 0 0")
+    (tmp_path / "job.toml").write_text("1")
+    monkeypatch.chdir(tmp_path)
+    depth = len(tmp_path.parts) - 1
+    root = [bundle.Path(*[".."] * count, str(tmp_path)[1:], "mesh.obj") for count in (depth, depth + 1)]
+    assert all(path.read_text() for path in root)
+    assert len(bundle.gather("job.toml", [bundle.Path("job.toml"), root[0]]).files) == 2
+    with pytest.raises(etendue.InputError, match="above the root") as refused:
+        bundle.gather("job.toml", [bundle.Path("job.toml"), *root])
+    assert [fault.file for fault in refused.value.faults] == [str(root[1])]
+
+
+def test_a_copy_that_is_another_job_is_not_rendered(tmp_path, monkeypatch):
+    shutil.copytree(ROOT / "crates/cli/tests/jobs/small", tmp_path / "small")
+    monkeypatch.chdir(tmp_path)
+    job = etendue.Job.open("small/small.toml")
+    sent = bundle.gather("small/small.toml", job.files)
+    plan_hash = job.plan()["hash"]
+    with pytest.raises(etendue.RunError, match="have changed"):
+        bundle.open_copy(sent, {"spp": 3}, plan_hash)
+    more = bundle.Bundle(sent.job, {**sent.files, "tmp/more": next(iter(sent.contents))}, sent.folders, sent.contents)
+    with pytest.raises(etendue.RunError, match="have changed"):
+        bundle.open_copy(more, {}, plan_hash)
+    monkeypatch.setattr(bundle.tempfile, "tempdir", "/proc")
+    with pytest.raises(etendue.RunError, match="cannot be made"):
+        bundle.open_copy(sent, {}, plan_hash)
 
 
 RUN = {"version": "1", "plan_hash": "ab", "frames": [0, 1], "shards": 2, "camera": None}
