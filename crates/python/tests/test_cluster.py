@@ -1,6 +1,7 @@
 """What a run on a cluster sends, keeps and refuses: all of it that needs no Ray."""
 
 import ast
+import errno
 import inspect
 import os
 import re
@@ -24,6 +25,7 @@ def test_a_bundle_is_all_that_a_job_needs_elsewhere(name, tmp_path, monkeypatch)
     job = etendue.Job.open(here)
     sent = bundle.gather(here, job.files)
     assert len(sent.files) == len(job.files) and sent.job == (ROOT / name).relative_to("/").as_posix()
+    assert len(bundle.open_copy(sent, {}, job.plan()["hash"]).files) == len(job.files)
     there = sent.write(tmp_path)
     assert contents(tmp_path).keys() == sent.files.keys()
     assert etendue.Job.open(there).plan()["hash"] == job.plan()["hash"]
@@ -54,15 +56,55 @@ def test_links_and_equal_files_are_sent_as_what_they_hold(tmp_path, monkeypatch)
         bundle.gather("job/job.toml", [bundle.Path("job/a.obj"), bundle.Path("job/linked/../a.obj")])
 
 
-def test_files_of_absolute_paths_are_refused(tmp_path, monkeypatch):
+@pytest.fixture
+def absolute(tmp_path, monkeypatch):
+    """A job in "small" of this folder that names a mesh below its own folder by an absolute path, and that path."""
     shutil.copytree(ROOT / "crates/cli/tests/jobs/small", tmp_path / "small")
     mesh = tmp_path / "small/tower.obj"
     file = tmp_path / "small/small.toml"
     file.write_text(re.sub(r'"tower\.obj"', f'"{mesh}"', file.read_text()))
     monkeypatch.chdir(tmp_path)
+    return mesh
+
+
+# Where the job is opened by an absolute path too, its list of files does not tell how they were named.
+@pytest.mark.parametrize("folder", ["small", "{}/small", "{}/small/../small"])
+def test_files_of_absolute_paths_are_refused(folder, absolute, tmp_path):
+    folder = bundle.Path(folder.format(tmp_path))
     with pytest.raises(etendue.InputError, match="absolute path") as refused:
-        bundle.gather("small/small.toml", etendue.Job.open("small/small.toml").files)
-    assert str(mesh) in {fault.file for fault in refused.value.faults}
+        *_, plan_hash, sent = driver._read(folder / "small.toml", None, {})
+        bundle.open_copy(sent, {}, plan_hash)
+    named = {fault.file for fault in refused.value.faults}
+    assert str(absolute) in named and str(folder / "small.toml") not in named
+
+
+def test_steps_above_the_root_are_refused(tmp_path, monkeypatch):
+    (tmp_path / "mesh.obj").write_text("v 0 0 0")
+    (tmp_path / "job.toml").write_text("1")
+    monkeypatch.chdir(tmp_path)
+    depth = len(tmp_path.parts) - 1
+    root = [bundle.Path(*[".."] * count, str(tmp_path)[1:], "mesh.obj") for count in (depth, depth + 1)]
+    assert all(path.read_text() for path in root)
+    assert len(bundle.gather("job.toml", [bundle.Path("job.toml"), root[0]]).files) == 2
+    with pytest.raises(etendue.InputError, match="above the root") as refused:
+        bundle.gather("job.toml", [bundle.Path("job.toml"), *root])
+    assert [fault.file for fault in refused.value.faults] == [str(root[1])]
+
+
+def test_a_copy_that_is_another_job_is_not_rendered(tmp_path, monkeypatch):
+    shutil.copytree(ROOT / "crates/cli/tests/jobs/small", tmp_path / "small")
+    monkeypatch.chdir(tmp_path)
+    job = etendue.Job.open("small/small.toml")
+    sent = bundle.gather("small/small.toml", job.files)
+    plan_hash = job.plan()["hash"]
+    with pytest.raises(etendue.RunError, match="have changed"):
+        bundle.open_copy(sent, {"spp": 3}, plan_hash)
+    more = bundle.Bundle(sent.job, {**sent.files, "tmp/more": next(iter(sent.contents))}, sent.folders, sent.contents)
+    with pytest.raises(etendue.RunError, match="have changed"):
+        bundle.open_copy(more, {}, plan_hash)
+    monkeypatch.setattr(bundle.tempfile, "tempdir", "/proc")
+    with pytest.raises(etendue.RunError, match="cannot be made"):
+        bundle.open_copy(sent, {}, plan_hash)
 
 
 RUN = {"version": "1", "plan_hash": "ab", "frames": [0, 1], "shards": 2, "camera": None}
@@ -101,12 +143,60 @@ def test_what_is_finished_is_found_again_and_nothing_else(tmp_path):
     assert not tmp_path.exists(), "a run of which nothing is finished leaves nothing"
 
 
+def test_a_driver_that_ends_meanwhile_leaves_its_folder_to_nobody(tmp_path, monkeypatch):
+    """Another driver ends, with all that it kept, when this one has opened the folder and not locked it yet; then before it has opened it."""
+    flock, mkdir, ended = store.fcntl.flock, store.Path.mkdir, []
+
+    def ends(first):
+        if not ended:
+            ended.append(first)
+            first.remove()
+
+    first = opened(tmp_path)
+    with monkeypatch.context() as meanwhile:
+        meanwhile.setattr(store.fcntl, "flock", lambda *lock: (ends(first), flock(*lock)))
+        second = opened(tmp_path)
+    assert (tmp_path / ".cluster/run.json").is_file() and os.path.samestat(os.fstat(second._lock), os.stat(second.folder))
+    first.close()
+    assert second.folder.is_dir(), "who has ended removes nothing of the next"
+    with monkeypatch.context() as meanwhile:
+        ended.clear()
+        meanwhile.setattr(store.Path, "mkdir", lambda path, **how: (mkdir(path, **how), ends(second)))
+        third = opened(tmp_path, resume=True)
+    assert (tmp_path / ".cluster/run.json").is_file(), "what the other kept is not taken for there"
+    with pytest.raises(etendue.InputError, match="another run"):
+        opened(tmp_path, resume=True)
+    third.close()
+
+
+def test_a_refused_driver_changes_nothing(tmp_path):
+    kept = opened(tmp_path)
+    kept._let_go()
+    for more in ({}, {"run": {**RUN, "shards": 3}, "resume": True}):
+        with pytest.raises(etendue.InputError):
+            opened(tmp_path, **more)
+    assert (tmp_path / ".cluster/run.json").is_file()
+    opened(tmp_path, resume=True).close()
+    assert not tmp_path.exists()
+
+
+@pytest.mark.parametrize(("number", "told"), [("ENOLCK", "cannot be locked: No locks available"), ("EWOULDBLOCK", "another run")])
+def test_why_a_folder_is_not_locked_is_said(number, told, tmp_path, monkeypatch):
+    def refuse(*lock):
+        raise OSError(getattr(errno, number), os.strerror(getattr(errno, number)))
+
+    monkeypatch.setattr(store.fcntl, "flock", refuse)
+    with pytest.raises(etendue.InputError, match=told):
+        opened(tmp_path / "out")
+
+
 def test_results_that_are_there_are_not_replaced_unasked(tmp_path):
     (tmp_path / "front").mkdir()
     (tmp_path / "front/camera.json").write_text("{}")
     for resume in (False, True):
         with pytest.raises(etendue.InputError, match="--overwrite"):
             opened(tmp_path, resume=resume)
+    assert not (tmp_path / ".cluster").exists()
     (tmp_path / "file").write_text("")
     with pytest.raises(etendue.InputError, match="cannot be made"):
         opened(tmp_path / "file")
@@ -189,6 +279,12 @@ def test_what_fails_on_a_worker_is_a_run_that_failed():
     ]:
         with pytest.raises(expected, match=told):
             tasks._got(error, "front.film.exr", 1)
+    gone = types.SimpleNamespace(told=types.SimpleNamespace(remote=lambda: RayError("The actor died\nlong story")))
+    with pytest.raises(etendue.RunError, match="progress was lost .RayError: The actor died.; go on with --resume"):
+        tasks._so_far(gone, {}, 1)
+    ray.get = lambda reference: reference
+    with pytest.raises(etendue.RunError, match="front.film.exr, shard 1: its worker gave up"):
+        tasks._got({}, "front.film.exr", 1)
 
 
 def test_the_page_names_every_option_and_its_python_is_that_of_the_package():

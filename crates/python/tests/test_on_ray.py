@@ -12,6 +12,7 @@ from conftest import JOB, contents
 
 import etendue
 import etendue.cluster
+from etendue.cluster import __main__ as command
 from etendue.cluster import driver
 
 ray = pytest.importorskip("ray")
@@ -170,7 +171,24 @@ def test_a_driver_that_is_killed_goes_on_where_it_was(moving, tmp_path):
     assert set(again.stdout.splitlines()) == {str(out / name) for name in contents(out)}
 
 
+def test_a_process_of_progress_that_dies_is_a_run_that_failed(moving, tmp_path, monkeypatch, capsys):
+    so_far, out = driver._Tasks._so_far, tmp_path / "out"
+
+    def kill_and_look(tasks, progress, pending, total):
+        ray.kill(progress)
+        return so_far(tasks, progress, pending, total)
+
+    monkeypatch.setattr(driver._Tasks, "_so_far", kill_and_look)
+    # Tasks of many minutes.
+    assert command.main([str(moving), "-o", str(out), "--shards", "2", "--spp", str(400 * SPP)]) == 1
+    told = capsys.readouterr().err
+    assert "error: the process that gathers progress was lost (ActorDiedError" in told and "--resume" in told and not out.exists()
+
+
 def test_what_is_wrong_is_said_with_the_status_of_the_program(moving, tmp_path):
+    absolute = moving.with_name("absolute.toml")
+    absolute.write_text(f'format = 1\nbase = "{moving}"\n')
+
     def ended(*more):
         command = [sys.executable, "-m", "etendue.cluster", *more, "--shards", "2", "-o", str(tmp_path / "out")]
         done = subprocess.run(command, capture_output=True, text=True)
@@ -181,6 +199,7 @@ def test_what_is_wrong_is_said_with_the_status_of_the_program(moving, tmp_path):
         ([str(tmp_path / "none.toml")], "none.toml"),
         ([str(moving), "--set", "render.sp=4"], "render.sp"),
         ([str(moving), "--quality", "best"], "draft"),
+        ([str(absolute)], f"{moving}: it is named by an absolute path"),
         ([str(moving), "--threads", "1000"], "--threads 1000: the largest machine"),
     ]:
         status, text = ended(*arguments)

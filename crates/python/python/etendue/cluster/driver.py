@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import Job, __version__, merge
 from .._errors import InputError, RunError
-from .bundle import gather
+from .bundle import gather, open_copy
 from .store import Store
 
 #: Shards of a run at most.
@@ -54,14 +54,13 @@ def render(
     import ray
     import ray.util.scheduling_strategies
 
-    opened = Job.open(job, **options)
-    films, first_last = opened.film_names(frames), _bounds(frames)
+    films, names, plan_hash, bundle = _read(job, frames, options)
     # As JSON gives it back.
-    run = {"version": __version__, "plan_hash": opened.plan()["hash"], "frames": first_last, "shards": shards, "camera": options.get("camera")}
-    bundle = gather(job, opened.files)
+    run = {"version": __version__, "plan_hash": plan_hash, "frames": _bounds(frames), "shards": shards, "camera": options.get("camera")}
+    open_copy(bundle, options, plan_hash)
     store = Store(folder)
     try:
-        store.open(run, opened.file_names(frames), overwrite=overwrite, resume=resume)
+        store.open(run, names, overwrite=overwrite, resume=resume)
         done = [(film, shard) for film in films for shard in range(shards) if store.has(film, shard)]
         tasks = [(film, shard) for film in films for shard in range(shards) if not store.has(film, shard)]
         if tasks:
@@ -73,6 +72,12 @@ def render(
         return paths
     finally:
         store.close()
+
+
+def _read(job, frames, options):
+    """Of a job: the names of its films and of its results, the hash of its plan, and its files. What it took to open it is free again."""
+    opened = Job.open(job, **options)
+    return opened.film_names(frames), opened.file_names(frames), opened.plan()["hash"], gather(job, opened.files)
 
 
 class _Tasks:
@@ -106,21 +111,30 @@ class _Tasks:
             ray.kill(progress)
 
     def _so_far(self, progress, pending, total):
-        told = self.ray.get(progress.told.remote())
+        try:
+            told = self.ray.get(progress.told.remote())
+        except self.ray.exceptions.RayError as error:
+            raise RunError(f"the process that gathers progress was lost ({_named(error)}); go on with --resume") from None
         return total - len(pending) + sum(told.get(task, (0.0, None))[0] for task in pending.values())
 
     def _got(self, reference, film, shard):
         exceptions = self.ray.exceptions
         try:
-            return self.ray.get(reference)
+            files = self.ray.get(reference)
         except exceptions.RayTaskError as error:
             if isinstance(error.cause, (InputError, RunError)):
                 raise error.cause from None
-            why = str(error.cause).partition("\n")[0]
-            raise RunError(f"{film}, shard {shard}: a worker failed ({type(error.cause).__name__}: {why}); go on with --resume") from None
+            raise RunError(f"{film}, shard {shard}: a worker failed ({_named(error.cause)}); go on with --resume") from None
         except exceptions.RayError as error:
-            why = str(error).partition("\n")[0]
-            raise RunError(f"{film}, shard {shard}: its worker was lost {self.retries + 1} times ({type(error).__name__}: {why}); go on with --resume") from None
+            raise RunError(f"{film}, shard {shard}: its worker was lost {self.retries + 1} times ({_named(error)}); go on with --resume") from None
+        if not files:
+            raise RunError(f"{film}, shard {shard}: its worker gave up, for the process that gathers progress was lost; go on with --resume")
+        return files
+
+
+def _named(error):
+    """An exception in one line."""
+    return f"{type(error).__name__}: " + str(error).partition("\n")[0]
 
 
 def _sent(ray, bundle):

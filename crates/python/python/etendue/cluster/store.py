@@ -20,6 +20,8 @@ except ImportError:
 
 FOLDER = ".cluster"
 MANIFEST = "shard.json"
+#: How often a folder is made that other drivers remove at that moment.
+TRIES = 100
 
 
 class Store:
@@ -32,17 +34,14 @@ class Store:
 
     def open(self, run, names, *, overwrite, resume):
         """Takes the folder for the run that the dict ``run`` describes and whose results have these names. Raises InputError where what is there is in the way."""
-        old = self._old()
-        if old is not None and not (overwrite or resume):
-            raise _refused(self.folder, "a run was interrupted here; go on with --resume, or begin anew with --overwrite")
-        if old is None and not overwrite:
-            there = next((name for name in names if (self.results / name).exists()), None)
-            if there is not None:
-                raise _refused(self.results / there, "it is there already; choose another output folder, or --overwrite it")
-        if old is not None and resume and old != run:
-            differ = ", ".join(key for key in run if old.get(key) != run[key])
-            raise _refused(self.folder, f"it is of a run with other values of {differ}; repeat that run, or begin anew with --overwrite")
         self._take()
+        try:
+            # What was there before the folder was taken another driver may have removed since.
+            old = self._old()
+            self._check_in_the_way(old, run, names, overwrite, resume)
+        except InputError:
+            self._give_back()
+            raise
         if overwrite:
             self._empty()
         if old is None or overwrite:
@@ -65,8 +64,9 @@ class Store:
         return [self._shard(shard) for shard in range(count)]
 
     def remove(self):
-        """Removes all that is kept: the results are there."""
+        """Removes all that is kept, the results are there, and lets another driver take the folder."""
         shutil.rmtree(self.folder)
+        self._let_go()
 
     def close(self):
         """Lets another driver take the folder, and leaves none behind where nothing is finished."""
@@ -74,6 +74,12 @@ class Store:
             shutil.rmtree(self.folder, ignore_errors=True)
             with contextlib.suppress(OSError):
                 self.results.rmdir()
+        self._let_go()
+
+    def _give_back(self):
+        """Lets go of a folder in which nothing was written: one that was made for it goes."""
+        with contextlib.suppress(OSError):
+            self.folder.rmdir()
         self._let_go()
 
     def _let_go(self):
@@ -90,27 +96,58 @@ class Store:
         if path.exists() and cut(path.read_bytes()) != cut(manifest):
             raise RunError(f"{path}: its films have other tiles (render.tile_px); begin anew with --overwrite")
 
+    def _check_in_the_way(self, old, run, names, overwrite, resume):
+        """Refuses to work over what an ``old`` run left (None: there is none) and over results, unless asked to."""
+        if old is not None and not (overwrite or resume):
+            raise _refused(self.folder, "a run was interrupted here; go on with --resume, or begin anew with --overwrite")
+        if old is None and not overwrite:
+            there = next((name for name in names if (self.results / name).exists()), None)
+            if there is not None:
+                raise _refused(self.results / there, "it is there already; choose another output folder, or --overwrite it")
+        if old is not None and resume and old != run:
+            differ = ", ".join(key for key in run if old.get(key) != run[key])
+            raise _refused(self.folder, f"it is of a run with other values of {differ}; repeat that run, or begin anew with --overwrite")
+
     def _old(self):
+        path = self.folder / "run.json"
         try:
-            return json.loads((self.folder / "run.json").read_text())
-        except (FileNotFoundError, NotADirectoryError):
+            return json.loads(path.read_text())
+        except FileNotFoundError:
             return None
+        except OSError as cause:
+            raise _refused(path, f"it cannot be read: {cause.strerror}") from None
         except ValueError:
-            raise _refused(self.folder / "run.json", "it is damaged; remove the folder, or begin anew with --overwrite") from None
+            raise _refused(path, "it is damaged; remove the folder, or begin anew with --overwrite") from None
 
     def _take(self):
+        """Makes the folder and locks it. A driver that ends removes it: what was locked must still be what has the name."""
+        for _ in range(TRIES):
+            try:
+                self.folder.mkdir(parents=True, exist_ok=True)
+            except FileNotFoundError:
+                continue
+            except OSError as cause:
+                raise _refused(self.folder, f"the folder cannot be made: {cause.strerror}") from None
+            self._taken = fcntl is None or self._is_locked()
+            if self._taken:
+                return
+            self._let_go()
+        raise _refused(self.folder, "the folder cannot be made, or is removed at once; choose another")
+
+    def _is_locked(self):
+        """Locks the folder; whether it is still the one of this name."""
         try:
-            self.folder.mkdir(parents=True, exist_ok=True)
-        except OSError as cause:
-            raise _refused(self.folder, f"the folder cannot be made: {cause.strerror}") from None
-        try:
-            if fcntl is not None:
-                self._lock = os.open(self.folder, os.O_RDONLY)
-                fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            self._taken = True
-        except OSError:
+            self._lock = os.open(self.folder, os.O_RDONLY)
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return os.path.samestat(os.fstat(self._lock), os.stat(self.folder))
+        except FileNotFoundError:
+            return False
+        except BlockingIOError:
             self._let_go()
             raise _refused(self.folder, "another run writes into this folder; wait for it, or choose another") from None
+        except OSError as cause:
+            self._give_back()
+            raise _refused(self.folder, f"the folder cannot be locked: {cause.strerror}; choose one on another file system") from None
 
     def _empty(self):
         for entry in self.folder.iterdir():

@@ -12,8 +12,9 @@ from pathlib import Path
 import numpy as np
 import ray
 
-from .. import Job, __version__
+from .. import __version__
 from .._errors import RunError
+from .bundle import open_copy
 
 #: The job that this process has open: tasks of one run follow one another, and reading a scene takes long.
 _open = {}
@@ -102,14 +103,10 @@ def _check_version(run):
 
 
 def _job(bundle, run):
-    """The job, opened from a copy of its files that is gone when they are read."""
+    """The job, opened from a copy of its files."""
     key = (bundle.digest(), repr(run["options"]))
     if key not in _open:
         _open.clear()
         contents = dict(zip(bundle.contents, ray.get(list(bundle.contents.values()))))
-        with tempfile.TemporaryDirectory(prefix="etendue-") as folder:
-            job = Job.open(dataclasses.replace(bundle, contents=contents).write(folder), **run["options"])
-        if job.plan()["hash"] != run["plan_hash"]:
-            raise RunError("the files of the job have changed since the driver read them; begin the run anew")
-        _open[key] = job
+        _open[key] = open_copy(dataclasses.replace(bundle, contents=contents), run["options"], run["plan_hash"])
     return _open[key]
