@@ -104,3 +104,22 @@ pub(crate) fn schlick(f0: f32, cos: f32) -> f32 {
     let x2 = x * x;
     f0 + (1.0 - f0) * (x2 * x2 * x)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::materials::microfacet::Ggx;
+    use core::f32::consts::PI;
+
+    /// GGX has D = 1/(πα²) at the normal (Walter et al. 2007), and half vectors along it are drawn with the density D/4 by direction.
+    #[test]
+    fn a_lobe_is_as_dense_at_its_axis_as_what_it_tells_of() {
+        for alpha in [0.005, 0.06, 0.2] {
+            let lobe = Ggx { alpha }.gloss(Vec3::Z, 0.04);
+            assert!((lobe.density_at_axis() * 4.0 * PI * alpha * alpha - 1.0).abs() < 1e-4, "{lobe:?}");
+        }
+        let wide = GlossLobe::of_albedo(Vec3::Z, 3.0, 0.5);
+        // As much light as it sends back, all of it within the lobe: peak over albedo.
+        assert!((wide.density_at_axis() - 6.0).abs() < 1e-4, "{wide:?}");
+    }
+}

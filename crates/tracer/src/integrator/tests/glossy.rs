@@ -83,3 +83,30 @@ fn lights_drawn_without_regard_to_gloss_give_the_same() {
     }
     assert!(noisier >= 2, "{noisier} surfaces mirror lamps here");
 }
+
+/// Of a varnished ball that a wet road mirrors: without caustics, the lamp that the ball mirrors is left out, however light is found.
+#[test]
+fn what_gloss_shows_of_a_mirror_is_left_out_in_both_ways_of_finding_it() {
+    let surfaces = glossy_surfaces();
+    let named = |wanted: &str| {
+        let found = surfaces.iter().find(|(name, _)| *name == wanted);
+        found.expect("one of the surfaces").1.clone()
+    };
+    let mut scene = Scene::default();
+    let (road, varnish) = (scene.material(named("wet road"), None), scene.material(named("varnish"), None));
+    let lamp = scene.material(Surface::Absorber, Some((50.0, EmissionSides::Both)));
+    scene.square(Vec3::ZERO, 20.0, road);
+    scene.sphere(DVec3::new(1.5, 0.0, 0.8), 0.7, varnish);
+    scene.sphere(DVec3::new(-1.0, 0.5, 3.0), 0.4, lamp);
+    let ready = scene.ready();
+    let look = |caustics, strategies, samples| {
+        let settings = PathSettings { caustics, strategies, ..bounces(4) };
+        ready.look(&ray([-2.0, 0.0, 1.0], [0.0, 0.0, 0.0]), samples, settings)
+    };
+    let without = look(false, Strategies::Both, 2048);
+    agree(&look(false, Strategies::Scattering, 8192), &without);
+    agree(&look(false, Strategies::Lights, 8192), &without);
+    let with = look(true, Strategies::Both, 8192);
+    let uncertainty = with.standard_error() + without.standard_error();
+    assert!(with.mean > without.mean + 5.0 * uncertainty, "{with:?} {without:?}");
+}
