@@ -200,6 +200,10 @@ def test_results_that_are_there_are_not_replaced_unasked(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(etendue.InputError, match="cannot be made"):
         opened(tmp_path / "file")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/.cluster").write_text("")
+    with pytest.raises(etendue.InputError, match="cannot be made: File exists"):
+        opened(tmp_path / "out")
     assert (tmp_path / "front/camera.json").read_text() == "{}"
 
 

@@ -124,15 +124,18 @@ class Store:
         for _ in range(TRIES):
             try:
                 self.folder.mkdir(parents=True, exist_ok=True)
-            except FileNotFoundError:
+            except (FileNotFoundError, FileExistsError) as cause:
+                # Removed at that moment, or a file is in the way.
+                why = cause.strerror
                 continue
             except OSError as cause:
                 raise _refused(self.folder, f"the folder cannot be made: {cause.strerror}") from None
+            why = "it is removed at once"
             self._taken = fcntl is None or self._is_locked()
             if self._taken:
                 return
             self._let_go()
-        raise _refused(self.folder, "the folder cannot be made, or is removed at once; choose another")
+        raise _refused(self.folder, f"the folder cannot be made: {why}; choose another")
 
     def _is_locked(self):
         """Locks the folder; whether it is still the one of this name."""
