@@ -60,6 +60,10 @@ extremes:
 wavelengths:
     ETENDUE_BLESS=1 cargo test -p etendue-tests --test physics wavelength_density
 
+# The book of docs as HTML, in the folder book (needs mdBook: cargo install mdbook)
+book:
+    mdbook build
+
 # Render the pictures of docs/pictures.md anew (names: some of them)
 gallery *names:
     docs/pictures/gallery {{names}}

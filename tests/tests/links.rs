@@ -104,6 +104,18 @@ fn every_link_leads_somewhere() {
     assert!(faults.is_empty(), "{faults:#?}");
 }
 
+/// The book (`just book`) has every page, and each once.
+#[test]
+fn the_book_lists_every_page() {
+    let summary = std::fs::read_to_string(root().join("docs/SUMMARY.md")).expect("the book's summary");
+    let mut listed: Vec<String> = links(&summary).iter().map(|link| format!("docs/{link}")).collect();
+    let mut pages = files(&[".md"]);
+    pages.retain(|page| page.starts_with("docs/") && page != "docs/SUMMARY.md" && root().join(page).exists());
+    listed.sort();
+    pages.sort();
+    assert_eq!(listed, pages);
+}
+
 #[test]
 fn pages_that_code_names_are_there() {
     let is_part = |c: char| c.is_ascii_alphanumeric() || "/_-.".contains(c);

@@ -21,6 +21,9 @@ use std::path::{Path, PathBuf};
 /// The series as the standard's reference program reads it.
 const DESCRIPTOR: &str = "emva1288.txt";
 
+/// The camera's place among those of a job: it stands alone.
+const CAMERA: u32 = 0;
+
 /// Electrons are whole numbers up to here, 2⁵³.
 const MAX_E: f32 = 9_007_199_254_740_992.0;
 
@@ -175,7 +178,7 @@ impl Task<'_> {
     }
 
     fn address(&self, frame: u32) -> FrameAddress {
-        FrameAddress { seed: self.seed(), camera: 0, frame, capture: 0 }
+        FrameAddress { seed: self.seed(), camera: CAMERA, frame, capture: 0 }
     }
 
     /// Single frames of one light, which was `given` so.
@@ -280,6 +283,7 @@ impl Task<'_> {
             "program": "etendue",
             "version": metadata::VERSION,
             "seed": self.seed(),
+            "camera_index": CAMERA,
             "light": {
                 "wavelength_nm": light.wavelength_nm,
                 "irradiance_w_m2": light.irradiance_w_m2,

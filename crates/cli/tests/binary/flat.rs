@@ -179,6 +179,28 @@ fn the_series_of_the_standard_names_all_its_frames() {
     assert_eq!(numbers(&files["ccd-mono/raw.0000.png"]).1, [16, 8]);
 }
 
+/// Its frames are raws as those of a job are: shot and read noise at 0.2 DN an electron, in eight frames of 160 × 120 px.
+#[test]
+fn frames_are_measured_by_their_side_car() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = text(&place.path().join("out"));
+    let size = ["--set", "sensor.width_px=160", "--set", "sensor.height_px=120", "--set", "sensor.smear=null"];
+    let camera = ["flat", "scenes/cameras/ccd-mono.toml", "--wavelength-nm", "525", "--photons", "1000"];
+    etendue(camera.iter().chain(&size).chain(&["--frames", "0..8", "-o", &out]).copied()).ok();
+    let frames: Vec<String> = (0..8).map(|n| format!("{out}/ccd-mono/raw.{n:04}.png")).collect();
+    let measured = etendue(["measure", "noise", "--json"].into_iter().chain(frames.iter().map(String::as_str)));
+    let report: serde_json::Value = serde_json::from_str(&measured.ok().out).expect("JSON");
+    let figure = |name: &str| {
+        let figure = &report["figures"][name];
+        (figure["value"].as_f64().expect("a number"), figure["standard_uncertainty"].as_f64().expect("a number"))
+    };
+    let (signal_dn, _) = figure("signal");
+    let (noise_dn, uncertainty_dn) = figure("temporal_noise");
+    // Shot noise of what was collected, read noise of 10 e⁻, and a twelfth of a step's square.
+    let expected_dn = (0.2 * signal_dn + 0.04 * 100.0 + 1.0 / 12.0_f64).sqrt();
+    assert!((noise_dn - expected_dn).abs() < 4.0 * uncertainty_dn, "{noise_dn} ± {uncertainty_dn}, not {expected_dn}");
+}
+
 #[test]
 fn what_cannot_be_measured_is_refused() {
     flat("scenes/cameras/laboratory.toml", &["--irradiance-w-m2", "1"])

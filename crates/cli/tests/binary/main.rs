@@ -14,6 +14,8 @@ mod bytes;
 mod charts;
 mod compared;
 mod concurrent;
+#[cfg(unix)]
+mod cookbook;
 mod datasets;
 mod datasheet;
 mod develop;

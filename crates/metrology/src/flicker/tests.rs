@@ -147,6 +147,20 @@ fn few_rows_of_many_frames_tell_a_slow_frequency() {
     knows(found.pulses.expect("pulses").duty, 0.3, 0.05);
 }
 
+/// Few rows of few frames do not tell 110 Hz from 70, which frames of 30.03 Hz see at the opposite phases: the frequency is told rightly or not at all.
+#[test]
+fn frequencies_that_frames_see_alike_are_not_mistaken() {
+    let shot = Shot { rows: 24, frames: 4, row_time_s: 60e-6, frame_rate_hz: 30.03, exposure_s: 10e-3, noise: 40.0 };
+    let mut told = 0;
+    for seed in 0..40 {
+        let flicker = shot.measured(seed, pulses(110.0, 0.25, 1.0));
+        let Some(found) = flicker.rows.and_then(|rows| rows.found) else { continue };
+        knows(found.frequency_hz, 110.0, 0.02);
+        told += 1;
+    }
+    assert!(told < 40, "all of them told");
+}
+
 #[test]
 fn frames_alone_tell_a_frequency_and_those_that_look_alike() {
     let shot = Shot { rows: 20, frames: 60, row_time_s: 1e-12, frame_rate_hz: 30.0, ..SHOT };

@@ -13,7 +13,7 @@ const PERIODS_FOR_SHADING: f64 = 3.0;
 const MAX_ALIKE: f64 = 64.0;
 /// Periods from which on a frequency is told.
 const MIN_PERIODS: f64 = 1.5;
-/// What the fundamental must gain on the criterion besides the frequencies tried: by chance in one of 150.
+/// What the fundamental must gain on the criterion besides the frequencies tried, and a frequency beside those that frames see alike: by chance in one of 150.
 const LEAST_GAIN: f64 = 10.0;
 
 /// Blocks of numbers at even steps: rows of frames, or frames.
@@ -137,11 +137,19 @@ impl TimeSeries {
         let reach_hz = 0.25 / self.length_s();
         let frequency_hz = self.refined(start_hz, reach_hz, 1, shading);
         self.is_significant(frequency_hz, shading, highest_hz).then_some(())?;
-        let alike = self.alike(frequency_hz).into_iter().filter(|f| (0.5 / self.length_s()..=highest_hz).contains(f));
-        let told = alike.map(|f| (f, self.best_harmonics(f, highest_hz, shading)));
-        let (frequency_hz, _) = told.min_by(|a, b| a.1.1.total_cmp(&b.1.1))?;
+        let frequency_hz = self.told_apart(frequency_hz, highest_hz, shading)?;
         let (frequency_hz, harmonics) = self.with_harmonics(frequency_hz, reach_hz, highest_hz, shading)?;
         self.finished(frequency_hz, harmonics, shading)
+    }
+
+    /// That of the frequencies that blocks see alike which explains most; `None` where another explains as much but for chance.
+    fn told_apart(&self, frequency_hz: f64, highest_hz: f64, shading: bool) -> Option<f64> {
+        let alike = self.alike(frequency_hz).into_iter().filter(|f| (0.5 / self.length_s()..=highest_hz).contains(f));
+        let all: Vec<(f64, f64)> = alike.map(|f| (f, self.best_harmonics(f, highest_hz, shading).1)).collect();
+        let best = *all.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let another = |(f, _): &&(f64, f64)| (f - best.0).abs() > 0.5 / self.length_s();
+        let next = all.iter().filter(another).map(|(_, criterion)| *criterion).fold(f64::INFINITY, f64::min);
+        (next - best.1 > LEAST_GAIN).then_some(best.0)
     }
 
     /// The frequency with as many harmonics as the criterion supports, each of which may move it.
