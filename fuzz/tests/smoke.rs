@@ -16,7 +16,7 @@ fn none(faults: Vec<String>) -> Result<(), Vec<String>> {
 }
 
 /// Inputs a target: some seconds in all.
-const INPUTS: u64 = 25;
+const INPUTS: u64 = 100;
 
 #[test]
 fn no_reader_is_brought_down() -> Result<(), Vec<String>> {

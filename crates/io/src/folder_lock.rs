@@ -6,42 +6,69 @@
 //! networks), runs are not told from one another.
 
 use std::fs::{File, TryLockError};
-use std::path::Path;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
 
 use crate::Error;
+use crate::made_folders::Missed;
 use crate::run_mark;
 
 /// A locked folder; free again when it is dropped.
 #[derive(Debug)]
 pub(crate) struct FolderLock {
+    path: PathBuf,
     /// `None` where folders cannot be locked.
-    _folder: Option<File>,
+    folder: Option<File>,
 }
 
 impl FolderLock {
     /// The whole folder, for one run alone.
-    pub(crate) fn alone(root: &Path) -> Result<Self, Error> {
+    pub(crate) fn alone(root: &Path) -> Result<Self, Missed> {
         Self::of(root, root, File::try_lock)
     }
 
     /// The folder together with others that write into parts of it.
-    pub(crate) fn shared(root: &Path) -> Result<Self, Error> {
+    pub(crate) fn shared(root: &Path) -> Result<Self, Missed> {
         Self::of(root, root, File::try_lock_shared)
     }
 
     /// A part of a folder, for one run alone. Marks are in the folder.
-    pub(crate) fn part(root: &Path, part: &Path) -> Result<Self, Error> {
+    pub(crate) fn part(root: &Path, part: &Path) -> Result<Self, Missed> {
         Self::of(root, part, File::try_lock)
     }
 
-    fn of(root: &Path, folder: &Path, lock: fn(&File) -> Result<(), TryLockError>) -> Result<Self, Error> {
-        let Ok(opened) = File::open(here(folder)) else { return Ok(Self { _folder: None }) };
+    fn of(root: &Path, folder: &Path, lock: fn(&File) -> Result<(), TryLockError>) -> Result<Self, Missed> {
+        let held = |opened| Ok(Self { path: here(folder).to_path_buf(), folder: opened });
+        let opened = match File::open(here(folder)) {
+            Ok(opened) => opened,
+            Err(cause) if cause.kind() == ErrorKind::NotFound => return Err(Missed::gone(folder)),
+            Err(_) => return held(None),
+        };
         match lock(&opened) {
-            Ok(()) => Ok(Self { _folder: Some(opened) }),
-            Err(TryLockError::WouldBlock) => Err(Error::new(here(folder), taken(root))),
-            Err(TryLockError::Error(_)) => Ok(Self { _folder: None }),
+            Ok(()) => held(Some(opened)),
+            Err(TryLockError::WouldBlock) => Err(Error::new(here(folder), taken(root)).into()),
+            Err(TryLockError::Error(_)) => held(None),
         }
     }
+
+    /// Whether the folder that is locked is the one that has its name: a run that ends without results removes a folder that it made, and another run may have made
+    /// it anew before this one locked it.
+    pub(crate) fn is_of_its_name(&self) -> bool {
+        self.folder.as_ref().is_none_or(|folder| is_same(folder, &self.path))
+    }
+}
+
+#[cfg(unix)]
+fn is_same(opened: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt as _;
+    let (Ok(opened), Ok(named)) = (opened.metadata(), std::fs::metadata(path)) else { return false };
+    (opened.dev(), opened.ino()) == (named.dev(), named.ino())
+}
+
+/// Folders are not locked there.
+#[cfg(not(unix))]
+fn is_same(_: &File, _: &Path) -> bool {
+    true
 }
 
 /// The folder where the program runs has an empty path.
@@ -70,7 +97,7 @@ mod tests {
         parts.iter().for_each(|part| std::fs::create_dir(part).expect("folder"));
         let held = parts.each_ref().map(|part| (FolderLock::shared(root), FolderLock::part(root, part)));
         assert!(held.iter().all(|(whole, part)| whole.is_ok() && part.is_ok()));
-        let told = FolderLock::part(root, &parts[0]).expect_err("taken").to_string();
+        let told = FolderLock::part(root, &parts[0]).expect_err("taken").error.to_string();
         assert!(told.contains("another run writes into this folder"), "{told}");
         FolderLock::alone(root).expect_err("parts are taken");
         drop(held);
@@ -78,5 +105,19 @@ mod tests {
         FolderLock::shared(root).expect_err("the whole is taken");
         drop(whole);
         FolderLock::shared(root).expect("free");
+    }
+
+    #[test]
+    fn a_lock_of_a_folder_that_was_removed_and_made_anew_is_not_of_its_name() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let root = place.path().join("out");
+        std::fs::create_dir(&root).expect("folder");
+        let lock = FolderLock::alone(&root).expect("free");
+        assert!(lock.is_of_its_name());
+        std::fs::remove_dir(&root).expect("removed");
+        assert!(!lock.is_of_its_name());
+        std::fs::create_dir(&root).expect("folder");
+        assert!(!lock.is_of_its_name());
+        assert!(FolderLock::alone(&root).expect("another folder").is_of_its_name());
     }
 }

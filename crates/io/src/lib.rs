@@ -38,6 +38,7 @@ mod guard;
 pub mod hash;
 pub mod inspect;
 pub mod jpeg;
+mod made_folders;
 pub mod mesh;
 pub mod output;
 pub mod pbrt;

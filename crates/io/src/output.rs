@@ -16,7 +16,11 @@ use std::sync::Arc;
 
 use crate::Error;
 use crate::folder_lock::FolderLock;
+use crate::made_folders::{self, MadeFolders, Missed};
 use crate::run_mark::RunMark;
+
+/// How often a folder is made that another run removes at that moment, as nothing is in it.
+const TRIES: usize = 100;
 
 /// What to do with files that are already there under the names to be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +38,7 @@ pub enum Existing {
 pub struct OutputFolder {
     root: PathBuf,
     existing: Existing,
-    made: Vec<PathBuf>,
+    made: MadeFolders,
     pending: Vec<Pending>,
     /// From opening to the end.
     mark: Option<RunMark>,
@@ -52,44 +56,64 @@ impl OutputFolder {
     /// Opens `root` for one run alone, making it where it is missing, and proves that it can be written to, so that a long run cannot
     /// fail at its end for want of permission. Refused while another run writes into it.
     pub fn open(root: &Path, existing: Existing) -> Result<Self, Error> {
-        let mut folder = Self::made(root, existing)?;
-        folder.locks = Arc::new(vec![FolderLock::alone(root)?]);
-        folder.marked()
+        Self::opened(root, existing, |_| Ok(vec![FolderLock::alone(root)?]))
     }
 
     /// The same for a run all of whose files are in the folder `part` of `root`: runs of other parts may write beside it.
     pub fn open_part(root: &Path, part: &str, existing: Existing) -> Result<Self, Error> {
-        let mut folder = Self::made(root, existing)?;
-        let whole = FolderLock::shared(root)?;
-        let part = folder.resolve(part)?;
-        folder.make_folder(&part)?;
-        folder.locks = Arc::new(vec![whole, FolderLock::part(root, &part)?]);
-        folder.marked()
+        Self::opened(root, existing, |folder| {
+            let whole = FolderLock::shared(root)?;
+            let part = folder.resolve(part)?;
+            folder.made.make(&part)?;
+            Ok(vec![whole, FolderLock::part(root, &part)?])
+        })
     }
 
     /// The same for single files, each whole by itself, in a folder that may be another run's.
     pub fn open_beside(root: &Path, existing: Existing) -> Result<Self, Error> {
-        Self::made(root, existing)?.marked()
+        Self::opened(root, existing, |_| Ok(Vec::new()))
     }
 
     /// The same folder once more, for files of the same run that get their names at other times.
     pub fn again(&self, existing: Existing) -> Result<Self, Error> {
-        let mut folder = Self::made(&self.root, existing)?;
+        let mut folder = Self::opened(&self.root, existing, |_| Ok(Vec::new()))?;
         folder.locks = Arc::clone(&self.locks);
-        folder.marked()
-    }
-
-    fn made(root: &Path, existing: Existing) -> Result<Self, Error> {
-        let (made, pending, locks) = (Vec::new(), Vec::new(), Arc::default());
-        let mut folder = Self { root: root.to_path_buf(), existing, made, pending, mark: None, locks };
-        folder.make_folder(root)?;
         Ok(folder)
     }
 
-    fn marked(mut self) -> Result<Self, Error> {
-        let mark = RunMark::set(&self.root).map_err(|cause| unwritable(&self.root, &cause))?;
-        self.mark = Some(mark);
-        Ok(self)
+    /// The folder made, locked and marked. Until it is marked, a run that made it and ends without results may remove it; then it is made anew.
+    fn opened(
+        root: &Path,
+        existing: Existing,
+        lock: impl Fn(&mut Self) -> Result<Vec<FolderLock>, Missed>,
+    ) -> Result<Self, Error> {
+        let mut opened = Self::attempted(root, existing, &lock);
+        for _ in 1..TRIES {
+            match opened {
+                Err(Missed { is_gone: true, .. }) => opened = Self::attempted(root, existing, &lock),
+                _ => break,
+            }
+        }
+        opened.map_err(|missed| missed.error)
+    }
+
+    fn attempted(
+        root: &Path,
+        existing: Existing,
+        lock: impl Fn(&mut Self) -> Result<Vec<FolderLock>, Missed>,
+    ) -> Result<Self, Missed> {
+        let (made, pending, locks) = (MadeFolders::default(), Vec::new(), Arc::default());
+        let mut folder = Self { root: root.to_path_buf(), existing, made, pending, mark: None, locks };
+        folder.made.make(root)?;
+        folder.locks = Arc::new(lock(&mut folder)?);
+        let mark =
+            RunMark::set(root).map_err(|cause| Missed::of(root, "this output folder cannot be written to", &cause))?;
+        folder.mark = Some(mark);
+        // With the mark in it, it stays: what is locked must be what has the name now.
+        match folder.locks.iter().all(FolderLock::is_of_its_name) {
+            true => Ok(folder),
+            false => Err(Missed::gone(root)),
+        }
     }
 
     /// The folder's path.
@@ -143,7 +167,7 @@ impl OutputFolder {
             return Err(Error::new(&target, "written twice in one run; every result needs its own name"));
         }
         if let Some(parent) = target.parent() {
-            self.make_folder(parent)?;
+            self.made.make(parent).map_err(|missed| missed.error)?;
         }
         let unwritten = |cause: io::Error| Error::new(&target, format!("cannot be written: {cause}"));
         let mark = self.mark.as_mut().expect("a folder is marked until it is dropped");
@@ -181,7 +205,7 @@ impl OutputFolder {
             })?;
             names.push(self.pending.remove(0).name);
         }
-        self.made.clear();
+        self.made.keep();
         Ok(names)
     }
 
@@ -228,28 +252,11 @@ impl OutputFolder {
                 ));
             }
             if folder.is_file() {
-                return Err(no_folder(folder));
+                return Err(made_folders::no_folder(folder));
             }
         }
         Ok(())
     }
-
-    fn make_folder(&mut self, folder: &Path) -> Result<(), Error> {
-        let missing: Vec<&Path> = folder.ancestors().take_while(|f| !f.as_os_str().is_empty() && !f.exists()).collect();
-        for path in missing.into_iter().rev() {
-            fs::create_dir(path)
-                .map_err(|cause| Error::new(path, format!("this output folder cannot be made: {cause}")))?;
-            self.made.push(path.to_path_buf());
-        }
-        if folder.as_os_str().is_empty() || folder.is_dir() {
-            return Ok(());
-        }
-        Err(no_folder(folder))
-    }
-}
-
-fn no_folder(path: &Path) -> Error {
-    Error::new(path, "expected a folder for the results, but this is a file; choose another name")
 }
 
 impl Drop for OutputFolder {
@@ -259,14 +266,8 @@ impl Drop for OutputFolder {
             let _ = fs::remove_file(&file.temporary);
         }
         self.mark = None;
-        for folder in self.made.iter().rev() {
-            let _ = fs::remove_dir(folder);
-        }
+        self.made.remove();
     }
-}
-
-fn unwritable(root: &Path, cause: &io::Error) -> Error {
-    Error::new(root, format!("this output folder cannot be written to: {cause}"))
 }
 
 fn write_flushed(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
@@ -373,6 +374,20 @@ mod tests {
         drop(parts);
         assert_eq!(listing(place.path()), ["x.txt"], "folders without results go");
         OutputFolder::open(place.path(), Existing::Refuse).expect("free");
+    }
+
+    /// Runs of parts that make one folder together, and remove it, as they end without results.
+    #[test]
+    fn parts_of_a_folder_that_others_make_and_remove_are_each_had() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let root = &place.path().join("out/deep");
+        let run = |part: usize| {
+            drop(OutputFolder::open_part(root, &part.to_string(), Existing::Refuse).expect("free"));
+            drop(OutputFolder::open_beside(root, Existing::Refuse).expect("free"));
+        };
+        std::thread::scope(|threads| {
+            (0..4).for_each(|part| _ = threads.spawn(move || (0..300).for_each(|_| run(part))));
+        });
     }
 
     #[cfg(unix)]

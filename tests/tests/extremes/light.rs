@@ -1,5 +1,6 @@
 //! Light at the ends of its range: surfaces that swallow nothing, hide nothing or are not there, lamps without number, lines.
 
+use crate::fog::lamps_in_fog;
 use etendue_core::{Bands, Spectral, Wavelengths};
 use etendue_pipeline::render::gather::{Gather, Layout, Sums};
 use etendue_spectra::illuminant;
@@ -322,6 +323,7 @@ fn light() {
     rows.extend(lamps());
     rows.extend(wavelengths());
     rows.push(lamp_in_fog());
+    rows.extend(lamps_in_fog());
     rows.extend(levels());
     rows.push(sun_in_frame());
     rows.extend(grazing());

@@ -6,7 +6,9 @@
 
 mod camera;
 mod facets;
+mod fog;
 mod geometry;
+mod instances;
 mod inverses;
 mod light;
 mod numerics;

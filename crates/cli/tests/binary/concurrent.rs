@@ -1,6 +1,7 @@
-//! Several runs at one time: a folder takes one, and says whose it is.
+//! Several runs at one time: a folder takes one, and says whose it is. A section of docs/extremes.md.
 
 use crate::support::{assert_same, contents, etendue, rendered, root, small, tests, text};
+use etendue_testkit::page::{Row, check};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
@@ -33,43 +34,48 @@ impl Drop for Running {
     }
 }
 
-#[test]
-fn a_second_run_into_a_folder_is_refused_until_the_first_has_ended_however_it_does() {
+/// While a run is at work in a folder, and when it was killed.
+fn a_second_run_is_refused_until_the_first_has_ended_however_it_does() -> Row {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (out, shard) = (place.path().join("out"), text(&place.path().join("shard")));
     let (folder, job, camera) = (text(&out), small(), "scenes/cameras/web.toml");
+    let moving = text(&tests().join("jobs/moving/moving.toml"));
     etendue(["render", &job, "-o", &shard, "--spp", "2", "--shard", "0/1"]).ok();
     let first = Running::render_into(&out);
     let taken = format!("another run (process {}) writes into this folder", first.0.id());
-    let refused = |arguments: &[&str]| {
-        etendue(arguments.iter().copied().chain(["-o", &folder])).refused(&[
-            &folder,
-            &taken,
-            "choose another output folder",
-        ]);
-    };
-    refused(&["render", &job]);
-    refused(&["render", &job, "--overwrite"]);
-    refused(&["render", &job, "--resume"]);
-    refused(&["render", &job, "--progressive", "--overwrite"]);
-    refused(&["render", &job, "--shard", "0/1"]);
-    refused(&["render", &text(&tests().join("jobs/moving/moving.toml")), "--frames", "0..2", "--overwrite"]);
-    refused(&["merge", &shard, "--overwrite"]);
-    refused(&["rig", &job, "--overwrite"]);
-    refused(&["tradeoff", &job, "--time", "10", "--overwrite"]);
-    refused(&["flat", camera, "--wavelength-nm", "525", "--irradiance-w-m2", "0.002"]);
+    let seconds: [&[&str]; 10] = [
+        &["render", &job],
+        &["render", &job, "--overwrite"],
+        &["render", &job, "--resume"],
+        &["render", &job, "--progressive", "--overwrite"],
+        &["render", &job, "--shard", "0/1"],
+        &["render", &moving, "--frames", "0..2", "--overwrite"],
+        &["merge", &shard, "--overwrite"],
+        &["rig", &job, "--overwrite"],
+        &["tradeoff", &job, "--time", "10", "--overwrite"],
+        &["flat", camera, "--wavelength-nm", "525", "--irradiance-w-m2", "0.002"],
+    ];
+    for arguments in seconds {
+        let phrases = [&folder, &taken, "choose another output folder"];
+        etendue(arguments.iter().copied().chain(["-o", &folder])).refused(&phrases);
+    }
     assert!(contents(&out).keys().all(|name| name.starts_with('.')), "nothing but the first one's mark");
     // Killed: the lock goes with the process, what it left with the next run.
     drop(first);
     etendue(["render", &job, "-o", &folder, "--spp", "2"]).ok();
     assert_same(&rendered(&job, &["--spp", "2"]), &contents(&out), "after a kill");
+    row(
+        "ten kinds of runs into a folder in which a run is at work",
+        "status 2, whose process it is, nothing written; free as soon as that run is killed",
+        &format!("{} refused", seconds.len()),
+    )
 }
 
-#[test]
-fn runs_that_write_into_folders_of_cameras_go_side_by_side() {
+fn runs_that_write_into_folders_of_cameras_go_side_by_side() -> Row {
     let place = tempfile::tempdir().expect("a temporary folder");
     let light = ["--wavelength-nm", "525", "--irradiance-w-m2", "0.002"];
-    let cameras = ["a", "b", "c"].map(|name| {
+    let names = ["a", "b", "c"];
+    let cameras = names.map(|name| {
         let file = place.path().join(format!("{name}.toml"));
         std::fs::copy(root().join("scenes/cameras/web.toml"), &file).expect("copied");
         text(&file)
@@ -79,22 +85,50 @@ fn runs_that_write_into_folders_of_cameras_go_side_by_side() {
     for mut run in runs {
         assert!(run.0.wait().expect("a child").success());
     }
-    for name in ["a", "b", "c"] {
+    for name in names {
         assert!(Path::new(&out).join(name).join("camera.json").exists(), "{name}");
     }
+    row(
+        "three runs that make one folder together, each for another camera",
+        "each leaves all its files in the folder of its camera",
+        &format!("{} did", names.len()),
+    )
 }
 
 /// Runs that begin at one moment: one is let in, or one after the other, and none mixes its files with another's.
-#[test]
-fn of_runs_that_begin_together_each_leaves_all_files_or_none() {
+fn of_runs_that_begin_together_each_leaves_all_files_or_none() -> Row {
     let expected = rendered(&small(), &["--spp", "2"]);
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = place.path().join("out");
     let arguments = ["render", &small(), "-o", &text(&out), "--spp", "2"].map(str::to_owned);
     let mut runs: Vec<Running> = (0..6).map(|_| Running::begin(&arguments.each_ref().map(String::as_str))).collect();
     let ends: Vec<_> = runs.iter_mut().map(|run| run.0.wait().expect("a child").code()).collect();
+    let ended = |status| ends.iter().filter(|code| **code == Some(status)).count();
     // The others were refused: by the lock, or by the files of the first.
-    assert_eq!(ends.iter().filter(|code| **code == Some(0)).count(), 1, "{ends:?}");
-    assert_eq!(ends.iter().filter(|code| **code == Some(2)).count(), 5, "{ends:?}");
+    assert_eq!((ended(0), ended(2)), (1, 5), "{ends:?}");
     assert_same(&expected, &contents(&out), "of one run");
+    row(
+        "six runs that begin together into one new folder",
+        "one leaves the bytes of a run alone, the others are refused",
+        &format!("{} and {}", ended(0), ended(2)),
+    )
+}
+
+/// A row of what has been asserted.
+fn row(extreme: &str, expected: &str, found: &str) -> Row {
+    Row { extreme: extreme.to_owned(), expected: expected.to_owned(), found: found.to_owned(), holds: true }
+}
+
+#[test]
+fn several_runs_into_one_folder() {
+    let rows = [
+        a_second_run_is_refused_until_the_first_has_ended_however_it_does(),
+        runs_that_write_into_folders_of_cameras_go_side_by_side(),
+        of_runs_that_begin_together_each_leaves_all_files_or_none(),
+    ];
+    check(
+        "Several runs into one folder",
+        "Real processes that begin at one moment, or while another works (docs/robustness.md).",
+        &rows,
+    );
 }

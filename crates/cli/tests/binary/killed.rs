@@ -1,12 +1,13 @@
 //! Runs that are killed at random moments, again and again, and then rerun or resumed: what has its final name is whole at every moment, and in the end there are the
 //! bytes of a run that nobody disturbed and nothing else.
 //!
-//! `ETENDUE_KILLS=1000` kills that often in all, in the place of some times, and writes the figures to `target/kills.md` (`just kills`; docs/limits.md has them);
-//! `ETENDUE_KILLS_SEED` gives other moments.
+//! `ETENDUE_KILLS=1000` kills that often in all, in the place of some times, and writes the figures to `target/kills.md` (`just kills`; docs/robustness.md has them);
+//! `ETENDUE_KILLS_SEED` gives other moments. The few kills are a section of docs/extremes.md.
 
 use crate::support::{assert_same, contents, etendue, root, small, tests, text};
 use etendue_io::exr::read_exr;
 use etendue_io::picture::read_picture;
+use etendue_testkit::page::{self, Row};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -47,6 +48,18 @@ impl Kind {
             Self::new("shard", &["render", &small, "--spp", "2", "--shard", "1/2"], "--overwrite"),
             Self::new("merge", &["merge", shards[0], shards[1]], "--overwrite"),
         ]
+    }
+
+    /// What so many kills found: a file that is not whole, or another end, has failed the run before.
+    fn row(&self, count: &Count, kills: usize) -> Row {
+        Row {
+            extreme: format!("{}, killed, then begun again with `{}`", self.name, self.again),
+            expected:
+                "every file under a final name is whole; in the end the bytes of an undisturbed run, nothing else"
+                    .to_owned(),
+            found: format!("so after each of {} kills", count.killed),
+            holds: count.killed == kills && count.completed > 0,
+        }
     }
 
     fn arguments(&self, out: &Path, is_again: bool) -> Vec<String> {
@@ -174,13 +187,19 @@ fn runs_that_are_killed_at_random_moments_end_in_the_bytes_of_undisturbed_ones()
         "| run | killed | nothing had its name | some files had | temporary files were left | rerun or resumed |\n\
                      | --- | ---: | ---: | ---: | ---: | ---: |\n"
             .to_owned();
+    let mut rows = Vec::new();
     for kind in &kinds {
-        let count = disturb(kind, many.unwrap_or(FEW).div_ceil(kinds.len()), &mut moments);
+        let kills = many.unwrap_or(FEW).div_ceil(kinds.len());
+        let count = disturb(kind, kills, &mut moments);
         let Count { killed, nothing, some, leftovers, completed, .. } = count;
+        rows.push(kind.row(&count, kills));
         writeln!(table, "| {} | {killed} | {nothing} | {some} | {leftovers} | {completed} |", kind.name)
             .expect("memory");
     }
     if many.is_some() {
         std::fs::write(root().join("target/kills.md"), table).expect("written");
+    } else {
+        let about = "Small runs that end in the bytes of undisturbed ones, however often they are killed; 996 kills are in docs/robustness.md (`just kills 1000`).";
+        page::check("Kills at random moments", about, &rows);
     }
 }

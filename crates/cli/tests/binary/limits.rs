@@ -5,7 +5,7 @@ use crate::support::{etendue, root, text};
 use std::fs;
 
 /// The head of a PNG of so many grey pixels, which is all there is of it.
-fn png_head(width: u32, height: u32) -> Vec<u8> {
+pub(crate) fn png_head(width: u32, height: u32) -> Vec<u8> {
     let mut png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec();
     png.extend([width.to_be_bytes(), height.to_be_bytes()].concat());
     png.extend([8, 0, 0, 0, 0]);

@@ -68,9 +68,15 @@ impl Samples {
     /// The samples as floats; unsigned integers above 2²⁴ are rounded.
     #[must_use]
     pub fn to_floats(&self) -> Vec<f32> {
+        self.clone().into_floats()
+    }
+
+    /// The same, without another copy of floats in memory.
+    #[must_use]
+    pub fn into_floats(self) -> Vec<f32> {
         match self {
-            Self::Half(values) | Self::Float(values) => values.clone(),
-            Self::Uint(values) => values.iter().map(|&v| v as f32).collect(),
+            Self::Half(values) | Self::Float(values) => values,
+            Self::Uint(values) => values.into_iter().map(|v| v as f32).collect(),
         }
     }
 }

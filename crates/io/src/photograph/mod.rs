@@ -83,7 +83,7 @@ const ALIKE: &str = "etendue:correlated_block_px";
 
 fn of_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let exr = decode_exr(file, bytes)?;
-    let channel = |c: crate::exr::ExrChannel| Channel { name: c.name, samples: c.samples.to_floats() };
+    let channel = |c: crate::exr::ExrChannel| Channel { name: c.name, samples: c.samples.into_floats() };
     let stated = exr.attributes.get(ALIKE).and_then(|text| text.parse().ok());
     let correlated_block_px = stated.filter(|n| *n > 0).unwrap_or(1);
     let channels = exr.channels.into_iter().map(channel).collect();

@@ -5,28 +5,39 @@ use std::path::Path;
 use etendue_scene::asset::ImagePixels;
 
 use crate::Error;
-use crate::exr::ExrFile;
+use crate::exr::{ExrChannel, ExrFile};
 
 /// Width, height and pixels.
 pub(super) type Picture = (u32, u32, ImagePixels);
 
 /// R, G, B of an EXR file, or Y for all three; with A where it is there.
-pub(super) fn of_exr(file: &Path, exr: &ExrFile) -> Result<Picture, Error> {
-    let plane = |name: &str| exr.channel(name).map(crate::exr::Samples::to_floats);
-    let [r, g, b] = match (plane("R"), plane("G"), plane("B"), plane("Y")) {
-        (Some(r), Some(g), Some(b), _) => [r, g, b],
-        (None, None, None, Some(y)) => [y.clone(), y.clone(), y],
+pub(super) fn of_exr(file: &Path, exr: ExrFile) -> Result<Picture, Error> {
+    let (width, height) = (size(file, exr.width)?, size(file, exr.height)?);
+    let names: Vec<String> = exr.channels.iter().map(|channel| channel.name.clone()).take(8).collect();
+    // What the picture does not need goes before it is put together.
+    let mut planes = ["R", "G", "B", "Y", "A"].map(|_| None);
+    for ExrChannel { name, samples } in exr.channels {
+        let place = ["R", "G", "B", "Y", "A"].iter().position(|wanted| name == *wanted);
+        if let Some(empty @ None) = place.map(|at| &mut planes[at]) {
+            *empty = Some(samples.into_floats());
+        }
+    }
+    let [r, g, b, y, a] = planes;
+    let pixels = match (r, g, b, y) {
+        (Some(r), Some(g), Some(b), _) => joined(r.iter().zip(&g).zip(&b).map(|((r, g), b)| [*r, *g, *b]), a),
+        (None, None, None, Some(y)) => joined(y.iter().map(|y| [*y; 3]), a),
         _ => {
-            let names: Vec<&str> = exr.channels.iter().map(|c| c.name.as_str()).take(8).collect();
             return Err(Error::new(file, format!("no picture of R, G, B or Y; its channels are {}", names.join(", "))));
         }
     };
-    let colours = r.iter().zip(&g).zip(&b).map(|((r, g), b)| [*r, *g, *b]);
-    let pixels = match plane("A") {
+    Ok((width, height, pixels))
+}
+
+fn joined(colours: impl Iterator<Item = [f32; 3]>, opacity: Option<Vec<f32>>) -> ImagePixels {
+    match opacity {
         None => ImagePixels::Rgb32F(colours.collect()),
         Some(a) => ImagePixels::Rgba32F(colours.zip(&a).map(|([r, g, b], a)| [r, g, b, *a]).collect()),
-    };
-    Ok((size(file, exr.width)?, size(file, exr.height)?, pixels))
+    }
 }
 
 fn size(file: &Path, pixels: usize) -> Result<u32, Error> {

@@ -37,7 +37,7 @@ pub fn read_picture(file: &Path) -> Result<ImageAsset, Error> {
 /// Reads the bytes of `file`.
 pub(crate) fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
     let (width, height, pixels) = if bytes.starts_with(&EXR_MAGIC) {
-        floats::of_exr(file, &decode_exr(file, bytes)?)?
+        floats::of_exr(file, decode_exr(file, bytes)?)?
     } else {
         raster::decode(file, bytes)?
     };

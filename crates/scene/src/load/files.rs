@@ -119,12 +119,12 @@ fn own_tree(file: &Path, read: &ReadText<'_>, named: &Place, faults: &mut Faults
     let text = match read(file) {
         Ok(text) => text,
         Err(why) => {
-            let problem = format!("cannot read \"{}\": {why}", file.display());
-            let remedy = match named.file() == file {
-                true => "correct the path",
-                false => "correct the path, which is relative to the file that names it",
+            let (why, remedy) = match why.split_once("; ") {
+                Some(known) => known,
+                None if named.file() == file => (why.as_str(), "correct the path"),
+                None => (why.as_str(), "correct the path, which is relative to the file that names it"),
             };
-            faults.add(named, problem, remedy);
+            faults.add(named, format!("cannot read \"{}\": {why}", file.display()), remedy);
             return None;
         }
     };

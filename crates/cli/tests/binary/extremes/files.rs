@@ -2,6 +2,7 @@
 
 use super::refused;
 use crate::bad_input::Spoilt;
+use crate::limits::png_head;
 use crate::support::{Ran, etendue, text};
 use etendue_testkit::page::{Row, check};
 use std::os::unix::fs::symlink;
@@ -44,8 +45,7 @@ fn empty_and_cut() -> Vec<Row> {
 fn counts() -> Vec<Row> {
     let before = "refused before anything is allotted";
     let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2000000000 +X 2000000000\n";
-    let mut png = std::fs::read(Spoilt::new().folder().join("checker.png")).expect("the picture");
-    png[16..24].copy_from_slice(&[0x7f, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff]);
+    let png = png_head(i32::MAX as u32, i32::MAX as u32);
     let far = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4000000000\n";
     let deep = format!("format = 1\nscene = {}{}\n", "[".repeat(5000), "]".repeat(5000));
     let bases = "format = 1\nbase = \"small.toml\"\n";
@@ -67,12 +67,40 @@ fn counts() -> Vec<Row> {
 /// A TIFF of one pixel that says it is big-endian and is not.
 const WRONG_ENDS: &[u8] = b"MM*\0\x08\0\0\0\x01\0\0\x01\x04\0\x01\0\0\0\x01\0\0\0\0\0\0\0";
 
+/// What a file may cost, at its limit: docs/limits.md.
+fn budgets() -> Vec<Row> {
+    let raised = "refused, with the limit that may be raised";
+    let long = |spoilt: &Spoilt| {
+        let job = std::fs::read_to_string(spoilt.job()).expect("the job");
+        spoilt.write("small.toml", format!("{job}# {}\n", " ".repeat(16 << 20)));
+        spoilt.job()
+    };
+    let chain = |spoilt: &Spoilt| {
+        for i in 0..17 {
+            let base = if i == 0 { "small.toml".to_owned() } else { format!("{}.toml", i - 1) };
+            spoilt.write(&format!("{i}.toml"), format!("format = 1\nbase = \"{base}\"\n"));
+        }
+        text(&spoilt.folder().join("16.toml"))
+    };
+    let planned = |extreme: &str, made: &dyn Fn(&Spoilt) -> String| {
+        let spoilt = Spoilt::new();
+        let ran = etendue(["plan", &made(&spoilt)]);
+        refused(extreme, raised, &ran, &[spoilt.folder()])
+    };
+    let picture = png_head(40_000, 40_000);
+    vec![
+        planned("a job of 17 MB", &long),
+        planned("17 files that are built one on the other", &chain),
+        row("a PNG of 40 000 × 40 000 px in 70 bytes", raised, &with_file("checker.png", &picture)),
+    ]
+}
+
 fn numbers() -> Vec<Row> {
     let place = "file, line and key";
     let folder = tempfile::tempdir().expect("a folder");
     let tiff = folder.path().join("ends.tif");
     std::fs::write(&tiff, WRONG_ENDS).expect("written");
-    let ends = etendue(["inspect", &text(&tiff)]);
+    let ends = etendue(["measure", "sfr", &text(&tiff)]);
     vec![
         row("a number of the job is NaN", place, &spoilt("small.toml", "f_number = 2", "f_number = nan")),
         row("a vertex of a mesh is NaN", place, &spoilt("tower.obj", "v ", "v nan ")),
@@ -125,7 +153,7 @@ fn folders() -> Vec<Row> {
 
 #[test]
 fn files_that_are_none() {
-    let parts = [empty_and_cut(), counts(), numbers(), names_and_paths(), folders()];
+    let parts = [empty_and_cut(), counts(), budgets(), numbers(), names_and_paths(), folders()];
     let about = "Each refused with status 2, nothing written: what a user reads (of several faults the first). Every reader is fuzzed as well (docs/fuzzing.md); limits and how to raise them: docs/limits.md.";
     check("Files", about, &parts.concat());
 }

@@ -1,8 +1,14 @@
-//! What large files take in memory: texts of 4 MiB whose values are as short as they can be.
+//! What large files take in memory: texts of 4 MiB whose values are as short as they can be, and pictures that are compressed.
+
+mod pictures;
 
 use etendue_fuzz::attempt::attempt;
 use etendue_fuzz::targets::target;
 use std::fs;
+use std::sync::Mutex;
+
+/// Memory is counted for the whole process: one test at a time.
+static ALONE: Mutex<()> = Mutex::new(());
 
 const LENGTH: usize = 4 << 20;
 
@@ -21,6 +27,7 @@ fn ply(format: &str, number: &str, count: usize, vertex: &[u8]) -> Vec<u8> {
 
 #[test]
 fn a_reader_holds_a_stated_multiple_of_its_file() {
+    let _alone = ALONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let rising: String = (0..LENGTH / 12).map(|i| format!("{i},1,1,1\n")).collect();
     let spectrum: String = (0..LENGTH / 9).map(|i| format!("{i},1\n")).collect();
     let inputs = [
