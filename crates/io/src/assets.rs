@@ -5,10 +5,12 @@ use std::sync::Arc;
 use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset, TexelStore};
 
 use crate::calibration::{ImportedCamera, read_calibration};
+use crate::field_table::read_field_table;
 use crate::mesh::{read_mesh_frame, read_mesh_in};
 use crate::photometry::read_photometry_in;
 use crate::picture::{PictureHead, head, large_picture, read_picture};
 use crate::prescription::read_prescription;
+use crate::ray_transfer::read_ray_transfer;
 use crate::spectrum::read_spectrum_of;
 use crate::table::{read_complex_index, read_numbers, read_retro_table};
 use crate::texture_memory::{TextureMemory, pyramid_bytes};
@@ -106,7 +108,11 @@ fn load(assets: &mut Assets, request: &AssetRequest, sandbox: &Sandbox) -> Resul
         AssetKind::RetroTable => drop(assets.retro_tables.insert(key, read_retro_table(path)?)),
         AssetKind::Numbers => drop(assets.numbers.insert(key, read_numbers(path)?)),
         AssetKind::Prescription => drop(assets.prescriptions.insert(key, read_prescription(path)?)),
+        AssetKind::RayTransfer => drop(assets.ray_transfers.insert(key, read_ray_transfer(path)?)),
         AssetKind::Trajectory => drop(assets.trajectories.insert(key, read_trajectory(path)?)),
+        AssetKind::FieldTable(quantity) => {
+            drop(assets.field_tables.insert((key, *quantity), read_field_table(path, *quantity)?));
+        }
         AssetKind::Calibration(choice) => {
             let camera = read_calibration(path, choice.format, choice.camera.as_deref())?;
             let ImportedCamera { calibration, notes: report, hash, .. } = camera;

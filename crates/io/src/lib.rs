@@ -8,6 +8,8 @@
 //! | in | PNG, JPEG, TIFF, OpenEXR and raw pictures to be measured | [`photograph`] |
 //! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |
 //! | in | lens prescriptions: Zemax, CODE V | [`prescription`] |
+//! | in | tables over a lens's field: Zemax | [`field_table`] |
+//! | in | ray-transfer functions of lenses: ISET | [`ray_transfer`] |
 //! | in | calibrated cameras: OpenCV, ROS, Kalibr, COLMAP, OCamCalib | [`calibration`] |
 //! | in | spectra, refractive indices, coefficients of retro-reflection | [`spectrum`], [`mod@table`] |
 //! | out and in | tiles of textures that are too large for the memory | [`tile_cache`] |
@@ -33,6 +35,7 @@ pub mod correspondence;
 pub mod emva_descriptor;
 pub mod error;
 pub mod exr;
+pub mod field_table;
 mod folder_lock;
 mod guard;
 pub mod hash;
@@ -49,6 +52,7 @@ pub mod png;
 mod png_chunks;
 pub mod prescription;
 pub mod provenance;
+pub mod ray_transfer;
 mod run_mark;
 mod sandbox;
 mod scratch;
@@ -60,6 +64,7 @@ mod texture_memory;
 pub mod tiff;
 pub mod tile_cache;
 pub mod trajectory;
+mod tree;
 mod unpacked;
 pub mod y4m;
 

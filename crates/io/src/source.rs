@@ -1,5 +1,6 @@
 //! Reading a whole file, with an error that says what to do.
 
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;
@@ -93,6 +94,23 @@ pub(crate) fn decode_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<&'a str, E
         Error::at(file, line, "not UTF-8 text; save the file as UTF-8")
     })?;
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
+}
+
+/// The text of a lens program's file: UTF-16 with a byte-order mark (either order), UTF-8, or Latin-1 where it is neither.
+pub(crate) fn decode_lens_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, Error> {
+    let wide = |unit: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
+        let text = String::from_utf16(&units);
+        text.map(Cow::Owned).map_err(|_| Error::new(file, "begins as UTF-16 text but is none; save the file as UTF-8"))
+    };
+    match bytes {
+        [0xff, 0xfe, ..] => wide(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => wide(u16::from_be_bytes),
+        _ => Ok(match std::str::from_utf8(bytes) {
+            Ok(text) => Cow::Borrowed(text.trim_start_matches('\u{feff}')),
+            Err(_) => Cow::Owned(bytes.iter().map(|&byte| char::from(byte)).collect()),
+        }),
+    }
 }
 
 /// Begins notes on a file with its name.

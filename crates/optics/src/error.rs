@@ -2,6 +2,7 @@
 
 use crate::front::FrontError;
 use crate::prescription::PrescriptionError;
+use crate::ray_transfer::RayTransferError;
 use etendue_projection::{CalibrationError, DistortionError};
 
 /// A lens or a stored radiance image that cannot do what is asked of it.
@@ -130,6 +131,9 @@ pub enum OpticsError {
     /// A prescription that is no lens.
     #[error(transparent)]
     Prescription(#[from] PrescriptionError),
+    /// Ray-transfer functions that are no lens.
+    #[error(transparent)]
+    RayTransfer(#[from] RayTransferError),
     /// A filter without layers.
     #[error("effective_index is {value}; an interference filter's is above 1 (1.5 to 2.2)")]
     FilterIndex {
@@ -143,7 +147,9 @@ pub enum OpticsError {
         value: f64,
     },
     /// A distortion of a lens that has its own.
-    #[error("prescriptions, calibrated and telecentric cameras have their own distortion: leave out the lens's")]
+    #[error(
+        "prescriptions, ray-transfer functions, calibrated and telecentric cameras have their own distortion: leave out the lens's"
+    )]
     OwnDistortion,
     /// A lateral colour of a lens that cannot have it.
     #[error(
@@ -183,18 +189,18 @@ pub enum OpticsError {
     },
     /// A relative illumination that is none.
     #[error(
-        "a relative illumination is a list of rising radii from 0 mm and of ratios of at least 0 that begin with 1"
+        "a relative illumination is a list of rising radii or angles from 0 and of ratios of at least 0 that begin with 1"
     )]
     Falloff,
     /// A relative illumination that ends inside the picture.
-    #[error(
-        "the relative illumination is known to {end_mm} mm, but the picture reaches {needed_mm:.4} mm from the principal point: extend it"
-    )]
+    #[error("the relative illumination is known to {end}{unit}, but the picture reaches {needed:.4}{unit}: extend it")]
     FalloffEnds {
-        /// Where it ends, mm.
-        end_mm: f64,
-        /// How far the picture reaches, mm.
-        needed_mm: f64,
+        /// Where it ends.
+        end: f64,
+        /// How far the picture reaches.
+        needed: f64,
+        /// The unit of both, and from where they count.
+        unit: &'static str,
     },
     /// A sensor that mirrors more than all light, or less than none.
     #[error("the sensor's reflectance is {value}; it must be at least 0 and below 1")]

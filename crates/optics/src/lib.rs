@@ -11,6 +11,7 @@ pub mod prescription;
 mod pupil;
 pub mod pupil_image;
 mod range;
+pub mod ray_transfer;
 mod wavelength;
 
 pub use defocus::{DepthOfField, FastBlend, FastParameters};
@@ -18,10 +19,11 @@ pub use effects::{Effects, EffectsError, EffectsParameters};
 pub use error::OpticsError;
 pub use front::{Front, FrontError, FrontRay};
 pub use lens::{
-    Calibrated, CalibratedParameters, ConstantPupil, Falloff, LateralColour, Lens, Pinhole, PinholeParameters,
-    Prescribed, PupilStance, PupilStatements, Rim, Telecentric, TelecentricParameters, Thick, ThickParameters, Thin,
-    ThinParameters, TruthRay,
+    Calibrated, CalibratedParameters, ConstantPupil, Falloff, FalloffBy, LateralColour, Lens, Pinhole,
+    PinholeParameters, Prescribed, PupilStance, PupilStatements, Rim, SensorPlace, Telecentric, TelecentricParameters,
+    Thick, ThickParameters, Thin, ThinParameters, Transferred, TruthRay,
 };
 pub use prescription::{Prescription, PrescriptionError, PrescriptionParameters};
 pub use pupil_image::{BandEtendue, Cube, Face, PupilProjection, Resampling, View, Window, irradiance};
+pub use ray_transfer::{RayTransfer, RayTransferError};
 pub use wavelength::PRINCIPAL_NM;

@@ -2,12 +2,15 @@
 
 use super::seeds::{repository, stored, write};
 use super::target::{NUMBERS as PER_NUMBER, RECORDS, TREE, Target, told};
+use etendue_io::field_table::read_field_table;
 use etendue_io::mesh::{read_mesh, read_mesh_frame};
 use etendue_io::photometry::read_photometry;
 use etendue_io::prescription::read_prescription;
+use etendue_io::ray_transfer::read_ray_transfer;
 use etendue_io::spectrum::read_spectrum;
 use etendue_io::table::{read_complex_index, read_numbers, read_retro_table};
 use etendue_io::trajectory::read_trajectory;
+use etendue_scene::asset::FieldQuantity;
 use std::path::Path;
 
 const CONSTANT: u64 = 16 << 20;
@@ -298,6 +301,50 @@ pub(super) const SEQ: Target = Target {
         &[
             "S", "SO", "SI", "STO", "ASP", "K", "A", "PRV", "PWL", "END", "CIR", "&", ";", "REFL", "GO", "RDM", "CUY",
             "THI", "FNO", "NAO",
+        ],
+    )
+};
+
+pub(super) const FIELD_TABLE: Target = Target {
+    times: RECORDS,
+    ..text_target(
+        "field-table",
+        "a.txt",
+        |_| stored("field-table"),
+        |file| told(read_field_table(file, FieldQuantity::RelativeIllumination)),
+        &[
+            "Relative Illumination",
+            "Rel. Ill.",
+            "Field values are in millimeters",
+            "Field units are degrees",
+            "object height",
+            "Wavelength: 1e9",
+            "-0.0 1",
+            "1e308 1e-308",
+            "0 0",
+            "%",
+        ],
+    )
+};
+pub(super) const RAY_TRANSFER: Target = Target {
+    times: TREE,
+    ..text_target(
+        "ray-transfer",
+        "a.json",
+        |_| repository(["scenes/lenses/dgauss28deg-zemax-poly6-raytransfer.json"]),
+        |file| told(read_ray_transfer(file)),
+        &[
+            "\"planeoffset\": 0.1",
+            "\"raypass\"",
+            "\"circles\"",
+            "\"radii\": [1]",
+            "\"sensitivities\": [0]",
+            "\"circleRadii\": 1",
+            "\"termu\": []",
+            "\"coeff\": [1e999]",
+            "\"useDZpolynomial\": true",
+            "\"polynomials\": {}",
+            "[0,0]",
         ],
     )
 };

@@ -31,6 +31,8 @@ pub const TARGETS: &[Target] = &[
     assets::LDT,
     assets::ZMX,
     assets::SEQ,
+    assets::FIELD_TABLE,
+    assets::RAY_TRANSFER,
     assets::SPECTRUM,
     assets::COMPLEX_INDEX,
     assets::RETRO_TABLE,

@@ -10,6 +10,7 @@ mod bad_pictures;
 mod bad_processing;
 mod bad_results;
 mod bad_sensors;
+mod black_boxes;
 mod bytes;
 mod charts;
 mod compared;

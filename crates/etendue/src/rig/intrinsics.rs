@@ -35,6 +35,9 @@ pub(super) fn calibration(body: &CameraBody) -> Result<Calibration, String> {
                     .to_owned(),
             );
         }
+        Lens::RayTransfer(_) => {
+            return Err("its lens is known by ray-transfer functions; \"etendue calibrate\" fits a model to pictures of a chart".to_owned());
+        }
         Lens::Telecentric(_) => return Err("its rays are parallel".to_owned()),
     };
     match farthest_px(body, &found) {

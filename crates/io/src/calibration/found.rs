@@ -1,27 +1,7 @@
 //! What a reader of one format answers: a camera, or why the text holds none.
 
-use crate::Error;
+use crate::tree::{Fault, Read};
 use etendue_projection::{Calibration, CalibrationError};
-use std::path::Path;
-
-/// What is wrong, and in which line (from 1; 0 for the whole file).
-#[derive(Debug)]
-pub(super) struct Fault {
-    pub(super) line: usize,
-    pub(super) what: String,
-}
-
-pub(super) type Read<T> = Result<T, Fault>;
-
-impl Fault {
-    pub(super) fn at(line: usize, what: impl Into<String>) -> Self {
-        Self { line, what: what.into() }
-    }
-
-    pub(super) fn of(self, file: &Path) -> Error {
-        if self.line == 0 { Error::new(file, self.what) } else { Error::at(file, self.line, self.what) }
-    }
-}
 
 /// What a reader found.
 pub(super) struct Found {
@@ -43,11 +23,6 @@ impl Found {
             _ => Ok((self.name, self.calibration, self.notes)),
         }
     }
-}
-
-/// A note of keys that say nothing of the camera.
-pub(super) fn passed_over(keys: &[&str]) -> Vec<String> {
-    if keys.is_empty() { Vec::new() } else { vec![format!("passed over: {}", keys.join(", "))] }
 }
 
 /// A fault of the camera as a whole, told at the line where it starts.

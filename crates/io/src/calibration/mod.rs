@@ -22,13 +22,13 @@ mod matrix;
 mod ocam;
 mod opencv;
 mod ros;
-mod yaml;
 
 use crate::Error;
 use crate::hash::{self, ContentHash};
 use crate::source::{decode_text, read_description_bytes};
+use crate::tree::{self as yaml, Fault, Read, passed_over};
 use etendue_projection::Calibration;
-use found::{Fault, Found, Read, of_camera, passed_over};
+use found::{Found, of_camera};
 use std::path::Path;
 
 pub use etendue_scene::asset::CalibrationFormat;

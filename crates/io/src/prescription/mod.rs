@@ -19,7 +19,7 @@ use std::path::Path;
 
 use etendue_scene::asset::PrescriptionAsset;
 
-use crate::source::read_description_bytes;
+use crate::source::{decode_lens_text, read_description_bytes};
 use crate::{Error, hash};
 
 /// Reads a prescription; the kind of file is told by its name.
@@ -28,7 +28,7 @@ use crate::{Error, hash};
 /// The first fault of the file, with its line.
 pub fn read_prescription(file: &Path) -> Result<PrescriptionAsset, Error> {
     let bytes = read_description_bytes(file, "lens")?;
-    let text = text::decode(file, &bytes)?;
+    let text = decode_lens_text(file, &bytes)?;
     let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
     let mut asset = match extension.to_str() {
         Some("zmx") => zmx::read(file, &text)?,

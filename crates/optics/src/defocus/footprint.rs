@@ -216,7 +216,7 @@ impl Tracer<'_> {
     /// that those of neighbouring nodes belong together: a prescription samples its pupil in the meridian's frame.
     fn turn(&self, sensor_mm: DVec2) -> f64 {
         match self.view.lens {
-            Lens::Prescription(_) => {
+            Lens::Prescription(_) | Lens::RayTransfer(_) => {
                 let outward = (-sensor_mm).normalize_or(DVec2::X);
                 atan2(outward.y, outward.x) / (2.0 * PI)
             }

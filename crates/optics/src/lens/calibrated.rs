@@ -16,7 +16,7 @@
 //! Left out: what the projection does not hold: aberrations, colours (but for [`LateralColour`]), a pupil that moves with the field (all rays meet in
 //! one point), clipping.
 
-use super::falloff::Falloff;
+use super::falloff::{Falloff, FalloffBy};
 use super::lateral_colour::LateralColour;
 use super::paraxial_properties::ParaxialProperties;
 use super::plausibility;
@@ -141,7 +141,27 @@ impl Calibrated {
         }
         self.parameters.calibration.check()?;
         self.check_course(raster.max_radius_mm())?;
-        self.parameters.relative_illumination.as_ref().map_or(Ok(()), |table| table.check(raster.max_radius_mm()))
+        self.parameters
+            .relative_illumination
+            .as_ref()
+            .map_or(Ok(()), |table| table.check(self.reach(raster, table.by())))
+    }
+
+    /// How far a picture reaches in what a relative illumination goes by: to the farthest of its corners that sees something, or
+    /// to the edge of the projection where one does not.
+    fn reach(&self, raster: &Raster, by: FalloffBy) -> f64 {
+        let [width, height] = self.parameters.calibration.size_px().map(|size| size as f64);
+        let corners = [0.0, 0.5, 1.0].map(|x| [0.0, 0.5, 1.0].map(|y| DVec2::new(x * width, y * height)));
+        let angle = |px: DVec2| self.parameters.calibration.unproject(px).map(field_angle_deg);
+        match by {
+            FalloffBy::Radius => raster.max_radius_mm(),
+            FalloffBy::Angle => {
+                let calibration = &self.parameters.calibration;
+                let end = calibration.model().edge().angle_rad;
+                let edge = calibration.greatest_angle_rad().map_or(end, |angle| angle.min(end)).to_degrees();
+                corners.as_flattened().iter().map(|px| angle(*px).unwrap_or(edge)).fold(0.0, f64::max)
+            }
+        }
     }
 
     /// Near the principal point a model looks at about r/f from it.
@@ -179,7 +199,11 @@ impl Calibrated {
         if let Some(table) = &self.parameters.relative_illumination {
             let direction = self.parameters.calibration.unproject(at_px)?;
             self.foreshortening(direction)?;
-            return Some(at_the_centre(direction, self.scale * table.at(sensor_mm.length())));
+            let field = match table.by() {
+                FalloffBy::Radius => sensor_mm.length(),
+                FalloffBy::Angle => field_angle_deg(direction),
+            };
+            return Some(at_the_centre(direction, self.scale * table.at(field)));
         }
         let sight = self.parameters.calibration.sight(at_px)?;
         let pitch = self.parameters.pixel_pitch_mm;
@@ -224,6 +248,10 @@ impl Calibrated {
         let direction = (sharp - origin_m / focus_m).normalize();
         PupilRay { origin_m, direction, ..principal }
     }
+}
+
+fn field_angle_deg(direction: DVec3) -> f64 {
+    etendue_core::maths::f64::atan2(direction.truncate().length(), direction.z).to_degrees()
 }
 
 fn at_the_centre(direction: DVec3, weight_sr: f64) -> PupilRay {

@@ -29,6 +29,7 @@ impl Lens {
         each!(self,
             lens => Some((lens.properties.ideal_at(sensor_mm, nm)? / self.principal_distance_mm()).extend(1.0)),
             Prescription(lens) => lens.direction(sensor_mm),
+            RayTransfer(lens) => lens.direction(sensor_mm),
             Calibrated(lens) => lens.direction_at(sensor_mm, nm),
             Telecentric(_) => Some(DVec3::Z),
         )

@@ -10,6 +10,7 @@ impl Lens {
         each!(self,
             lens => lens.parameters().focal_length_mm,
             Prescription(lens) => lens.prescription().paraxial().focal_length_mm,
+            RayTransfer(lens) => lens.focal_length_mm(),
             Calibrated(lens) => lens.focal_length_mm(),
             Telecentric(_) => f64::INFINITY,
         )
@@ -21,6 +22,7 @@ impl Lens {
         each!(self,
             lens => lens.parameters().f_number,
             Prescription(lens) => lens.prescription().paraxial().f_number(),
+            RayTransfer(lens) => lens.f_number(),
             Calibrated(lens) => lens.parameters().f_number,
             Telecentric(lens) => lens.parameters().f_number,
         )
@@ -32,6 +34,7 @@ impl Lens {
         each!(self,
             lens => lens.parameters().transmittance,
             Prescription(lens) => lens.transmittance(),
+            RayTransfer(lens) => lens.transmittance(),
             Calibrated(lens) => lens.parameters().transmittance,
             Telecentric(lens) => lens.parameters().transmittance,
         )
@@ -52,6 +55,7 @@ impl Lens {
             Self::Thin(lens) => Some(lens.parameters().focus_distance_m),
             Self::Thick(lens) => Some(lens.parameters().focus_distance_m),
             Self::Prescription(lens) => Some(lens.prescription().focus_distance_m()),
+            Self::RayTransfer(lens) => Some(lens.focus_distance_m()),
         }
     }
 
@@ -64,6 +68,7 @@ impl Lens {
             Self::Thin(lens) => lens.conjugates.principal_distance_mm,
             Self::Thick(lens) => lens.conjugates.principal_distance_mm,
             Self::Prescription(lens) => lens.prescription().principal_distance_mm(),
+            Self::RayTransfer(lens) => lens.conjugates().principal_distance_mm,
             Self::Calibrated(lens) => lens.focal_length_mm(),
             Self::Telecentric(_) => f64::INFINITY,
         }

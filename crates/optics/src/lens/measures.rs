@@ -18,6 +18,7 @@ impl Lens {
             Self::Thin(lens) => lens.conjugates.magnification,
             Self::Thick(lens) => lens.conjugates.magnification,
             Self::Prescription(lens) => lens.prescription().magnification(),
+            Self::RayTransfer(lens) => lens.conjugates().magnification,
         }
     }
 
@@ -40,6 +41,7 @@ impl Lens {
             }
             Self::Thick(lens) => lens.sensor_position_mm() - lens.exit_pupil_position_mm(),
             Self::Prescription(lens) => lens.prescription().exit_distance_mm().abs(),
+            Self::RayTransfer(lens) => lens.exit_pupil_distance_mm(),
         }
     }
 
@@ -52,6 +54,7 @@ impl Lens {
             Self::Thin(lens) => lens.size.entrance_radius_mm * MM,
             Self::Thick(lens) => lens.size.entrance_radius_mm * MM,
             Self::Prescription(lens) => lens.prescription().paraxial().entrance_radius_mm * MM,
+            Self::RayTransfer(lens) => lens.entrance_radius_mm() * MM,
         }
     }
 
@@ -64,6 +67,7 @@ impl Lens {
                 -self.principal_distance_mm() * MM
             }
             Self::Thick(lens) => (lens.entrance_pupil_position_mm() - lens.sensor_position_mm()) * MM,
+            Self::RayTransfer(lens) => lens.sensor_plane_m(),
             Self::Prescription(lens) => {
                 (lens.prescription().paraxial().entrance_pupil_position_mm - lens.prescription().sensor_position_mm())
                     * MM
@@ -83,6 +87,7 @@ impl Lens {
             }
             Self::Thin(lens) => lens.conjugates.circle_of_confusion_mm(lens.size.entrance_radius_mm, depth_m),
             Self::Thick(lens) => lens.conjugates.circle_of_confusion_mm(lens.size.entrance_radius_mm, depth_m),
+            Self::RayTransfer(lens) => lens.conjugates().circle_of_confusion_mm(lens.entrance_radius_mm(), depth_m),
             Self::Prescription(lens) => {
                 lens.conjugates().circle_of_confusion_mm(self.entrance_pupil_radius_m() / MM, depth_m)
             }
@@ -97,6 +102,10 @@ impl Lens {
             Self::Calibrated(lens) => 2.0 * lens.pupil_radius_mm() * lens.focal_length_mm() * MM / circle_mm,
             Self::Thin(lens) => lens.size.hyperfocal_m(self.focal_length_mm(), 1.0, circle_mm),
             Self::Thick(lens) => lens.size.hyperfocal_m(self.focal_length_mm(), lens.pupil_magnification, circle_mm),
+            Self::RayTransfer(lens) => {
+                let size = PupilSize { entrance_radius_mm: lens.entrance_radius_mm() };
+                size.hyperfocal_m(lens.focal_length_mm(), lens.pupil_magnification(), circle_mm)
+            }
             Self::Prescription(lens) => {
                 let p = lens.prescription().paraxial();
                 let size = PupilSize { entrance_radius_mm: p.entrance_radius_mm };

@@ -34,6 +34,7 @@ mod falloff;
 mod field_angles;
 mod first_order;
 mod focus;
+mod gauss;
 mod lateral_colour;
 mod measures;
 mod paraxial_properties;
@@ -45,13 +46,14 @@ mod rays;
 mod telecentric;
 mod thick;
 mod thin;
+mod transferred;
 
 use crate::error::OpticsError;
 use etendue_projection::{RadialDistortion, Raster};
 use std::sync::Arc;
 
 pub use calibrated::{Calibrated, CalibratedParameters, PupilStance};
-pub use falloff::Falloff;
+pub use falloff::{Falloff, FalloffBy};
 pub(crate) use field_angles::FieldAngles;
 pub use lateral_colour::LateralColour;
 pub use pinhole::{Pinhole, PinholeParameters};
@@ -62,6 +64,7 @@ pub use rays::TruthRay;
 pub use telecentric::{Telecentric, TelecentricParameters};
 pub use thick::{ConstantPupil, Rim, Thick, ThickParameters};
 pub use thin::{Thin, ThinParameters};
+pub use transferred::{SensorPlace, Transferred};
 
 /// A lens: the closed list.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +77,8 @@ pub enum Lens {
     Thick(Thick),
     /// Surfaces, glasses, a stop: traced.
     Prescription(Arc<Prescribed>),
+    /// Ray-transfer functions: carried through at once.
+    RayTransfer(Arc<Transferred>),
     /// Each pixel looks where a projection says.
     Calibrated(Arc<Calibrated>),
     /// Every pixel looks along the axis.
@@ -111,6 +116,12 @@ impl Lens {
         Self::Prescription(Arc::new(lens))
     }
 
+    /// A lens known by its ray-transfer functions.
+    #[must_use]
+    pub fn ray_transfer(lens: Transferred) -> Self {
+        Self::RayTransfer(Arc::new(lens))
+    }
+
     /// A calibrated camera.
     ///
     /// # Errors
@@ -136,6 +147,7 @@ impl Lens {
         each!(&mut self,
             lens => lens.properties.distortion = Some(distortion),
             Prescription(_) => return Err(OpticsError::OwnDistortion),
+            RayTransfer(_) => return Err(OpticsError::OwnDistortion),
             Calibrated(_) => return Err(OpticsError::OwnDistortion),
             Telecentric(_) => return Err(OpticsError::OwnDistortion),
         );
@@ -145,7 +157,7 @@ impl Lens {
     /// The radial distortion that was laid over the lens, where there is one.
     #[must_use]
     pub fn distortion(&self) -> Option<&RadialDistortion> {
-        each!(self, lens => lens.properties.distortion.as_ref(), Prescription(_) => None, Calibrated(_) => None, Telecentric(_) => None)
+        each!(self, lens => lens.properties.distortion.as_ref(), Prescription(_) => None, RayTransfer(_) => None, Calibrated(_) => None, Telecentric(_) => None)
     }
 
     /// The same lens with lateral colour.
@@ -156,6 +168,7 @@ impl Lens {
         each!(&mut self,
             lens => lens.properties.lateral_colour = Some(Arc::new(colour)),
             Prescription(_) => return Err(OpticsError::OwnColour { kind: "prescription" }),
+            RayTransfer(_) => return Err(OpticsError::OwnColour { kind: "ray-transfer lens" }),
             Calibrated(lens) => Arc::make_mut(lens).lateral_colour = Some(colour),
             Telecentric(_) => return Err(OpticsError::OwnColour { kind: "telecentric camera" }),
         );
@@ -168,6 +181,7 @@ impl Lens {
         each!(self,
             lens => lens.properties.lateral_colour.as_deref(),
             Prescription(_) => None,
+            RayTransfer(_) => None,
             Calibrated(lens) => lens.lateral_colour.as_ref(),
             Telecentric(_) => None,
         )
@@ -181,6 +195,7 @@ impl Lens {
             Self::Thin(_) => "thin lens",
             Self::Thick(_) => "thick lens",
             Self::Prescription(_) => "prescription",
+            Self::RayTransfer(_) => "ray-transfer lens",
             Self::Calibrated(_) => "calibrated camera",
             Self::Telecentric(_) => "telecentric camera",
         }

@@ -20,6 +20,7 @@ impl Lens {
         each!(self,
             lens => lens.ray(sensor_mm, pupil, wavelength_nm),
             Prescription(lens) => lens.ray(sensor_mm, pupil, wavelength_nm),
+            RayTransfer(lens) => lens.ray(sensor_mm, pupil, wavelength_nm),
             Calibrated(lens) => lens.ray(sensor_mm, pupil, wavelength_nm),
             Telecentric(lens) => Some(lens.principal_ray(sensor_mm)),
         )
@@ -32,6 +33,7 @@ impl Lens {
         each!(self,
             lens => lens.principal_ray(sensor_mm),
             Prescription(lens) => lens.principal_ray(sensor_mm),
+            RayTransfer(lens) => lens.principal_ray(sensor_mm),
             Calibrated(lens) => lens.principal_ray(sensor_mm),
             Telecentric(lens) => Some(lens.principal_ray(sensor_mm)),
         )
@@ -45,7 +47,9 @@ impl Lens {
             return Some(TruthRay { ray, off_centre: false });
         }
         match self {
-            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Telecentric(_) => None,
+            Self::Pinhole(_) | Self::Thin(_) | Self::RayTransfer(_) | Self::Calibrated(_) | Self::Telecentric(_) => {
+                None
+            }
             Self::Thick(lens) => lens.centroid_ray(sensor_mm).map(|ray| TruthRay { ray, off_centre: true }),
             Self::Prescription(lens) => lens.centroid_ray(sensor_mm).map(|ray| TruthRay { ray, off_centre: true }),
         }
@@ -59,6 +63,7 @@ impl Lens {
         each!(self,
             lens => lens.properties.observed(ideal_mm()?),
             Prescription(lens) => lens.project(direction),
+            RayTransfer(lens) => lens.project(direction),
             Calibrated(lens) => lens.project(direction),
             Telecentric(_) => None,
         )
@@ -70,6 +75,7 @@ impl Lens {
         each!(self,
             lens => lens.projected_solid_angle_sr(sensor_mm),
             Prescription(lens) => lens.projected_solid_angle_sr(sensor_mm),
+            RayTransfer(lens) => lens.projected_solid_angle_sr(sensor_mm),
             Calibrated(lens) => lens.projected_solid_angle_sr(sensor_mm),
             Telecentric(lens) => lens.principal_ray(sensor_mm).weight_sr,
         )
@@ -79,13 +85,22 @@ impl Lens {
     /// sample's ray then serves one wavelength only.
     #[must_use]
     pub fn disperses(&self) -> bool {
-        self.lateral_colour().is_some() || matches!(self, Self::Prescription(lens) if lens.disperses())
+        let own = match self {
+            Self::Prescription(lens) => lens.disperses(),
+            Self::RayTransfer(lens) => lens.disperses(),
+            _ => false,
+        };
+        own || self.lateral_colour().is_some()
     }
 
     /// Whether the chief ray of a sensor point depends on the wavelength: lateral colour.
     #[must_use]
     pub fn spreads_colours(&self) -> bool {
-        let traced = matches!(self, Self::Prescription(lens) if lens.prescription().disperses());
-        traced || self.lateral_colour().is_some()
+        let own = match self {
+            Self::Prescription(lens) => lens.prescription().disperses(),
+            Self::RayTransfer(lens) => lens.disperses(),
+            _ => false,
+        };
+        own || self.lateral_colour().is_some()
     }
 }

@@ -47,10 +47,10 @@ impl PupilProjection {
     }
 }
 
-/// Refuses lenses without a single viewpoint.
+/// Refuses lenses without a single viewpoint, or whose viewpoints are not known well enough.
 pub(super) fn serves(lens: &Lens) -> Result<(), OpticsError> {
     match lens {
-        Lens::Telecentric(_) => Err(OpticsError::NoPupilRoute { kind: lens.kind() }),
+        Lens::Telecentric(_) | Lens::RayTransfer(_) => Err(OpticsError::NoPupilRoute { kind: lens.kind() }),
         _ => Ok(()),
     }
 }

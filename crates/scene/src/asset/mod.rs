@@ -1,6 +1,7 @@
 //! Contents of the files that a description names: inert data, filled by whoever reads files.
 
 mod calibration;
+mod field_table;
 pub(crate) mod file_list;
 mod large_image;
 mod mesh;
@@ -9,6 +10,7 @@ mod mtl;
 mod named_files;
 mod photometry;
 mod prescription;
+mod ray_transfer;
 pub(crate) mod request;
 mod slot_layers;
 mod store;
@@ -16,6 +18,7 @@ mod table;
 mod trajectory;
 
 pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
+pub use field_table::{FieldQuantity, FieldTableAsset, FieldUnit};
 pub use large_image::{LargeImage, PixelFormat, PixelRows, TakeRows, TexelStore};
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mesh_frame::{MeshFrameAsset, MeshFramePart};
@@ -24,6 +27,7 @@ pub(crate) use named_files::requests;
 pub use named_files::{of_camera, of_weather};
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
+pub use ray_transfer::{PassAsset, RayTransferAsset, TermAsset, TransferAsset};
 pub use request::{AssetKind, AssetRequest, Covered, Values};
 pub use slot_layers::{
     SlotColour, SlotEmission, SlotLayers, SlotNumber, SlotOver, SlotPicture, SlotSolid, SlotTransmission, SlotWrap,

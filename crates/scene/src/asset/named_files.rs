@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use super::field_table::FieldQuantity;
 use super::file_list::{FileList, NamesFiles as _};
 use super::request::{AssetKind, AssetRequest, Covered, Values};
 use crate::load::Unused;
 use crate::record::front::mirror::{Finish, MirrorShape};
-use crate::record::lens::calibrated::View;
+use crate::record::lens::calibrated::{IlluminationSource, View};
 use crate::record::lens::prescription::{IrCutCurve, Source};
 use crate::record::sensor::QuantumEfficiency;
 use crate::record::weather::Weather;
@@ -120,9 +121,14 @@ fn lens(lens: &Lens, files: &mut FileList) {
                 files.add(AssetKind::Spectrum(Values::Share), file);
             }
         }
+        Lens::RayTransfer(lens) => files.add(AssetKind::RayTransfer, &lens.file),
         Lens::Calibrated(lens) => {
             if let View::Calibration(calibration) = &lens.view {
                 files.add(AssetKind::Calibration(calibration.camera_in_file()), &calibration.file);
+            }
+            if let Some(IlluminationSource::File(file)) = lens.relative_illumination.as_ref().map(|table| &table.source)
+            {
+                files.add(AssetKind::FieldTable(FieldQuantity::RelativeIllumination), file);
             }
         }
     }

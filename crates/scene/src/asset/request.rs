@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use super::calibration::CalibrationChoice;
+use super::field_table::FieldQuantity;
 use crate::place::Place;
 
 /// A file to be read, and where it is named.
@@ -72,8 +73,12 @@ pub enum AssetKind {
     Numbers,
     /// [`super::PrescriptionAsset`].
     Prescription,
+    /// [`super::RayTransferAsset`].
+    RayTransfer,
     /// [`super::TrajectoryAsset`].
     Trajectory,
+    /// [`super::FieldTableAsset`] of this quantity.
+    FieldTable(FieldQuantity),
     /// [`super::CalibrationAsset`] of this camera.
     Calibration(CalibrationChoice),
 }

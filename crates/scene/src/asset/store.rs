@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::mtl::SlotMaterial;
 use super::{
-    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, ImageAsset, LargeImage,
-    MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset,
-    TexelStore, TrajectoryAsset,
+    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, FieldQuantity,
+    FieldTableAsset, ImageAsset, LargeImage, MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset,
+    PrescriptionAsset, RayTransferAsset, RetroTableAsset, SpectrumAsset, TexelStore, TrajectoryAsset,
 };
 use crate::place::Place;
 use crate::record::is_numbered;
@@ -39,8 +39,12 @@ pub struct Assets {
     pub numbers: BTreeMap<PathBuf, NumbersAsset>,
     /// Lenses by path.
     pub prescriptions: BTreeMap<PathBuf, PrescriptionAsset>,
+    /// Lenses known by their ray-transfer functions by path.
+    pub ray_transfers: BTreeMap<PathBuf, RayTransferAsset>,
     /// Places over time by path.
     pub trajectories: BTreeMap<PathBuf, TrajectoryAsset>,
+    /// Tables over the field by path and by what they tell.
+    pub field_tables: BTreeMap<(PathBuf, FieldQuantity), FieldTableAsset>,
     /// Calibrated cameras by path and by which of the file's they are.
     pub calibrations: BTreeMap<(PathBuf, CalibrationChoice), CalibrationAsset>,
 }
@@ -73,7 +77,9 @@ impl Assets {
             retro_tables,
             numbers,
             prescriptions,
+            ray_transfers,
             trajectories,
+            field_tables,
             calibrations,
         } = self;
         let is_it = |file: &Path| file == path || is_numbered(path, file);
@@ -91,7 +97,9 @@ impl Assets {
         hashes.extend(retro_tables.get(path).map(|asset| asset.hash));
         hashes.extend(numbers.get(path).map(|asset| asset.hash));
         hashes.extend(prescriptions.get(path).map(|asset| asset.hash));
+        hashes.extend(ray_transfers.get(path).map(|asset| asset.hash));
         hashes.extend(trajectories.get(path).map(|asset| asset.hash));
+        hashes.extend(field_tables.iter().filter(|((file, _), _)| file == path).map(|(_, asset)| asset.hash));
         hashes.extend(calibrations.iter().filter(|((file, _), _)| file == path).map(|(_, asset)| asset.hash));
         hashes.concat()
     }
@@ -108,7 +116,9 @@ impl Assets {
             AssetKind::RetroTable => self.retro_tables.contains_key(path),
             AssetKind::Numbers => self.numbers.contains_key(path),
             AssetKind::Prescription => self.prescriptions.contains_key(path),
+            AssetKind::RayTransfer => self.ray_transfers.contains_key(path),
             AssetKind::Trajectory => self.trajectories.contains_key(path),
+            AssetKind::FieldTable(quantity) => self.field_tables.contains_key(&(path.to_owned(), *quantity)),
             AssetKind::Calibration(choice) => self.calibrations.contains_key(&(path.to_owned(), choice.clone())),
         }
     }
@@ -137,7 +147,7 @@ fn picture(slot: &SlotMaterial) -> Option<&Path> {
 #[cfg(test)]
 mod tests {
     use super::super::photometry::{Opening, OpeningShape, PhotometryAxes, Tilt};
-    use super::super::{CalibrationFormat, ImagePixels, SlotReflectance, SlotSurface, Values};
+    use super::super::{CalibrationFormat, FieldUnit, ImagePixels, SlotReflectance, SlotSurface, Values};
     use super::*;
     use etendue_projection::model::Perspective;
     use etendue_projection::{Calibration, CameraMatrix, Model};
@@ -161,9 +171,13 @@ mod tests {
             }
             AssetKind::Numbers => drop(assets.numbers.insert(file, NumbersAsset { hash, ..Default::default() })),
             AssetKind::Prescription => drop(assets.prescriptions.insert(file, lens(hash))),
+            AssetKind::RayTransfer => {
+                drop(assets.ray_transfers.insert(file, RayTransferAsset { hash, ..Default::default() }));
+            }
             AssetKind::Trajectory => {
                 drop(assets.trajectories.insert(file, TrajectoryAsset { hash, ..Default::default() }));
             }
+            AssetKind::FieldTable(quantity) => drop(assets.field_tables.insert((file, *quantity), table(hash))),
             AssetKind::Calibration(choice) => {
                 drop(assets.calibrations.insert((file, choice.clone()), camera(hash)));
             }
@@ -212,6 +226,10 @@ mod tests {
         }
     }
 
+    fn table(hash: [u8; 32]) -> FieldTableAsset {
+        FieldTableAsset { unit: FieldUnit::Degrees, points: Vec::new(), wavelength_nm: None, notes: Vec::new(), hash }
+    }
+
     fn camera(hash: [u8; 32]) -> CalibrationAsset {
         let matrix = CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx: 0.5, cy: 0.5 };
         let model = Model::Perspective(Perspective::from_opencv(&[]).expect("no distortion"));
@@ -233,7 +251,9 @@ mod tests {
             AssetKind::RetroTable,
             AssetKind::Numbers,
             AssetKind::Prescription,
+            AssetKind::RayTransfer,
             AssetKind::Trajectory,
+            AssetKind::FieldTable(FieldQuantity::RelativeIllumination),
             AssetKind::Calibration(choice),
         ];
         for kind in kinds {

@@ -4,6 +4,7 @@ use super::Prescribed;
 use super::meridian::Meridian;
 use super::opening::{Opening, unit};
 use super::region::Ellipse;
+use crate::lens::gauss::GAUSS;
 use crate::prescription::trace::LensRay;
 use crate::pupil::{MM, concentric};
 use crate::wavelength::PRINCIPAL_NM;
@@ -13,14 +14,6 @@ use glam::{DVec2, DVec3};
 
 /// Directions over half a turn of the étendue's quadrature.
 pub(crate) const DIRECTIONS: usize = 96;
-/// Gauss–Legendre abscissae and weights on [0, 1], five points.
-const GAUSS: [[f64; 2]; 5] = [
-    [0.046_910_077_030_668, 0.118_463_442_528_094_5],
-    [0.230_765_344_947_158_5, 0.239_314_335_249_683_2],
-    [0.5, 0.284_444_444_444_444_4],
-    [0.769_234_655_052_841_5, 0.239_314_335_249_683_2],
-    [0.953_089_922_969_332, 0.118_463_442_528_094_5],
-];
 
 impl Prescribed {
     pub(in crate::lens) fn ray(&self, sensor_mm: DVec2, pupil: DVec2, nm: f64) -> Option<PupilRay> {

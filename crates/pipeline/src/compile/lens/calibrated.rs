@@ -2,11 +2,12 @@
 
 use super::super::context::Context;
 use super::{focus_m, projection, transmittance};
-use etendue_optics::{CalibratedParameters, Falloff, Lens, OpticsError, PupilStance};
+use etendue_optics::{CalibratedParameters, Falloff, FalloffBy, Lens, OpticsError, PupilStance};
 use etendue_projection::{Calibration, Raster};
 use etendue_scene::Place;
+use etendue_scene::asset::{FieldQuantity, FieldUnit};
 use etendue_scene::record::Sensor;
-use etendue_scene::record::lens::calibrated::{Calibrated, Pupil, RelativeIllumination, View};
+use etendue_scene::record::lens::calibrated::{Calibrated, IlluminationSource, Pupil, RelativeIllumination, View};
 use etendue_scene::record::lens::projection::CalibrationFile;
 
 /// The lens, and the pixel grid about the calibration's principal point.
@@ -30,7 +31,11 @@ pub(super) fn lens(
     let matrix = calibration.matrix();
     let principal = glam::DVec2::new(matrix.cx, matrix.cy);
     let raster = context.accept(place, Raster::new(raster.width(), raster.height(), raster.pitch_mm(), principal))?;
-    let lens = parameters(record, calibration, &raster).and_then(Lens::calibrated);
+    let falloff = match &record.relative_illumination {
+        Some(table) => Some(falloff(table, context)?),
+        None => None,
+    };
+    let lens = Lens::calibrated(parameters(record, calibration, &raster, falloff));
     let lens = context.accept(place, lens)?;
     let checked = lens.check(&raster);
     let at = match (&checked, &record.relative_illumination) {
@@ -46,8 +51,9 @@ fn parameters(
     record: &Calibrated,
     calibration: Calibration,
     raster: &Raster,
-) -> Result<CalibratedParameters, OpticsError> {
-    Ok(CalibratedParameters {
+    relative_illumination: Option<Falloff>,
+) -> CalibratedParameters {
+    CalibratedParameters {
         calibration,
         pixel_pitch_mm: raster.pitch_mm().x,
         f_number: record.f_number.value,
@@ -57,13 +63,30 @@ fn parameters(
             Pupil::Flat => PupilStance::Flat,
             Pupil::Turning => PupilStance::Turning,
         }),
-        relative_illumination: record.relative_illumination.as_ref().map(falloff).transpose()?,
-    })
+        relative_illumination,
+    }
 }
 
-fn falloff(table: &RelativeIllumination) -> Result<Falloff, OpticsError> {
-    let points = table.radius_mm.iter().zip(&table.ratio);
-    Falloff::new(points.map(|(radius, ratio)| (radius.value, ratio.value)).collect())
+/// The table, or that of its file, with what was made of it remarked.
+fn falloff(table: &RelativeIllumination, context: &mut Context<'_>) -> Option<Falloff> {
+    let (place, made) = match &table.source {
+        IlluminationSource::Radii(radii) => {
+            let points = radii.iter().zip(table.ratio.iter().flatten());
+            (&table.place, Falloff::new(points.map(|(radius, ratio)| (radius.value, ratio.value)).collect()))
+        }
+        IlluminationSource::File(file) => {
+            let key = (file.value.clone(), FieldQuantity::RelativeIllumination);
+            let assets = context.assets;
+            let asset = assets.field_tables.get(&key)?;
+            asset.notes.iter().for_each(|note| context.remark_on(file.value.display(), note));
+            let by = match asset.unit {
+                FieldUnit::Degrees => FalloffBy::Angle,
+                FieldUnit::Millimetres => FalloffBy::Radius,
+            };
+            (&file.place, Falloff::over(by, asset.points.clone()))
+        }
+    };
+    context.accept(place, made)
 }
 
 /// The camera of a calibration file, with what of the file was passed over remarked.

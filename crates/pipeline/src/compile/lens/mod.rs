@@ -6,6 +6,7 @@ mod file_surface;
 mod lens_file;
 mod prescription;
 mod projection;
+mod ray_transfer;
 mod stated;
 #[cfg(test)]
 mod tests;
@@ -36,6 +37,10 @@ pub(super) fn lens(camera: &record::Camera, context: &mut Context<'_>) -> Option
             let film = widest_film(camera.effects.as_ref(), &raster);
             prescription::lens(record, &raster, &film, context)
         }
+        record::Lens::RayTransfer(record) => {
+            let film = widest_film(camera.effects.as_ref(), &raster);
+            ray_transfer::lens(record, &raster, &film, context)
+        }
         record::Lens::Telecentric(record) => context.accept(&record.place, telecentric(record, &raster)),
         record::Lens::Pinhole(_) | record::Lens::Thin(_) | record::Lens::Thick(_) => {
             paraxial(&camera.lens, &raster, context)
@@ -51,7 +56,7 @@ fn lateral_colour(record: &record::Lens) -> Option<&description::LateralColour> 
         record::Lens::Thin(r) => r.lateral_colour.as_ref(),
         record::Lens::Thick(r) => r.lateral_colour.as_ref(),
         record::Lens::Calibrated(r) => r.lateral_colour.as_ref(),
-        record::Lens::Prescription(_) | record::Lens::Telecentric(_) => None,
+        record::Lens::Prescription(_) | record::Lens::RayTransfer(_) | record::Lens::Telecentric(_) => None,
     }
 }
 
@@ -85,7 +90,10 @@ fn paraxial(record: &record::Lens, raster: &Raster, context: &mut Context<'_>) -
         record::Lens::Pinhole(r) => (&r.place, None, pinhole(r), &r.distortion),
         record::Lens::Thin(r) => (&r.place, Some(&r.focus_distance_m), thin(r), &r.distortion),
         record::Lens::Thick(r) => (&r.place, Some(&r.focus_distance_m), thick(r), &r.distortion),
-        record::Lens::Prescription(_) | record::Lens::Calibrated(_) | record::Lens::Telecentric(_) => return None,
+        record::Lens::Prescription(_)
+        | record::Lens::RayTransfer(_)
+        | record::Lens::Calibrated(_)
+        | record::Lens::Telecentric(_) => return None,
     };
     let place = match (&made, focus) {
         (Err(OpticsError::FocusTooNear { .. }), Some(description::FocusDistance::Metres(metres))) => &metres.place,

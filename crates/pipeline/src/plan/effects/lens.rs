@@ -33,6 +33,7 @@ fn distortion(camera: &CameraPlan) -> PlannedEffect {
     let lens = &camera.body.lens;
     let status = match lens {
         Lens::Prescription(_) => EffectStatus::Modelled("rays are bent by the lens's surfaces".to_owned()),
+        Lens::RayTransfer(_) => EffectStatus::Modelled("rays leave as the functions say".to_owned()),
         Lens::Calibrated(_) => EffectStatus::Modelled("each pixel looks where the projection says".to_owned()),
         _ => where_there(
             lens.distortion().is_some(),
@@ -65,6 +66,10 @@ fn rims(camera: &CameraPlan) -> PlannedEffect {
     let rims = match &camera.body.lens {
         Lens::Prescription(_) => {
             let status = EffectStatus::Modelled("each surface's clear aperture stops rays".to_owned());
+            return PlannedEffect::new(GROUP, name, status).described_by(key);
+        }
+        Lens::RayTransfer(_) => {
+            let status = EffectStatus::Modelled("the functions tell which rays pass".to_owned());
             return PlannedEffect::new(GROUP, name, status).described_by(key);
         }
         Lens::Thick(lens) => [lens.parameters().front_aperture.is_some(), lens.parameters().rear_aperture.is_some()],
@@ -117,6 +122,9 @@ fn pinhole(camera: &CameraPlan) -> Vec<String> {
 fn lateral_colour(camera: &CameraPlan) -> PlannedEffect {
     let lens = &camera.body.lens;
     let status = match lens {
+        Lens::RayTransfer(lens) if lens.disperses() => {
+            EffectStatus::Modelled("the functions bend each wavelength differently".to_owned())
+        }
         Lens::Prescription(_) => EffectStatus::Modelled("glasses bend each wavelength differently".to_owned()),
         _ => where_there(
             lens.lateral_colour().is_some(),

@@ -77,6 +77,17 @@ fn left_out(lens: &Lens, effects: &Effects) -> String {
         Lens::Prescription(_) => {
             format!("{}: not modelled", missing(&["diffraction", "glare", "ghosts", "absorption in glass"]))
         }
+        Lens::RayTransfer(lens) => {
+            let missing = missing(&[
+                "diffraction",
+                "glare",
+                "ghosts",
+                "absorption and reflection by wavelength",
+                "errors of the fit",
+            ]);
+            let colours = if lens.disperses() { "" } else { "; dispersion: the functions know one wavelength" };
+            format!("{missing}: not modelled{colours}")
+        }
         Lens::Calibrated(lens) => {
             let pupil = match (lens.parameters().relative_illumination.is_some(), lens.pupil()) {
                 (true, _) => "illumination as measured",
@@ -114,6 +125,7 @@ fn field_of_view(camera: &CameraPlan) -> String {
 fn distortion(lens: &Lens) -> String {
     match (lens.distortion(), lens) {
         (None, Lens::Prescription(_)) => "that of its surfaces".to_owned(),
+        (None, Lens::RayTransfer(_)) => "that of its functions".to_owned(),
         (None, Lens::Calibrated(_)) => {
             "that of its projection; outside of it pixels are dark and without a ray".to_owned()
         }

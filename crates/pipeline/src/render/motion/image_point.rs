@@ -59,7 +59,7 @@ pub(super) fn unbent(body: &CameraBody, target: Target) -> Option<DVec2> {
 
 fn projected(body: &CameraBody, target: Target) -> Option<DVec2> {
     let mut at_mm = body.lens.project(target.direction_from(DVec3::ZERO)?)?;
-    if matches!(body.lens, Lens::Prescription(_)) {
+    if matches!(body.lens, Lens::Prescription(_) | Lens::RayTransfer(_)) {
         for _ in 0..MAX_STEPS {
             // Where the principal ray is clipped, that of the pupil's centre stays.
             let Some(ray) = body.lens.principal_ray(at_mm) else { break };

@@ -1,12 +1,14 @@
 //! A camera known by where its pixels look.
 
+use std::path::PathBuf;
+
 use super::focus::{FocusDistance, focus_distance};
 use super::lateral_colour::LateralColour;
 use super::numbers::{f_number, share};
 use super::projection::{CalibrationFile, Projection};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, keyed, list, number, record};
+use crate::reader::{choice, keyed, list, number, path, record};
 
 record! {
     /// A calibrated or ideal projection with a lens's light.
@@ -56,10 +58,20 @@ choice! {
 record! {
     /// Irradiance over that on the axis, linear between the points.
     pub struct RelativeIllumination check(check_illumination) {
+        /// Where its points are.
+        inside source: IlluminationSource;
+        /// With "radius_mm": irradiance over that on the axis, 0 or more; the first is 1.
+        optional ratio: Vec<Placed<f64>> = list(number("").at_least(0.0), 1);
+    }
+}
+
+keyed! {
+    /// Where a relative illumination is.
+    pub enum IlluminationSource {
+        /// Zemax's "Relative Illumination" exported as text, its fields in degrees or in mm of the picture, to the picture's farthest corner or beyond.
+        file => File(Placed<PathBuf>) = path(&["txt"]);
         /// Distances from the principal point, mm, rising from 0 to the picture's farthest corner or beyond.
-        required radius_mm: Vec<Placed<f64>> = list(number("mm").at_least(0.0), 1);
-        /// Irradiance over that on the axis, 0 or more; the first is 1.
-        required ratio: Vec<Placed<f64>> = list(number("").at_least(0.0), 1);
+        radius_mm => Radii(Vec<Placed<f64>>) = list(number("mm").at_least(0.0), 1);
     }
 }
 
@@ -71,7 +83,20 @@ fn check(lens: &Calibrated, faults: &mut Faults) {
 }
 
 fn check_illumination(table: &RelativeIllumination, faults: &mut Faults) {
-    let (radii, ratios) = (&table.radius_mm, &table.ratio);
+    let radii = match (&table.source, &table.ratio) {
+        (IlluminationSource::File(_), None) => return,
+        (IlluminationSource::File(_), Some(ratios)) => {
+            let place = ratios.first().map_or(&table.place, |first| &first.place);
+            faults.add(place, "\"ratio\" has no effect here, it belongs to \"radius_mm\"", "remove it");
+            return;
+        }
+        (IlluminationSource::Radii(_), None) => {
+            faults.add(&table.place, "the key \"ratio\" is missing", "add \"ratio\", one for each radius");
+            return;
+        }
+        (IlluminationSource::Radii(radii), Some(_)) => radii,
+    };
+    let ratios = table.ratio.as_deref().unwrap_or_default();
     if radii.len() != ratios.len() {
         let problem = format!("{} radii and {} ratios", radii.len(), ratios.len());
         faults.add(&table.place, problem, "give as many of one as of the other");
@@ -80,7 +105,7 @@ fn check_illumination(table: &RelativeIllumination, faults: &mut Faults) {
         let problem = format!("{} does not lie beyond {}", pair[1].value, pair[0].value);
         faults.add(&pair[1].place, problem, "give rising radii");
     }
-    for (list, start, name) in [(radii, 0.0, "radius"), (ratios, 1.0, "ratio")] {
+    for (list, start, name) in [(&radii[..], 0.0, "radius"), (ratios, 1.0, "ratio")] {
         if let Some(first) = list.first().filter(|first| first.value != start) {
             faults.add(&first.place, format!("the first {name} is {}", first.value), format!("begin with {start}"));
         }

@@ -8,6 +8,7 @@ mod numbers;
 mod pinhole;
 pub mod prescription;
 pub mod projection;
+pub mod ray_transfer;
 mod telecentric;
 mod thick;
 mod thin;
@@ -20,6 +21,7 @@ pub use focus::{Endless, FocusDistance};
 pub use lateral_colour::LateralColour;
 pub use pinhole::Pinhole;
 pub use prescription::Prescription;
+pub use ray_transfer::RayTransfer;
 pub use telecentric::Telecentric;
 pub use thick::{Pupil, Rim, Thick};
 pub use thin::Thin;
@@ -35,6 +37,8 @@ variants! {
         "thick" => Thick(Box<Thick>),
         /// A lens of surfaces and glasses, traced: aberrations, colours, vignetting as they are.
         "prescription" => Prescription(Box<Prescription>),
+        /// A lens known by its ray-transfer functions alone, as a maker gives it away: from rays behind it to rays in front of it.
+        "ray_transfer" => RayTransfer(RayTransfer),
         /// A calibrated or ideal projection: each pixel looks where the calibration says.
         "calibrated" => Calibrated(Box<Calibrated>),
         /// Telecentric rays along the axis, as from an object-side telecentric lens; everything is sharp.

@@ -1,19 +1,21 @@
 //! YAML (and so JSON) as a tree whose nodes know their line.
 //!
-//! Without aliases, tags and several documents, which no calibration program writes but for OpenCV's `!!opencv-matrix`, and
+//! Without aliases, tags and several documents, which no program that is read here writes but for OpenCV's `!!opencv-matrix`, and
 //! that one says nothing that its keys do not. OpenCV's own header `%YAML:1.0`, which is not YAML, is passed over.
+
+mod fault;
 
 use std::collections::BTreeSet;
 
 use saphyr_parser::{Event, Parser, ScalarStyle, Span, StrInput};
 
-use super::{Fault, Read};
+pub(crate) use fault::{Fault, Read, passed_over};
 
 /// A node of the tree.
 #[derive(Debug)]
-pub(super) struct Node {
+pub(crate) struct Node {
     /// Counted from 1.
-    pub(super) line: usize,
+    pub(crate) line: usize,
     value: Value,
 }
 
@@ -24,17 +26,17 @@ enum Value {
     Map(Vec<(String, Node)>),
 }
 
-/// Deeper than any calibration file.
+/// Deeper than any such file.
 const DEEPEST: usize = 32;
 
 /// Reads a document whose root is a map.
-pub(super) fn parse(text: &str) -> Read<Node> {
+pub(crate) fn parse(text: &str) -> Read<Node> {
     let header = if text.starts_with("%YAML") { text.find('\n').unwrap_or(text.len()) } else { 0 };
     let mut events = Events { parser: Parser::new_from_str(&text[header..]) };
     loop {
         match events.next()? {
             (Event::StreamStart | Event::DocumentStart(_), _) => {}
-            (Event::StreamEnd, _) => return Err(Fault::at(0, "holds nothing; expected a calibration")),
+            (Event::StreamEnd, _) => return Err(Fault::at(0, "holds nothing; expected keys with values")),
             (event, span) => {
                 let root = events.node(event, span, 0)?;
                 return match root.value {
@@ -62,7 +64,7 @@ impl<'a> Events<'a> {
     fn node(&mut self, event: Event<'a>, span: Span, depth: usize) -> Read<Node> {
         let line = span.start.line();
         if depth > DEEPEST {
-            return Err(Fault::at(line, format!("nested more than {DEEPEST} deep; no calibration is")));
+            return Err(Fault::at(line, format!("nested more than {DEEPEST} deep; no such file is")));
         }
         let value = match event {
             Event::Scalar(text, style, ..) => Value::Scalar(plain(&text, style)),
@@ -109,61 +111,61 @@ fn plain(text: &str, style: ScalarStyle) -> String {
 
 impl Node {
     /// The value of a key, where it is there.
-    pub(super) fn find(&self, key: &str) -> Option<&Node> {
+    pub(crate) fn find(&self, key: &str) -> Option<&Node> {
         self.entries().iter().find(|(name, _)| name == key).map(|(_, node)| node)
     }
 
     /// The value of the first of some names of a key.
-    pub(super) fn any(&self, names: &[&str]) -> Read<&Node> {
+    pub(crate) fn any(&self, names: &[&str]) -> Read<&Node> {
         names.iter().find_map(|name| self.find(name)).ok_or_else(|| {
             Fault::at(self.line, format!("expected the key {}; found {}", names.join(" or "), list(&self.keys())))
         })
     }
 
     /// The value of a key.
-    pub(super) fn key(&self, key: &str) -> Read<&Node> {
+    pub(crate) fn key(&self, key: &str) -> Read<&Node> {
         self.any(&[key])
     }
 
     /// The keys of a map, as written; none of anything else.
-    pub(super) fn keys(&self) -> Vec<&str> {
+    pub(crate) fn keys(&self) -> Vec<&str> {
         self.entries().iter().map(|(name, _)| name.as_str()).collect()
     }
 
     /// The keys that are not among these.
-    pub(super) fn others(&self, known: &[&str]) -> Vec<&str> {
+    pub(crate) fn others(&self, known: &[&str]) -> Vec<&str> {
         self.keys().into_iter().filter(|key| !known.contains(key)).collect()
     }
 
-    pub(super) fn entries(&self) -> &[(String, Node)] {
+    pub(crate) fn entries(&self) -> &[(String, Node)] {
         match &self.value {
             Value::Map(entries) => entries,
             _ => &[],
         }
     }
 
-    pub(super) fn text(&self) -> Read<&str> {
+    pub(crate) fn text(&self) -> Read<&str> {
         match &self.value {
             Value::Scalar(text) => Ok(text),
             _ => Err(Fault::at(self.line, "expected one value; found a list or keys")),
         }
     }
 
-    pub(super) fn number(&self) -> Read<f64> {
+    pub(crate) fn number(&self) -> Read<f64> {
         let text = self.text()?;
         let number = text.parse::<f64>().ok().filter(|x| x.is_finite());
         number.ok_or_else(|| Fault::at(self.line, format!("found \"{text}\"; expected a finite number")))
     }
 
     /// A number of pixels.
-    pub(super) fn count(&self) -> Read<usize> {
+    pub(crate) fn count(&self) -> Read<usize> {
         let text = self.text()?;
         let count = text.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
         count.ok_or_else(|| Fault::at(self.line, format!("found \"{text}\"; expected a number of pixels from 1")))
     }
 
     /// The items of a list; `None` of anything else.
-    pub(super) fn items(&self) -> Option<&[Node]> {
+    pub(crate) fn items(&self) -> Option<&[Node]> {
         match &self.value {
             Value::List(nodes) => Some(nodes),
             _ => None,
@@ -171,14 +173,14 @@ impl Node {
     }
 
     /// All numbers of a list, of lists in it, or the one number.
-    pub(super) fn numbers(&self) -> Read<Vec<f64>> {
+    pub(crate) fn numbers(&self) -> Read<Vec<f64>> {
         let Some(items) = self.items() else { return Ok(vec![self.number()?]) };
         let rows: Vec<Vec<f64>> = items.iter().map(Node::numbers).collect::<Read<_>>()?;
         Ok(rows.concat())
     }
 
     /// A list of so many numbers that `what` names.
-    pub(super) fn exactly<const N: usize>(&self, what: &str) -> Read<[f64; N]> {
+    pub(crate) fn exactly<const N: usize>(&self, what: &str) -> Read<[f64; N]> {
         let numbers = self.numbers()?;
         let count = numbers.len();
         numbers.try_into().map_err(|_| Fault::at(self.line, format!("found {count} numbers; expected {N}: {what}")))
@@ -186,7 +188,7 @@ impl Node {
 }
 
 /// Names in a sentence.
-pub(super) fn list(names: &[&str]) -> String {
+pub(crate) fn list(names: &[&str]) -> String {
     const SHOWN: usize = 24;
     let more = if names.len() > SHOWN { ", …" } else { "" };
     if names.is_empty() { "no keys".to_owned() } else { names[..names.len().min(SHOWN)].join(", ") + more }

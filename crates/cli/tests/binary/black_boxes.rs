@@ -1,0 +1,218 @@
+//! Lenses as their makers give them away: tables over the field and ray-transfer functions drive a camera that follows them, and bad ones are told.
+
+use crate::support::{etendue, root, text};
+use etendue_io::exr::{Samples, read_exr};
+use serde_json::Value;
+use std::path::Path;
+
+/// A uniform surround of 1 W/(m²·sr·nm), and what is put before it, before a camera that looks along +x.
+fn job(objects: &str, sensor: &str, lens: &str, spp: u32) -> String {
+    format!(
+        "format = 1\n[scene]\nenvironment = {{ type = \"uniform\", radiance_w_m2_sr_nm = 1 }}\n{objects}[[cameras]]\nname = \"eye\"\n\
+         position_m = [0, 0, 0]\nlook_at_m = [1, 0, 0]\nsensor = {{ {sensor} }}\n[cameras.lens]\n{lens}\n[render]\nspp = {spp}\nreplicates = 2\n\
+         wavelength_range_nm = [540, 560]\nband_width_nm = 20\n[output]\nirradiance = true\n"
+    )
+}
+
+/// The irradiance of each pixel, W/(m²·nm).
+fn irradiance(folder: &Path, job: &str) -> Vec<f64> {
+    std::fs::write(folder.join("job.toml"), job).expect("written");
+    let out = folder.join("out");
+    etendue(["render", &text(&folder.join("job.toml")), "-o", &text(&out), "--overwrite"]).ok();
+    let file = read_exr(&out.join("eye/irradiance.exr")).expect("readable");
+    let band = file.channels.iter().find(|channel| channel.name.starts_with("S0.")).expect("the one band");
+    let Samples::Float(samples) = &band.samples else { panic!("not of 32-bit floats") };
+    samples.iter().map(|v| f64::from(*v)).collect()
+}
+
+fn plan(folder: &Path, job: &str) -> crate::support::Ran {
+    std::fs::write(folder.join("job.toml"), job).expect("written");
+    etendue(["plan", &text(&folder.join("job.toml"))])
+}
+
+/// An export of relative illumination with fields in degrees to either side's convention, as OpticStudio writes it.
+fn export(rows: &str) -> String {
+    format!(
+        "Relative Illumination Data\r\n\r\nFile : C:\\lenses\\made for a test.zmx\r\nTitle: made for a test\r\nDate : 1/1/2026\r\n\r\n\
+         Wavelength: 0.587562 µm\r\nField values are in degrees.\r\n\r\n     Field       Rel. Ill.     Eff. F/#\r\n{rows}"
+    )
+}
+
+const FIELDS: [(f64, f64); 5] = [(0.0, 1.0), (10.0, 0.93), (20.0, 0.78), (30.0, 0.52), (40.0, 0.31)];
+
+fn rows(sign: f64, on_axis: f64) -> String {
+    FIELDS
+        .iter()
+        .map(|(field, ratio)| format!("  {:.6E}  {:.6E}  2.1E+00\r\n", field * sign, ratio * on_axis))
+        .collect()
+}
+
+fn utf16(text: &str) -> Vec<u8> {
+    core::iter::once(0xfeff).chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect()
+}
+
+const CALIBRATED: &str = "type = \"calibrated\"\nf_number = 2\nprojection = { type = \"equidistant\", focal_length_mm = 6 }\n\
+                          relative_illumination = { file = \"ri.txt\" }";
+const SENSOR: &str = "width_px = 121, height_px = 1, pixel_pitch_um = 60";
+
+#[test]
+fn a_camera_falls_off_as_zemax_s_export_says() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (sign, on_axis, wide) in [(1.0, 1.0, false), (-1.0, 0.97, true)] {
+        let listing = export(&rows(sign, on_axis));
+        let bytes = if wide { utf16(&listing) } else { listing.into_bytes() };
+        std::fs::write(folder.path().join("ri.txt"), bytes).expect("written");
+        let found = irradiance(folder.path(), &job("", SENSOR, CALIBRATED, 64));
+        for (i, value) in found.iter().enumerate() {
+            let angle = ((i as f64 - 60.0) * 0.06 / 6.0).abs().to_degrees();
+            let after = FIELDS.iter().position(|(field, _)| *field >= angle).expect("within the table").max(1);
+            let [(a, from), (b, to)] = [FIELDS[after - 1], FIELDS[after]];
+            let expected = from + (to - from) * (angle - a) / (b - a);
+            // A pixel is 0.6° wide: at a kink of the table its mean is off by up to 0.1 %.
+            assert!((value / found[60] - expected).abs() < 0.002, "{angle}°: {} for {expected}", value / found[60]);
+        }
+    }
+    let said = plan(folder.path(), &job("", SENSOR, CALIBRATED, 64)).ok().out;
+    assert!(said.contains("ri.txt") && said.contains("computed for 587.562 nm, taken for all wavelengths"), "{said}");
+}
+
+#[test]
+fn exports_that_cannot_be_used_are_told_with_their_line() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = export(&rows(1.0, 1.0));
+    for (listing, phrases) in [
+        (whole.replace("5.2", "-5.2"), &["ri.txt:14", "0 or more"][..]),
+        (whole.replace("3.000000E1", "1.500000E1"), &["ri.txt:14", "does not lie beyond"]),
+        (whole.replace("0.000000E0 ", "1.000000E0 "), &["ri.txt:11", "expected 0, the axis"]),
+        (whole.replace("degrees", "furlongs"), &["ri.txt", "in what the fields are counted"]),
+        (whole.replace("in degrees", "object height in millimeters"), &["ri.txt:8", "heights of the object"]),
+        (
+            whole.replace("Relative Illumination", "Spots").replace("Rel. Ill.", "Size"),
+            &["ri.txt", "no export of relative illumination"],
+        ),
+        (whole.replace("  2.1E+00\r\n  2", "\r\n  2"), &["ri.txt:12", "found 2 numbers where the table has 3"]),
+        (format!("{whole}\r\nsecond\r\n{}", rows(1.0, 1.0)), &["ri.txt:18", "second table"]),
+        (whole[..200].to_owned(), &["ri.txt", "no row of numbers"]),
+        (export(&rows(0.5, 1.0)), &["job.toml", "known to 20°", "extend it"]),
+    ] {
+        std::fs::write(folder.path().join("ri.txt"), &listing).expect("written");
+        plan(folder.path(), &job("", SENSOR, CALIBRATED, 1)).refused(phrases);
+    }
+    let both = CALIBRATED.replace("\"ri.txt\"", "\"ri.txt\", ratio = [1]");
+    plan(folder.path(), &job("", SENSOR, &both, 1)).refused(&["job.toml", "\"ratio\" has no effect here"]);
+    let half = CALIBRATED.replace("file = \"ri.txt\"", "radius_mm = [0, 9]");
+    plan(folder.path(), &job("", SENSOR, &half, 1)).refused(&["job.toml", "\"ratio\" is missing"]);
+}
+
+/// A published file, and what tests/oracles/ray_transfer.py finds in it.
+fn published() -> (String, Value) {
+    let figures = root().join("tests/oracles/figures/ray_transfer.json");
+    let figures = std::fs::read_to_string(figures).expect("stored figures");
+    let file = text(&root().join("scenes/lenses/dgauss28deg-zemax-poly6-raytransfer.json"));
+    (file, serde_json::from_str(&figures).expect("JSON"))
+}
+
+fn numbers(list: &Value) -> Vec<f64> {
+    list.as_array().expect("a list").iter().map(|v| v.as_f64().expect("a number")).collect()
+}
+
+fn transferred(file: &str, film_mm: f64) -> String {
+    format!("type = \"ray_transfer\"\nfile = \"{file}\"\nsensor_distance_mm = {film_mm}")
+}
+
+#[test]
+fn a_camera_falls_off_as_published_ray_transfer_functions_say() {
+    let (folder, (file, figures)) = (tempfile::tempdir().expect("a folder"), published());
+    let lens = transferred(&file, figures["film_mm"].as_f64().expect("mm"));
+    // Pixels of 0.2 mm along a column, from the axis outwards.
+    let sensor = "width_px = 1, height_px = 143, pixel_pitch_um = 200, principal_point_px = [0.5, 0.5]";
+    let found = irradiance(folder.path(), &job("", sensor, &lens, 4096));
+    for (height, expected) in
+        numbers(&figures["heights_mm"]).into_iter().zip(numbers(&figures["relative_illumination"]))
+    {
+        let at = (height / 0.2).round() as usize;
+        let near = &found[at.saturating_sub(2)..at + 3];
+        let axis = &found[..3];
+        let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+        // Eight hundredths of the samples are stopped: 0.2 % of noise; half a millimetre of fall-off is averaged over.
+        assert!(
+            (mean(near) / mean(axis) - expected).abs() < 0.01,
+            "{height} mm: {} for {expected}",
+            mean(near) / mean(axis)
+        );
+    }
+    let said = plan(folder.path(), &job("", sensor, &lens, 1)).ok().out;
+    for phrase in [
+        "ray-transfer lens, 99.",
+        "fitted to 550 nm, taken for all wavelengths",
+        "within 22.8 mm of the axis",
+        "errors of the fit",
+    ] {
+        assert!(said.contains(phrase), "no {phrase} in\n{said}");
+    }
+}
+
+/// What is bright lies below an edge a thousand kilometres away.
+#[test]
+fn edges_look_as_published_ray_transfer_functions_make_them() {
+    let (folder, (file, figures)) = (tempfile::tempdir().expect("a folder"), published());
+    let lens = transferred(&file, figures["film_mm"].as_f64().expect("mm"));
+    let (far_m, size_m) = (1e6, 2e6);
+    for edge in figures["edges"].as_array().expect("edges") {
+        let expected = numbers(&edge["response"]);
+        let number = |key: &str| edge[key].as_f64().expect("a number");
+        let above = size_m / 2.0 - number("outward_slope") * far_m;
+        let black = format!(
+            "[[scene.materials]]\nname = \"black\"\ntype = \"diffuse\"\nreflectance = 0\n[[scene.objects]]\nname = \"sky\"\n\
+             shape = {{ type = \"quad\", size_m = [{size_m:.1}, {size_m:.1}] }}\nposition_m = [{far_m:.1}, 0, {above:.6}]\n\
+             rotation_deg = [0, -90, 0]\nmaterial = \"black\"\n"
+        );
+        let middle = 0.5 * expected.len() as f64 - number("height_mm") / figures["pixel_mm"].as_f64().expect("mm");
+        let sensor = format!(
+            "width_px = 1, height_px = {}, pixel_pitch_um = 5, principal_point_px = [0.5, {middle:.6}]",
+            expected.len()
+        );
+        let [lit, whole] =
+            [&black[..], ""].map(|objects| irradiance(folder.path(), &job(objects, &sensor, &lens, 16384)));
+        for (i, expected) in expected.iter().enumerate() {
+            let found = lit[i] / whole[i];
+            assert!((found - expected).abs() < 0.01, "{} mm, pixel {i}: {found} for {expected}", edge["height_mm"]);
+        }
+    }
+}
+
+#[test]
+fn ray_transfer_files_that_cannot_be_used_are_told() {
+    let (folder, (file, _)) = (tempfile::tempdir().expect("a folder"), published());
+    let whole = std::fs::read_to_string(file).expect("the published file");
+    let sensor = "width_px = 9, height_px = 9, pixel_pitch_um = 900";
+    for (was, is, phrases) in [
+        ("\"minimalellipse\"", "\"neural\"", &["lens.json:12", "none of \"minimalellipse\", \"circles\""][..]),
+        ("\"thickness\": 75.67388,", "", &["lens.json:1", "thickness"]),
+        ("\"outy\"", "\"outq\"", &["the output \"outq\" is none of"]),
+        ("\"termr\": [0]", "\"termr\": [0, 1]", &["1 coefficients and 2, 1 and 1 powers"]),
+        ("\"termr\": [0]", "\"termr\": [0.5]", &["the power 0.5"]),
+        ("\"termr\": [0]", "\"termr\": [99]", &["the power 99"]),
+        ("[0,0.6,1.2,", "[0,1.6,1.2,", &["positions that rise from 0"]),
+        ("\"radiiX\": [6.01", "\"radiiX\": [-6.01", &["the first above 0"]),
+        ("\"wavelength_nm\": 550", "\"wavelength_nm\": -1", &["above 0"]),
+        ("\"wavelength_nm\": 550", "\"wavelength_nm\": 550, \"wavelength_nm\": 550", &["there twice"]),
+        ("\"outx\"", "\"outy\"", &["\"outy\" is there twice"]),
+        ("[5.315483154282251e-08", "[1e999", &["finite number"]),
+        ("-0.01004348535911221", "0.01004348535911221", &["of no lens that makes a real image"]),
+    ] {
+        assert!(whole.contains(was), "{was}");
+        std::fs::write(folder.path().join("lens.json"), whole.replace(was, is)).expect("written");
+        plan(folder.path(), &job("", sensor, &transferred("lens.json", 57.315), 1)).refused(phrases);
+    }
+    std::fs::write(folder.path().join("lens.json"), &whole).expect("written");
+    let near = plan(folder.path(), &job("", sensor, &transferred("lens.json", 0.005), 1));
+    near.refused(&["job.toml", "sensor_distance_mm", "within the plane at 0.01 mm"]);
+    let focus = transferred("lens.json", 1.0).replace("sensor_distance_mm = 1", "focus_distance_m = 0.001");
+    plan(folder.path(), &job("", sensor, &focus, 1))
+        .refused(&["job.toml", "no place of the sensor makes 0.001 m sharp"]);
+    let none = "type = \"ray_transfer\"\nfile = \"lens.json\"";
+    plan(folder.path(), &job("", sensor, none, 1)).refused(&["job.toml", "focus_distance_m", "sensor_distance_mm"]);
+    let pupil = job("", sensor, &transferred("lens.json", 57.315), 1).replace("spp = 1", "route = \"pupil\"\nspp = 1");
+    plan(folder.path(), &pupil).refused(&["route", "ray-transfer lens"]);
+}

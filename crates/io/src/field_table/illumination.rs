@@ -1,0 +1,55 @@
+//! Zemax's "Relative Illumination".
+
+use etendue_scene::asset::FieldTableAsset;
+
+use super::listing::{Listing, Table, wavelength_nm};
+use crate::Error;
+
+pub(super) fn read(listing: &Listing<'_>) -> Result<FieldTableAsset, Error> {
+    if !["relative illumination", "rel. ill"].iter().any(|words| listing.speaks_of(words)) {
+        return Err(listing.fault(0, "is no export of relative illumination: its head does not speak of it"));
+    }
+    let [table] = &listing.tables[..] else {
+        let second = listing.tables[1].rows[0].line;
+        return Err(listing.fault(second, "a second table; export one wavelength and one direction from the axis"));
+    };
+    let unit = listing.unit()?;
+    let mut points = points(listing, table)?;
+    let on_axis = points[0].1;
+    points.iter_mut().for_each(|point| point.1 /= on_axis);
+    let wavelength_nm = wavelength_nm(&listing.head);
+    let mut notes = vec![match wavelength_nm {
+        Some(nm) => format!("relative illumination computed for {nm} nm, taken for all wavelengths"),
+        None => "relative illumination taken for all wavelengths".to_owned(),
+    }];
+    if on_axis != 1.0 {
+        notes.push(format!("divided by its value on the axis, {on_axis}"));
+    }
+    if table.rows[0].numbers.len() > 2 {
+        notes.push("its effective f-numbers are not used".to_owned());
+    }
+    Ok(FieldTableAsset { unit, points, wavelength_nm, notes, hash: [0; 32] })
+}
+
+/// Field without its sign, and ratio.
+fn points(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<(f64, f64)>, Error> {
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    let side = table.rows.iter().map(|row| row.numbers[0]).find(|field| *field != 0.0).map_or(1.0, f64::signum);
+    for row in &table.rows {
+        let (field, ratio) = (row.numbers[0] * side, row.numbers[1]);
+        let wrong = match points.last() {
+            None if field != 0.0 => Some(format!("the first field is {field}; expected 0, the axis")),
+            Some((before, _)) if field <= *before => {
+                Some(format!("the field {field} does not lie beyond {before}; expected rising distances from the axis"))
+            }
+            _ if ratio < 0.0 => Some(format!("found the relative illumination {ratio}; expected 0 or more")),
+            None if ratio == 0.0 => Some("the axis is dark: nothing can be compared with it".to_owned()),
+            _ => None,
+        };
+        if let Some(wrong) = wrong {
+            return Err(listing.fault(row.line, wrong));
+        }
+        points.push((field, ratio));
+    }
+    Ok(points)
+}

@@ -1,0 +1,120 @@
+//! Lines of text with tables of numbers between them.
+
+use std::path::Path;
+
+use etendue_scene::asset::FieldUnit;
+
+use crate::Error;
+
+/// A file's text, taken apart.
+pub(super) struct Listing<'a> {
+    file: &'a Path,
+    /// The lines before the first table, with their numbers from 1; none is empty.
+    pub(super) head: Vec<(usize, &'a str)>,
+    /// Tables, one at least.
+    pub(super) tables: Vec<Table<'a>>,
+}
+
+/// Rows of numbers without any other line between them.
+pub(super) struct Table<'a> {
+    /// The lines between the table before and this one.
+    pub(super) above: Vec<(usize, &'a str)>,
+    pub(super) rows: Vec<Row>,
+}
+
+/// A row of numbers.
+pub(super) struct Row {
+    pub(super) line: usize,
+    pub(super) numbers: Vec<f64>,
+}
+
+impl<'a> Listing<'a> {
+    pub(super) fn read(file: &'a Path, text: &'a str) -> Result<Self, Error> {
+        let mut tables: Vec<Table<'a>> = Vec::new();
+        let (mut above, mut in_table) = (Vec::new(), false);
+        for (index, line) in text.lines().enumerate() {
+            let (number, line) = (index + 1, line.trim());
+            if line.is_empty() {
+                continue;
+            }
+            match numbers(line) {
+                None => {
+                    above.push((number, line));
+                    in_table = false;
+                }
+                Some(numbers) => {
+                    if !in_table {
+                        tables.push(Table { above: std::mem::take(&mut above), rows: Vec::new() });
+                        in_table = true;
+                    }
+                    let rows = &mut tables.last_mut().expect("one was begun").rows;
+                    if let Some(first) = rows.first().filter(|first| first.numbers.len() != numbers.len()) {
+                        let (found, before) = (numbers.len(), first.numbers.len());
+                        let told = format!("found {found} numbers where the table has {before} in a row");
+                        return Err(Error::at(file, number, told));
+                    }
+                    if let Some(wrong) = numbers.iter().find(|number| !number.is_finite()) {
+                        return Err(Error::at(file, number, format!("found {wrong}; expected finite numbers")));
+                    }
+                    rows.push(Row { line: number, numbers });
+                }
+            }
+        }
+        let head = tables.first().map(|table| table.above.clone());
+        let head = head.ok_or_else(|| {
+            Error::new(file, "holds no row of numbers (decimal points, at least two in a row); expected a table that Zemax exported as text")
+        })?;
+        Ok(Self { file, head, tables })
+    }
+
+    pub(super) fn fault(&self, line: usize, what: impl Into<String>) -> Error {
+        if line == 0 { Error::new(self.file, what) } else { Error::at(self.file, line, what) }
+    }
+
+    /// Whether a line of the head has a word, in small letters.
+    pub(super) fn speaks_of(&self, word: &str) -> bool {
+        self.head.iter().any(|(_, line)| line.to_lowercase().contains(word))
+    }
+
+    /// In what the fields are counted.
+    pub(super) fn unit(&self) -> Result<FieldUnit, Error> {
+        let titles = self.head.last().copied();
+        let stated = self.head.iter().copied().filter(|(_, line)| line.to_lowercase().starts_with("field"));
+        for (number, line) in stated.chain(titles) {
+            let line = line.to_lowercase();
+            if line.contains("object height") {
+                let told = "the fields are heights of the object, which no direction or place of the picture follows from; export with fields of angle or of image height";
+                return Err(self.fault(number, told));
+            }
+            let has = |words: &[&str]| words.iter().any(|word| line.contains(word));
+            if has(&["deg"]) {
+                return Ok(FieldUnit::Degrees);
+            }
+            if has(&["inch", "centimet", "(cm", "(in", "(m)"]) {
+                return Err(self.fault(number, "the fields are neither in degrees nor in mm; export with a lens in mm"));
+            }
+            if has(&["millimet", "(mm", "in mm"]) {
+                return Ok(FieldUnit::Millimetres);
+            }
+        }
+        Err(self.fault(
+            titles.map_or(0, |(number, _)| number),
+            "no line of the head says in what the fields are counted; expected one such as \"Field values are in degrees\" or \"... in millimeters\"",
+        ))
+    }
+}
+
+/// The wavelength that a line which begins so states, nm: its first number, in micrometres.
+pub(super) fn wavelength_nm(lines: &[(usize, &str)]) -> Option<f64> {
+    const NM_PER_UM: f64 = 1000.0;
+    let about = lines.iter().filter(|(_, line)| line.to_lowercase().contains("wavelength"));
+    let number = |line: &str| line.split([' ', '\t', ':', '=']).find_map(|word| word.parse::<f64>().ok());
+    about.filter_map(|(_, line)| number(line)).map(|um| um * NM_PER_UM).find(|nm| (100.0..20_000.0).contains(nm))
+}
+
+/// The numbers of a line that holds nothing else, two at least; a sign of percent may follow each.
+fn numbers(line: &str) -> Option<Vec<f64>> {
+    let words = line.split_whitespace().filter(|word| *word != "%");
+    let numbers: Option<Vec<f64>> = words.map(|word| word.trim_end_matches('%').parse().ok()).collect();
+    numbers.filter(|numbers| numbers.len() >= 2)
+}

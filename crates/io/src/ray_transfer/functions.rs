@@ -1,0 +1,124 @@
+//! The functions of one wavelength.
+
+use etendue_scene::asset::{PassAsset, TermAsset, TransferAsset};
+
+use crate::tree::{Fault, Node, Read, passed_over};
+
+/// The highest power that is read, and the most terms of a polynomial.
+const MAX_POWER: u8 = 32;
+const MAX_TERMS: usize = 20_000;
+
+const OUTPUTS: [&[&str]; 6] =
+    [&["outx"], &["outy"], &["outz"], &["outdx", "outu"], &["outdy", "outv"], &["outdz", "outw"]];
+
+/// What the functions know beyond the keys that are used.
+const USED: [&str; 7] =
+    ["wavelength_nm", "passnopass", "raypass", "circleRadii", "circleSensitivities", "circlePlaneZ", "poly"];
+
+/// The functions, and what was passed over.
+pub(super) fn read(node: &Node, output_offset_mm: f64, with_dz: bool) -> Read<(TransferAsset, Vec<String>)> {
+    let wavelength = node.key("wavelength_nm")?;
+    let wavelength_nm = wavelength.number()?;
+    if wavelength_nm <= 0.0 {
+        return Err(Fault::at(wavelength.line, format!("found {wavelength_nm}; expected a wavelength in nm above 0")));
+    }
+    let (pass_plane_mm, pass) = pass(node)?;
+    let mut found: [Option<Vec<TermAsset>>; 6] = Default::default();
+    let poly = node.key("poly")?;
+    for item in poly.items().unwrap_or(std::slice::from_ref(poly)) {
+        let name = item.key("outputname")?;
+        let text = name.text()?;
+        let Some(which) = OUTPUTS.iter().position(|names| names.contains(&text)) else {
+            let known = OUTPUTS.concat().join(", ");
+            return Err(Fault::at(name.line, format!("the output \"{text}\" is none of {known}")));
+        };
+        if found[which].replace(terms(item)?).is_some() {
+            return Err(Fault::at(name.line, format!("the output \"{text}\" is there twice")));
+        }
+    }
+    let [x, y, z, dx, dy, dz] = found;
+    let needed = |terms: Option<Vec<TermAsset>>, name: &str| {
+        terms.ok_or_else(|| Fault::at(poly.line, format!("lacks the polynomial \"{name}\"")))
+    };
+    let plane = vec![TermAsset { coefficient: output_offset_mm, powers: [0; 3] }];
+    let outputs =
+        [needed(x, "outx")?, needed(y, "outy")?, z.unwrap_or(plane), needed(dx, "outdx")?, needed(dy, "outdy")?];
+    let forwards = if with_dz { Some(needed(dz, "outdz")?) } else { None };
+    let transfer = TransferAsset { wavelength_nm, pass, pass_plane_mm, outputs, forwards };
+    Ok((transfer, passed_over(&node.others(&USED))))
+}
+
+fn terms(item: &Node) -> Read<Vec<TermAsset>> {
+    let coefficients = item.key("coeff")?.numbers()?;
+    let powers = [
+        powers(item.key("termr")?)?,
+        powers(item.any(&["termdx", "termu"])?)?,
+        powers(item.any(&["termdy", "termv"])?)?,
+    ];
+    let counts = [coefficients.len(), powers[0].len(), powers[1].len(), powers[2].len()];
+    if counts.iter().any(|count| *count != counts[0]) {
+        let [c, r, dx, dy] = counts;
+        let told = format!("found {c} coefficients and {r}, {dx} and {dy} powers; expected as many of each");
+        return Err(Fault::at(item.line, told));
+    }
+    if counts[0] > MAX_TERMS {
+        return Err(Fault::at(item.line, format!("found {} terms; at most {MAX_TERMS} are read", counts[0])));
+    }
+    let term = |(i, coefficient): (usize, f64)| TermAsset { coefficient, powers: [0, 1, 2].map(|k| powers[k][i]) };
+    Ok(coefficients.into_iter().enumerate().map(term).collect())
+}
+
+fn powers(node: &Node) -> Read<Vec<u8>> {
+    let power = |value: f64| {
+        let whole = value.fract() == 0.0 && (0.0..=f64::from(MAX_POWER)).contains(&value);
+        let told = || format!("found the power {value}; expected a whole number from 0 to {MAX_POWER}");
+        if whole { Ok(value as u8) } else { Err(Fault::at(node.line, told())) }
+    };
+    node.numbers()?.into_iter().map(power).collect()
+}
+
+/// The plane of what passes, and the region.
+fn pass(node: &Node) -> Read<(f64, PassAsset)> {
+    let Some(pass) = node.find("raypass").or_else(|| node.find("passnopass")) else {
+        let (radii, sensitivities) = (node.key("circleRadii")?, node.key("circleSensitivities")?);
+        return Ok((node.key("circlePlaneZ")?.number()?, circles(radii, sensitivities)?));
+    };
+    let plane_mm = pass.key("intersectPlaneDistance")?.number()?;
+    let method = pass.key("method")?;
+    match method.text()? {
+        "minimalellipse" => Ok((plane_mm, ellipses(pass)?)),
+        "circles" => Ok((plane_mm, circles(pass.key("radii")?, pass.key("sensitivities")?)?)),
+        other => {
+            Err(Fault::at(method.line, format!("the method \"{other}\" is none of \"minimalellipse\", \"circles\"")))
+        }
+    }
+}
+
+fn ellipses(pass: &Node) -> Read<PassAsset> {
+    let list = |key: &str| pass.key(key)?.numbers();
+    let positions = pass.key("positions")?;
+    let heights = positions.numbers()?;
+    let [radii_x, radii_y] = [list("radiiX")?, list("radiiY")?];
+    let [centres_x, centres_y] = [list("centersX")?, list("centersY")?];
+    if [&radii_x, &radii_y, &centres_x, &centres_y].iter().any(|other| other.len() != heights.len()) {
+        return Err(Fault::at(positions.line, "expected as many radii and centres as positions"));
+    }
+    let rising = heights.windows(2).all(|pair| pair[1] > pair[0]);
+    if heights.first() != Some(&0.0) || !rising {
+        return Err(Fault::at(positions.line, "expected positions that rise from 0"));
+    }
+    let legal = radii_x.iter().chain(&radii_y).all(|r| *r >= 0.0) && radii_x[0] > 0.0 && radii_y[0] > 0.0;
+    if !legal {
+        return Err(Fault::at(pass.key("radiiX")?.line, "expected radii of 0 or more, the first above 0"));
+    }
+    let ellipse = |(i, height): (usize, f64)| (height, [centres_x[i], centres_y[i]], [radii_x[i], radii_y[i]]);
+    Ok(PassAsset::Ellipses(heights.into_iter().enumerate().map(ellipse).collect()))
+}
+
+fn circles(radii: &Node, sensitivities: &Node) -> Read<PassAsset> {
+    let (values, centres) = (radii.numbers()?, sensitivities.numbers()?);
+    if values.len() != centres.len() || values.is_empty() || values.iter().any(|r| *r <= 0.0) {
+        return Err(Fault::at(radii.line, "expected radii above 0, and as many sensitivities"));
+    }
+    Ok(PassAsset::Circles(values.into_iter().zip(centres).collect()))
+}

@@ -1,0 +1,87 @@
+//! Ray-transfer functions of lenses, as ISET's JSON files state them ("…-raytransfer.json").
+//!
+//! Goossens et al., Optics Express 30 (2022) 24031; their readers are the cameras "raytransfer" and "rtf" of ISET's forks of pbrt.
+//!
+//! | key | is |
+//! | --- | --- |
+//! | `thickness`, `planeoffsetinput`, `planeoffsetoutput` | mm; `planeoffset` of older files is both offsets |
+//! | `useDZpolynomial` | whether the sign of dz is that of `outdz`; otherwise all rays go forwards |
+//! | `polynomials` | one a wavelength |
+//! | `wavelength_nm` | nm |
+//! | `passnopass` or `raypass` | what passes, by its `method`: `minimalellipse` (`positions`, `radiiX`, `radiiY`, `centersX`, `centersY`) or `circles` (`radii`, `sensitivities`), and `intersectPlaneDistance` |
+//! | `circleRadii`, `circleSensitivities`, `circlePlaneZ` | circles in older files |
+//! | `poly` | `outputname` (`outx`, `outy`, `outz`, `outdx` or `outu`, `outdy` or `outv`, `outdz` or `outw`), `coeff` and its powers `termr`, `termdx` or `termu`, `termdy` or `termv` |
+//!
+//! Without `outz` rays leave from the output plane. Other keys are passed over, and the notes name them.
+
+mod functions;
+
+use std::path::Path;
+
+use etendue_scene::asset::RayTransferAsset;
+
+use crate::source::{decode_text, read_description_bytes};
+use crate::tree::{self, Fault, Node, Read, passed_over};
+use crate::{Error, hash};
+
+const KEYS: [&str; 8] = [
+    "name",
+    "description",
+    "thickness",
+    "planeoffset",
+    "planeoffsetinput",
+    "planeoffsetoutput",
+    "useDZpolynomial",
+    "polynomials",
+];
+
+/// Reads a ray-transfer file.
+///
+/// # Errors
+/// The first fault of the file, with its line.
+pub fn read_ray_transfer(file: &Path) -> Result<RayTransferAsset, Error> {
+    let bytes = read_description_bytes(file, "ray-transfer")?;
+    let text = decode_text(file, &bytes)?;
+    let asset = read(text).map_err(|fault| fault.of(file))?;
+    Ok(RayTransferAsset { hash: hash::of_bytes(&bytes), ..asset })
+}
+
+fn read(text: &str) -> Read<RayTransferAsset> {
+    let root = tree::parse(text)?;
+    let thickness_mm = root.key("thickness")?.number()?;
+    let input_offset_mm = root.any(&["planeoffsetinput", "planeoffset"])?.number()?;
+    let output_offset_mm = root.any(&["planeoffsetoutput", "planeoffset"])?.number()?;
+    let with_dz = root.find("useDZpolynomial").map_or(Ok(false), flag)?;
+    let polynomials = root.key("polynomials")?;
+    let mut notes = passed_over(&root.others(&KEYS));
+    // A list of one is written as its only item by some programs.
+    let items = polynomials.items().unwrap_or(std::slice::from_ref(polynomials));
+    let read = |node: &Node| functions::read(node, output_offset_mm, with_dz);
+    let mut transfers = items.iter().map(read).collect::<Read<Vec<_>>>()?;
+    if transfers.is_empty() {
+        return Err(Fault::at(polynomials.line, "holds no wavelength; expected one at least"));
+    }
+    transfers.sort_by(|a, b| a.0.wavelength_nm.total_cmp(&b.0.wavelength_nm));
+    if let Some(pair) = transfers.windows(2).find(|pair| pair[0].0.wavelength_nm == pair[1].0.wavelength_nm) {
+        return Err(Fault::at(
+            polynomials.line,
+            format!("the wavelength {} nm is there twice", pair[0].0.wavelength_nm),
+        ));
+    }
+    for note in transfers.iter().flat_map(|(_, notes)| notes) {
+        if !notes.contains(note) {
+            notes.push(note.clone());
+        }
+    }
+    let transfers = transfers.into_iter().map(|(transfer, _)| transfer).collect();
+    let name = root.find("name").map_or(Ok(""), Node::text)?.to_owned();
+    Ok(RayTransferAsset { name, thickness_mm, input_offset_mm, transfers, notes, hash: [0; 32] })
+}
+
+fn flag(node: &Node) -> Read<bool> {
+    match node.text()? {
+        "true" => Ok(true),
+        "false" => Ok(false),
+        other => Err(Fault::at(node.line, format!("found \"{other}\"; expected true or false"))),
+    }
+}

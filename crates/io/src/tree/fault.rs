@@ -1,0 +1,28 @@
+//! What is wrong in a text of keys and values.
+
+use crate::Error;
+use std::path::Path;
+
+/// What is wrong, and in which line (from 1; 0 for the whole file).
+#[derive(Debug)]
+pub(crate) struct Fault {
+    pub(crate) line: usize,
+    pub(crate) what: String,
+}
+
+pub(crate) type Read<T> = Result<T, Fault>;
+
+impl Fault {
+    pub(crate) fn at(line: usize, what: impl Into<String>) -> Self {
+        Self { line, what: what.into() }
+    }
+
+    pub(crate) fn of(self, file: &Path) -> Error {
+        if self.line == 0 { Error::new(file, self.what) } else { Error::at(file, self.line, self.what) }
+    }
+}
+
+/// A note of keys that say nothing of the camera.
+pub(crate) fn passed_over(keys: &[&str]) -> Vec<String> {
+    if keys.is_empty() { Vec::new() } else { vec![format!("passed over: {}", keys.join(", "))] }
+}

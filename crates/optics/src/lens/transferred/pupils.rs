@@ -1,0 +1,130 @@
+//! The ovals from which pupil samples are drawn: they hold all that passes, and little else.
+//!
+//! At equal steps of the distance from the axis an oval is the ellipse about the box of what passes at any of the wavelengths; between them its centre and
+//! semi-axes are linear, and are stretched until the oval holds what passes at the ends of the interval and between them, plus a margin.
+
+use super::sight::Sight;
+use core::f64::consts::{PI, TAU};
+use etendue_core::maths::f64::sin_cos;
+use glam::DVec2;
+
+const INTERVALS: usize = 48;
+/// Distances looked at in an interval, both ends among them.
+const LOOKS: usize = 4;
+const DIRECTIONS: usize = 64;
+/// What is added for edges that lie between the points looked at.
+const MARGIN: f64 = 1.004;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Oval {
+    /// Its centre along the meridian, mm.
+    pub(super) centre_mm: f64,
+    /// Semi-axes along the meridian and across it, mm.
+    pub(super) axes_mm: DVec2,
+}
+
+/// Ovals by the distance from the axis.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Pupils {
+    /// From here on no light arrives, mm.
+    pub(super) limit_mm: f64,
+    ovals: Vec<Oval>,
+    stretches: Vec<f64>,
+}
+
+/// A point of the pupil's plane in the frame of a sensor point, and the area that it stands for, mm².
+pub(super) struct Proposal {
+    pub(super) q: DVec2,
+    pub(super) area_mm2: f64,
+}
+
+impl Pupils {
+    /// As far as `reach_mm` from the axis or the light reaches; `None` where the middle of the sensor is dark.
+    pub(super) fn new(sight: &Sight<'_>, reach_mm: f64) -> Option<Self> {
+        let limit_mm = lit_as_far_as(reach_mm, |radius_mm| sight.meridional(radius_mm).is_some())?;
+        let step = limit_mm / INTERVALS as f64;
+        // A distance that is dark between lit ones has any oval: nothing passes there.
+        let next = |last: &mut Option<Oval>, i: usize| {
+            *last = Oval::about(sight, step * i as f64).or(*last);
+            *last
+        };
+        let ovals: Vec<Oval> = (0..=INTERVALS).scan(None, next).collect();
+        let mut pupils = Self { limit_mm, ovals, stretches: Vec::new() };
+        let stretch = |i: usize| {
+            let looks = (0..LOOKS).map(|look| (i as f64 + look as f64 / (LOOKS - 1) as f64) * step);
+            looks.map(|radius_mm| pupils.missing(sight, radius_mm)).fold(1.0, f64::max) * MARGIN
+        };
+        pupils.stretches = (pupils.ovals.len() == INTERVALS + 1).then(|| (0..INTERVALS).map(stretch).collect())?;
+        Some(pupils)
+    }
+
+    /// By how much the oval at a distance must grow to hold what passes there.
+    fn missing(&self, sight: &Sight<'_>, radius_mm: f64) -> f64 {
+        let (Some(oval), Some([low, high])) = (self.oval(radius_mm), sight.meridional(radius_mm)) else { return 1.0 };
+        let within = DVec2::new(0.5 * (low + high), 0.0);
+        let rim = (0..DIRECTIONS).map(|i| {
+            let step = towards(i, DIRECTIONS) * oval.axes_mm;
+            let q = within + step * sight.reach(radius_mm, within, step, 3.0);
+            ((q - DVec2::new(oval.centre_mm, 0.0)) / oval.axes_mm).length()
+        });
+        rim.fold(1.0, f64::max)
+    }
+
+    fn place(&self, radius_mm: f64) -> Option<(usize, f64)> {
+        let place = radius_mm / self.limit_mm * INTERVALS as f64;
+        let index = (place as usize).min(INTERVALS - 1);
+        (place <= INTERVALS as f64).then_some((index, place - index as f64))
+    }
+
+    /// The oval at a distance from the axis, not stretched; `None` where no light arrives.
+    pub(super) fn oval(&self, radius_mm: f64) -> Option<Oval> {
+        let (i, share) = self.place(radius_mm)?;
+        let (a, b) = (self.ovals[i], self.ovals[i + 1]);
+        let centre_mm = a.centre_mm + share * (b.centre_mm - a.centre_mm);
+        Some(Oval { centre_mm, axes_mm: a.axes_mm.lerp(b.axes_mm, share) })
+    }
+
+    /// Of a point of the unit disc.
+    #[inline]
+    pub(super) fn propose(&self, radius_mm: f64, disc: DVec2) -> Option<Proposal> {
+        let oval = self.oval(radius_mm)?;
+        let axes = oval.axes_mm * self.stretches[self.place(radius_mm)?.0];
+        let q = DVec2::new(oval.centre_mm, 0.0) + axes * disc;
+        Some(Proposal { q, area_mm2: PI * axes.x * axes.y })
+    }
+}
+
+impl Oval {
+    /// About the box of what passes at a distance from the axis.
+    pub(super) fn about(sight: &Sight<'_>, radius_mm: f64) -> Option<Self> {
+        let [low, high] = sight.meridional(radius_mm)?;
+        let (centre, half) = (DVec2::new(0.5 * (low + high), 0.0), (0.5 * (high - low)).max(1e-9));
+        let (mut least, mut most) = (centre, centre);
+        for i in 0..DIRECTIONS {
+            let step = towards(i, DIRECTIONS) * half;
+            let q = centre + step * sight.reach(radius_mm, centre, step, 8.0);
+            (least, most) = (least.min(q), most.max(q));
+        }
+        let across = most.y.max(-least.y).max(1e-9);
+        let axes_mm = DVec2::new((0.5 * (most.x - least.x)).max(1e-9), across);
+        Some(Self { centre_mm: 0.5 * (most.x + least.x), axes_mm })
+    }
+}
+
+/// The unit vector of one of some directions.
+pub(super) fn towards(i: usize, directions: usize) -> DVec2 {
+    let (sin, cos) = sin_cos(TAU * i as f64 / directions as f64);
+    DVec2::new(cos, sin)
+}
+
+/// The greatest distance up to `reach_mm` below which all are lit.
+fn lit_as_far_as(reach_mm: f64, is_lit: impl Fn(f64) -> bool) -> Option<f64> {
+    let at = |i: usize| reach_mm * i as f64 / (2 * INTERVALS) as f64;
+    let Some(dark) = (0..=2 * INTERVALS).find(|i| !is_lit(at(*i))) else { return Some(reach_mm) };
+    let mut bracket = [at(dark.checked_sub(1)?), at(dark)];
+    for _ in 0..30 {
+        let middle = 0.5 * (bracket[0] + bracket[1]);
+        bracket[usize::from(!is_lit(middle))] = middle;
+    }
+    (bracket[0] > 0.0).then_some(bracket[0])
+}

@@ -1,0 +1,79 @@
+//! What a point of the sensor sees of the lens: which points of the pupil's plane let light through, and the rays that leave by them.
+//!
+//! A lens of revolution is the same for all points at one distance from the axis. In the frame of such a point a point q of the pupil's plane has q.x along
+//! the meridian, away from the axis on the point's side, and q.y across it.
+
+use crate::ray_transfer::{RayTransfer, TransferRay};
+use glam::DVec2;
+
+/// A lens with the sensor at its place.
+#[derive(Clone, Copy)]
+pub(super) struct Sight<'a> {
+    pub(super) transfer: &'a RayTransfer,
+    /// The sensor behind the rear vertex, mm.
+    pub(super) sensor_mm: f64,
+    /// Whose rays pass: of one of the wavelengths, or of any.
+    pub(super) of: Option<usize>,
+}
+
+/// Slopes, to either side, at which the pupil is looked for: 63° from the axis.
+const STEEPEST: f64 = 2.0;
+const SCAN: i32 = 2048;
+const HALVINGS: usize = 48;
+/// Places along a way at which its last open one is looked for.
+const LOOKS: usize = 40;
+
+impl Sight<'_> {
+    /// The distance of the pupil's plane from the sensor, mm.
+    pub(super) fn distance_mm(&self) -> f64 {
+        self.transfer.pupil_distance_mm(self.sensor_mm)
+    }
+
+    pub(super) fn passes(&self, radius_mm: f64, q: DVec2) -> bool {
+        let entry = self.transfer.entry(DVec2::new(0.0, radius_mm), DVec2::new(q.y, q.x), self.sensor_mm);
+        match self.of {
+            Some(index) => self.transfer.passes(index, &entry),
+            None => (0..self.transfer.transfers().len()).any(|index| self.transfer.passes(index, &entry)),
+        }
+    }
+
+    /// The interval of the meridian that passes, from its first to its last point, mm; `None` where none does.
+    pub(super) fn meridional(&self, radius_mm: f64) -> Option<[f64; 2]> {
+        let step = STEEPEST * self.distance_mm() / f64::from(SCAN);
+        let at = |i: i32| radius_mm + step * f64::from(i);
+        let is_open = |x: f64| self.passes(radius_mm, DVec2::new(x, 0.0));
+        let first = (-SCAN..=SCAN).map(at).find(|x| is_open(*x))?;
+        let last = (-SCAN..=SCAN).rev().map(at).find(|x| is_open(*x)).unwrap_or(first);
+        let edge = |inside: f64, outside: f64| halved([inside, outside], is_open);
+        Some([edge(first, first - step), edge(last, last + step)])
+    }
+
+    /// How far from a point the pupil reaches along a step, in steps, looked for up to `most` of them; 0 where nothing is open.
+    pub(super) fn reach(&self, radius_mm: f64, from: DVec2, step: DVec2, most: f64) -> f64 {
+        let at = |i: usize| most * i as f64 / LOOKS as f64;
+        let is_open = |t: f64| self.passes(radius_mm, from + step * t);
+        let last = (0..=LOOKS).rev().find(|i| is_open(at(*i)));
+        last.map_or(0.0, |i| halved([at(i), at(i + 1)], is_open))
+    }
+
+    /// The ray of the meridian that leaves by a place of it, as its height above the axis at a distance from the sensor, and its slope; `None` where there is
+    /// none.
+    pub(super) fn meridian_ray(&self, radius_mm: f64, along_mm: f64, nm: f64) -> Option<TransferRay> {
+        let (point, pupil) = (DVec2::new(0.0, radius_mm), DVec2::new(0.0, along_mm));
+        let entry = self.transfer.entry(point, pupil, self.sensor_mm);
+        let mut ray = self.transfer.leaving(&entry, self.sensor_mm, nm)?;
+        // What a fit leaves across the meridian is its error.
+        (ray.point_mm.x, ray.direction.x) = (0.0, 0.0);
+        ray.direction = ray.direction.normalize();
+        Some(ray)
+    }
+}
+
+/// The last open place between an open and a closed one.
+fn halved(mut bracket: [f64; 2], is_open: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (bracket[0] + bracket[1]);
+        bracket[usize::from(!is_open(middle))] = middle;
+    }
+    bracket[0]
+}

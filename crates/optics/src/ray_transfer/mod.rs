@@ -1,0 +1,175 @@
+//! A lens known by its ray-transfer functions alone: from a ray on a plane before the lens to the ray that leaves it.
+//!
+//! T. Goossens, Z. Lyu, J. Ko, G. C. Wan, J. Farrell and B. Wandell, "Ray-transfer functions for camera simulation of 3D scenes with hidden lens design",
+//! Optics Express 30 (2022) 24031. A lens of revolution has three numbers for a ray from the sensor: its height ρ on the input plane, and dx and dy of
+//! its unit direction in the frame whose y axis goes through the point of that height. Polynomials in them give the point and the direction
+//! behind the lens, in the same frame, wavelength by wavelength; a region of a plane tells which rays pass.
+//!
+//! Frame: z from the sensor to the scene, mm, x right and y up as seen from behind. The **rear vertex** is the last surface of the lens before the sensor; the input plane lies
+//! `input_offset_mm` before it towards the sensor, the front vertex `thickness_mm` behind it. A fitted point's z counts from the front vertex.
+
+mod error;
+mod pass;
+mod polynomial;
+
+pub use error::RayTransferError;
+pub use pass::{PassCircle, PassEllipse, PassRegion, RayPass};
+pub use polynomial::{MAX_POWER, Polynomial, Term};
+
+use glam::{DVec2, DVec3};
+use polynomial::Powers;
+
+/// The functions of one wavelength.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transfer {
+    /// Wavelength, nm.
+    pub wavelength_nm: f64,
+    /// Which rays pass.
+    pub pass: RayPass,
+    /// x, y and z of the point (mm), z from the front vertex.
+    pub point: [Polynomial; 3],
+    /// dx and dy of the unit direction.
+    pub direction: [Polynomial; 2],
+    /// A polynomial whose sign is that of dz; `None` where all rays go forwards.
+    pub forwards: Option<Polynomial>,
+}
+
+/// Ray-transfer functions of a lens.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RayTransfer {
+    thickness_mm: f64,
+    input_offset_mm: f64,
+    transfers: Vec<Transfer>,
+    greatest_power: usize,
+}
+
+/// A ray from the sensor's origin, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TransferRay {
+    /// A point of it.
+    pub point_mm: DVec3,
+    /// Unit direction.
+    pub direction: DVec3,
+}
+
+impl RayTransfer {
+    /// Of functions of rising wavelengths.
+    ///
+    /// # Errors
+    /// Where there are none, or their wavelengths do not rise.
+    pub fn new(thickness_mm: f64, input_offset_mm: f64, transfers: Vec<Transfer>) -> Result<Self, RayTransferError> {
+        let rising = transfers.windows(2).all(|pair| pair[1].wavelength_nm > pair[0].wavelength_nm);
+        let first = transfers.first().is_some_and(|t| t.wavelength_nm > 0.0);
+        if !(first && rising && thickness_mm.is_finite() && input_offset_mm.is_finite()) {
+            return Err(RayTransferError::Wavelengths);
+        }
+        let powers = |t: &Transfer| {
+            t.point.iter().chain(&t.direction).chain(&t.forwards).map(Polynomial::greatest_power).max().unwrap_or(0)
+        };
+        let greatest_power = transfers.iter().map(powers).max().unwrap_or(0);
+        Ok(Self { thickness_mm, input_offset_mm, transfers, greatest_power })
+    }
+
+    /// From the rear vertex to the front vertex, mm.
+    #[must_use]
+    pub fn thickness_mm(&self) -> f64 {
+        self.thickness_mm
+    }
+
+    /// The input plane from the rear vertex towards the sensor, mm.
+    #[must_use]
+    pub fn input_offset_mm(&self) -> f64 {
+        self.input_offset_mm
+    }
+
+    /// The functions, by rising wavelength.
+    #[must_use]
+    pub fn transfers(&self) -> &[Transfer] {
+        &self.transfers
+    }
+
+    /// The index of the functions nearest to a wavelength.
+    #[must_use]
+    pub fn nearest(&self, nm: f64) -> usize {
+        let off = |i: &usize| (self.transfers[*i].wavelength_nm - nm).abs();
+        (0..self.transfers.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0)
+    }
+
+    /// The distance of the plane on which pupil points are chosen from a sensor that stands `sensor_mm` behind the rear vertex, mm.
+    pub(crate) fn pupil_distance_mm(&self, sensor_mm: f64) -> f64 {
+        sensor_mm - self.input_offset_mm + self.transfers[0].pass.plane_mm
+    }
+
+    /// Whether the functions of an index let a ray through, from a point of the sensor to one of the pupil's plane (mm).
+    #[inline]
+    pub(crate) fn passes(&self, index: usize, from: &Entry) -> bool {
+        let pass = &self.transfers[index].pass;
+        let at = DVec2::new(0.0, from.height_mm) + from.direction.truncate() * (pass.plane_mm / from.direction.z);
+        pass.passes(from.height_mm, at)
+    }
+
+    /// The ray that leaves the lens at a wavelength, passed or not; of wavelengths between two it is linear between theirs, beyond them theirs. `None` where the
+    /// functions give no direction.
+    #[inline]
+    pub(crate) fn leaving(&self, from: &Entry, sensor_mm: f64, nm: f64) -> Option<TransferRay> {
+        let numbers = [from.height_mm, from.direction.x, from.direction.y];
+        let powers = Powers::new(numbers, self.greatest_power);
+        let after = self.transfers.partition_point(|t| t.wavelength_nm < nm);
+        let (first, last) = (after.saturating_sub(1), after.min(self.transfers.len() - 1));
+        let [a, b] = [first, last].map(|i| &self.transfers[i]);
+        let (mut point, mut slope, mut sign) = a.at(&powers);
+        if first != last {
+            let share = (nm - a.wavelength_nm) / (b.wavelength_nm - a.wavelength_nm);
+            let (other_point, other_slope, other_sign) = b.at(&powers);
+            (point, slope) = (point.lerp(other_point, share), slope.lerp(other_slope, share));
+            sign = if share < 0.5 { sign } else { other_sign };
+        }
+        let rest = 1.0 - slope.length_squared();
+        let direction = from.turned_back(slope).extend(if rest > 0.0 { rest.sqrt() * sign } else { return None });
+        let across = from.turned_back(point.truncate());
+        let point_mm = across.extend(sensor_mm + self.thickness_mm + point.z);
+        (point_mm.is_finite() && direction.is_finite()).then_some(TransferRay { point_mm, direction })
+    }
+
+    /// Where a ray from a point of the sensor (mm) to one of the pupil's plane comes to the input plane.
+    #[inline]
+    pub(crate) fn entry(&self, sensor_point_mm: DVec2, pupil_mm: DVec2, sensor_mm: f64) -> Entry {
+        let distance_mm = self.pupil_distance_mm(sensor_mm);
+        let across = pupil_mm - sensor_point_mm;
+        let at = sensor_point_mm + across * ((sensor_mm - self.input_offset_mm) / distance_mm);
+        let height_mm = at.length();
+        let meridian = if height_mm > 0.0 { at / height_mm } else { DVec2::Y };
+        let direction = across.extend(distance_mm).normalize();
+        let turned =
+            DVec2::new(direction.x * meridian.y - direction.y * meridian.x, direction.truncate().dot(meridian));
+        Entry { height_mm, meridian, direction: turned.extend(direction.z) }
+    }
+}
+
+impl Transfer {
+    /// Point, dx and dy, and the sign of dz.
+    #[inline]
+    fn at(&self, powers: &Powers) -> (DVec3, DVec2, f64) {
+        let [x, y, z] = [0, 1, 2].map(|i| self.point[i].at(powers));
+        let [dx, dy] = [0, 1].map(|i| self.direction[i].at(powers));
+        let sign = self.forwards.as_ref().map_or(1.0, |polynomial| polynomial.at(powers).signum());
+        (DVec3::new(x, y, z), DVec2::new(dx, dy), sign)
+    }
+}
+
+/// A ray on the input plane, in the frame whose y axis goes through it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Entry {
+    height_mm: f64,
+    /// The y axis of its frame.
+    meridian: DVec2,
+    /// Its unit direction in that frame.
+    pub(crate) direction: DVec3,
+}
+
+impl Entry {
+    /// A vector of its frame in that of the lens.
+    fn turned_back(&self, v: DVec2) -> DVec2 {
+        DVec2::new(self.meridian.y, -self.meridian.x) * v.x + self.meridian * v.y
+    }
+}
