@@ -15,8 +15,11 @@ mod percentile;
 mod vectors;
 mod viridis;
 
+pub use flow_wheel::flow_wheel;
 pub(super) use flow_wheel::of_flow;
+pub use identity_colour::identity_colour;
 pub(super) use identity_colour::of_identities;
 pub(super) use outline::draw_boxes;
 pub(super) use vectors::of_vectors;
+pub use viridis::VIRIDIS;
 pub(super) use viridis::{of_differences, of_lengths};
