@@ -2,6 +2,9 @@
 
 const MAGENTA = [255, 0, 255], WHITE = [255, 255, 255], BLACK = [0, 0, 0], OVER = [255, 60, 40], UNDER = [50, 90, 255];
 
+// Stripes of a colour, told from anything in a picture.
+const zebra = (i, width, colour) => (((i % width) + Math.floor(i / width)) & 3) < 2 ? colour : BLACK;
+
 // Linear light 0 … 1 to sRGB bytes (IEC 61966-2-1).
 const ENCODED = Uint8Array.from({ length: 4097 }, (_, i) => {
   const v = i / 4096;
@@ -145,7 +148,7 @@ function paint(layer, planes, settings, put) {
     for (let i = 0; i < pixels; i++) {
       const colour = [r[i] * scale, g[i] * scale, b[i] * scale];
       if (colour.some(Number.isNaN)) put(i, MAGENTA);
-      else if (marked && colour.some((v) => v > 1)) put(i, OVER);
+      else if (marked && colour.some((v) => v > 1)) put(i, zebra(i, layer.width, OVER));
       else put(i, colour.map(encode));
     }
     return { white, gain };
@@ -192,8 +195,8 @@ function paintPicture(layer, planes, gain, marked, put) {
   const shown = tones ? (v) => tones[v] : tone;
   const [r, g, b] = [planes[0], planes[1] ?? planes[0], planes[2] ?? planes[0]];
   for (let i = 0; i < r.length; i++) {
-    if (marked && (r[i] >= full || g[i] >= full || b[i] >= full)) put(i, OVER);
-    else if (marked && r[i] === 0 && g[i] === 0 && b[i] === 0) put(i, UNDER);
+    if (marked && (r[i] >= full || g[i] >= full || b[i] >= full)) put(i, zebra(i, layer.width, OVER));
+    else if (marked && r[i] === 0 && g[i] === 0 && b[i] === 0) put(i, zebra(i, layer.width, UNDER));
     else put(i, [shown(r[i]), shown(g[i]), shown(b[i])]);
   }
   return { picture: layer.encoding, gain };
@@ -207,8 +210,8 @@ function paintRaw(layer, numbers, settings, gain, put) {
   const rows = filters ? filters.channels.length / filters.columns : 1;
   for (let i = 0; i < numbers.length; i++) {
     const v = numbers[i], share = (v - black) * scale;
-    if (settings.clipped && v >= white) put(i, OVER);
-    else if (settings.clipped && v <= 0) put(i, UNDER);
+    if (settings.clipped && v >= white) put(i, zebra(i, width, OVER));
+    else if (settings.clipped && v <= 0) put(i, zebra(i, width, UNDER));
     else if (tints) {
       const tint = tints[(Math.floor(i / width) % rows) * filters.columns + (i % width) % filters.columns];
       put(i, tint.map((part) => encode(share * part)));

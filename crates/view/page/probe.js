@@ -14,7 +14,7 @@ const spectrumAt = (layer, planes, pixel) => {
   return { values: of.map(({ i }) => planes[i][pixel]), errors: errors.every((e) => e !== null) ? errors : null };
 };
 
-// Rows of values: [name, text, number].
+// Rows of values: [name, text, number, unit].
 function rowsOf(layer, planes, pixel) {
   if (layer.kind === "spectrum" || (layer.kind === "difference" && layer.of === "spectrum")) return spectrumRows(layer, planes, pixel);
   if (layer.kind === "identity") {
@@ -24,10 +24,10 @@ function rowsOf(layer, planes, pixel) {
   if (layer.kind === "unequal") return [["differs", planes[0][pixel] ? "yes" : "no", planes[0][pixel]]];
   const rows = values(layer).map(({ name, i }, place) => {
     const error = errorOf(layer, place);
-    const text = `${told(planes[i][pixel], 6)}${error === undefined ? "" : ` ± ${told(planes[error][pixel], 2)}`}${layer.unit ? ` ${layer.unit}` : ""}`;
-    return [rowName(layer, name), text, planes[i][pixel]];
+    const text = `${told(planes[i][pixel], 6)}${error === undefined ? "" : ` ± ${told(planes[error][pixel], 2)}`}`;
+    return [rowName(layer, name), text, planes[i][pixel], layer.unit];
   });
-  if (layer.kind === "flow") rows.push(["length", `${told(Math.hypot(planes[0][pixel], planes[1][pixel]), 5)} ${layer.unit}`, Math.hypot(planes[0][pixel], planes[1][pixel])]);
+  if (layer.kind === "flow") rows.push(numberRow("length", Math.hypot(planes[0][pixel], planes[1][pixel]), layer.unit));
   if (layer.kind === "raw" && layer.filters) {
     const { filters, width } = layer, tall = filters.channels.length / filters.columns;
     const name = filters.channels[(Math.floor(pixel / width) % tall) * filters.columns + (pixel % width) % filters.columns];
@@ -35,10 +35,12 @@ function rowsOf(layer, planes, pixel) {
   }
   if (layer.kind === "parts") {
     const sum = values(layer).reduce((sum, { name, i }) => (name === "saturated" ? sum : sum + planes[i][pixel]), 0);
-    rows.push(["sum", `${told(sum, 6)} ${layer.unit}`, sum]);
+    rows.push(numberRow("sum", sum, layer.unit));
   }
   return rows;
 }
+
+const numberRow = (name, number, unit) => [name, told(number, 5), number, unit];
 
 // `depth`, `flow.forward.X`, `picture R`.
 function rowName(layer, plane) {
@@ -51,14 +53,14 @@ function spectrumRows(layer, planes, pixel) {
   const rgb = [0, 1, 2].map((c) => layer.weights.reduce((sum, weights, band) => sum + weights[c] * bands[band], 0));
   const whole = bands.reduce((sum, v) => sum + v * layer.width_nm, 0);
   const perNm = layer.unit.replace("·nm⁻¹", "");
-  const rows = [["over all bands", `${told(whole, 5)} ${perNm}`, whole]];
+  const rows = [numberRow("over all bands", whole, perNm)];
   const luminance = luma(...rgb);
-  rows.push([layer.unit.includes("sr") ? "luminance" : "illuminance", `${told(luminance, 5)} ${whiteUnit({ ...layer, kind: "spectrum" })}`, luminance]);
+  rows.push(numberRow(layer.unit.includes("sr") ? "luminance" : "illuminance", luminance, whiteUnit({ ...layer, kind: "spectrum" })));
   const [X, Z] = [0.4124564 * rgb[0] + 0.3575761 * rgb[1] + 0.1804375 * rgb[2], 0.0193339 * rgb[0] + 0.119192 * rgb[1] + 0.9503041 * rgb[2]];
   const sum = X + luminance + Z;
   if (layer.kind === "spectrum" && sum > 0) rows.push(["CIE 1931 x, y", `${told(X / sum, 4)}, ${told(luminance / sum, 4)}`, X / sum]);
   const { plane } = settingsOf(state.key);
-  if (plane !== "colour") rows.push([`at ${layer.centres_nm[plane]} nm`, `${told(bands[plane], 5)} ${layer.unit}`, bands[plane]]);
+  if (plane !== "colour") rows.push(numberRow(`at ${layer.centres_nm[plane]} nm`, bands[plane], layer.unit));
   return rows;
 }
 
@@ -75,13 +77,14 @@ function probe() {
     return;
   }
   const of = seen.map(({ layer, planes, pixel }) => rowsOf(layer, planes, pixel));
-  const heads = seen.length > 1 ? node("thead", {}, node("tr", {}, node("th"), ...seen.map(({ layer }) => node("th", { class: "number" }, "AB"[layer.result])))) : null;
-  const rows = of[0].map(([name], row) => node("tr", {}, node("th", { scope: "row" }, name), ...of.map((rows) => valueCell(rows[row]))));
+  const heads = seen.length > 1 ? node("thead", {}, node("tr", {}, node("th"), ...seen.map(({ layer }) => node("th", { class: "number" }, "AB"[layer.result])), node("th"))) : null;
+  const rows = of[0].map(([name], row) => node("tr", {}, node("th", { scope: "row" }, name), ...of.map((rows) => valueCell(rows[row])), unitCell(of[0][row])));
   const others = hereLoaded(all).flatMap((other) => otherRows(other, place, seen.length));
   fill(at("probe"), node("table", {}, heads, node("tbody", {}, ...rows, ...others)), moreButton());
   chart(seen);
 }
 
+const unitCell = (row) => node("td", { class: "unit" }, row?.[3] ?? "");
 const valueCell = (row) => node("td", { class: "number", "data-name": row?.[0], "data-value": row?.[2] ?? undefined }, row?.[1] ?? "–");
 const noteOfStep = (layer) => `the page has 1 of ${layer.step} × ${layer.step} pixels of this layer (${layer.has_means ? "means" : "the middle one"}); --max-mb gives more`;
 
@@ -92,7 +95,7 @@ function otherRows(layer, place, columns) {
   const pixel = pixelOf(layer, place);
   if (pixel === null) return [];
   const rows = layer.kind === "spectrum" ? spectrumRows(layer, layer.loaded, pixel).slice(0, 2).map(([name, ...rest]) => [`${layer.name}: ${name}`, ...rest]) : rowsOf(layer, layer.loaded, pixel);
-  return rows.map((row) => node("tr", { class: "quiet" }, node("td", {}, row[0]), valueCell(row), ...Array.from({ length: columns - 1 }, () => node("td"))));
+  return rows.map((row) => node("tr", { class: "quiet" }, node("td", {}, row[0]), valueCell(row), ...Array.from({ length: columns - 1 }, () => node("td")), unitCell(row)));
 }
 
 function moreButton() {
@@ -128,9 +131,10 @@ function histogram() {
     : [{ numbers: chosenPlane(layer, first.planes, own), colour: "var(--a)", name: "" }];
   if (!light && all.length > 1 && curves.length === 1) curves.push({ numbers: chosenPlane(all[1].layer, all[1].planes, own), colour: "var(--b)", name: "B" });
   const whole = layer.kind === "picture" || layer.kind === "raw";
-  const isLog = Boolean(light) || (layer.kind === "length" && legendOf(layer, first).range.log);
+  const { range: drawn } = light ? {} : legendOf(layer, first), isLog = Boolean(light) || Boolean(drawn?.log);
   if (isLog) curves.forEach((curve) => { curve.numbers = Float32Array.from(curve.numbers, (v) => (v > 0 ? Math.log10(v) : v === v ? -Infinity : NaN)); });
-  const range = whole ? [0, layer.kind === "picture" ? layer.full : rawTop(layer)] : rangeOf(curves);
+  const level = isLog ? Math.log10 : (v) => v;
+  const range = whole ? [0, layer.kind === "picture" ? layer.full : rawTop(layer)] : drawn ? [level(drawn.low), level(drawn.high)] : rangeOf(curves);
   const unit = unitShown(layer);
   const { drawing, outside } = histogramPlot(curves, range, { unit, isLog, logCounts: state.logCounts, whole });
   const counts = outside.map(({ below, above, nan }, i) => [curves[i].name, below, above, nan]).filter(([, ...n]) => n.some(Boolean));

@@ -30,7 +30,7 @@ function tools() {
   const row = [], first = firstShown();
   if (first) {
     const { layer } = first, own = settingsOf(state.key);
-    const set = (changes, rebuild) => { Object.assign(own, changes); toAddress(); if (rebuild) tools(); redraw(); };
+    const set = (changes, rebuild) => { Object.assign(own, changes); toAddress(); if (rebuild) tools(); redraw(); if (!("ev" in changes)) histogram(); };
     const planes = values(layer);
     if (layer.kind === "spectrum" || (layer.kind === "difference" && planes.length > 1) || layer.kind === "parts") row.push(planeChoice(layer, own, planes, set));
     if (withLight(layer, own)) {
