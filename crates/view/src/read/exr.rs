@@ -1,7 +1,8 @@
 //! The layers of an EXR: spectra, colours, and channels by what stands before their last dot.
 
 use super::facts::SideCar;
-use super::{FileLayers, names, units};
+use super::file_layers::FileLayers;
+use super::{names, units};
 use crate::found::FoundFile;
 use crate::layer::{Kind, Layer, NamedPlane, Role, Samples};
 use etendue::Error;
@@ -60,9 +61,9 @@ fn all(file: &FoundFile, exr: ExrFile, side_car: &SideCar) -> Result<Vec<Layer>,
     }
     let (size, attributes) = ((exr.width, exr.height), exr.attributes);
     // R, G and B beside spectral bands follow from them.
-    let wanted =
-        |channel: &ExrChannel| !is_spectral(channel) && !(spectral && ["R", "G", "B"].contains(&channel.name.as_str()));
-    for (name, channels) in grouped(exr.channels.into_iter().filter(wanted)) {
+    let follows = |name: &str| spectral && ["R", "G", "B"].contains(&name);
+    let others = exr.channels.into_iter().filter(|channel| !is_spectral(channel)).filter(|c| !follows(&c.name));
+    for (name, channels) in grouped(others) {
         let (unit, more) = units::of_layer(&stated, &name);
         let first = name.split('.').next().unwrap_or(&name);
         let meaning = attributes.get(&format!("etendue:{first}")).cloned().unwrap_or(more);

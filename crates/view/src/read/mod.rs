@@ -3,24 +3,18 @@
 mod boxes;
 mod exr;
 mod facts;
+mod file_layers;
 mod flow;
 mod names;
 mod picture;
 mod units;
 
 use crate::found::FoundFile;
-use crate::layer::Layer;
 use etendue::Error;
 use etendue_io::correspondence::read_flow;
 pub(crate) use facts::SideCar;
+pub(crate) use file_layers::FileLayers;
 use std::collections::BTreeMap;
-
-/// What is in a file.
-pub(crate) struct FileLayers {
-    pub(crate) layers: Vec<Layer>,
-    /// What the file's header says: name and text.
-    pub(crate) facts: BTreeMap<String, String>,
-}
 
 /// Reads the layers of a file; `side_car` is that of its folder.
 ///
