@@ -3,6 +3,7 @@
 use crate::html::{document, escaped};
 use etendue::Error;
 use etendue::report::{Cell, Report, Table};
+use serde_json::Value;
 use std::fmt::Write as _;
 
 const STYLE: [&str; 2] = [include_str!("../page/style.css"), include_str!("../page/report.css")];
@@ -19,12 +20,13 @@ pub fn report_page(report: &Report) -> Result<String, Error> {
         escaped(report.kind()),
         escaped(report.method())
     );
+    settings(&mut body, report);
     figures(&mut body, report);
-    for table in report.tables() {
-        self::table(&mut body, table);
-    }
     if report.has_plots() {
         let _ = writeln!(body, "<section>\n<h2>Curves</h2>\n{}</section>", report.svg()?);
+    }
+    for table in report.tables() {
+        self::table(&mut body, table);
     }
     if !report.notes().is_empty() {
         let notes: String = report.notes().iter().map(|note| format!("<li>{}</li>\n", escaped(note))).collect();
@@ -32,6 +34,24 @@ pub fn report_page(report: &Report) -> Result<String, Error> {
     }
     body += "</div>\n";
     Ok(document(report.kind(), &STYLE.concat(), &body))
+}
+
+/// What was chosen, and how light was found from the numbers of the pictures.
+fn settings(body: &mut String, report: &Report) {
+    let told = report.json();
+    let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    let chosen =
+        told["settings"].as_object().into_iter().flatten().map(|(key, value)| (key.replace('_', " "), text(value)));
+    let encodings = told["encodings"].as_array().into_iter().flatten();
+    let encodings =
+        encodings.map(|e| ("encoding".to_owned(), format!("{} ({})", text(&e["encoding"]), text(&e["reason"]))));
+    let rows: String = chosen
+        .chain(encodings)
+        .map(|(key, value)| format!("<tr><th>{}</th><td>{}</td></tr>\n", escaped(&key), escaped(&value)))
+        .collect();
+    if !rows.is_empty() {
+        let _ = writeln!(body, "<section>\n<h2>Settings</h2>\n<table>\n<tbody>\n{rows}</tbody>\n</table>\n</section>");
+    }
 }
 
 fn figures(body: &mut String, report: &Report) {
@@ -53,7 +73,10 @@ fn figures(body: &mut String, report: &Report) {
 }
 
 fn table(body: &mut String, table: &Table) {
-    let heads: String = table.columns.iter().map(|(_, heading)| format!("<th>{}</th>", escaped(heading))).collect();
+    let class = |column: usize| table.rows.first().and_then(|row| row.get(column)).map_or("", class);
+    let heading =
+        |(column, (_, heading)): (usize, &(&str, &str))| format!("<th{}>{}</th>", class(column), escaped(heading));
+    let heads: String = table.columns.iter().enumerate().map(heading).collect();
     let _ = writeln!(
         body,
         "<section>\n<h2>{}</h2>\n<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>",
@@ -71,6 +94,10 @@ fn table(body: &mut String, table: &Table) {
 }
 
 fn cell(cell: &Cell) -> String {
-    let class = if matches!(cell, Cell::Text(_) | Cell::Nothing) { "" } else { " class=\"number\"" };
-    format!("<td{class}>{}</td>", escaped(&cell.text()))
+    format!("<td{}>{}</td>", class(cell), escaped(&cell.text()))
+}
+
+/// Numbers stand to the right.
+fn class(cell: &Cell) -> &'static str {
+    if matches!(cell, Cell::Text(_) | Cell::Nothing) { "" } else { " class=\"number\"" }
 }
