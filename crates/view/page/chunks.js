@@ -71,9 +71,16 @@ function planesOf(layer) {
   for (const id of [...kept.keys()].reverse()) {
     const of = LAYERS[id];
     bytes += of.width * of.height * 4 * of.planes.length;
-    if (bytes > KEPT_BYTES && id !== layer.id) { kept.delete(id); painted.delete(id); }
+    if (bytes > KEPT_BYTES && id !== layer.id) forget(of);
   }
   return planes;
+}
+
+function forget(layer) {
+  kept.delete(layer.id);
+  painted.delete(layer.id);
+  delete layer.loaded;
+  delete layer.rgb;
 }
 
 async function unpack(layer) {

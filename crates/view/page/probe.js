@@ -101,7 +101,7 @@ function otherRows(layer, place, columns) {
 function moreButton() {
   const left = here().filter((l) => !l.loaded && l.chunk && !["spectrum", "parts"].includes(l.kind) && l.result === 0);
   if (!left.length) return null;
-  const load = async () => { await Promise.all(left.map(planesOf)); probe(); };
+  const load = async () => { await Promise.all(left.map(planesOf)).catch((error) => { at("fault").textContent = error.message; }); probe(); };
   return node("button", { id: "all-values", onclick: load }, `values of all layers (${left.length} more)`);
 }
 

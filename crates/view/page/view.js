@@ -136,6 +136,7 @@ async function refresh() {
     panes = await shownLayers();
     at("fault").textContent = "";
   } catch (error) {
+    // What failed once is tried again when it is asked for.
     kept.clear();
     at("fault").textContent = error.message;
     panes = [];
