@@ -280,6 +280,7 @@ impl Task<'_> {
             "program": "etendue",
             "version": metadata::VERSION,
             "seed": self.seed(),
+            "camera_index": 0,
             "light": {
                 "wavelength_nm": light.wavelength_nm,
                 "irradiance_w_m2": light.irradiance_w_m2,

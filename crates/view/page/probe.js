@@ -58,7 +58,7 @@ function spectrumRows(layer, planes, pixel) {
   rows.push(numberRow(layer.unit.includes("sr") ? "luminance" : "illuminance", luminance, whiteUnit({ ...layer, kind: "spectrum" })));
   const [X, Z] = [0.4124564 * rgb[0] + 0.3575761 * rgb[1] + 0.1804375 * rgb[2], 0.0193339 * rgb[0] + 0.119192 * rgb[1] + 0.9503041 * rgb[2]];
   const sum = X + luminance + Z;
-  if (layer.kind === "spectrum" && sum > 0) rows.push(["CIE 1931 x, y", `${told(X / sum, 4)}, ${told(luminance / sum, 4)}`, X / sum]);
+  if (layer.kind === "spectrum" && sum > 0) rows.push(["CIE 1931 x", told(X / sum, 4), X / sum], ["CIE 1931 y", told(luminance / sum, 4), luminance / sum]);
   const { plane } = settingsOf(state.key);
   if (plane !== "colour") rows.push(numberRow(`at ${layer.centres_nm[plane]} nm`, bands[plane], layer.unit));
   return rows;
@@ -79,8 +79,9 @@ function probe() {
   const of = seen.map(({ layer, planes, pixel }) => rowsOf(layer, planes, pixel));
   const heads = seen.length > 1 ? node("thead", {}, node("tr", {}, node("th"), ...seen.map(({ layer }) => node("th", { class: "number" }, "AB"[layer.result])), node("th"))) : null;
   const rows = of[0].map(([name], row) => node("tr", {}, node("th", { scope: "row" }, name), ...of.map((rows) => valueCell(rows[row])), unitCell(of[0][row])));
-  const others = hereLoaded(all).flatMap((other) => otherRows(other, place, seen.length));
-  fill(at("probe"), node("table", {}, heads, node("tbody", {}, ...rows, ...others)), moreButton());
+  const others = hereLoaded(all).flatMap((other) => otherRows(other, place));
+  const ofOthers = others.length ? node("table", { class: "quiet" }, node("tbody", {}, ...others)) : null;
+  fill(at("probe"), node("table", {}, heads, node("tbody", {}, ...rows)), ofOthers, moreButton());
   chart(seen);
 }
 
@@ -91,11 +92,11 @@ const noteOfStep = (layer) => `the page has 1 of ${layer.step} × ${layer.step} 
 // Other layers of this camera and frame that were loaded, in files of the same size.
 const hereLoaded = (shown) => here().filter((l) => l.loaded && l.kind !== "parts" && l.key !== state.key && l.columns === shown[0].layer.columns && l.rows === shown[0].layer.rows && l.result === shown[0].layer.result);
 
-function otherRows(layer, place, columns) {
+function otherRows(layer, place) {
   const pixel = pixelOf(layer, place);
   if (pixel === null) return [];
   const rows = layer.kind === "spectrum" ? spectrumRows(layer, layer.loaded, pixel).slice(0, 2).map(([name, ...rest]) => [`${layer.name}: ${name}`, ...rest]) : rowsOf(layer, layer.loaded, pixel);
-  return rows.map((row) => node("tr", { class: "quiet" }, node("td", {}, row[0]), valueCell(row), ...Array.from({ length: columns - 1 }, () => node("td")), unitCell(row)));
+  return rows.map((row) => node("tr", {}, node("td", {}, row[0]), valueCell(row), unitCell(row)));
 }
 
 function moreButton() {

@@ -1,7 +1,7 @@
 //! The page of a result: what is refused, and what Chromium reads from it.
 
 use crate::browser::Browser;
-use crate::support::{BALL, etendue, text};
+use crate::support::{BALL, etendue, root, text};
 use etendue_io::exr::{ExrFile, parse_channel_name, read_exr};
 use etendue_io::inspect::Preview;
 use etendue_io::photograph::read_photograph;
@@ -60,6 +60,12 @@ fn a_page_is_made_replaced_and_refused() {
         "expected the folder of a result",
     ]);
     etendue(["view", &text(&folder), "--max-mb", "0"]).refused(&["--max-mb", "1 to 1000"]);
+    let camera = text(&root().join("scenes/cameras/ccd-mono.toml"));
+    let flat = text(&place.path().join("flat"));
+    let size = ["--set", "sensor.width_px=64", "--set", "sensor.height_px=64"];
+    etendue([&["flat", &camera, "--wavelength-nm", "550", "--photons", "500", "-o", &flat], &size[..]].concat()).ok();
+    let page = fs::read_to_string(made(&[&flat])).expect("a page");
+    assert!(page.contains("\"kind\":\"raw\""), "a raw of the bare sensor has its levels");
     fs::write(folder.join("picture.png"), &picture[..20]).expect("written");
     let other = place.path().join("page");
     etendue(["view", &text(&folder), "-o", &text(&other)]).refused(&["picture.png"]);

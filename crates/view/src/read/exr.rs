@@ -53,6 +53,8 @@ fn parts(exr: ExrFile, unit: String) -> Layer {
 fn all(file: &FoundFile, exr: ExrFile, side_car: &SideCar) -> Result<Vec<Layer>, Error> {
     let is_spectral = |channel: &ExrChannel| parse_channel_name(&channel.name).is_some();
     let mut layers = Vec::new();
+    let [quantity, unit] = side_car.entry(&file.name);
+    let of_file = if unit.contains(", ") && !attributed(&exr) { format!("{quantity}: {unit}") } else { String::new() };
     let stated = exr.attributes.get("etendue:units").cloned();
     let stated = stated.unwrap_or_else(|| side_car.entry(&file.name)[1].to_owned());
     let spectral = exr.channels.iter().any(is_spectral);
@@ -66,11 +68,17 @@ fn all(file: &FoundFile, exr: ExrFile, side_car: &SideCar) -> Result<Vec<Layer>,
     for (name, channels) in grouped(others) {
         let (unit, more) = units::of_layer(&stated, &name);
         let first = name.split('.').next().unwrap_or(&name);
-        let meaning = attributes.get(&format!("etendue:{first}")).cloned().unwrap_or(more);
+        let own = attributes.get(&format!("etendue:{first}")).cloned();
+        let meaning = own.unwrap_or_else(|| if more.is_empty() { of_file.clone() } else { more });
         let (kind, planes) = kind(&name, channels, side_car);
         layers.push(Layer { name, kind, unit, meaning, size, planes });
     }
     Ok(layers)
+}
+
+/// Whether the header says what is in the file.
+fn attributed(exr: &ExrFile) -> bool {
+    exr.attributes.contains_key("etendue:units")
 }
 
 /// Channels by their layer, in the order of the first ones; the variance of a layer's channel with it.

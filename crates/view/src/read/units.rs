@@ -14,7 +14,8 @@ pub(super) fn of_layer(stated: &str, layer: &str) -> (String, String) {
                 return (written(unit.trim()), more.trim().to_owned());
             }
             Some(_) => {}
-            None => of_all = of_all.or(Some(clause)),
+            // A list is of several layers, and does not say which.
+            None => of_all = of_all.or(Some(clause).filter(|unit| !unit.contains(", "))),
         }
     }
     (written(of_all.unwrap_or("")), String::new())
@@ -42,6 +43,7 @@ mod tests {
         assert_eq!(of_layer(motion, "scene_flow.forward"), ("m".to_owned(), "camera frames".to_owned()));
         assert_eq!(of_layer("px; the column here minus that", "disparity").0, "px");
         assert_eq!(of_layer("W.m^-2.sr^-1.nm^-1", "S0").0, "W·m⁻²·sr⁻¹·nm⁻¹");
+        assert_eq!(of_layer("1, e^2, e^2", "samples").0, "");
         assert_eq!([written("e"), written("1"), written("DN")], ["e⁻", "", "DN"]);
     }
 }
