@@ -23,6 +23,10 @@ cluster:
 notebooks:
     ETENDUE_PYTHON_NOTEBOOKS="$(.ci/python notebooks)" cargo test -p etendue-python --test package -- notebooks
 
+# Pages of results in headless Chromium, opened from the file system (Debian: apt-get install chromium)
+view-test:
+    ETENDUE_CHROMIUM="$(command -v chromium)" cargo test --workspace --test binary -- view::
+
 # A wheel of the Python package, in target/wheels
 wheel:
     "$(.ci/python)" -m pip wheel --no-deps --wheel-dir target/wheels ./crates/python

@@ -11,6 +11,11 @@ pub trait Console: Sync {
     /// A line beside the answer that is no message of the library: what the program prints on stderr.
     fn tell(&self, line: &str);
 
+    /// Whether a person reads the answer as it is printed, for whom a page may be opened.
+    fn is_terminal(&self) -> bool {
+        false
+    }
+
     /// Who is told of progress and messages, and asked whether to stop.
     fn observer(&self) -> &dyn Observer;
 }

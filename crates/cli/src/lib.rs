@@ -5,6 +5,7 @@
 #![allow(unreachable_pub)]
 
 mod args;
+mod browser;
 mod catalogue;
 mod console;
 mod display;

@@ -4,6 +4,7 @@ use crate::console::Console;
 use crate::output::{print, print_message};
 use etendue::{Message, Observer, Progress, Unit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal as _;
 use std::sync::Mutex;
 use std::time::Instant;
 
@@ -27,6 +28,10 @@ impl Console for Terminal {
 
     fn tell(&self, line: &str) {
         print_message(line);
+    }
+
+    fn is_terminal(&self) -> bool {
+        std::io::stdout().is_terminal()
     }
 
     fn observer(&self) -> &dyn Observer {

@@ -173,6 +173,12 @@ impl Report {
         self.plots.push(plot);
     }
 
+    /// Whether it has curves to draw.
+    #[must_use]
+    pub fn has_plots(&self) -> bool {
+        !self.plots.is_empty()
+    }
+
     /// Its plots as one SVG.
     ///
     /// # Errors
@@ -287,7 +293,9 @@ impl Cell {
         }
     }
 
-    fn text(&self) -> String {
+    /// The cell as text, numbers to the digits that they are known by.
+    #[must_use]
+    pub fn text(&self) -> String {
         match self {
             Self::Number(x, _) if !x.is_finite() => "–".to_owned(),
             Self::Number(x, decimals) => fixed(*x, *decimals),

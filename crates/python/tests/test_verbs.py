@@ -14,7 +14,7 @@ WEB = ROOT / "scenes/cameras"
 
 
 def test_every_verb_has_a_function_with_its_arguments_told(program):
-    for name in ("expose", "develop", "flat", "merge", "compare", "weather", "calibrate", "inspect", "rig", "schema", "tradeoff"):
+    for name in ("expose", "develop", "flat", "merge", "compare", "weather", "calibrate", "inspect", "view", "rig", "schema", "tradeoff"):
         function = getattr(etendue, name)
         assert name in etendue.__all__ and callable(function)
         for parameter in inspect.signature(function).parameters:
@@ -121,3 +121,15 @@ def test_arguments_of_verbs_are_checked(tmp_path):
 def test_values_of_numpy_are_values():
     with pytest.raises(etendue.InputError, match="a.png"):
         etendue.measure.sfr("a.png", edge=np.array([[0, 0, 8, 8], [8, 8, 8, 8]]), edge_degree=np.int64(2), pixel_pitch_um=np.float32(2.5))
+
+
+def test_a_result_becomes_a_page_of_the_same_bytes_and_opens_no_browser(program, tmp_path):
+    camera = ROOT / "scenes/cameras/ccd-mono.toml"
+    small = {"sensor.width_px": 64, "sensor.height_px": 64}
+    etendue.flat(camera, wavelength_nm=550, photons=500.0, output=tmp_path / "flat", set=small)
+    page = tmp_path / "python.html"
+    assert etendue.view(tmp_path / "flat", output=page, max_mb=4) == [page]
+    program("view", tmp_path / "flat", "-o", tmp_path / "program.html", "--max-mb", "4")
+    assert page.read_bytes() == (tmp_path / "program.html").read_bytes()
+    with pytest.raises(etendue.InputError, match="already there"):
+        etendue.view(tmp_path / "flat", output=page)

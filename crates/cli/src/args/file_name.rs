@@ -7,6 +7,11 @@ pub fn svg(text: &str) -> Result<PathBuf, String> {
     ending(text, "svg")
 }
 
+/// The name of a page.
+pub fn html(text: &str) -> Result<PathBuf, String> {
+    ending(text, "html")
+}
+
 /// The name of a picture.
 pub fn png(text: &str) -> Result<PathBuf, String> {
     ending(text, "png")

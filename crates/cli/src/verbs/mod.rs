@@ -17,6 +17,7 @@ mod render;
 mod rig;
 mod schema;
 mod tradeoff;
+mod view;
 mod weather;
 
 use crate::subcommands::subcommands;
@@ -50,6 +51,8 @@ subcommands! {
     Import(import::Import),
     /// Say what is in a file, with units; make a picture of it
     Inspect(inspect::Inspect),
+    /// Make a page of a result for a browser: every layer with its values, spectra, histograms, beside another result
+    View(view::View),
     /// Compare two results: errors with their uncertainty; exit status 1 where they differ
     Compare(compare::Compare),
     /// Make a test chart as a scene ready to render, with its truth beside it

@@ -3,7 +3,7 @@
 use crate::support::etendue;
 
 /// What it does, one verb each.
-const VERBS: [&str; 14] = [
+const VERBS: [&str; 15] = [
     "render",
     "rig",
     "merge",
@@ -13,6 +13,7 @@ const VERBS: [&str; 14] = [
     "flat",
     "datasheet",
     "inspect",
+    "view",
     "compare",
     "calibrate",
     "schema",

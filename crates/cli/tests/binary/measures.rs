@@ -188,10 +188,21 @@ fn a_flat_field_gives_its_fall_off_and_a_saturated_one_none() {
     let flat =
         raw(folder.path(), "flat.png", (120, 90), |x, y| 200.0 + 30_000.0 * falloff(x, y) + 30.0 * scatter(x, y, 0));
     let plot = text(&folder.path().join("plot.svg"));
-    let report = json(&["vignetting", &flat, "--black", "200", "--plot", &plot]);
+    let page = text(&folder.path().join("page.html"));
+    let report = json(&["vignetting", &flat, "--black", "200", "--plot", &plot, "--html", &page]);
     // Quantised noise of 17 counts in 30 000 over 10 800 pixels: the corner is known to about 1e-4.
     assert!((figure(&report, "corner_percent") - 70.0).abs() < 0.1, "{report}");
-    assert!(std::fs::read_to_string(&plot).expect("a plot").starts_with("<svg"));
+    let drawn = std::fs::read_to_string(&plot).expect("a plot");
+    assert!(drawn.starts_with("<svg"));
+    // The page has the same curves, each figure with its unit, and each row of each table.
+    let page = std::fs::read_to_string(&page).expect("a page");
+    assert!(page.starts_with("<!doctype html>") && page.contains(&drawn));
+    let figures = report["figures"].as_object().expect("figures").len();
+    assert_eq!(page.matches("<tr><th scope=\"row\">").count(), figures, "{page}");
+    let rows: usize =
+        report["tables"].as_object().expect("tables").values().map(|t| t.as_array().map_or(0, Vec::len)).sum();
+    assert_eq!(page.matches("<tr><td").count(), rows);
+    etendue(["measure", "vignetting", &flat, "--html", &flat]).refused(&["--html", "ends in .html"]);
     let map = json(&["shading", &flat, "--black", "200"]);
     assert!(figure(&map, "illumination_least_percent") > 72.0);
     etendue(["measure", "vignetting", &flat, "--full-scale", "29000"]).refused(&["flat.png", "saturated"]);

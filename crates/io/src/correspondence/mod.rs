@@ -21,3 +21,22 @@ pub use kitti::{encode_kitti_disparity, encode_kitti_flow};
 pub(crate) use middlebury::is_flo;
 pub use middlebury::{decode_flo, encode_flo};
 pub use pfm::encode_pfm;
+
+use crate::Error;
+use crate::source::read_bytes;
+use etendue_core::Plane;
+use etendue_core::quantity::OpticalFlow;
+use std::path::Path;
+
+/// The optical flow in a `.flo` or a PNG of KITTI, NaN where it is not known; `None` where the file is neither.
+///
+/// # Errors
+/// Where it is missing or damaged.
+pub fn read_flow(file: &Path) -> Result<Option<Plane<OpticalFlow>>, Error> {
+    let bytes = read_bytes(file, "flow or picture")?;
+    match (is_flo(&bytes), is_kitti_flow(&bytes)) {
+        (true, _) => decode_flo(file, &bytes).map(Some),
+        (_, true) => decode_kitti_flow(file, &bytes).map(Some),
+        _ => Ok(None),
+    }
+}

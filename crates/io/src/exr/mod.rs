@@ -44,11 +44,11 @@ pub use layers::{Layer, encode_layers, layers_image};
 pub use motion::{MotionTruth, NeighbourTruth, VISIBILITY, encode_disparity, encode_motion};
 pub use name::{SpectralChannel, Stokes, channel_name, parse_channel_name};
 pub use plane::{encode_plane, plane_image};
+pub use preview::band_weights;
 pub use rays::rays_image;
 pub use read::{ExrChannel, ExrFile, Samples, read_exr, read_exr_within};
 pub use spectral::{Lengths, SpectralBands, encode_radiance, encode_spectral, radiance_image, spectral_image};
-pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral};
+pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral, spectral_of};
 
 pub(crate) use preview::linear_srgb;
 pub(crate) use read::decode_exr;
-pub(crate) use spectral_read::spectral_of;

@@ -12,8 +12,9 @@ pub(crate) fn linear_srgb<Q: Quantity<Sample = f32>>(cube: &SpectralCube<Q>) -> 
     linear_srgb_of_bands(&planes, &band_weights(cube.bands()))
 }
 
-/// What each band adds to linear sRGB.
-pub(super) fn band_weights(bands: Bands) -> Vec<[f64; 3]> {
+/// What a band mean of 1 adds to linear red, green and blue, (1, 1, 1) at 1 cd/m² of radiance (1 lx of irradiance).
+#[must_use]
+pub fn band_weights(bands: Bands) -> Vec<[f64; 3]> {
     xyz_weights(bands).into_iter().map(linear_srgb_from_xyz).collect()
 }
 

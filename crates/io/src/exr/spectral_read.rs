@@ -52,7 +52,10 @@ pub fn read_spectral(file: &Path) -> Result<SpectralFile, Error> {
 }
 
 /// The spectral image in `exr`, which was read from `file`.
-pub(crate) fn spectral_of(file: &Path, exr: &ExrFile) -> Result<SpectralFile, Error> {
+///
+/// # Errors
+/// Where it has no emission in evenly spaced bands, or states another unit.
+pub fn spectral_of(file: &Path, exr: &ExrFile) -> Result<SpectralFile, Error> {
     let mut notes = Vec::new();
     let image = match stated_quantity(file, exr, &mut notes)? {
         name if name == Irradiance::NAME => SpectralImage::Irradiance(cubes(file, exr, &mut notes)?),

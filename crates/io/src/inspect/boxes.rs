@@ -8,11 +8,24 @@ use serde::Deserialize;
 use std::path::Path;
 
 /// What is read of the boxes of a frame.
-#[derive(Debug, Deserialize)]
-struct Boxes {
-    width_px: usize,
-    height_px: usize,
-    objects: Vec<ObjectBox>,
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct Boxes {
+    /// Columns of the picture.
+    pub width_px: usize,
+    /// Its rows.
+    pub height_px: usize,
+    /// The objects, in the order of their identities.
+    pub objects: Vec<ObjectBox>,
+}
+
+/// Reads the boxes of a frame.
+///
+/// # Errors
+/// Where the file is none of boxes.
+pub fn read_boxes(file: &Path) -> Result<Boxes, Error> {
+    serde_json::from_slice(&read_description_bytes(file, "file of boxes")?).map_err(|cause| {
+        Error::at(file, cause.line(), format!("no boxes of objects, as boxes.0000.json has them: {cause}"))
+    })
 }
 
 /// Draws the boxes of `boxes` over the picture of a report.
@@ -20,9 +33,7 @@ struct Boxes {
 /// # Errors
 /// Where the file is none of boxes, or is of a picture of another size; where the report has no picture.
 pub(super) fn draw(report: &mut FileReport, boxes: &Path) -> Result<(), Error> {
-    let found: Boxes = serde_json::from_slice(&read_description_bytes(boxes, "file of boxes")?).map_err(|cause| {
-        Error::at(boxes, cause.line(), format!("no boxes of objects, as boxes.0000.json has them: {cause}"))
-    })?;
+    let found = read_boxes(boxes)?;
     let Some(preview) = &mut report.preview else {
         return Err(Error::new(&report.file, "there is no picture on which boxes could be drawn; give a picture"));
     };

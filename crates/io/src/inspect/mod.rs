@@ -24,7 +24,10 @@ use crate::picture::EXR_MAGIC;
 use crate::source::read_bytes;
 use std::path::{Path, PathBuf};
 
+pub use boxes::{Boxes, read_boxes};
+pub use drawing::{VIRIDIS, flow_wheel, identity_colour};
 pub use lamp::passing_beam;
+pub use object_box::ObjectBox;
 pub use preview::Preview;
 pub use report::FileReport;
 pub use statistics::ChannelReport;

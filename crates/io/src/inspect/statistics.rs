@@ -23,7 +23,7 @@ pub struct ChannelReport {
 
 impl ChannelReport {
     /// The statistics of `samples`, summed in order.
-    pub(super) fn of(name: &str, stored_as: &str, samples: impl IntoIterator<Item = f64>) -> Self {
+    pub fn of(name: &str, stored_as: &str, samples: impl IntoIterator<Item = f64>) -> Self {
         let (mut min, mut max, mut sum, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0.0, 0_usize);
         let (mut nan_count, mut infinite_count) = (0, 0);
         for v in samples {

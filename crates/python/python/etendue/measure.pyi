@@ -49,6 +49,7 @@ def distortion(
     points: bool = False,
     centre_px: Sequence[float] | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     camera_out: _Path | None = None,
     overwrite: bool = False,
     progress: _Progress | None = None,
@@ -68,6 +69,7 @@ def distortion(
     points: List every point of the chart in the text, too; JSON has them anyway.
     centre_px: The point to which distances are taken, raster coordinates, px [default: the picture's middle].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     camera_out: Write what was found as keys of a camera file.
     overwrite: Replace a camera file that is already there.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
@@ -97,6 +99,7 @@ def focal(
     pixel_pitch_um: float | None = None,
     robust: bool = False,
     plot: _Path | None = None,
+    html: _Path | None = None,
     camera_out: _Path | None = None,
     overwrite: bool = False,
     progress: _Progress | None = None,
@@ -123,6 +126,7 @@ def focal(
     pixel_pitch_um: The distance of neighbouring pixels of the sensor, µm: then focal lengths are told in mm as well.
     robust: Points far from the fit count less (Huber).
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     camera_out: Write what was found as keys of a camera file.
     overwrite: Replace a camera file that is already there.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
@@ -144,6 +148,7 @@ def chromatic(
     camera: str | None = None,
     points: bool = False,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """Lateral chromatic displacement of red and blue against green (ISO 19084).
@@ -160,6 +165,7 @@ def chromatic(
     camera: With --truth: the camera that took the picture [default: the first].
     points: List every point of the chart in the text, too; JSON has them anyway.
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -174,6 +180,7 @@ def ptc(
     region: Sequence[float] | None = None,
     encoding: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     camera_out: _Path | None = None,
     overwrite: bool = False,
     progress: _Progress | None = None,
@@ -187,6 +194,7 @@ def ptc(
     region: Measure this part only: left column, top row, width and height, pixels of the file.
     encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     camera_out: Write what was found as keys of a camera file.
     overwrite: Replace a camera file that is already there.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
@@ -212,6 +220,7 @@ def sfr(
     truth: _Path | None = None,
     camera: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """Slanted edges: the spatial frequency response with MTF50 and MTF10 (ISO 12233).
@@ -232,6 +241,7 @@ def sfr(
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -253,6 +263,7 @@ def oecf(
     truth: _Path | None = None,
     camera: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """The tone curve from a series of exposures or from steps, with linearity and dynamic range (ISO 14524); the camera's response from a scene at exposures known relatively.
@@ -271,6 +282,7 @@ def oecf(
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -290,6 +302,7 @@ def vignetting(
     truth: _Path | None = None,
     camera: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     camera_out: _Path | None = None,
     overwrite: bool = False,
     pixel_pitch_um: float | None = None,
@@ -309,6 +322,7 @@ def vignetting(
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     camera_out: Write what was found as keys of a camera file.
     overwrite: Replace a camera file that is already there.
     pixel_pitch_um: The pixels' pitch, µm, for --camera-out.
@@ -331,6 +345,7 @@ def shading(
     truth: _Path | None = None,
     camera: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     blocks: int | None = None,
     progress: _Progress | None = None,
 ) -> Report:
@@ -348,6 +363,7 @@ def shading(
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     blocks: Blocks of the map along each side, an odd number. Default: 11.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
@@ -366,6 +382,7 @@ def noise(
     truth: _Path | None = None,
     camera: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """Temporal and fixed-pattern noise of an even surface (ISO 15739).
@@ -380,6 +397,7 @@ def noise(
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -399,6 +417,7 @@ def flare(
     truth: _Path | None = None,
     camera: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """Light in traps that send none (ISO 18844).
@@ -415,6 +434,7 @@ def flare(
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -435,6 +455,7 @@ def flicker(
     truth: _Path | None = None,
     camera: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """Light that goes up and down: frequency, modulation over rows and frames, duty of pulses (IEEE P2020).
@@ -452,6 +473,7 @@ def flicker(
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -471,6 +493,7 @@ def colour(
     truth: _Path | None = None,
     camera: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """Colours of a ColorChecker after a fitted matrix, CIEDE2000.
@@ -487,6 +510,7 @@ def colour(
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -508,6 +532,7 @@ def cdp(
     truth: _Path | None = None,
     camera: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """Contrast detection probability of pairs of patches (IEEE P2020).
@@ -526,6 +551,7 @@ def cdp(
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -547,6 +573,7 @@ def depth(
     edge_ratio: float | None = None,
     edge_px: int | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """An estimated depth picture against the truth: bias, error and outliers by range, edges apart.
@@ -565,6 +592,7 @@ def depth(
     edge_ratio: A jump of the truth by more than this share of the depth is an edge. Default: 0.1.
     edge_px: Pixels this near to an edge are told apart. Default: 2.
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -579,6 +607,7 @@ def dark_current(
     region: Sequence[float] | None = None,
     encoding: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """The dark current's growth with temperature, by three laws.
@@ -590,6 +619,7 @@ def dark_current(
     region: Measure this part only: left column, top row, width and height, pixels of the file.
     encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -611,6 +641,7 @@ def star(
     truth: _Path | None = None,
     camera: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """A Siemens star: response over frequency (ISO 12233).
@@ -629,6 +660,7 @@ def star(
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -648,6 +680,7 @@ def texture(
     truth: _Path | None = None,
     camera: str | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """Texture such as dead leaves against its reference: response, invented structure, coherence.
@@ -664,6 +697,7 @@ def texture(
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -677,6 +711,7 @@ def compare(
     illuminant: str | None = None,
     set: Mapping[str, Any] | Sequence[str] | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """Two cameras' measurements side by side, or a camera file against what was measured; exit status 1 where they differ.
@@ -687,6 +722,7 @@ def compare(
     illuminant: Where a camera file is compared with the response of edges or a tone curve: the light's spectrum [default: D65].
     set: Change a key of the camera file, e.g. --set sensor.exposure_s=0.002. A dict of dotted keys to values, or texts key=value.
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.

@@ -344,6 +344,31 @@ def inspect(
     Answers with a text.
     """
 
+def view(
+    folder: _Path,
+    *,
+    beside: _Path | None = None,
+    frames: range | tuple[int, int] | None = None,
+    max_mb: int | None = None,
+    output: _Path | None = None,
+    overwrite: bool = False,
+    no_open: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Make a page of a result for a browser: every layer with its values, spectra, histograms, beside another result.
+
+    folder: A folder of results: all cameras of a run, or one.
+    beside: Another result, shown side by side, by a wipe, and as the difference; of the same sizes.
+    frames: Frames to show, first to last (the last excluded) [default: all].
+    max_mb: What the numbers of one layer take at most, MB; larger layers have fewer pixels on the page, by a whole factor. Default: 32.
+    output: Folder for the page, or the name of one file that ends in .html and holds everything [default: the folder `view` in FOLDER, where an earlier page is replaced].
+    overwrite: Replace files that are already there.
+    no_open: Write the page and leave it closed; without a terminal that is so by itself.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
 def compare(
     a: _Path,
     b: _Path,
@@ -388,6 +413,7 @@ def calibrate(
     overwrite: bool = False,
     f_number: float | None = None,
     plot: _Path | None = None,
+    html: _Path | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """Find a camera's intrinsics and distortion from several pictures of a chart, as a camera file.
@@ -415,6 +441,7 @@ def calibrate(
     overwrite: Replace a camera file that is already there.
     f_number: The lens's f-number, for the camera file [default: 4, which is marked as a stand-in].
     plot: Draw the curves here; an earlier drawing is replaced.
+    html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.

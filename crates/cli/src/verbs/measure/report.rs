@@ -1,10 +1,11 @@
 //! How a report is printed, and what is written of it.
 
-use crate::args::file_name::{svg, toml};
+use crate::args::file_name::{html, svg, toml};
 use crate::console::Console;
 use clap::Args;
 use etendue::report::Report;
 use etendue::{Error, Existing, write_file};
+use etendue_view::report_page;
 use std::path::PathBuf;
 
 /// How results are printed.
@@ -16,6 +17,9 @@ pub struct ReportArgs {
     /// Draw the curves here; an earlier drawing is replaced
     #[arg(long, value_name = "FILE.svg", value_parser = svg)]
     pub plot: Option<PathBuf>,
+    /// Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced
+    #[arg(long, value_name = "FILE.html", value_parser = html)]
+    pub html: Option<PathBuf>,
 }
 
 impl ReportArgs {
@@ -23,6 +27,9 @@ impl ReportArgs {
     pub fn show(&self, console: &dyn Console, report: &Report) -> Result<(), Error> {
         if let Some(file) = &self.plot {
             write_file(file, report.svg()?.as_bytes(), Existing::Replace)?;
+        }
+        if let Some(file) = &self.html {
+            write_file(file, report_page(report)?.as_bytes(), Existing::Replace)?;
         }
         console.print(&if self.json { format!("{:#}\n", report.json()) } else { report.to_string() });
         Ok(())

@@ -29,11 +29,17 @@ fn length(u: f32, v: f32) -> f32 {
 }
 
 fn wheel() -> Vec<[f64; 3]> {
+    flow_wheel().into_iter().map(|colour| colour.map(|c| f64::from(c) / 255.0)).collect()
+}
+
+/// The 55 colours of the wheel, sRGB bytes: from red (a vector to the right) by yellow (down), cyan (left) and violet (up).
+#[must_use]
+pub fn flow_wheel() -> Vec<[u8; 3]> {
     let step = |(steps, from, channel, way): (usize, [i32; 3], usize, i32)| {
         (0..steps).map(move |i| {
             let mut colour = from;
             colour[channel] += way.signum() * (way.abs() * i as i32 / steps as i32);
-            colour.map(|c| f64::from(c) / 255.0)
+            colour.map(|c| c as u8)
         })
     };
     SPANS.into_iter().flat_map(step).collect()

@@ -16,8 +16,9 @@ pub(in crate::inspect) fn of_identities(ids: &[u32]) -> Vec<[u8; 3]> {
     ids.iter().map(|id| identity_colour(*id)).collect()
 }
 
-/// The colour of an identity; black for 0, the background.
-pub(super) fn identity_colour(id: u32) -> [u8; 3] {
+/// The colour of an identity, sRGB bytes; black for 0, the background.
+#[must_use]
+pub fn identity_colour(id: u32) -> [u8; 3] {
     if id == 0 {
         return [0; 3];
     }

@@ -4,7 +4,8 @@
 use super::percentile::percentile;
 use etendue_core::maths::f64::ln;
 
-const COLOURS: [[u8; 3]; 17] = [
+/// Seventeen colours of viridis at even steps, sRGB bytes.
+pub const VIRIDIS: [[u8; 3]; 17] = [
     [0x44, 0x01, 0x54],
     [0x48, 0x18, 0x6a],
     [0x47, 0x2d, 0x7b],
@@ -58,9 +59,9 @@ fn colour(value: f32, part: impl Fn(f32) -> f64) -> [u8; 3] {
 }
 
 fn between(part: f64) -> [u8; 3] {
-    let place = part * (COLOURS.len() - 1) as f64;
-    let low = (place as usize).min(COLOURS.len() - 2);
-    let (from, to) = (COLOURS[low], COLOURS[low + 1]);
+    let place = part * (VIRIDIS.len() - 1) as f64;
+    let low = (place as usize).min(VIRIDIS.len() - 2);
+    let (from, to) = (VIRIDIS[low], VIRIDIS[low + 1]);
     core::array::from_fn(|i| {
         let (from, to) = (f64::from(from[i]), f64::from(to[i]));
         (from + (to - from) * (place - low as f64)).round() as u8
@@ -93,12 +94,12 @@ mod tests {
         let (rgb, range) = of_lengths(&lengths);
         // Of three values the 99th percentile is the second: ranks are whole.
         assert_eq!(range, [1.0, 10.0]);
-        assert_eq!(rgb[..2], [COLOURS[16], COLOURS[0]]);
-        assert_eq!(rgb[2..5], [COLOURS[0], [255; 3], [255, 0, 255]]);
-        assert_eq!(rgb[5..], [COLOURS[16]; 2]);
+        assert_eq!(rgb[..2], [VIRIDIS[16], VIRIDIS[0]]);
+        assert_eq!(rgb[2..5], [VIRIDIS[0], [255; 3], [255, 0, 255]]);
+        assert_eq!(rgb[5..], [VIRIDIS[16]; 2]);
         let many: Vec<f32> = (0..=200).map(|i| [1.0, 2.0, 4.0][i % 3]).collect();
-        assert_eq!(of_lengths(&many).0[1], COLOURS[8], "2 is half-way from 1 to 4");
-        assert_eq!(of_differences(&[5.0; 4]).0, [COLOURS[8]; 4]);
+        assert_eq!(of_lengths(&many).0[1], VIRIDIS[8], "2 is half-way from 1 to 4");
+        assert_eq!(of_differences(&[5.0; 4]).0, [VIRIDIS[8]; 4]);
         assert!(of_lengths(&[f32::NAN]).0 == [[255, 0, 255]]);
     }
 }

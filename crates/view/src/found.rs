@@ -1,0 +1,170 @@
+//! The files of a result: of each folder, and of each frame where their names have its number.
+
+use etendue::Error;
+use std::ffi::OsStr;
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// A file that may have layers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct FoundFile {
+    /// The folder within the result, `/` between folders: a camera's name, mostly; empty for the result's own.
+    pub(crate) place: String,
+    /// The file's name.
+    pub(crate) name: String,
+    /// The name without frame and ending.
+    pub(crate) stem: String,
+    /// The number in the name: `None` where the file serves all frames.
+    pub(crate) frame: Option<u32>,
+    pub(crate) path: PathBuf,
+}
+
+/// Endings of files that have layers.
+const ENDINGS: [&str; 9] = ["exr", "png", "tif", "tiff", "dng", "jpg", "jpeg", "pfm", "flo"];
+/// Files that a page shows at most.
+const MAX_FILES: usize = 4_000;
+/// Folders within folders at most.
+const MAX_DEPTH: usize = 8;
+/// The order in which files of a folder are listed; others follow by name.
+const ORDER: [&str; 10] = [
+    "picture",
+    "raw",
+    "radiance",
+    "irradiance",
+    "electrons",
+    "signal_breakdown",
+    "ground_truth",
+    "motion",
+    "disparity",
+    "boxes",
+];
+
+/// The files of `folder`, sorted by place, kind and frame; those of other frames than `frames` are left out.
+///
+/// # Errors
+/// Where it is no folder, cannot be read, or has no file or too many.
+pub(crate) fn find(folder: &Path, frames: Option<&Range<u32>>) -> Result<Vec<FoundFile>, Error> {
+    let refuse = |why: String| Error::input(format!("{}: {why}", folder.display()));
+    if !folder.is_dir() {
+        let what = if folder.exists() { "no folder" } else { "not there" };
+        return Err(refuse(format!("{what}; expected the folder of a result, as etendue render -o names it")));
+    }
+    let mut files = Vec::new();
+    search(folder, "", 0, &mut files)?;
+    if files.is_empty() {
+        return Err(refuse(format!(
+            "no result: expected files of layers ({}) in it or its folders",
+            ENDINGS.join(", ")
+        )));
+    }
+    files.retain(|file| file.frame.zip(frames).is_none_or(|(frame, frames)| frames.contains(&frame)));
+    if files.is_empty() {
+        return Err(refuse("none of its files is of a frame that --frames asks for".to_owned()));
+    }
+    if files.len() > MAX_FILES {
+        let count = files.len();
+        return Err(refuse(format!(
+            "{count} files of layers, and a page has at most {MAX_FILES}; give a folder in it, or fewer frames (--frames)"
+        )));
+    }
+    let rank = |file: &FoundFile| ORDER.iter().position(|stem| *stem == file.stem).unwrap_or(ORDER.len());
+    files.sort_by(|a, b| {
+        (&a.place, rank(a), &a.stem, a.frame, &a.name).cmp(&(&b.place, rank(b), &b.stem, b.frame, &b.name))
+    });
+    Ok(files)
+}
+
+fn search(folder: &Path, place: &str, depth: usize, files: &mut Vec<FoundFile>) -> Result<(), Error> {
+    let unreadable = |cause| Error::input(format!("{}: cannot be read: {cause}", folder.display()));
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let entry = entry.map_err(unreadable)?;
+        let (path, kind) = (entry.path(), entry.file_type().map_err(unreadable)?);
+        // What has no name in UTF-8 is no file of this program.
+        let Ok(name) = entry.file_name().into_string() else { continue };
+        if name.starts_with('.') {
+            continue;
+        }
+        if kind.is_dir() && depth < MAX_DEPTH {
+            let place = if place.is_empty() { name } else { format!("{place}/{name}") };
+            search(&path, &place, depth + 1, files)?;
+        } else if !kind.is_dir() && path.is_file() {
+            files.extend(found(place, name, path));
+        }
+    }
+    Ok(())
+}
+
+fn found(place: &str, name: String, path: PathBuf) -> Option<FoundFile> {
+    let ending = path.extension().and_then(OsStr::to_str)?.to_ascii_lowercase();
+    let bare = name.get(..name.len() - ending.len() - 1)?;
+    let (stem, frame) = match bare.rsplit_once('.').map(|(stem, number)| (stem, frame(number))) {
+        Some((stem, Some(frame))) => (stem, Some(frame)),
+        _ => (bare, None),
+    };
+    let has_layers = ENDINGS.contains(&ending.as_str()) || (ending == "json" && stem == "boxes");
+    let stem = stem.to_owned();
+    has_layers.then_some(FoundFile { place: place.to_owned(), stem, frame, name, path })
+}
+
+/// A frame's number as files have it.
+fn frame(text: &str) -> Option<u32> {
+    let is_number = text.len() >= 4 && text.bytes().all(|digit| digit.is_ascii_digit());
+    text.parse().ok().filter(|_| is_number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(names: &[&str]) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        for name in names {
+            let path = folder.path().join(name);
+            fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+            fs::write(path, b"").expect("written");
+        }
+        folder
+    }
+
+    #[test]
+    fn files_stand_by_camera_kind_and_frame() {
+        let folder = folder(&[
+            "right/picture.0001.png",
+            "right/picture.0000.png",
+            "left/a.exr",
+            "left/ground_truth.exr",
+            "left/camera.json",
+            "left/.radiance.exr.1-0.part",
+            "left/.hidden/picture.0000.png",
+            "left/undistorted/rays.exr",
+            "left/boxes.0003.json",
+            "left/v1.2.exr",
+            "tracks.json",
+        ]);
+        let found = find(folder.path(), None).expect("files");
+        let told: Vec<_> = found.iter().map(|f| (f.place.as_str(), f.stem.as_str(), f.frame)).collect();
+        let expected = [
+            ("left", "ground_truth", None),
+            ("left", "boxes", Some(3)),
+            ("left", "a", None),
+            ("left", "v1.2", None),
+            ("left/undistorted", "rays", None),
+            ("right", "picture", Some(0)),
+            ("right", "picture", Some(1)),
+        ];
+        assert_eq!(told, expected);
+        let some = find(folder.path(), Some(&(1..3))).expect("files");
+        assert_eq!(some.iter().filter_map(|f| f.frame).collect::<Vec<_>>(), [1]);
+    }
+
+    #[test]
+    fn what_is_no_result_is_refused() {
+        let folder = folder(&["notes.txt", "a/camera.json", "picture.0000.png"]);
+        let told = |path: &Path, frames| find(path, frames).expect_err("refused").to_string();
+        assert!(told(&folder.path().join("a"), None).contains("no result: expected files of layers (exr, png"));
+        assert!(told(&folder.path().join("notes.txt"), None).contains("no folder"));
+        assert!(told(&folder.path().join("none"), None).contains("not there; expected the folder of a result"));
+        assert!(told(folder.path(), Some(&(5..6))).contains("--frames"));
+    }
+}

@@ -1,0 +1,154 @@
+//! A layer of a result: planes of numbers, and how they are to be looked at.
+
+use serde_json::{Map, Value, json};
+
+/// The numbers of a plane, row by row from the top left.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Samples {
+    /// Whole numbers of 8 bits.
+    Bytes(Vec<u8>),
+    /// Whole numbers of 16 bits.
+    Words(Vec<u16>),
+    /// Identities and counts.
+    Whole(Vec<u32>),
+    /// Numbers that are kept as they are.
+    Exact(Vec<f32>),
+    /// Numbers that are kept to 11 binary digits.
+    Rounded(Vec<f32>),
+}
+
+impl Samples {
+    /// Bytes of a number on the page.
+    pub(crate) fn width(&self) -> usize {
+        match self {
+            Self::Bytes(_) => 1,
+            Self::Words(_) | Self::Rounded(_) => 2,
+            Self::Whole(_) | Self::Exact(_) => 4,
+        }
+    }
+
+    /// The numbers one by one.
+    pub(crate) fn numbers(&self) -> Box<dyn Iterator<Item = f64> + '_> {
+        match self {
+            Self::Bytes(samples) => Box::new(samples.iter().map(|v| f64::from(*v))),
+            Self::Words(samples) => Box::new(samples.iter().map(|v| f64::from(*v))),
+            Self::Whole(samples) => Box::new(samples.iter().map(|v| f64::from(*v))),
+            Self::Exact(samples) | Self::Rounded(samples) => Box::new(samples.iter().map(|v| f64::from(*v))),
+        }
+    }
+}
+
+/// What the numbers of a plane are to the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// Values.
+    Value,
+    /// The standard error of the value plane at the same place among those.
+    Error,
+}
+
+/// A plane.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct NamedPlane {
+    pub(crate) name: String,
+    pub(crate) role: Role,
+    pub(crate) samples: Samples,
+}
+
+impl NamedPlane {
+    pub(crate) fn value(name: impl Into<String>, samples: Samples) -> Self {
+        Self { name: name.into(), role: Role::Value, samples }
+    }
+}
+
+/// An identity that a plane holds.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Name {
+    pub(crate) id: u32,
+    pub(crate) name: String,
+    pub(crate) colour: [u8; 3],
+}
+
+/// How a layer is looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Kind {
+    /// A picture for display: numbers up to `full`, encoded as said.
+    Picture { full: f64, encoding: String },
+    /// Digital numbers of a sensor; channels of the filters of a tile, where it is known.
+    Raw { black: f64, white: f64, filters: Option<(usize, Vec<String>)> },
+    /// Band means about these wavelengths, and what each band adds to linear sRGB.
+    Spectrum { centres_nm: Vec<f64>, width_nm: f64, weights: Vec<[f64; 3]> },
+    /// Linear red, green and blue.
+    Colour,
+    /// Lengths, by their logarithm.
+    Length,
+    /// Identities.
+    Identity { names: Vec<Name> },
+    /// Vectors of the image.
+    Flow,
+    /// Vectors in space; unit vectors or others.
+    Vector { is_unit: bool },
+    /// What one number is made of, a plane a part.
+    Parts,
+    /// One number a pixel.
+    Number,
+    /// Boxes of objects, which are drawn over pictures of their size.
+    Boxes { objects: Vec<Value> },
+}
+
+/// A layer.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Layer {
+    /// Its name within the file.
+    pub(crate) name: String,
+    pub(crate) kind: Kind,
+    /// The unit of its values; empty for a ratio or a name.
+    pub(crate) unit: String,
+    /// What its numbers mean, where that is not plain.
+    pub(crate) meaning: String,
+    /// Columns and rows.
+    pub(crate) size: (usize, usize),
+    pub(crate) planes: Vec<NamedPlane>,
+}
+
+impl Layer {
+    /// Bytes of a pixel on the page.
+    pub(crate) fn pixel_bytes(&self) -> usize {
+        self.planes.iter().map(|plane| plane.samples.width()).sum()
+    }
+}
+
+impl Kind {
+    /// Whether the mean over pixels is a value of the same kind; otherwise one pixel stands for several.
+    pub(crate) fn has_means(&self) -> bool {
+        matches!(self, Self::Picture { .. } | Self::Spectrum { .. } | Self::Colour | Self::Parts | Self::Number)
+    }
+
+    /// The kind as the page's script knows it; `thinned`: one pixel stands for several.
+    pub(crate) fn to_json(&self, thinned: bool) -> Map<String, Value> {
+        let said = match self {
+            Self::Picture { full, encoding } => json!({ "kind": "picture", "full": full, "encoding": encoding }),
+            Self::Raw { black, white, filters } => {
+                let filters = filters.as_ref().filter(|_| !thinned);
+                let filters = filters.map(|(columns, names)| json!({ "columns": columns, "channels": names }));
+                json!({ "kind": "raw", "black": black, "white": white, "filters": filters })
+            }
+            Self::Spectrum { centres_nm, width_nm, weights } => {
+                json!({ "kind": "spectrum", "centres_nm": centres_nm, "width_nm": width_nm, "weights": weights })
+            }
+            Self::Colour => json!({ "kind": "colour" }),
+            Self::Length => json!({ "kind": "length" }),
+            Self::Identity { names } => {
+                let name = |n: &Name| json!([n.id, n.name, n.colour]);
+                json!({ "kind": "identity", "names": names.iter().map(name).collect::<Vec<_>>() })
+            }
+            Self::Flow => json!({ "kind": "flow" }),
+            Self::Vector { is_unit } => json!({ "kind": "vector", "is_unit": is_unit }),
+            Self::Parts => json!({ "kind": "parts" }),
+            Self::Number => json!({ "kind": "number" }),
+            Self::Boxes { objects } => json!({ "kind": "boxes", "objects": objects }),
+        };
+        let Value::Object(map) = said else { return Map::new() };
+        map
+    }
+}

@@ -1,0 +1,42 @@
+//! Pages for looking: every layer of a result, and the report of a measurement, as HTML that a browser opens from the file system.
+//!
+//! ```no_run
+//! use etendue::{Existing, Unobserved};
+//! use etendue_view::{ViewRequest, view};
+//!
+//! # fn main() -> Result<(), etendue::Error> {
+//! let request = ViewRequest { beside: Some("out/fog".into()), ..ViewRequest::new("out/clear") };
+//! let page = view(&request, Some("out/page".as_ref()), Existing::Refuse, &Unobserved)?;
+//! assert!(page.ends_with("index.html"));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! | step | where |
+//! | --- | --- |
+//! | the files of a result, by camera and frame | `found` |
+//! | a file's layers, by the readers of `etendue-io` | `read` |
+//! | fewer pixels where a layer is larger than a limit | `bin` |
+//! | numbers as text that the page unpacks, with the precision that is stated there | `pack` |
+//! | the page: `page/view.html` with its style and scripts | `page` |
+//!
+//! The page has no server, loads nothing from a network, and its bytes depend on the files alone (docs/decisions/viewer.md).
+
+mod base64;
+mod bin;
+mod found;
+mod html;
+mod layer;
+mod pack;
+mod page;
+#[cfg(test)]
+mod page_tests;
+mod pairs;
+mod read;
+mod report_page;
+mod request;
+mod view;
+
+pub use report_page::report_page;
+pub use request::ViewRequest;
+pub use view::view;

@@ -1,0 +1,155 @@
+//! Planes as text that the page's script unpacks (`page/chunks.js`).
+//!
+//! One plane after the other; of each the first (lowest) bytes of all its numbers, then the second, and so on, as equal bytes stand together that
+//! way; all that by DEFLATE in the zlib format (RFC 1950), and in base64. Numbers are kept as they are, but for those of spectra: these are
+//! divided by a power of two, by which the largest of the plane's layer is below 2¹⁵, and rounded to half floats: to 2⁻¹¹ of the value down to
+//! 2⁻²⁸ of that largest one, and to 2⁻³⁹ of it below.
+
+use crate::base64::encoded;
+use crate::layer::{NamedPlane, Role, Samples};
+use etendue::Error;
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use half::f16;
+use std::io::Write as _;
+
+/// Planes as the page has them.
+pub(crate) struct Packed {
+    /// How each plane is kept: its type and the factor of its numbers.
+    pub(crate) types: Vec<(&'static str, f64)>,
+    /// All of them in base64.
+    pub(crate) text: String,
+}
+
+/// Packs planes of one layer.
+pub(crate) fn packed(planes: &[NamedPlane]) -> Result<Packed, Error> {
+    let mut deflated = ZlibEncoder::new(Vec::new(), Compression::default());
+    let mut types = Vec::new();
+    let [of_values, of_errors] = [Role::Value, Role::Error].map(|role| scale(planes, role));
+    for plane in planes {
+        let scale = if plane.role == Role::Value { of_values } else { of_errors };
+        let (name, bytes) = bytes(&plane.samples, scale);
+        types.push((name, if name == "f16" { scale } else { 1.0 }));
+        deflated.write_all(&bytes).map_err(Error::run)?;
+    }
+    Ok(Packed { types, text: encoded(&deflated.finish().map_err(Error::run)?) })
+}
+
+/// The power of two by which rounded numbers are divided.
+fn scale(planes: &[NamedPlane], role: Role) -> f64 {
+    let rounded = planes.iter().filter(|plane| plane.role == role && matches!(plane.samples, Samples::Rounded(_)));
+    let sizes = rounded.flat_map(|plane| plane.samples.numbers()).map(f64::abs).filter(|size| size.is_finite());
+    let most = sizes.fold(0.0, f64::max);
+    let mut scale = 1.0;
+    // The range of 32-bit floats ends the loops.
+    while most / scale >= 32_768.0 {
+        scale *= 2.0;
+    }
+    while most > 0.0 && most / scale < 16_384.0 {
+        scale /= 2.0;
+    }
+    scale
+}
+
+fn bytes(samples: &Samples, scale: f64) -> (&'static str, Vec<u8>) {
+    match samples {
+        Samples::Bytes(all) => ("u8", all.clone()),
+        Samples::Words(all) => ("u16", side_by_side(all.iter().map(|v| v.to_le_bytes()))),
+        Samples::Whole(all) => ("u32", side_by_side(all.iter().map(|v| v.to_le_bytes()))),
+        Samples::Exact(all) => ("f32", side_by_side(all.iter().map(|v| v.to_le_bytes()))),
+        Samples::Rounded(all) => {
+            ("f16", side_by_side(all.iter().map(|v| f16::from_f64(f64::from(*v) / scale).to_le_bytes())))
+        }
+    }
+}
+
+/// The first bytes of all numbers, then the second ones.
+fn side_by_side<const N: usize>(numbers: impl Iterator<Item = [u8; N]> + Clone) -> Vec<u8> {
+    (0..N).flat_map(|place| numbers.clone().map(move |bytes| bytes[place])).collect()
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use flate2::read::ZlibDecoder;
+    use std::io::Read as _;
+
+    /// Base64 back to bytes.
+    fn decoded(text: &str) -> Vec<u8> {
+        let value = |c: u8| match c {
+            b'A'..=b'Z' => c - b'A',
+            b'a'..=b'z' => c - b'a' + 26,
+            b'0'..=b'9' => c - b'0' + 52,
+            b'+' => 62,
+            _ => 63,
+        };
+        let characters = text.trim_end_matches('=').as_bytes();
+        let group = |four: &[u8]| {
+            let bits = four.iter().enumerate().fold(0_u32, |bits, (i, c)| bits | u32::from(value(*c)) << (18 - 6 * i));
+            bits.to_be_bytes()[1..four.len()].to_vec()
+        };
+        characters.chunks(4).flat_map(group).collect()
+    }
+
+    /// The numbers of all planes, by their types.
+    pub(crate) fn unpacked(text: &str, types: &[(&str, f64)], pixels: usize) -> Vec<Vec<f64>> {
+        let mut bytes = Vec::new();
+        ZlibDecoder::new(&decoded(text)[..]).read_to_end(&mut bytes).expect("deflated");
+        let mut at = 0;
+        let mut plane = |(name, scale): &(&str, f64)| {
+            let width = match *name {
+                "u8" => 1,
+                "u16" | "f16" => 2,
+                _ => 4,
+            };
+            let from = at;
+            at += width * pixels;
+            let byte =
+                |pixel: usize, place: usize| if place < width { bytes[from + place * pixels + pixel] } else { 0 };
+            let number = |pixel: usize| {
+                let all = [0, 1, 2, 3].map(|place| byte(pixel, place));
+                match *name {
+                    "f32" => f64::from(f32::from_le_bytes(all)),
+                    "f16" => f64::from(f16::from_le_bytes([all[0], all[1]])) * scale,
+                    _ => f64::from(u32::from_le_bytes(all)),
+                }
+            };
+            (0..pixels).map(number).collect()
+        };
+        let planes = types.iter().map(&mut plane).collect();
+        assert_eq!(at, bytes.len(), "nothing is left over");
+        planes
+    }
+
+    fn again(samples: Samples) -> Vec<f64> {
+        let pixels = samples.numbers().count();
+        let planes = [NamedPlane::value("a", samples)];
+        let packed = packed(&planes).expect("packed");
+        unpacked(&packed.text, &packed.types, pixels).remove(0)
+    }
+
+    #[test]
+    fn whole_numbers_and_exact_floats_come_back() {
+        assert_eq!(again(Samples::Bytes(vec![0, 7, 255])), [0.0, 7.0, 255.0]);
+        assert_eq!(again(Samples::Words(vec![0, 258, 65_535])), [0.0, 258.0, 65_535.0]);
+        assert_eq!(again(Samples::Whole(vec![1, 16_909_060, u32::MAX])), [1.0, 16_909_060.0, 4_294_967_295.0]);
+        let exact = again(Samples::Exact(vec![-0.1, 3e-42, f32::INFINITY, f32::NAN]));
+        assert_eq!(exact[..3], [f64::from(-0.1_f32), f64::from(3e-42_f32), f64::INFINITY]);
+        assert!(exact[3].is_nan());
+    }
+
+    #[test]
+    fn rounded_numbers_are_as_close_as_is_said() {
+        for size in [3e-38_f32, 1.7e-9, 1.0, 65_504.0, 3e38] {
+            let steps = (0..200).map(|i| size * (1.0 - i as f32 / 201.0)).collect::<Vec<_>>();
+            for (found, value) in again(Samples::Rounded(steps.clone())).iter().zip(&steps) {
+                assert!((found - f64::from(*value)).abs() <= f64::from(*value) / 2048.0, "{found} for {value}");
+            }
+        }
+        // 2⁻²⁸ of the largest and less: half floats without their leading digit.
+        let least = 1.0 / (1_u64 << 39) as f64;
+        let small = again(Samples::Rounded(vec![1.0, 1e-9, 1e-11, 0.0, f32::NAN, f32::NEG_INFINITY]));
+        assert!((small[1] - 1e-9).abs() < least && (small[2] - 1e-11).abs() < least, "{small:?}");
+        assert!(small[3] == 0.0 && small[4].is_nan() && small[5] == f64::NEG_INFINITY);
+    }
+}

@@ -1,0 +1,69 @@
+//! The files of two results, those of the same camera, frame and name together.
+
+use crate::found::FoundFile;
+use std::collections::{BTreeSet, HashMap};
+
+/// A file of the first result, of the second, or of both.
+pub(crate) struct FilePair {
+    /// The camera under which the page has it.
+    pub(crate) place: String,
+    pub(crate) files: [Option<FoundFile>; 2],
+}
+
+/// Pairs files, in the order of the first result's; those of the second alone follow. Where each result has one camera these are shown beside each other,
+/// whatever their names.
+pub(crate) fn paired(first: Vec<FoundFile>, second: Vec<FoundFile>) -> Vec<FilePair> {
+    let places = |files: &[FoundFile]| files.iter().map(|file| file.place.clone()).collect::<BTreeSet<_>>();
+    let (of_first, of_second) = (places(&first), places(&second));
+    let only = (of_first.len() == 1 && of_second.len() == 1).then(|| of_first.first().cloned()).flatten();
+    let shown_at = |file: &FoundFile| only.clone().unwrap_or_else(|| file.place.clone());
+    let key = |file: &FoundFile| (shown_at(file), file.name.clone());
+    let mut left: HashMap<_, _> = second.iter().map(|file| (key(file), file.clone())).collect();
+    let mut pairs: Vec<FilePair> = Vec::new();
+    for file in first {
+        let other = left.remove(&key(&file));
+        pairs.push(FilePair { place: file.place.clone(), files: [Some(file), other] });
+    }
+    for file in second {
+        if left.remove(&key(&file)).is_some() {
+            pairs.push(FilePair { place: shown_at(&file), files: [None, Some(file)] });
+        }
+    }
+    pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn files(names: &[&str]) -> Vec<FoundFile> {
+        let file = |name: &&str| {
+            let (place, name) = name.rsplit_once('/').unwrap_or(("", name));
+            let (place, name) = (place.to_owned(), name.to_owned());
+            FoundFile { place, stem: name.clone(), name, frame: None, path: "".into() }
+        };
+        names.iter().map(file).collect()
+    }
+
+    fn told(first: &[&str], second: &[&str]) -> Vec<(String, [bool; 2])> {
+        let pairs = paired(files(first), files(second));
+        let name = |pair: &FilePair| pair.files.iter().flatten().next().expect("a file").name.clone();
+        pairs.iter().map(|p| (format!("{}/{}", p.place, name(p)), [0, 1].map(|i| p.files[i].is_some()))).collect()
+    }
+
+    #[test]
+    fn files_of_one_camera_and_name_stand_together() {
+        let two = told(&["left/a", "left/b", "right/a"], &["left/a", "right/c"]);
+        let expected = [
+            ("left/a", [true, true]),
+            ("left/b", [true, false]),
+            ("right/a", [true, false]),
+            ("right/c", [false, true]),
+        ];
+        assert_eq!(two, expected.map(|(name, there)| (name.to_owned(), there)));
+        assert_eq!(
+            told(&["front/a"], &["a", "b"]),
+            [("front/a".to_owned(), [true, true]), ("front/b".to_owned(), [false, true])]
+        );
+    }
+}

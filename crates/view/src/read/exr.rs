@@ -1,0 +1,178 @@
+//! The layers of an EXR: spectra, colours, and channels by what stands before their last dot.
+
+use super::facts::SideCar;
+use super::file_layers::FileLayers;
+use super::{names, units};
+use crate::found::FoundFile;
+use crate::layer::{Kind, Layer, NamedPlane, Role, Samples};
+use etendue::Error;
+use etendue_core::quantity::{Quantity, Variance};
+use etendue_core::{Bands, Plane, SpectralCube};
+use etendue_io::exr::{
+    ExrChannel, ExrFile, Samples as Stored, SpectralImage, WithVariance, band_weights, parse_channel_name, read_exr,
+    spectral_of,
+};
+use std::collections::BTreeMap;
+
+/// Parts of a digital number, in the order of the light's way; others follow as they stand.
+const PARTS: [&str; 10] =
+    ["signal", "shot", "dark", "fixed_pattern", "blooming", "smear", "transfer", "read", "quantisation", "saturated"];
+/// Facts of a header that a reader of the page has no use for.
+const SILENT: [&str; 3] = ["layout", "quantity", "units"];
+const VARIANCE: &str = "variance.";
+
+pub(super) fn layers(file: &FoundFile, side_car: &SideCar) -> Result<FileLayers, Error> {
+    let exr = read_exr(&file.path).map_err(Error::input)?;
+    let facts = facts(&exr);
+    let layers = if file.stem == "signal_breakdown" {
+        vec![parts(exr, units::written(side_car.entry(&file.name)[1]))]
+    } else {
+        all(file, exr, side_car)?
+    };
+    Ok(FileLayers { layers, facts })
+}
+
+fn facts(exr: &ExrFile) -> BTreeMap<String, String> {
+    let named = exr.attributes.iter().filter_map(|(name, text)| Some((name.strip_prefix("etendue:")?, text)));
+    let told = named.filter(|(name, _)| !SILENT.contains(name));
+    told.map(|(name, text)| (name.to_owned(), text.clone())).collect()
+}
+
+/// All channels of a file as parts of one number.
+fn parts(exr: ExrFile, unit: String) -> Layer {
+    let size = (exr.width, exr.height);
+    let rank = |name: &str| PARTS.iter().position(|part| *part == name).unwrap_or(PARTS.len());
+    let mut channels = exr.channels;
+    channels.sort_by_key(|channel| rank(&channel.name));
+    let planes = channels.into_iter().map(|channel| NamedPlane::value(channel.name, exact(channel.samples))).collect();
+    let meaning =
+        "the sum of all parts but `saturated` is (DN − black) / gain; `saturated` is 1 at the white level".to_owned();
+    Layer { name: "signal_breakdown".to_owned(), kind: Kind::Parts, unit, meaning, size, planes }
+}
+
+fn all(file: &FoundFile, exr: ExrFile, side_car: &SideCar) -> Result<Vec<Layer>, Error> {
+    let is_spectral = |channel: &ExrChannel| parse_channel_name(&channel.name).is_some();
+    let mut layers = Vec::new();
+    let [quantity, unit] = side_car.entry(&file.name);
+    let of_file = if unit.contains(", ") && !attributed(&exr) { format!("{quantity}: {unit}") } else { String::new() };
+    let stated = exr.attributes.get("etendue:units").cloned();
+    let stated = stated.unwrap_or_else(|| side_car.entry(&file.name)[1].to_owned());
+    let spectral = exr.channels.iter().any(is_spectral);
+    if spectral {
+        layers.push(spectrum(file, &exr, &stated)?);
+    }
+    let (size, attributes) = ((exr.width, exr.height), exr.attributes);
+    // R, G and B beside spectral bands follow from them.
+    let follows = |name: &str| spectral && ["R", "G", "B"].contains(&name);
+    let others = exr.channels.into_iter().filter(|channel| !is_spectral(channel)).filter(|c| !follows(&c.name));
+    for (name, channels) in grouped(others) {
+        let (unit, more) = units::of_layer(&stated, &name);
+        let first = name.split('.').next().unwrap_or(&name);
+        let own = attributes.get(&format!("etendue:{first}")).cloned();
+        let meaning = own.unwrap_or_else(|| if more.is_empty() { of_file.clone() } else { more });
+        let (kind, planes) = kind(&name, channels, side_car);
+        layers.push(Layer { name, kind, unit, meaning, size, planes });
+    }
+    Ok(layers)
+}
+
+/// Whether the header says what is in the file.
+fn attributed(exr: &ExrFile) -> bool {
+    exr.attributes.contains_key("etendue:units")
+}
+
+/// Channels by their layer, in the order of the first ones; the variance of a layer's channel with it.
+fn grouped(channels: impl Iterator<Item = ExrChannel>) -> Vec<(String, Vec<ExrChannel>)> {
+    let mut groups: Vec<(String, Vec<ExrChannel>)> = Vec::new();
+    for channel in channels {
+        let bare = channel.name.strip_prefix(VARIANCE).unwrap_or(&channel.name);
+        let layer = match bare.rsplit_once('.') {
+            Some((layer, _)) => layer.to_owned(),
+            None if ["R", "G", "B", "A"].contains(&bare) => "colour".to_owned(),
+            None => bare.to_owned(),
+        };
+        match groups.iter_mut().find(|(name, _)| *name == layer) {
+            Some((_, group)) => group.push(channel),
+            None => groups.push((layer, vec![channel])),
+        }
+    }
+    groups
+}
+
+fn kind(layer: &str, channels: Vec<ExrChannel>, side_car: &SideCar) -> (Kind, Vec<NamedPlane>) {
+    let letters: Vec<String> =
+        channels.iter().map(|c| c.name.rsplit_once('.').map_or(c.name.as_str(), |(_, last)| last).to_owned()).collect();
+    let letters: Vec<&str> = letters.iter().map(String::as_str).collect();
+    let kind = match (&letters[..], &channels[0].samples) {
+        (["ID"], Stored::Uint(ids)) => Kind::Identity { names: names::names(layer, ids, side_car) },
+        (["X", "Y", "Z"], _) => Kind::Vector { is_unit: ["N", "direction"].contains(&layer) },
+        (["X", "Y"], _) => Kind::Flow,
+        (["Z"], _) => Kind::Length,
+        (all, _) if ["R", "G", "B"].iter().all(|letter| all.contains(letter)) => {
+            return (Kind::Colour, colours(channels));
+        }
+        _ => Kind::Number,
+    };
+    (kind, channels.into_iter().map(plane).collect())
+}
+
+/// Red, green and blue in this order.
+fn colours(channels: Vec<ExrChannel>) -> Vec<NamedPlane> {
+    let mut planes: Vec<NamedPlane> = channels.into_iter().map(plane).collect();
+    let rank = |plane: &NamedPlane| ["R", "G", "B"].iter().position(|letter| plane.name.ends_with(letter));
+    planes.retain(|plane| rank(plane).is_some());
+    planes.sort_by_key(rank);
+    planes
+}
+
+/// A variance is kept as the standard error.
+fn plane(channel: ExrChannel) -> NamedPlane {
+    match channel.name.strip_prefix(VARIANCE) {
+        Some(name) => {
+            let errors = channel.samples.to_floats().into_iter().map(f32::sqrt).collect();
+            NamedPlane { name: name.to_owned(), role: Role::Error, samples: Samples::Exact(errors) }
+        }
+        None => NamedPlane::value(channel.name, exact(channel.samples)),
+    }
+}
+
+fn exact(samples: Stored) -> Samples {
+    match samples {
+        Stored::Half(values) | Stored::Float(values) => Samples::Exact(values),
+        Stored::Uint(values) => Samples::Whole(values),
+    }
+}
+
+fn spectrum(file: &FoundFile, exr: &ExrFile, stated: &str) -> Result<Layer, Error> {
+    let spectral = spectral_of(&file.path, exr).map_err(Error::input)?;
+    let mut meaning = "means over the bands".to_owned();
+    spectral.notes.iter().for_each(|note| meaning += &format!("; {note}"));
+    let ((bands, planes), of_quantity) = match spectral.image {
+        SpectralImage::Radiance(image) => (cube(image), etendue_core::quantity::Radiance::UNIT),
+        SpectralImage::Irradiance(image) => (cube(image), etendue_core::quantity::Irradiance::UNIT),
+    };
+    let kind = Kind::Spectrum {
+        centres_nm: (0..bands.count()).map(|band| bands.centre_nm(band)).collect(),
+        width_nm: bands.width_nm(),
+        weights: band_weights(bands),
+    };
+    let unit = units::written(if stated.is_empty() { of_quantity } else { stated });
+    Ok(Layer { name: file.stem.clone(), kind, unit, meaning, size: (exr.width, exr.height), planes })
+}
+
+fn cube<Q: Quantity<Sample = f32>>(image: WithVariance<Q>) -> (Bands, Vec<NamedPlane>) {
+    let bands = image.cube.bands();
+    let name = |band: usize| format!("{} nm", bands.centre_nm(band));
+    let values = image.cube.planes().iter().map(Plane::samples).enumerate();
+    let values = values.map(|(band, plane)| NamedPlane::value(name(band), Samples::Rounded(plane.to_vec())));
+    let planes = |cube: &SpectralCube<Variance>| -> Vec<NamedPlane> {
+        let errors = cube.planes().iter().enumerate().map(|(band, plane)| NamedPlane {
+            name: name(band),
+            role: Role::Error,
+            samples: Samples::Rounded(plane.samples().iter().map(|v| v.sqrt()).collect()),
+        });
+        errors.collect()
+    };
+    let errors = image.variance.as_ref().map(planes).unwrap_or_default();
+    (bands, values.chain(errors).collect())
+}

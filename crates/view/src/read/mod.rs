@@ -1,0 +1,37 @@
+//! The layers of a file, by the readers of `etendue-io`.
+
+mod boxes;
+mod exr;
+mod facts;
+mod file_layers;
+mod flow;
+mod names;
+mod picture;
+mod units;
+
+use crate::found::FoundFile;
+use etendue::Error;
+use etendue_io::correspondence::read_flow;
+pub(crate) use facts::SideCar;
+pub(crate) use file_layers::FileLayers;
+use std::collections::BTreeMap;
+
+/// Reads the layers of a file; `side_car` is that of its folder.
+///
+/// # Errors
+/// Where it is damaged, or of no kind that its name says.
+pub(crate) fn layers(file: &FoundFile, side_car: &SideCar) -> Result<FileLayers, Error> {
+    let ending = file.name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
+    if ending == "exr" {
+        return exr::layers(file, side_car);
+    }
+    let layer = match ending.as_str() {
+        "json" => boxes::layer(file)?,
+        "flo" | "png" => match read_flow(&file.path).map_err(Error::input)? {
+            Some(flow) => flow::layer(file, &flow),
+            None => picture::layer(file, side_car)?,
+        },
+        _ => picture::layer(file, side_car)?,
+    };
+    Ok(FileLayers { layers: vec![layer], facts: BTreeMap::new() })
+}

@@ -1,0 +1,240 @@
+//! From the folders of results to a page.
+
+use crate::found::{FoundFile, find};
+use crate::layer::{Layer, NamedPlane, Role, Samples};
+use crate::pack::packed;
+use crate::page::{Page, is_ours};
+use crate::pairs::{FilePair, paired};
+use crate::read::{self, FileLayers, SideCar};
+use crate::request::ViewRequest;
+use crate::{bin, pack};
+use etendue::{Error, Existing, Message, Observer, Progress, Unit};
+use etendue_io::inspect::{ChannelReport, VIRIDIS, flow_wheel};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Writes the page of a result: into the folder `page`, as the one file `page` where that ends in `.html`, or into the folder `view` of the result,
+/// where an earlier page is replaced. Answers with the file to open. One file of a result, and the one beside it, are in memory at a time.
+///
+/// # Errors
+/// Where a folder is no result, a file of it is damaged, or layers that stand beside each other differ in size; nothing is written then. Where the page
+/// cannot be written, or the observer cancels.
+pub fn view(
+    request: &ViewRequest,
+    page: Option<&Path>,
+    existing: Existing,
+    observer: &dyn Observer,
+) -> Result<PathBuf, Error> {
+    if request.max_mb == 0 {
+        return Err(Error::input("--max-mb 0: expected 1 or more"));
+    }
+    let frames = request.frames.as_ref();
+    let first = find(&request.folder, frames)?;
+    let second = request.beside.as_ref().map(|folder| find(folder, frames)).transpose()?;
+    let has_two = second.is_some();
+    let pairs = paired(first, second.unwrap_or_default());
+    if has_two && !pairs.iter().any(|pair| pair.files.iter().all(Option::is_some)) {
+        let beside = request.beside.as_deref().unwrap_or(Path::new("")).display();
+        return Err(Error::input(format!(
+            "{beside}: no file has the camera, frame and name of one in {}; give results of the same cameras and frames",
+            request.folder.display()
+        )));
+    }
+    let own = request.folder.join("view");
+    let (path, existing) = match page {
+        Some(page) => (page, existing),
+        None if is_ours(&own) => (own.as_path(), Existing::Replace),
+        None => (own.as_path(), existing),
+    };
+    let mut build =
+        Build { request, page: Page::open(path, existing)?, layers: Vec::new(), files: Vec::new(), binned: 0 };
+    for (done, pair) in pairs.iter().enumerate() {
+        if observer.cancelled() {
+            return Err(Error::run("cancelled; nothing was written"));
+        }
+        observer.progress(Progress { heading: "view", frame: None, unit: Unit::Pictures, done, total: pairs.len() });
+        build.pair(pair)?;
+    }
+    observer.progress(Progress {
+        heading: "view",
+        frame: None,
+        unit: Unit::Pictures,
+        done: pairs.len(),
+        total: pairs.len(),
+    });
+    if build.binned > 0 {
+        let told = format!(
+            "{} layers are larger than {} MB and have fewer pixels on the page, which says how many; --max-mb moves this",
+            build.binned, request.max_mb
+        );
+        observer.message(Message::Note(&told));
+    }
+    build.finish()
+}
+
+struct Build<'a> {
+    request: &'a ViewRequest,
+    page: Page,
+    layers: Vec<Value>,
+    files: Vec<BTreeMap<String, String>>,
+    /// Layers that have fewer pixels than their file.
+    binned: usize,
+}
+
+impl Build<'_> {
+    fn pair(&mut self, pair: &FilePair) -> Result<(), Error> {
+        let read = |file: &FoundFile| {
+            let side_car = SideCar::of(file.path.parent().unwrap_or(Path::new("")))?;
+            read::layers(file, &side_car)
+        };
+        let mut both = Vec::new();
+        for (result, file) in pair.files.iter().enumerate() {
+            let Some(file) = file else { continue };
+            both.push((result, file, read(file)?));
+        }
+        if let [(_, a, of_a), (_, b, of_b)] = &both[..] {
+            same_sizes((a, &of_a.layers), (b, &of_b.layers))?;
+        }
+        let steps = self.steps(&both);
+        for (result, file, read) in both {
+            let facts = self.files.len();
+            self.files.push(read.facts);
+            for layer in read.layers {
+                let step = steps.get(&layer.name).copied().unwrap_or(1);
+                self.layer(Stand { result, place: &pair.place, file, facts }, &layer, step)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// By how much layers have fewer pixels: alike in both results.
+    fn steps(&self, both: &[(usize, &FoundFile, FileLayers)]) -> BTreeMap<String, usize> {
+        let mut steps = BTreeMap::new();
+        for layer in both.iter().flat_map(|(_, _, read)| &read.layers) {
+            let step = bin::factor(layer, self.request.max_mb as usize * 1_000_000);
+            let most = steps.entry(layer.name.clone()).or_insert(1);
+            *most = step.max(*most);
+        }
+        steps
+    }
+
+    fn layer(&mut self, stand: Stand<'_>, layer: &Layer, step: usize) -> Result<(), Error> {
+        self.binned += usize::from(step > 1);
+        let planes = bin::planes(layer, step);
+        let packed = packed(&planes)?;
+        let chunk = (!planes.is_empty()).then(|| format!("{:04}", self.layers.len()));
+        if let Some(id) = &chunk {
+            self.page.add(id, &packed.text)?;
+        }
+        self.layers.push(stand.json(layer, step, &packed, chunk));
+        Ok(())
+    }
+
+    fn finish(self) -> Result<PathBuf, Error> {
+        let names = names(&self.request.folder, self.request.beside.as_deref());
+        let title = names.join(" beside ");
+        let facts = json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "title": title,
+            "results": names,
+            "viridis": VIRIDIS,
+            "wheel": flow_wheel(),
+            "files": self.files,
+            "layers": self.layers,
+        });
+        self.page.finish(&title, &facts)
+    }
+}
+
+/// Where a layer stands on the page.
+struct Stand<'a> {
+    result: usize,
+    place: &'a str,
+    file: &'a FoundFile,
+    facts: usize,
+}
+
+impl Stand<'_> {
+    fn json(&self, layer: &Layer, step: usize, packed: &pack::Packed, chunk: Option<String>) -> Value {
+        let FoundFile { name: file, stem, frame, .. } = self.file;
+        // The same layer in all frames, and in both results.
+        let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending);
+        let (width, height) = bin::size(layer, step);
+        let planes = layer.planes.iter().zip(&packed.types);
+        let said = json!({
+            "result": self.result,
+            "place": self.place,
+            "frame": frame,
+            "file": file,
+            "group": stem,
+            "key": format!("{stem}.{ending}/{}", layer.name),
+            "name": layer.name,
+            "unit": layer.unit,
+            "meaning": layer.meaning,
+            "columns": layer.size.0,
+            "rows": layer.size.1,
+            "width": width,
+            "height": height,
+            "step": step,
+            "has_means": layer.kind.has_means(),
+            "planes": planes.map(|(plane, kept)| plane_json(plane, *kept)).collect::<Vec<_>>(),
+            "chunk": chunk,
+            "facts": self.facts,
+        });
+        let Value::Object(mut said) = said else { return Value::Null };
+        said.extend(layer.kind.to_json(step > 1));
+        Value::Object(said)
+    }
+}
+
+/// A plane: how it is kept, and the statistics of all its numbers in the file.
+fn plane_json(plane: &NamedPlane, (kept, scale): (&'static str, f64)) -> Map<String, Value> {
+    let of = ChannelReport::of(&plane.name, kept, plane.samples.numbers());
+    let mut said = json!({ "name": plane.name, "type": kept });
+    if plane.role == Role::Error {
+        said["is_error"] = json!(true);
+    } else if !matches!(plane.samples, Samples::Whole(_)) || of.max.is_some() {
+        for (key, value) in [("min", of.min), ("mean", of.mean), ("max", of.max)] {
+            said[key] = json!(value);
+        }
+        said["nan"] = json!(of.nan_count);
+        said["infinite"] = json!(of.infinite_count);
+    }
+    if kept == "f16" {
+        said["scale"] = json!(scale);
+    }
+    let Value::Object(said) = said else { return Map::new() };
+    said
+}
+
+/// Layers that stand beside each other have the same size.
+fn same_sizes((a, of_a): (&FoundFile, &[Layer]), (b, of_b): (&FoundFile, &[Layer])) -> Result<(), Error> {
+    for layer in of_b {
+        let Some(other) = of_a.iter().find(|other| other.name == layer.name) else { continue };
+        if other.size != layer.size {
+            let ([w, h], [of_w, of_h]) = (<[usize; 2]>::from(layer.size), <[usize; 2]>::from(other.size));
+            return Err(Error::input(format!(
+                "{}: {} is {w} × {h} pixels, that of {} {of_w} × {of_h}; give results of one size",
+                b.path.display(),
+                layer.name,
+                a.path.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The names of the results: the last parts of their paths in which they differ.
+fn names(folder: &Path, beside: Option<&Path>) -> Vec<String> {
+    let parts = |path: &Path| -> Vec<String> {
+        let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        whole.components().map(|part| part.as_os_str().to_string_lossy().into_owned()).collect()
+    };
+    let all: Vec<Vec<String>> = [Some(folder), beside].into_iter().flatten().map(parts).collect();
+    let tail = |parts: &Vec<String>, count: usize| parts[parts.len().saturating_sub(count)..].join("/");
+    let longest = all.iter().map(Vec::len).max().unwrap_or(1);
+    let differ = |count: &usize| all.len() < 2 || tail(&all[0], *count) != tail(&all[1], *count);
+    let count = (1..=longest).find(differ).unwrap_or(1);
+    all.iter().map(|parts| tail(parts, count)).collect()
+}
