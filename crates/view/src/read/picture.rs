@@ -5,7 +5,7 @@ use super::units;
 use crate::found::FoundFile;
 use crate::layer::{Kind, Layer, NamedPlane, Samples};
 use etendue::Error;
-use etendue_io::photograph::{Channel, Photograph, read_photograph};
+use etendue_io::photograph::{Channel, Encoding, Photograph, read_photograph};
 
 pub(super) fn layer(file: &FoundFile, side_car: &SideCar) -> Result<Layer, Error> {
     let photograph = read_photograph(&file.path).map_err(Error::input)?;
@@ -23,6 +23,10 @@ pub(super) fn layer(file: &FoundFile, side_car: &SideCar) -> Result<Layer, Error
         // Depth and disparity as pictures.
         (None, 1 | 2, Some(_)) if !stated.is_empty() && !stated.ends_with("bits") => {
             (Kind::Number, stated.to_owned(), quantity.to_owned())
+        }
+        // A raw whose levels nobody states.
+        (None, 1 | 2, Some(_)) if photograph.stated.encoding == Encoding::Linear => {
+            (Kind::Number, "DN".to_owned(), format!("linear ({})", photograph.stated.reason))
         }
         (None, _, Some(full)) => {
             let stated = &photograph.stated;
