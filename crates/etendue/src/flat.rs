@@ -280,6 +280,8 @@ impl Task<'_> {
             "program": "etendue",
             "version": metadata::VERSION,
             "seed": self.seed(),
+            // Noise is that of the first camera.
+            "camera_index": 0,
             "light": {
                 "wavelength_nm": light.wavelength_nm,
                 "irradiance_w_m2": light.irradiance_w_m2,

@@ -173,6 +173,11 @@ impl Report {
         self.plots.push(plot);
     }
 
+    /// Its curves.
+    pub(crate) fn plots(&self) -> &[Plot] {
+        &self.plots
+    }
+
     /// Its plots as one SVG.
     ///
     /// # Errors
@@ -304,7 +309,7 @@ impl Cell {
 }
 
 /// JSON knows no infinity.
-fn finite(x: f64) -> Value {
+pub(crate) fn finite(x: f64) -> Value {
     if x.is_finite() { (x + 0.0).into() } else { Value::Null }
 }
 

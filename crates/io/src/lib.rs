@@ -6,6 +6,7 @@
 //! | in | scenes of pbrt-v4, directive by directive | [`pbrt`] |
 //! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
 //! | in | PNG, JPEG, TIFF, OpenEXR and raw pictures to be measured | [`photograph`] |
+//! | in | EXIF data of pictures | [`exif`] |
 //! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |
 //! | in | lens prescriptions: Zemax, CODE V | [`prescription`] |
 //! | in | calibrated cameras: OpenCV, ROS, Kalibr, COLMAP, OCamCalib | [`calibration`] |
@@ -32,6 +33,7 @@ pub mod compare;
 pub mod correspondence;
 pub mod emva_descriptor;
 pub mod error;
+pub mod exif;
 pub mod exr;
 mod folder_lock;
 mod guard;

@@ -3,7 +3,7 @@
 use crate::support::etendue;
 
 /// What it does, one verb each.
-const VERBS: [&str; 14] = [
+const VERBS: [&str; 16] = [
     "render",
     "rig",
     "merge",
@@ -18,6 +18,8 @@ const VERBS: [&str; 14] = [
     "schema",
     "tradeoff",
     "dataset",
+    "characterise",
+    "laboratory",
 ];
 /// Those whose options are their subcommands'.
 const GROUPS: [&str; 2] = ["chart", "measure"];

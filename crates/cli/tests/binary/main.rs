@@ -11,6 +11,7 @@ mod bad_processing;
 mod bad_results;
 mod bad_sensors;
 mod bytes;
+mod characterise;
 mod charts;
 mod compared;
 mod concurrent;
