@@ -76,7 +76,7 @@ fn a_rendered_laboratory_gives_its_camera_back() {
     for (key, declared) in [
         ("sensor.gain_dn_per_e", 0.2),
         ("sensor.read_noise_e", 10.0),
-        ("sensor.dark_current_e_s", 5.02),
+        ("sensor.dark_current_e_s", 5.0),
         ("sensor.quantum_efficiency.mono", 0.45),
         ("sensor.non_uniformity.prnu", 0.008),
         ("sensor.non_uniformity.prnu_row", 0.0),

@@ -219,7 +219,7 @@ impl Draft<'_> {
         let fallback = f.saturation_e.value.max(FULL_WELL_E);
         self.or_stand_in(sensor, ("sensor", "full_well_e"), full_well, fallback);
         self.measured(sensor, "sensor", "read_noise_e", f.dark_noise_e);
-        self.or_stand_in(sensor, ("sensor", "dark_current_e_s"), f.dark_current_mean_e_per_s, 0.0);
+        self.or_stand_in(sensor, ("sensor", "dark_current_e_s"), electronics.dark_current_e_s, 0.0);
         self.measured(sensor, "sensor", "gain_dn_per_e", f.gain_dn_per_e);
         self.measured(sensor, "sensor", "black_level_dn", f.dark_level_dn);
         match self.laboratory.camera.bits {

@@ -23,6 +23,8 @@ const WHAT: &str = "gain, noise, dark current, capacity, DSNU, PRNU, defective p
 #[derive(Clone, Debug)]
 pub(super) struct Electronics {
     pub(super) figures: Figures,
+    /// Of pixels that are not hot.
+    pub(super) dark_current_e_s: Option<Estimate>,
     /// Whether light went as far as saturation.
     pub(super) saturated: bool,
     pub(super) patterns: Option<Nonuniformity>,
@@ -63,6 +65,10 @@ pub(super) fn measure(
     };
     let electronics = Electronics {
         figures: found.figures,
+        dark_current_e_s: found
+            .figures
+            .dark_current_mean_e_per_s
+            .map(|mean| cool(mean, hot.as_ref(), groups[0].stack.width() * groups[0].stack.height())),
         saturated: found.data.saturation_reached(),
         patterns: found.fixed.as_ref().map(|fixed| fixed.patterns),
         hot,
@@ -123,6 +129,13 @@ fn outliers(laboratory: &Laboratory, groups: &[Group], found: &Found) -> (Option
     (hot, found.fixed.as_ref().map(|fixed| dead_pixels(&fixed.dark, &fixed.bright)))
 }
 
+/// The mean dark current without what hot pixels add. Which pixels a specimen has, of all that are like it, is in the uncertainty.
+fn cool(mean: Estimate, hot: Option<&Outliers>, pixels: usize) -> Estimate {
+    let Some(hot) = hot else { return mean };
+    let (u, specimen) = (mean.standard_uncertainty, hot.spread_e_s / (pixels as f64).sqrt());
+    Estimate::new(mean.value - hot.added_e_s, (u * u + specimen * specimen).sqrt())
+}
+
 /// Quantum efficiency of each channel: that of the measured one times how much brighter the channel is in the brightest frames that are not saturated.
 fn efficiency(selection: &Selection, flat: &[&Shot], found: &Found) -> Result<Vec<(&'static str, Estimate)>, Error> {
     let own = found.figures.quantum_efficiency;
@@ -160,8 +173,14 @@ impl Electronics {
             true => findings.found(from, "sensor.full_well_e", "saturation capacity", "e⁻", f.saturation_e),
             false => findings.unknown("saturation capacity", "the variance does not fall at the brightest level in flat/: saturation lies at or above it; expose longer"),
         }
-        match f.dark_current_mean_e_per_s {
-            Some(current) => findings.found(Kind::Dark, "sensor.dark_current_e_s", "dark current", "e⁻/s", current),
+        match self.dark_current_e_s {
+            Some(current) => findings.found(
+                Kind::Dark,
+                "sensor.dark_current_e_s",
+                "dark current of pixels that are not hot",
+                "e⁻/s",
+                current,
+            ),
             None => findings.unknown("dark current", "frames in dark/ have fewer than three exposure times"),
         }
         match &self.efficiency {

@@ -13,14 +13,8 @@ use etendue_scene::record::laboratory::ChartOfPoints;
 const WHAT: &str = "focal length, principal point, distortion";
 
 /// Models that are tried, the simplest first.
-const MODELS: [CameraModel; 6] = [
-    CameraModel::Pinhole,
-    CameraModel::Radial,
-    CameraModel::Opencv,
-    CameraModel::Opencv5,
-    CameraModel::KannalaBrandt,
-    CameraModel::Opencv8,
-];
+const MODELS: [CameraModel; 5] =
+    [CameraModel::Pinhole, CameraModel::Radial, CameraModel::Opencv, CameraModel::Opencv5, CameraModel::KannalaBrandt];
 
 pub(super) fn measure(
     laboratory: &Laboratory,

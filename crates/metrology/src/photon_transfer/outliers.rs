@@ -30,6 +30,10 @@ pub struct Outliers {
     pub mean_e_s: Option<Estimate>,
     /// The limit beyond which a pixel was counted: e⁻/s, or a part of the mean response.
     pub limit: f64,
+    /// Hot ones: what their additional currents add to the mean current of all pixels, e⁻/s.
+    pub added_e_s: f64,
+    /// Spread of the other pixels' currents, e⁻/s, noise included: 1.4826 times their median deviation.
+    pub spread_e_s: f64,
 }
 
 /// Hot pixels, by the averages of stacks without light of a long and a short exposure, s.
@@ -49,13 +53,16 @@ pub fn hot_pixels(
     let mut sorted = currents.clone();
     let middle = median(&mut sorted);
     let mut off: Vec<f64> = currents.iter().map(|i| (i - middle).abs()).collect();
-    let limit = middle + (6.0 * NORMAL * median(&mut off)).max(10.0 * middle.max(0.0));
+    let spread_e_s = NORMAL * median(&mut off);
+    let limit = middle + (6.0 * spread_e_s).max(10.0 * middle.max(0.0));
     let is_full = |i: usize| full_scale_dn.is_some_and(|full| long_dn[i] >= 0.98 * full);
     let found: Vec<usize> = (0..currents.len()).filter(|i| currents[*i] > limit).collect();
     let below = found.iter().filter(|i| !is_full(**i)).count();
     let places = found.iter().map(|i| [i % long.width(), i / long.width()]).collect();
+    let added_e_s = found.iter().map(|i| currents[*i] - middle).sum::<f64>() / currents.len() as f64;
+    let none = Outliers { places, share: None, mean_e_s: None, limit, added_e_s, spread_e_s };
     if below < FEWEST {
-        return Some(Outliers { places, share: None, mean_e_s: None, limit });
+        return Some(none);
     }
     let excess: f64 = found.iter().map(|i| currents[*i] - limit).sum();
     let mean = excess / below as f64;
@@ -63,12 +70,8 @@ pub fn hot_pixels(
     let all = found.len() as f64;
     let share = all / currents.len() as f64 * exp(limit / mean);
     let u_share = share * (1.0 / all + (limit * u_mean / (mean * mean)) * (limit * u_mean / (mean * mean))).sqrt();
-    Some(Outliers {
-        places,
-        share: Some(Estimate::new(share, u_share)),
-        mean_e_s: Some(Estimate::new(mean, u_mean)),
-        limit,
-    })
+    let (share, mean_e_s) = (Some(Estimate::new(share, u_share)), Some(Estimate::new(mean, u_mean)));
+    Some(Outliers { share, mean_e_s, ..none })
 }
 
 /// Dead pixels, by the averages of stacks with light and without.
@@ -81,7 +84,7 @@ pub fn dead_pixels(dark: &Stack, bright: &Stack) -> Outliers {
     let places: Vec<[usize; 2]> = found.map(|i| [i % dark.width(), i / dark.width()]).collect();
     let (count, all) = (places.len() as f64, signal.len() as f64);
     let share = (places.len() >= FEWEST).then(|| Estimate::new(count / all, count.sqrt() / all));
-    Outliers { places, share, mean_e_s: None, limit: HALF }
+    Outliers { places, share, mean_e_s: None, limit: HALF, added_e_s: 0.0, spread_e_s: 0.0 }
 }
 
 /// The median; sorts.
@@ -120,6 +123,8 @@ mod tests {
         assert!((390..=HOT).contains(&found.places.len()) && found.places[0] == [0, 1], "{:?}", &found.places[..2]);
         let (share, mean) = (found.share.expect("many"), found.mean_e_s.expect("many"));
         assert!((share.value / 0.01 - 1.0).abs() < 0.01, "{share:?}");
+        // A hundredth of the pixels adds 20 e⁻/s; what saturates is cut.
+        assert!((15.0..20.0).contains(&found.added_e_s) && found.spread_e_s < 0.2, "{found:?}");
         assert!((mean.value / 2000.0 - 1.0).abs() < 0.02 && mean.standard_uncertainty < 120.0, "{mean:?}");
     }
 

@@ -52,7 +52,8 @@ impl ViewsRequest {
         self.advised(self.model, found, options)
     }
 
-    /// By the model of several that suits the points best: the least of ln(Σ r²/n) + k ln n/n (Schwarz 1978), n coordinates and k coefficients.
+    /// By the model of several that suits the points best: the least of ln(Σ r²/n) + 2 k ln n/n, n coordinates and k coefficients: the criterion of Schwarz
+    /// (1978) with twice its price of a coefficient, as errors that neighbouring points share are fewer than there are points.
     pub(crate) fn found_by_best_of(
         &self,
         models: &[CameraModel],
@@ -73,7 +74,7 @@ impl ViewsRequest {
             let residuals = found.camera.residuals_px.iter().flatten();
             let (count, squares) = residuals.fold((0.0, 0.0), |(n, s), r| (n + 2.0, s + r.length_squared()));
             let coefficients = found.camera.parameters.len() as f64;
-            let information = ln(squares / count) + coefficients * ln(count) / count;
+            let information = ln(squares / count) + 2.0 * coefficients * ln(count) / count;
             // One that folds the picture over is no camera.
             let whole = found.camera.calibration.check().is_ok();
             tried.push(TriedModel { model: *model, rms_px: found.camera.rms_px(), information, whole });
