@@ -45,6 +45,8 @@ const LONG_FRAMES: u32 = 4;
 const SEEDS_APART: u64 = 1 << 20;
 /// Width of a square of the checkerboard seen from the front, px, at least.
 const SQUARE_PX: u32 = 24;
+/// Width of the picture for each column of squares with slanted edges, px, at least; of a mosaic twice that.
+const EDGES_PX: u32 = 64;
 const DECLARED: &str = "declared.toml";
 const JOB: &str = "job.toml";
 
@@ -211,7 +213,9 @@ impl Bench<'_> {
     /// Pictures through the lens.
     fn lens(&self, in_colour: bool, width_px: usize) -> Result<Vec<PathBuf>, Error> {
         let open = GridSize { columns: None, rows: None, pitch_mm: None };
-        let edges = SlantedEdges { size: GridSize { columns: Some(3), ..open }, angle_deg: 5.0, contrast: 4.0 };
+        // Regions about the edges of squares want 16 readings of a colour each way.
+        let squares = (width_px as u32 / if in_colour { 2 * EDGES_PX } else { EDGES_PX }).clamp(1, 3);
+        let edges = SlantedEdges { size: GridSize { columns: Some(squares), ..open }, angle_deg: 5.0, contrast: 4.0 };
         // Tilted views stand farther away: their squares are two thirds as large, and corners want 10 px between them.
         let columns = (width_px as u32 / SQUARE_PX).clamp(6, 12);
         let board = GridSize { columns: Some(columns), ..open };
