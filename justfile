@@ -49,7 +49,11 @@ oracles:
 
 # Recover the declared parameters of reference cameras from renders of charts: writes docs/validation.md
 validate *cameras:
-    cargo run --release -q -p etendue-validation -- {{cameras}}
+    cargo run --release -q -p etendue-validation --bin validate -- {{cameras}}
+
+# How often the intervals of characterise hold the truth, over 50 seeds (hours): writes target/laboratory/coverage.md
+laboratory *arguments:
+    cargo run --release -q -p etendue-validation --bin laboratory -- {{arguments}}
 
 # Cameras with a fault beside their files without it: every fault must be flagged; writes docs/faults.md
 faults:

@@ -29,6 +29,8 @@
 //! | a scene of another program | a scene and a job of the format | [`import()`] |
 //! | a camera file | a chart as a scene, with its truth | [`chart`] |
 //! | pictures | parameters of the camera with their uncertainty | [`measure`] |
+//! | a camera file | a laboratory folder photographed by it | [`laboratory()`] |
+//! | a laboratory folder of pictures | the camera that took them, as a camera file and a report | [`characterise`] |
 //! | two results | whether they differ, and by how much | [`compare()`] |
 //! | any file that Étendue knows | what is in it | [`inspect()`] |
 //!
@@ -37,6 +39,7 @@
 
 mod calibration;
 mod camera_file;
+pub mod characterise;
 pub mod chart;
 mod compare;
 mod compare_pictures;
@@ -55,6 +58,7 @@ mod flat;
 mod import;
 mod integrator;
 mod job;
+mod laboratory;
 pub mod measure;
 mod memory;
 mod merge;
@@ -103,6 +107,7 @@ pub use flat::{FlatRequest, FlatSource, flat};
 pub use import::import;
 pub use integrator::Integrator;
 pub use job::{Job, JobRequest};
+pub use laboratory::{LaboratoryRequest, laboratory};
 pub use memory::{MemoryFiles, Triangles};
 pub use merge::merge;
 pub use named_file::write_file;

@@ -179,6 +179,11 @@ impl Report {
         !self.plots.is_empty()
     }
 
+    /// Its curves.
+    pub(crate) fn plots(&self) -> &[Plot] {
+        &self.plots
+    }
+
     /// Its plots as one SVG.
     ///
     /// # Errors
@@ -312,7 +317,7 @@ impl Cell {
 }
 
 /// JSON knows no infinity.
-fn finite(x: f64) -> Value {
+pub(crate) fn finite(x: f64) -> Value {
     if x.is_finite() { (x + 0.0).into() } else { Value::Null }
 }
 

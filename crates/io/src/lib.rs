@@ -6,6 +6,7 @@
 //! | in | scenes of pbrt-v4, directive by directive | [`pbrt`] |
 //! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
 //! | in | PNG, JPEG, TIFF, OpenEXR and raw pictures to be measured | [`photograph`] |
+//! | in | EXIF data of pictures | [`exif`] |
 //! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |
 //! | in | lens prescriptions: Zemax, CODE V | [`prescription`] |
 //! | in | tables over a lens's field: Zemax | [`field_table`] |
@@ -34,6 +35,7 @@ pub mod compare;
 pub mod correspondence;
 pub mod emva_descriptor;
 pub mod error;
+pub mod exif;
 pub mod exr;
 pub mod field_table;
 mod folder_lock;

@@ -42,6 +42,11 @@ pub(crate) fn title(file: &[u8]) -> Option<&str> {
     titles.filter_map(|text| std::str::from_utf8(text).ok()).next()
 }
 
+/// The EXIF data, where a PNG has them before its picture.
+pub(crate) fn exif(file: &[u8]) -> Option<&[u8]> {
+    chunks(file).into_iter().find(|(name, _)| name == b"eXIf").map(|(_, data)| data)
+}
+
 /// Names and data of the chunks before the picture's own.
 fn chunks(file: &[u8]) -> Vec<([u8; 4], &[u8])> {
     let mut found = Vec::new();

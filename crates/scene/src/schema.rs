@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use crate::reader::{Record, Rule as _, record};
 use crate::record::variations::Variations;
 use crate::record::weather::Weather;
-use crate::record::{Camera, DataSheet, Job, Scene};
+use crate::record::{Camera, DataSheet, Job, Laboratory, Scene};
 
 /// The kinds of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +22,8 @@ pub enum FileKind {
     Weather,
     /// What differs from sample to sample of a data set.
     Variations,
+    /// What is known of a laboratory folder beside its pictures.
+    Laboratory,
 }
 
 /// The JSON Schema (draft 2020-12) of a kind of file. That of jobs, scenes and cameras is a choice: a file with a `base` ("then")
@@ -35,6 +37,7 @@ pub fn schema(kind: FileKind) -> Json {
         FileKind::DataSheet => unbased::<DataSheet>("EMVA 1288 data sheet"),
         FileKind::Weather => unbased::<Weather>("Étendue weather"),
         FileKind::Variations => unbased::<Variations>("Étendue variations"),
+        FileKind::Laboratory => unbased::<Laboratory>("Étendue laboratory"),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The verbs: the closed list, one file each, from its arguments to a call of the library and its answer to the terminal.
 
 mod calibrate;
+mod characterise;
 mod chart;
 mod compare;
 mod dataset;
@@ -10,6 +11,7 @@ mod expose;
 mod flat;
 mod import;
 mod inspect;
+mod laboratory;
 mod measure;
 mod merge;
 mod plan;
@@ -61,6 +63,10 @@ subcommands! {
     Measure(measure::Measure),
     /// Find a camera's intrinsics and distortion from several pictures of a chart, as a camera file
     Calibrate(calibrate::CalibrateArgs),
+    /// Make a camera file of a laboratory folder (dark frames, flats, charts), with every uncertainty and a report as a page
+    Characterise(characterise::Characterise),
+    /// Photograph a laboratory folder by a camera file: what characterise reads
+    Laboratory(laboratory::Laboratory),
     /// Print the JSON Schema of a file kind, for editors
     Schema(schema::Schema),
 }

@@ -6,12 +6,13 @@ use clap::Args;
 use etendue::Error;
 use etendue_scene::{FileKind, schema};
 
-const KINDS: [Word<FileKind>; 6] = [
+const KINDS: [Word<FileKind>; 7] = [
     (FileKind::Scene, "scene", "Geometry, materials, lights"),
     (FileKind::Camera, "camera", "Lens, sensor, processing"),
     (FileKind::Job, "job", "Scene, cameras, render and output settings"),
     (FileKind::DataSheet, "datasheet", "What `etendue datasheet` reads"),
     (FileKind::Variations, "variations", "What `etendue dataset` varies from sample to sample"),
+    (FileKind::Laboratory, "laboratory", "What `etendue characterise` reads beside pictures"),
     (FileKind::Weather, "weather", "What `etendue weather` lays over stored radiance"),
 ];
 

@@ -3,7 +3,7 @@
 use crate::support::etendue;
 
 /// What it does, one verb each.
-const VERBS: [&str; 15] = [
+const VERBS: [&str; 17] = [
     "render",
     "rig",
     "merge",
@@ -19,6 +19,8 @@ const VERBS: [&str; 15] = [
     "schema",
     "tradeoff",
     "dataset",
+    "characterise",
+    "laboratory",
 ];
 /// Those whose options are their subcommands'.
 const GROUPS: [&str; 2] = ["chart", "measure"];

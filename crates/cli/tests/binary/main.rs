@@ -13,6 +13,7 @@ mod bad_sensors;
 mod black_boxes;
 mod browser;
 mod bytes;
+mod characterise;
 mod charts;
 mod compared;
 mod concurrent;

@@ -126,6 +126,12 @@ fn what_was_found_is_written_as_keys_of_a_camera_file() {
     etendue(again.into_iter().chain(["--overwrite"])).ok();
     let written = std::fs::read_to_string(&camera).expect("a file");
     assert!(written.contains("[lens.relative_illumination]") && written.contains("ratio = [1.000000, "), "{written}");
+    // The green pixels of a mosaic reach as far as the picture: 64 √2 px of 5 µm.
+    let mosaic = raw(folder.path(), "mosaic.png", (128, 128), |x, y| 9000.0 + 50.0 * scatter(x, y, 0));
+    let green = ["measure", "vignetting", &mosaic, "--cfa", "RGGB", "--channel", "G", "--pixel-pitch-um", "5"];
+    etendue(green.into_iter().chain(["--camera-out", &text(&camera), "--overwrite"])).ok();
+    let written = std::fs::read_to_string(&camera).expect("a file");
+    assert!(written.contains(", 0.452549]"), "{written}");
     let covered = |x: usize, y: usize| (x as f64 - 29.0 - 0.1 * (y as f64 - 31.5)).clamp(0.0, 1.0);
     let edge = raw(folder.path(), "edge.png", (64, 64), |x, y| 900.0 + 8_100.0 * covered(x, y));
     etendue(["measure", "sfr", &edge, "--camera-out", &text(&camera)]).refused(&["--camera-out"]);

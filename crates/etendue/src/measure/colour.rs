@@ -43,21 +43,37 @@ const CHART: (usize, usize) = (6, 4);
 /// # Errors
 /// Where the picture is not in colour or its patches cannot be used.
 pub fn colour(request: &ColourRequest) -> Result<Report, Error> {
+    Ok(measured(request)?.0)
+}
+
+/// A chart's patches as a camera sees them.
+pub(crate) struct Seen {
+    pub(crate) patches: Vec<ColourPatch>,
+    pub(crate) black: f64,
+    pub(crate) full_scale: Option<f64>,
+    pub(crate) shared_px: usize,
+    /// XYZ of the chart's light.
+    pub(crate) white_xyz: [f64; 3],
+}
+
+/// The report, and what it was made of.
+pub(crate) fn measured(request: &ColourRequest) -> Result<(Report, Seen), Error> {
     let Some(colours) = request.input.selection.colours(&request.picture)? else {
         let expected = "expected a picture in colour: channels R, G and B, or a raw mosaic of them";
         return Err(refused(&request.picture, expected));
     };
-    let (patches, white) = match request.input.truth(&[ColorChecker::NAME], &request.picture, &colours[1])? {
+    let (patches, white_xyz) = match request.input.truth(&[ColorChecker::NAME], &request.picture, &colours[1])? {
         Some(truth) => (told(&truth, &request.picture, &colours)?, truth.white_xyz()),
         None => (between_corners(request, &colours)?, colour::D65_WHITE),
     };
     let levels = &request.input.levels;
     let (black, full_scale) = (levels.black(&colours[1]), levels.full_scale(&colours[1]));
-    let found = measure_colour(&patches, black, full_scale, white, colours[1].shared_px);
+    let shared_px = colours[1].shared_px;
+    let found = measure_colour(&patches, black, full_scale, white_xyz, shared_px);
     let found = found.map_err(|error| refused(&request.picture, error))?;
     let mut report = report(&patches, &found);
     report.encoding(&colours[1].stated);
-    Ok(report)
+    Ok((report, Seen { patches, black, full_scale, shared_px, white_xyz }))
 }
 
 /// The patches that a chart's truth places and describes, in its own light.

@@ -77,7 +77,8 @@ impl FlatFieldRequest {
         ShadingSettings {
             black: self.input.levels.black(readings),
             full_scale: self.input.levels.full_scale(readings),
-            centre_px: self.centre_px,
+            // Among the readings, which of a mosaic are those of one colour.
+            centre_px: self.centre_px.map(|(x, y)| readings.place([x, y]).into()),
             rings: self.rings as usize,
             blocks: blocks as usize,
         }
@@ -101,7 +102,8 @@ impl FlatFieldRequest {
         report.encoding(&readings.stated);
         let shading =
             measure_shading(&readings.image, &self.settings(&readings, blocks)).map_err(|e| self.refused(&e))?;
-        Ok((shading, (readings.image.width() as f64, readings.image.height() as f64)))
+        let (columns, rows) = readings.picture_px;
+        Ok((shading, (columns as f64, rows as f64)))
     }
 }
 
@@ -116,16 +118,22 @@ impl VignettingRequest {
         if self.camera_keys { pitch_um.ok_or_else(needed).map(Some) } else { Ok(None) }
     }
 
-    /// Relative illumination as a lens states it, over millimetres.
-    fn camera(&self, shading: &Shading, (width, height): (f64, f64), pitch_um: f64) -> String {
+    /// Relative illumination as a lens states it: radii, mm, and ratios.
+    pub(crate) fn relative_illumination(&self, shading: &Shading, size: (f64, f64), pitch_um: f64) -> [Vec<f64>; 2] {
+        let (width, height) = size;
         let (x, y) = self.flat.centre_px.unwrap_or((0.5 * width, 0.5 * height));
         let (x, y) = (x.max(width - x), y.max(height - y));
         let corner_mm = (x * x + y * y).sqrt() * pitch_um / 1000.0;
         let steps = || (0..=20).map(|i| f64::from(i) / 20.0);
-        let list = |values: Vec<f64>| values.iter().map(|v| format!("{v:.6}")).collect::<Vec<_>>().join(", ");
         // The last step lies a little beyond the corner, as the lens's table must reach it.
-        let radii = list(steps().map(|p| p * corner_mm * (1.0 + 1e-6)).collect());
-        let ratios = list(steps().map(|p| shading.falloff(p).max(0.0)).collect());
+        let radii = steps().map(|p| p * corner_mm * (1.0 + 1e-6)).collect();
+        [radii, steps().map(|p| shading.falloff(p).max(0.0)).collect()]
+    }
+
+    /// The same as keys of a camera file.
+    fn camera(&self, shading: &Shading, size: (f64, f64), pitch_um: f64) -> String {
+        let list = |values: Vec<f64>| values.iter().map(|v| format!("{v:.6}")).collect::<Vec<_>>().join(", ");
+        let [radii, ratios] = self.relative_illumination(shading, size, pitch_um).map(list);
         format!(
             "# Measured relative illumination, corner ± {:.1e}: for [lens] of a camera file.\nformat = 1\n\n\
              [lens.relative_illumination]\nradius_mm = [{radii}]\nratio = [{ratios}]\n",
@@ -139,6 +147,11 @@ impl VignettingRequest {
 /// # Errors
 /// Where the picture is not of an even surface that fills it.
 pub fn vignetting(request: &VignettingRequest) -> Result<Report, Error> {
+    Ok(falloff(request)?.0)
+}
+
+/// The same with the fall-off itself and the picture's columns and rows.
+pub(crate) fn falloff(request: &VignettingRequest) -> Result<(Report, Shading, (f64, f64)), Error> {
     let pitch_um = request.pitch_um()?;
     let mut report = Report::new(
         "vignetting",
@@ -165,7 +178,7 @@ pub fn vignetting(request: &VignettingRequest) -> Result<Report, Error> {
     if let Some(pitch_um) = pitch_um {
         report.camera(request.camera(&shading, size, pitch_um));
     }
-    Ok(report)
+    Ok((report, shading, size))
 }
 
 /// A flat field's fall-off as a map, and its colour shading (ISO 17957).

@@ -13,6 +13,7 @@
 //! | [`temperature`] | how the dark current grows with temperature |
 //! | [`spectrogram`] | power spectra of rows and columns |
 //! | [`Deviations`] | histograms of defect pixels |
+//! | [`Outliers`] | hot and dead pixels: places, share, mean current |
 //!
 //! Units: readings DN, light photons a pixel and exposure, charge e⁻, time s. Where only relative light is known (an
 //! exposure series under a steady lamp of unknown strength), "photons" are any unit of light, and η and the thresholds in
@@ -25,6 +26,7 @@ mod data;
 mod defects;
 mod figures;
 mod nonuniformity;
+mod outliers;
 mod spatial;
 pub mod spectrogram;
 mod stack;
@@ -36,6 +38,7 @@ pub use data::{Level, TransferData};
 pub use defects::Deviations;
 pub use figures::{Figures, SnrPoint, model_snr};
 pub use nonuniformity::{Nonuniformity, nonuniformity};
+pub use outliers::{FEWEST, Outliers, dead_pixels, hot_pixels};
 pub use spatial::{Parts, Pattern};
 pub use stack::{LevelStatistics, Stack};
 

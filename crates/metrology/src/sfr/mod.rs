@@ -31,6 +31,7 @@
 //! strip between its neighbours. Shading of the sides is taken off on request. Left out: chromatic aberration between channels (measure each).
 
 mod acutance;
+mod blur;
 mod covariance;
 mod curve;
 mod edge;
@@ -50,6 +51,7 @@ mod tests;
 use measure::{check, told};
 
 pub use acutance::acutance;
+pub use blur::{Blur, blur};
 pub use curve::{SfrPoint, crossing, mean_curve};
 pub use edge::{Edge, Orientation};
 pub use error::SfrError;

@@ -447,14 +447,62 @@ def calibrate(
     Answers with a Report.
     """
 
+def characterise(
+    folder: _Path,
+    *,
+    output: _Path,
+    base: _Path | None = None,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Make a camera file of a laboratory folder (dark frames, flats, charts), with every uncertainty and a report as a page.
+
+    folder: The laboratory folder: folders dark, flat, field, chart, edges and checker with pictures in them, any of them missing, and laboratory.toml where pictures do not say enough.
+    output: Write the camera file here, and beside it the report under the same stem: .html, .json.
+    base: Lay the camera file over this one: what is not measured is its.
+    overwrite: Replace files that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
+def laboratory(
+    camera: _Path,
+    *,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
+    seed: int | None = None,
+    levels: int | None = None,
+    stack: int | None = None,
+    views: int | None = None,
+    spp: int | None = None,
+    output: _Path,
+    overwrite: bool = False,
+    progress: _Progress | None = None,
+) -> list[Path]:
+    """Photograph a laboratory folder by a camera file: what characterise reads.
+
+    camera: The camera file (TOML).
+    set: Change a key of the camera file, e.g. --set sensor.width_px=320. A dict of dotted keys to values, or texts key=value.
+    seed: The seed of all noise. Default: 0.
+    levels: Levels of even light on the bare sensor, up to a little above saturation. Default: 15.
+    stack: Frames of the stacks without light and at half of saturation. Default: 32.
+    views: Views of the checkerboard. Default: 13.
+    spp: Samples a pixel of the pictures through the lens. Default: 64.
+    output: Folder for the results; made where missing.
+    overwrite: Replace results that are already there.
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with the paths of what was written.
+    """
+
 def schema(
-    kind: Literal["scene", "camera", "job", "datasheet", "variations", "weather"],
+    kind: Literal["scene", "camera", "job", "datasheet", "variations", "laboratory", "weather"],
     *,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
     """Print the JSON Schema of a file kind, for editors.
 
-    kind: The kind of file. One of scene, camera, job, datasheet, variations, weather.
+    kind: The kind of file. One of scene, camera, job, datasheet, variations, laboratory, weather.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a dict.

@@ -22,7 +22,7 @@ use crate::record::job::CameraSource;
 use crate::record::render::{check_levels, check_merged};
 use crate::record::variations::Variations;
 use crate::record::weather::Weather;
-use crate::record::{Camera, CameraEntry, DataSheet, Job, Output, Pose, Render, Scene, Sequence};
+use crate::record::{Camera, CameraEntry, DataSheet, Job, Laboratory, Output, Pose, Render, Scene, Sequence};
 use crate::written::Table;
 
 /// A job with its scene and cameras, checked.
@@ -209,6 +209,17 @@ pub fn load_datasheet(file: &Path, read: &ReadText<'_>) -> Result<DataSheet, Fau
     let document = files::single(file, read, &mut faults);
     let sheet = document.and_then(|d| record::<DataSheet>().read(&d, &mut faults));
     faults.or(sheet)
+}
+
+/// Reads a laboratory file.
+///
+/// # Errors
+/// All faults of the file.
+pub fn load_laboratory(file: &Path, read: &ReadText<'_>) -> Result<Laboratory, Faults> {
+    let mut faults = Faults::none();
+    let document = files::single(file, read, &mut faults);
+    let laboratory = document.and_then(|d| record::<Laboratory>().read(&d, &mut faults));
+    faults.or(laboratory)
 }
 
 /// Which keys of `[render]` the job in `file` states, for all cameras or for `camera`, as dotted keys of the job: `render.spp`,

@@ -3,15 +3,15 @@
 use etendue_metrology::photon_transfer::{Figures, Nonuniformity, Stack, TransferData};
 
 /// Everything that was found.
-pub(super) struct Found {
-    pub(super) data: TransferData,
-    pub(super) figures: Figures,
-    pub(super) fixed: Option<Fixed>,
+pub(crate) struct Found {
+    pub(crate) data: TransferData,
+    pub(crate) figures: Figures,
+    pub(crate) fixed: Option<Fixed>,
 }
 
 /// Of the stacks.
-pub(super) struct Fixed {
-    pub(super) dark: Stack,
-    pub(super) bright: Stack,
-    pub(super) patterns: Nonuniformity,
+pub(crate) struct Fixed {
+    pub(crate) dark: Stack,
+    pub(crate) bright: Stack,
+    pub(crate) patterns: Nonuniformity,
 }

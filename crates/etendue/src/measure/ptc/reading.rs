@@ -20,7 +20,7 @@ pub(super) struct Reading<'a> {
     pub(super) pictures: Pictures<'a>,
 }
 
-fn refused(error: TransferError) -> Error {
+pub(super) fn refused(error: TransferError) -> Error {
     Error::input(error)
 }
 
@@ -63,7 +63,7 @@ impl Reading<'_> {
     }
 
     /// A level's pictures, added up in their order while the next are read.
-    fn stack(&self, level: &DescribedLevel) -> Result<Stack, Error> {
+    pub(super) fn stack(&self, level: &DescribedLevel) -> Result<Stack, Error> {
         let mut stack: Option<Stack> = None;
         let mut waiting = Vec::new();
         for files in level.files.chunks(AT_A_TIME) {

@@ -7,7 +7,7 @@ use crate::report::{Cell, Report, Table};
 use etendue_metrology::Estimate;
 use etendue_metrology::photon_transfer::{Figures, Nonuniformity, Parts, TransferData};
 
-pub(super) fn report(request: &PtcRequest, found: &Found) -> Report {
+pub(crate) fn report(request: &PtcRequest, found: &Found) -> Report {
     let mut report = Report::new("ptc", "EMVA 1288 release 4.0 linear (± one standard uncertainty)");
     if let Some(channel) = &request.selection.channel {
         report.setting("channel", channel.clone());

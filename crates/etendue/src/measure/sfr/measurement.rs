@@ -22,6 +22,11 @@ const CHARTS: [&str; 2] = [SlantedEdges::NAME, SlantedStar::NAME];
 /// # Errors
 /// Where the picture holds no edge that can be measured.
 pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
+    Ok(responses(request)?.0)
+}
+
+/// The same with the responses themselves.
+pub(crate) fn responses(request: &SfrRequest) -> Result<(Report, Vec<Sfr>), Error> {
     whole("--edge-degree", request.edge_degree, 1..=5)?;
     whole("--shading-degree", request.shading_degree, 0..=2)?;
     positive("--pixel-pitch-um", request.pixel_pitch_um)?;
@@ -50,7 +55,8 @@ pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
         let (sought, error) = &left_out[0];
         return Err(failure(request, sought, error));
     }
-    Ok(report(request, &found, &left_out, &readings))
+    let report = report(request, &found, &left_out, &readings);
+    Ok((report, found.into_iter().map(|one| one.sfr).collect()))
 }
 
 fn positive(option: &str, value: Option<f64>) -> Result<(), Error> {

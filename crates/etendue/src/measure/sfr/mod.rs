@@ -7,5 +7,6 @@ mod refusal;
 mod report;
 mod request;
 
+pub(crate) use measurement::responses;
 pub use measurement::sfr;
 pub use request::SfrRequest;

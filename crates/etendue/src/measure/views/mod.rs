@@ -9,6 +9,7 @@ mod report;
 mod request;
 mod stated;
 
+pub(crate) use fit::TriedModel;
 pub(crate) use found::Found;
 pub use request::ViewsRequest;
 pub use stated::StatedLength;

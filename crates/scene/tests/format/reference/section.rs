@@ -14,12 +14,13 @@ pub(super) enum File {
     DataSheet,
     Weather,
     Variations,
+    Laboratory,
 }
 
 impl File {
     /// In the order in which they are searched for tables: what belongs to files of its own comes before the job that may hold it.
-    pub(super) const ALL: [Self; 6] =
-        [Self::Scene, Self::Camera, Self::Job, Self::DataSheet, Self::Weather, Self::Variations];
+    pub(super) const ALL: [Self; 7] =
+        [Self::Scene, Self::Camera, Self::Job, Self::DataSheet, Self::Weather, Self::Variations, Self::Laboratory];
 
     pub(super) fn word(self) -> &'static str {
         match self {
@@ -29,6 +30,7 @@ impl File {
             Self::DataSheet => "datasheet",
             Self::Weather => "weather",
             Self::Variations => "variations",
+            Self::Laboratory => "laboratory",
         }
     }
 
@@ -41,6 +43,7 @@ impl File {
             Self::DataSheet => FileKind::DataSheet,
             Self::Weather => FileKind::Weather,
             Self::Variations => FileKind::Variations,
+            Self::Laboratory => FileKind::Laboratory,
         });
         schema.get("else").unwrap_or(&schema).clone()
     }

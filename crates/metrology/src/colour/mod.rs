@@ -10,12 +10,16 @@
 //! one stated of the largest, which is chosen by its noise as well. Left out: matrices that keep
 //! white, weights by perceived difference, more than three channels.
 
+mod processing;
+
 use crate::flat::saturated_percent;
 use crate::patch_statistics::patch_statistics;
 use crate::propagate::{Curved, propagate_curved};
 use crate::solve::Normal;
 use crate::{Estimate, Image};
 use etendue_spectra::colour::{Lab, ciede2000, lab};
+
+pub use processing::{ColourProcessing, colour_processing, white_balance};
 
 /// A patch of a chart.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,0 +1,257 @@
+//! Cameras from laboratory folders: rendered ones, whose camera is known; OpenCV's photographs; folders that cannot be used.
+
+use crate::support::{Ran, etendue, root, text};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// A small laboratory of the monochrome reference camera, its barrel included: the field of the large one in pixels of four times the pitch.
+const SMALL: [&str; 6] = [
+    "sensor.width_px=194",
+    "sensor.height_px=146",
+    "sensor.pixel_pitch_um=33.2",
+    // Pixels of the large camera's charge.
+    "sensor.exposure_s=1e-3",
+    "sensor.optical_black=null",
+    "sensor.smear=null",
+];
+
+/// The folder, made once for all tests.
+fn laboratory() -> &'static Path {
+    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+    FOLDER.get_or_init(|| {
+        let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("laboratory");
+        let _ = std::fs::remove_dir_all(&folder);
+        let to = text(&folder);
+        let sizes = ["--levels", "8", "--stack", "8", "--views", "5", "--spp", "16"];
+        let set = SMALL.iter().flat_map(|change| ["--set", change]);
+        let ran = etendue(["laboratory", "charts/ccd-mono/camera.toml", "-o", &to].into_iter().chain(sizes).chain(set));
+        ran.ok();
+        folder
+    })
+}
+
+/// A copy of some of its folders.
+fn part(kinds: &[&str]) -> tempfile::TempDir {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    for kind in kinds {
+        copy(&laboratory().join(kind), &place.path().join(kind));
+    }
+    std::fs::copy(laboratory().join("laboratory.toml"), place.path().join("laboratory.toml")).expect("copied");
+    place
+}
+
+fn copy(from: &Path, to: &Path) {
+    if from.is_dir() {
+        std::fs::create_dir_all(to).expect("a folder");
+        for entry in std::fs::read_dir(from).expect("a folder") {
+            let entry = entry.expect("an entry");
+            copy(&entry.path(), &to.join(entry.file_name()));
+        }
+    } else {
+        std::fs::copy(from, to).expect("copied");
+    }
+}
+
+fn characterised(folder: &Path, options: &[&str]) -> (Ran, tempfile::TempDir) {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let (folder, to) = (text(folder), text(&place.path().join("found.toml")));
+    let ran = etendue(["characterise", &folder, "-o", &to].into_iter().chain(options.iter().copied()));
+    (ran, place)
+}
+
+fn json(place: &tempfile::TempDir) -> Value {
+    let text = std::fs::read_to_string(place.path().join("found.json")).expect("a report");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+#[test]
+fn a_rendered_laboratory_gives_its_camera_back() {
+    let (ran, place) = characterised(laboratory(), &[]);
+    ran.ok();
+    let report = json(&place);
+    let found = &report["parameters"];
+    // The camera file's own numbers, the principal distance of a lens of 8 mm focused at 10 m; four standard uncertainties, of 21 numbers with this seed.
+    let fx = 8.0 * 10.0 / (10.0 - 0.008) / 0.0332;
+    for (key, declared) in [
+        ("sensor.gain_dn_per_e", 0.2),
+        ("sensor.read_noise_e", 10.0),
+        ("sensor.dark_current_e_s", 5.0),
+        ("sensor.quantum_efficiency.mono", 0.45),
+        ("sensor.non_uniformity.prnu", 0.008),
+        ("sensor.non_uniformity.prnu_row", 0.0),
+        ("sensor.non_uniformity.dsnu_e", 1.0),
+        ("sensor.non_uniformity.dsnu_column_e", 0.0),
+        ("lens.projection.fx_px", fx),
+        ("lens.projection.cx_px", 97.0),
+        ("lens.projection.cy_px", 73.0),
+        ("lens.projection.k1", -0.1),
+        ("effects.psf.variance_horizontal_px2", 0.0),
+        ("effects.psf.variance_vertical_px2", 0.0),
+        ("sensor.crosstalk.horizontal", 0.0),
+        ("sensor.crosstalk.vertical", 0.0),
+    ] {
+        let (value, u) = (&found[key]["value"], &found[key]["standard_uncertainty"]);
+        let (value, u) = (value.as_f64().expect(key), u.as_f64().expect(key));
+        assert!((value - declared).abs() <= 4.0 * u, "{key}: {value} ± {u}, declared {declared}");
+    }
+    let u = |key: &str| found[key]["standard_uncertainty"].as_f64().expect(key);
+    assert!(u("lens.projection.fx_px") < 0.005 * fx && u("sensor.gain_dn_per_e") < 0.01, "{found:#}");
+    assert_eq!(report["stand_ins"].as_array().map(Vec::len), Some(0), "{report:#}");
+    let said = report["not_known"].to_string();
+    assert!(said.contains("hot pixels") && said.contains("one wavelength"), "{said}");
+    page_is_whole(&place);
+    // The file is a camera.
+    let camera = text(&place.path().join("found.toml"));
+    let lens = etendue(["measure", "lens", &camera, "--json"]).ok().out;
+    let lens: Value = serde_json::from_str(&lens).expect("JSON");
+    assert!(lens.is_object());
+    let again = etendue(["characterise", &text(laboratory()), "-o", &camera]);
+    again.refused(&["found.toml", "already"]);
+}
+
+/// One file with every part, nothing of which lies elsewhere.
+fn page_is_whole(place: &tempfile::TempDir) {
+    let page = std::fs::read_to_string(place.path().join("found.html")).expect("a page");
+    for part in [
+        "Parameters",
+        "Not known",
+        "Photon transfer",
+        "Fall-off",
+        "Projection and distortion",
+        "Response",
+        "Camera file",
+    ] {
+        assert!(page.contains(part), "{part} is missing");
+    }
+    assert!(page.matches("<svg").count() >= 4);
+    assert!(
+        !page.contains("<script") && !page.contains("<link") && !page.contains("src=") && !page.contains("@import")
+    );
+}
+
+#[test]
+fn what_is_missing_is_said_and_left_out_or_a_base_s() {
+    let some = part(&["dark", "flat"]);
+    let (ran, place) = characterised(some.path(), &[]);
+    ran.ok().says(&["not known: focal length", "no pictures in chart/"]);
+    let report = json(&place);
+    assert!(
+        report["parameters"]["sensor.gain_dn_per_e"].is_object()
+            && report["parameters"]["lens.projection.fx_px"].is_null()
+    );
+    assert!(report["stand_ins"].to_string().contains("lens.f_number"), "{report:#}");
+    let whole = std::fs::read_to_string(place.path().join("found.toml")).expect("a camera file");
+    assert!(whole.contains("f_number = 4") && whole.contains("a stand-in: not measured"), "{whole}");
+    let base = text(&root().join("scenes/cameras/ccd-mono.toml"));
+    let (ran, place) = characterised(some.path(), &["--base", &base]);
+    ran.ok();
+    let laid_over = std::fs::read_to_string(place.path().join("found.toml")).expect("a camera file");
+    assert!(
+        !laid_over.contains("stand-in") && !laid_over.contains("[lens]") && laid_over.contains("base = "),
+        "{laid_over}"
+    );
+    etendue(["measure", "lens", &text(&place.path().join("found.toml"))]).ok();
+}
+
+/// The first file of an ending in a folder.
+fn first(folder: &Path, ending: &str) -> PathBuf {
+    let mut files: Vec<PathBuf> = walk(folder);
+    files.sort();
+    files.into_iter().find(|file| text(file).ends_with(ending)).expect("such a file")
+}
+
+fn walk(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    entries.flat_map(|path| if path.is_dir() { walk(&path) } else { vec![path] }).collect()
+}
+
+#[test]
+fn folders_that_cannot_be_used_are_refused() {
+    let lab = part(&["dark", "flat"]);
+    let (flat, dark) = (lab.path().join("flat"), lab.path().join("dark"));
+    let frame = first(&flat, "raw.0000.png");
+    let refused = |phrases: &[&str]| {
+        let (ran, place) = characterised(lab.path(), &[]);
+        ran.refused(phrases);
+        assert_eq!(std::fs::read_dir(place.path()).expect("a folder").count(), 0, "nothing is written");
+    };
+    // A copy under another name.
+    let copied = frame.with_file_name("raw.0900.png");
+    std::fs::copy(&frame, &copied).expect("copied");
+    refused(&["raw.0900.png", "a copy of", "raw.0000.png"]);
+    std::fs::remove_file(&copied).expect("removed");
+    // Another camera.
+    let other = root().join("tests/oracles/figures/checkerboard/left05.jpg");
+    std::fs::copy(other, dark.join("other.jpg")).expect("copied");
+    refused(&["other.jpg", "not of the same camera", "640 × 480 pixels", "194 × 146 pixels"]);
+    std::fs::remove_file(dark.join("other.jpg")).expect("removed");
+    // Half a file.
+    let bytes = std::fs::read(&frame).expect("a picture");
+    std::fs::write(&frame, &bytes[..bytes.len() / 2]).expect("written");
+    refused(&["raw.0000.png"]);
+    std::fs::write(&frame, &bytes).expect("written");
+    // A key without effect, and one that is none.
+    let file = lab.path().join("laboratory.toml");
+    let stated = std::fs::read_to_string(&file).expect("text");
+    std::fs::write(&file, format!("{stated}\n[chart]\npitch_mm = 30\n")).expect("written");
+    refused(&["laboratory.toml", "[chart] has no effect without a folder chart/"]);
+    std::fs::write(&file, "format = 1\npixel_pich_um = 3\n").expect("written");
+    refused(&["laboratory.toml:2", "pixel_pich_um", "pixel_pitch_um"]);
+    std::fs::write(&file, &stated).expect("written");
+    // Flats of ten times what saturates.
+    std::fs::remove_dir_all(&flat).expect("removed");
+    let camera = text(&laboratory().join("declared.toml"));
+    for (name, exposure) in [("a", "sensor.exposure_s=0.0005"), ("b", "sensor.exposure_s=0.001")] {
+        let to = text(&flat.join(name));
+        let light = [
+            "--wavelength-nm",
+            "550",
+            "--photons",
+            "500000",
+            "--frames",
+            "0..2",
+            "--set",
+            exposure,
+            "--set",
+            "isp=null",
+        ];
+        etendue(["flat", &camera, "-o", &to].into_iter().chain(light)).ok();
+    }
+    refused(&["flat/: 4 of 4 frames are saturated", "expose less"]);
+    let empty = tempfile::tempdir().expect("a temporary folder");
+    characterised(empty.path(), &[])
+        .0
+        .refused(&["no pictures to characterise a camera by", "dark/ (frames without light)"]);
+    characterised(&empty.path().join("lost"), &[]).0.refused(&["lost", "there is no such folder"]);
+}
+
+/// OpenCV's own photographs of its checkerboard: what they have evidence for is its calibration, and nothing else.
+#[test]
+fn photographs_of_a_checkerboard_give_a_calibration_and_no_more() {
+    let photographs = root().join("tests/oracles/figures/checkerboard");
+    let lab = tempfile::tempdir().expect("a temporary folder");
+    let chart = lab.path().join("chart");
+    std::fs::create_dir(&chart).expect("a folder");
+    for i in (1..=14).filter(|i| *i != 10) {
+        let name = format!("left{i:02}.jpg");
+        std::fs::copy(photographs.join(&name), chart.join(&name)).expect("copied");
+    }
+    std::fs::write(lab.path().join("laboratory.toml"), "format = 1\n[chart]\npitch_mm = 30\ngrid = [9, 6]\n")
+        .expect("written");
+    let (ran, place) = characterised(lab.path(), &[]);
+    ran.ok().says(&["not known: gain", "no pictures in dark/"]);
+    let report = json(&place);
+    // OpenCV's calibration of the same photographs by its own corners (docs/measurements.md, k1 k2 p1 p2 k3): 532.8, 342.5 + 0.5, and theirs is uncertain to 0.5.
+    for (key, opencv, within) in [("fx_px", 532.83, 3.0), ("cx_px", 342.99, 3.0), ("cy_px", 234.2, 3.0)] {
+        let value = report["parameters"][format!("lens.projection.{key}")]["value"].as_f64().expect(key);
+        assert!((value - opencv).abs() < within, "{key}: {value}");
+    }
+    let known: Vec<&String> = report["parameters"].as_object().expect("parameters").keys().collect();
+    assert!(known.iter().all(|key| key.starts_with("lens.projection.")), "{known:?}");
+    for what in ["gain", "fall-off", "point spread", "white balance", "colour matrix"] {
+        assert!(report["not_known"].to_string().contains(what), "{what}: {report:#}");
+    }
+    let camera = std::fs::read_to_string(place.path().join("found.toml")).expect("a camera file");
+    assert!(!camera.contains("gain_dn_per_e") && camera.contains("pixel_pitch_um = 5"), "{camera}");
+}

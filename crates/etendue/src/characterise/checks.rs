@@ -1,0 +1,124 @@
+//! What no measurement can be made of: pictures of several cameras, copies, flats that are saturated.
+
+use super::kind::Kind;
+use super::shot::Shot;
+use crate::error::Error;
+use std::collections::BTreeMap;
+
+/// A frame of even light with more saturated pixels tells nothing but where saturation lies.
+const SATURATED: f64 = 0.01;
+/// Faults of one kind that are told one by one.
+const TOLD: usize = 5;
+
+pub(super) fn check(shots: &[Shot]) -> Result<(), Error> {
+    let faults = [mixed(shots), copies(shots), saturated(shots)].concat();
+    if faults.is_empty() { Ok(()) } else { Err(Error::inputs(faults)) }
+}
+
+/// The first few, and how many there are more.
+fn shortened(mut faults: Vec<String>, what: &str) -> Vec<String> {
+    let more = faults.len().saturating_sub(TOLD);
+    faults.truncate(TOLD);
+    if more > 0 {
+        faults.push(format!("{more} more {what}"));
+    }
+    faults
+}
+
+/// A fact of a picture that is the same in all pictures of a camera, in words; `None` where it is not known.
+type Fact = fn(&Shot) -> Option<String>;
+
+const OF_CAMERA: [(&str, Fact); 6] = [
+    ("size", |shot| Some(format!("{} × {} pixels", shot.size_px[0], shot.size_px[1]))),
+    ("maker", |shot| shot.exif.make.clone()),
+    ("model", |shot| shot.exif.model.clone()),
+    ("serial number", |shot| shot.exif.serial.clone()),
+    ("pixel pitch", |shot| shot.side_car.pixel_pitch_um.map(|pitch| format!("{pitch} µm"))),
+    ("bits of the converter", |shot| shot.side_car.bits.map(|bits| bits.to_string())),
+];
+
+/// Facts that raw pictures share: of one gain, and of numbers of one kind.
+const OF_RAW: [(&str, Fact); 4] = [
+    ("sensitivity (ISO)", |shot| shot.exif.iso.map(|iso| iso.to_string())),
+    ("largest number", |shot| Some(shot.full_scale.map_or("none (floats)".to_owned(), |full| full.to_string()))),
+    ("colour filters", |shot| Some(shot.raw.as_ref()?.filters.channels.join(", "))),
+    ("black and white level", |shot| {
+        shot.raw.as_ref().map(|raw| format!("{} and {} DN", raw.black_level_dn, raw.white_level_dn))
+    }),
+];
+
+fn mixed(shots: &[Shot]) -> Vec<String> {
+    let all: Vec<&Shot> = shots.iter().collect();
+    let raw: Vec<&Shot> = shots.iter().filter(|shot| shot.is_raw() && shot.kind.wants_raw()).collect();
+    let of = |shots: &[&Shot], facts: &[(&str, Fact)]| -> Vec<String> {
+        facts.iter().flat_map(|(name, fact)| differing(shots, name, *fact)).collect()
+    };
+    shortened([of(&all, &OF_CAMERA), of(&raw, &OF_RAW)].concat(), "pictures differ from the others")
+}
+
+/// Pictures in which a fact is another than in most.
+fn differing(shots: &[&Shot], name: &str, fact: Fact) -> Vec<String> {
+    let mut counts: BTreeMap<String, (usize, &Shot)> = BTreeMap::new();
+    for &shot in shots {
+        if let Some(said) = fact(shot) {
+            counts.entry(said).or_insert((0, shot)).0 += 1;
+        }
+    }
+    let Some((usual, (_, first))) = counts.iter().max_by_key(|(_, (count, _))| *count) else { return Vec::new() };
+    let others = shots.iter().filter_map(|shot| Some((shot, fact(shot).filter(|said| said != usual)?)));
+    let told = |(shot, said): (&&Shot, String)| {
+        format!(
+            "{}: not of the same camera and setting as {}: its {name} is {said}, there {usual}; a laboratory folder holds pictures of one camera at one gain",
+            shot.name(),
+            first.name()
+        )
+    };
+    others.map(told).collect()
+}
+
+fn copies(shots: &[Shot]) -> Vec<String> {
+    let mut seen: BTreeMap<_, &Shot> = BTreeMap::new();
+    let mut faults = Vec::new();
+    for shot in shots {
+        let Some(mark) = shot.mark else { continue };
+        match seen.get(&mark) {
+            Some(first) => faults.push(format!(
+                "{}: a copy of {}, number by number: noise cannot be measured from copies; give frames taken one after another",
+                shot.name(),
+                first.name()
+            )),
+            None => {
+                seen.insert(mark, shot);
+            }
+        }
+    }
+    shortened(faults, "copies")
+}
+
+/// Even light in which fewer than three exposure times are not saturated, or none is.
+fn saturated(shots: &[Shot]) -> Vec<String> {
+    let of = |kind: Kind, least: usize| -> Option<String> {
+        let frames: Vec<&Shot> = shots.iter().filter(|shot| shot.kind == kind).collect();
+        let full: Vec<&&Shot> = frames.iter().filter(|shot| shot.saturated > SATURATED).collect();
+        let left: Vec<Option<u64>> = {
+            let good = frames.iter().filter(|shot| shot.saturated <= SATURATED);
+            let mut times: Vec<_> = good.map(|shot| shot.exposure_s.map(f64::to_bits)).collect();
+            times.sort_unstable();
+            times.dedup();
+            times
+        };
+        (full.len() > frames.len() / 2 && left.len() < least).then(|| {
+            let worst = full.iter().max_by(|a, b| a.saturated.total_cmp(&b.saturated)).expect("there are some");
+            format!(
+                "{}/: {} of {} frames are saturated (of {} {:.1} % of the pixels), and the others have {} exposure time(s), where {least} are needed: expose less",
+                kind.folder(),
+                full.len(),
+                frames.len(),
+                worst.name(),
+                100.0 * worst.saturated,
+                left.len()
+            )
+        })
+    };
+    [of(Kind::Flat, 3), of(Kind::Field, 1)].into_iter().flatten().collect()
+}

@@ -1,0 +1,262 @@
+//! Gain, noise, dark current, fixed patterns and pixels of another kind: from frames without light and with even light.
+
+use super::folder::Laboratory;
+use super::kind::Kind;
+use super::parameter::Findings;
+use super::shot::Shot;
+use crate::error::Error;
+use crate::measure::Selection;
+use crate::measure::ptc::{self, Found, Group, PtcRequest};
+use crate::observer::Observer;
+use crate::report::Estimate;
+use etendue_io::emva_descriptor::DescribedLevel;
+use etendue_metrology::patch_statistics::patch_statistics;
+use etendue_metrology::photon_transfer::{FEWEST, Figures, Nonuniformity, Outliers, dead_pixels, hot_pixels};
+
+/// Pixels at the border have fewer neighbours to exchange light with.
+const BORDER: usize = 2;
+/// Photons where their number is not known: any unit of light does.
+const ANY_LIGHT_PER_S: f64 = 1e6;
+const WHAT: &str = "gain, noise, dark current, capacity, DSNU, PRNU, defective pixels";
+
+/// What is known of the sensor.
+#[derive(Clone, Debug)]
+pub(super) struct Electronics {
+    pub(super) figures: Figures,
+    /// Of pixels that are not hot.
+    pub(super) dark_current_e_s: Option<Estimate>,
+    /// Whether light went as far as saturation.
+    pub(super) saturated: bool,
+    pub(super) patterns: Option<Nonuniformity>,
+    pub(super) hot: Option<Outliers>,
+    pub(super) dead: Option<Outliers>,
+    /// By channel, at a wavelength.
+    pub(super) efficiency: Option<(Vec<(&'static str, Estimate)>, f64)>,
+}
+
+pub(super) fn measure(
+    laboratory: &Laboratory,
+    findings: &mut Findings,
+    observer: &dyn Observer,
+) -> Result<Option<Electronics>, Error> {
+    let (dark, flat) = (laboratory.shots(Kind::Dark), laboratory.shots(Kind::Flat));
+    for (shots, kind) in [(&dark, Kind::Dark), (&flat, Kind::Flat)] {
+        if shots.is_empty() {
+            findings.missing(WHAT, kind);
+            return Ok(None);
+        }
+    }
+    let selection = selection(laboratory, &flat);
+    let photons_per_s = laboratory.stated.flat.as_ref().map(|light| light.photons_per_s.value);
+    let made = levels(&dark, 0.0)
+        .and_then(|dark| Ok([dark, levels(&flat, photons_per_s.unwrap_or(ANY_LIGHT_PER_S))?].concat()));
+    let made = made.and_then(|levels| ptc::groups(&selection, &levels, observer));
+    let Some(groups) = findings.attempt(WHAT, made)? else { return Ok(None) };
+    let Some(found) = findings.attempt(WHAT, ptc::of_groups(&groups).map_err(Error::input))? else { return Ok(None) };
+    let request =
+        PtcRequest { relative_light: photons_per_s.is_none(), selection: selection.clone(), ..PtcRequest::new("") };
+    findings.part("Photon transfer", Kind::Flat, ptc::report(&request, &found));
+    let (hot, dead) = outliers(laboratory, &groups, &found);
+    let efficiency = match &laboratory.stated.flat {
+        Some(light) => findings
+            .attempt("quantum efficiency of the channels", efficiency(&selection, &flat, &found))?
+            .map(|e| (e, light.wavelength_nm.value)),
+        None => None,
+    };
+    let electronics = Electronics {
+        figures: found.figures,
+        dark_current_e_s: found
+            .figures
+            .dark_current_mean_e_per_s
+            .map(|mean| cool(mean, hot.as_ref(), groups[0].stack.width() * groups[0].stack.height())),
+        saturated: found.data.saturation_reached(),
+        patterns: found.fixed.as_ref().map(|fixed| fixed.patterns),
+        hot,
+        dead,
+        efficiency,
+    };
+    electronics.tell(findings);
+    Ok(Some(electronics))
+}
+
+/// The pixels that are measured: green ones of a mosaic, without the border.
+fn selection(laboratory: &Laboratory, shots: &[&Shot]) -> Selection {
+    let region = shots.first().map(|shot| {
+        let [x, y, width, height] = shot.picture_px;
+        [x + BORDER, y + BORDER, width.saturating_sub(2 * BORDER), height.saturating_sub(2 * BORDER)]
+    });
+    let camera = &laboratory.camera;
+    Selection { channel: camera.channel(), cfa: camera.told_cfa.clone(), region, ..Selection::default() }
+}
+
+/// Frames by their exposure time.
+fn levels(shots: &[&Shot], photons_per_s: f64) -> Result<Vec<DescribedLevel>, Error> {
+    let mut levels: Vec<DescribedLevel> = Vec::new();
+    for shot in shots {
+        let exposure_s = shot.exposure_s.ok_or_else(|| {
+            Error::input(format!(
+                "{}: nothing states its exposure time: neither EXIF data, nor a side-car, nor exposures_s in laboratory.toml",
+                shot.name()
+            ))
+        })?;
+        match levels.iter_mut().find(|level| level.exposure_s == exposure_s) {
+            Some(level) => level.files.push(shot.file.clone()),
+            None => {
+                let photons = photons_per_s * exposure_s;
+                levels.push(DescribedLevel { exposure_s, photons, files: vec![shot.file.clone()] });
+            }
+        }
+    }
+    if let Some(single) = levels.iter().find(|level| level.files.len() < 2) {
+        return Err(Error::input(format!(
+            "{}: the only frame of {} s in its folder: noise needs two frames or more of an exposure time",
+            single.files[0].display(),
+            single.exposure_s
+        )));
+    }
+    levels.sort_by(|a, b| a.exposure_s.total_cmp(&b.exposure_s));
+    Ok(levels)
+}
+
+/// Hot and dead pixels.
+fn outliers(laboratory: &Laboratory, groups: &[Group], found: &Found) -> (Option<Outliers>, Option<Outliers>) {
+    let dark = || groups.iter().filter(|group| group.level.photons == 0.0);
+    let by_time = |a: &&Group, b: &&Group| a.level.exposure_s.total_cmp(&b.level.exposure_s);
+    let hot = dark().min_by(by_time).zip(dark().max_by(by_time)).and_then(|(short, long)| {
+        let [long, short] = [long, short].map(|group| (&group.stack, group.level.exposure_s));
+        hot_pixels(long, short, found.figures.gain_dn_per_e.value, laboratory.camera.white_level_dn)
+    });
+    (hot, found.fixed.as_ref().map(|fixed| dead_pixels(&fixed.dark, &fixed.bright)))
+}
+
+/// The mean dark current without what hot pixels add. Which pixels a specimen has, of all that are like it, is in the uncertainty.
+fn cool(mean: Estimate, hot: Option<&Outliers>, pixels: usize) -> Estimate {
+    let Some(hot) = hot else { return mean };
+    let (u, specimen) = (mean.standard_uncertainty, hot.spread_e_s / (pixels as f64).sqrt());
+    Estimate::new(mean.value - hot.added_e_s, (u * u + specimen * specimen).sqrt())
+}
+
+/// Quantum efficiency of each channel: that of the measured one times how much brighter the channel is in the brightest frames that are not saturated.
+fn efficiency(selection: &Selection, flat: &[&Shot], found: &Found) -> Result<Vec<(&'static str, Estimate)>, Error> {
+    let own = found.figures.quantum_efficiency;
+    if selection.channel.is_none() {
+        return Ok(vec![("mono", own)]);
+    }
+    let usable = flat.iter().filter(|shot| shot.saturated == 0.0);
+    let brightest = usable.max_by(|a, b| a.exposure_s.unwrap_or(0.0).total_cmp(&b.exposure_s.unwrap_or(0.0)));
+    let brightest = brightest.ok_or_else(|| Error::input("every frame in flat/ has saturated pixels"))?;
+    let all = Selection { channel: None, ..selection.clone() };
+    let colours = all.colours(&brightest.file)?;
+    let colours = colours.ok_or_else(|| Error::input(format!("{}: no red, green and blue", brightest.name())))?;
+    let black = found.figures.dark_level_dn.value;
+    let [red, green, blue] = colours.each_ref().map(|c| {
+        let mean = patch_statistics(&c.image, c.shared_px).mean;
+        Estimate::new(mean.value - black, mean.standard_uncertainty)
+    });
+    let of = |c: Estimate| {
+        let ratio = c.value / green.value;
+        let parts = [c, green, own].map(|e| e.standard_uncertainty / e.value);
+        let relative = parts.iter().map(|r| r * r).sum::<f64>().sqrt();
+        Estimate::new(own.value * ratio, own.value * ratio * relative)
+    };
+    Ok(vec![("red", of(red)), ("green", own), ("blue", of(blue))])
+}
+
+impl Electronics {
+    fn tell(&self, findings: &mut Findings) {
+        let f = &self.figures;
+        let from = Kind::Flat;
+        findings.found(from, "sensor.gain_dn_per_e", "system gain K", "DN/e⁻", f.gain_dn_per_e);
+        findings.found(Kind::Dark, "sensor.read_noise_e", "read noise", "e⁻", f.dark_noise_e);
+        findings.found(Kind::Dark, "sensor.black_level_dn", "black level", "DN", f.dark_level_dn);
+        match self.saturated {
+            true => findings.found(from, "sensor.full_well_e", "saturation capacity", "e⁻", f.saturation_e),
+            false => findings.unknown("saturation capacity", "the variance does not fall at the brightest level in flat/: saturation lies at or above it; expose longer"),
+        }
+        match self.dark_current_e_s {
+            Some(current) => findings.found(
+                Kind::Dark,
+                "sensor.dark_current_e_s",
+                "dark current of pixels that are not hot",
+                "e⁻/s",
+                current,
+            ),
+            None => findings.unknown("dark current", "frames in dark/ have fewer than three exposure times"),
+        }
+        match &self.efficiency {
+            Some((channels, _)) => {
+                for (channel, value) in channels {
+                    let (key, label) =
+                        (format!("sensor.quantum_efficiency.{channel}"), format!("quantum efficiency, {channel}"));
+                    findings.found(from, &key, &label, "", *value);
+                }
+                findings.unknown("quantum efficiency at other wavelengths", "the light in flat/ has one wavelength");
+            }
+            None => findings.unknown(
+                "quantum efficiency",
+                "nothing states how many photons the light in flat/ has: [flat] of laboratory.toml",
+            ),
+        }
+        self.patterns(findings);
+        self.outliers(findings);
+    }
+
+    fn patterns(&self, findings: &mut Findings) {
+        let Some(patterns) = &self.patterns else {
+            let why = "stacks of three frames or more at one exposure time are missing: one in dark/, one in flat/ at half of saturation";
+            return findings.unknown("DSNU and PRNU", why);
+        };
+        let mut put = |from: Kind, key: &str, label: &str, unit, value| {
+            findings.found(from, &format!("sensor.non_uniformity.{key}"), label, unit, value);
+        };
+        let (dsnu, prnu) = (patterns.dsnu_e, patterns.prnu);
+        put(Kind::Dark, "dsnu_e", "DSNU, pixels", "e⁻", dsnu.pixel);
+        put(Kind::Dark, "dsnu_row_e", "DSNU, rows", "e⁻", dsnu.row);
+        put(Kind::Dark, "dsnu_column_e", "DSNU, columns", "e⁻", dsnu.column);
+        put(Kind::Flat, "prnu", "PRNU, pixels", "", prnu.pixel);
+        put(Kind::Flat, "prnu_row", "PRNU, rows", "", prnu.row);
+        put(Kind::Flat, "prnu_column", "PRNU, columns", "", prnu.column);
+    }
+
+    fn outliers(&self, findings: &mut Findings) {
+        match &self.hot {
+            None => findings.unknown("hot pixels", "frames in dark/ have one exposure time only"),
+            Some(hot) => match hot.share.zip(hot.mean_e_s) {
+                Some((share, mean)) => {
+                    findings.found(Kind::Dark, "sensor.dark.hot.share", "hot pixels, part of all", "", share);
+                    findings.found(
+                        Kind::Dark,
+                        "sensor.dark.hot.mean_e_s",
+                        "hot pixels, mean additional current",
+                        "e⁻/s",
+                        mean,
+                    );
+                }
+                None => findings.unknown("hot pixels", few(hot, &format!("have more than {:.0} e⁻/s", hot.limit))),
+            },
+        }
+        if let Some(dead) = &self.dead {
+            match dead.share {
+                Some(share) => findings.found(
+                    Kind::Flat,
+                    "sensor.non_uniformity.dead_fraction",
+                    "dead pixels, part of all",
+                    "",
+                    share,
+                ),
+                None => findings.unknown("dead pixels", few(dead, "answer to light by less than half of the mean")),
+            }
+        }
+    }
+}
+
+fn few(outliers: &Outliers, what: &str) -> String {
+    let count = outliers.places.len();
+    let places: Vec<String> = outliers.places.iter().map(|[x, y]| format!("{x},{y}")).collect();
+    let at = if places.is_empty() {
+        String::new()
+    } else {
+        format!(" (column, row of what is measured: {})", places.join("; "))
+    };
+    format!("{count} pixels {what}{at}: fewer than {FEWEST} tell no share")
+}

@@ -1,0 +1,70 @@
+//! Fall-off of light over the field: from an evenly lit surface through the lens.
+
+use super::electronics::Electronics;
+use super::folder::Laboratory;
+use super::identity::PITCH_UM;
+use super::kind::Kind;
+use super::parameter::Findings;
+use super::shot::Shot;
+use crate::error::Error;
+use crate::measure::shading::falloff;
+use crate::measure::{FlatFieldRequest, PictureInput, Selection, SignalLevels, VignettingRequest};
+
+const WHAT: &str = "fall-off of light over the field";
+
+/// Relative illumination as a camera file states it, with the standard uncertainty of the corner's.
+#[derive(Clone, Debug)]
+pub(super) struct FallOff {
+    pub(super) radius_mm: Vec<f64>,
+    pub(super) ratio: Vec<f64>,
+    pub(super) corner_u: f64,
+}
+
+pub(super) fn measure(
+    laboratory: &Laboratory,
+    electronics: Option<&Electronics>,
+    findings: &mut Findings,
+) -> Result<Option<FallOff>, Error> {
+    let shots = laboratory.shots(Kind::Field);
+    let Some(shot) = brightest(&shots) else {
+        findings.missing(WHAT, Kind::Field);
+        return Ok(None);
+    };
+    let input = PictureInput {
+        selection: Selection {
+            channel: laboratory.camera.channel(),
+            cfa: laboratory.camera.told_cfa.clone(),
+            ..Selection::default()
+        },
+        levels: SignalLevels { black: black_dn(shot, electronics), full_scale: laboratory.camera.white_level_dn },
+        ..PictureInput::default()
+    };
+    let request = VignettingRequest::new(FlatFieldRequest { input, ..FlatFieldRequest::new(&shot.file) });
+    let Some((report, shading, size)) = findings.attempt(WHAT, falloff(&request))? else { return Ok(None) };
+    findings.part("Fall-off", Kind::Field, report);
+    let corner = shading.corner.scaled(100.0);
+    findings.found(Kind::Field, "lens.relative_illumination.corner_percent", "illumination of the corner", "%", corner);
+    let pitch_um = laboratory.camera.pixel_pitch_um.unwrap_or(PITCH_UM);
+    let [radius_mm, mut ratio] = request.relative_illumination(&shading, size, pitch_um);
+    // The centre is 1 by definition.
+    ratio[0] = 1.0;
+    Ok(Some(FallOff { radius_mm, ratio, corner_u: shading.corner.standard_uncertainty }))
+}
+
+/// The brightest that is not saturated; the first of those.
+pub(super) fn brightest<'a>(shots: &[&'a Shot]) -> Option<&'a Shot> {
+    let most = |best: &'a Shot, next: &&'a Shot| match next.exposure_s > best.exposure_s && next.saturated == 0.0 {
+        true => *next,
+        false => best,
+    };
+    let good = *shots.iter().find(|shot| shot.saturated == 0.0).or(shots.first())?;
+    Some(shots.iter().fold(good, most))
+}
+
+/// The reading without light at a picture's exposure, where frames without light tell it.
+pub(super) fn black_dn(shot: &Shot, electronics: Option<&Electronics>) -> Option<f64> {
+    let f = electronics.filter(|_| shot.is_raw())?.figures;
+    let current = f.dark_current_mean_e_per_s.map_or(0.0, |current| current.value);
+    let collected_e = current * shot.exposure_s.unwrap_or(0.0);
+    Some(f.dark_level_dn.value + f.gain_dn_per_e.value * collected_e)
+}

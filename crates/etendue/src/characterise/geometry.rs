@@ -1,0 +1,115 @@
+//! Projection and distortion: from views of a chart, by the camera model that suits them best.
+
+use super::folder::Laboratory;
+use super::kind::Kind;
+use super::parameter::Findings;
+use crate::error::Error;
+use crate::measure::views::{Found, TriedModel};
+use crate::measure::{CameraModel, ChartInput, Target, TruthInput, ViewsRequest};
+use crate::observer::Observer;
+use crate::report::{Cell, Report, Table};
+use etendue_scene::record::laboratory::ChartOfPoints;
+
+const WHAT: &str = "focal length, principal point, distortion";
+
+/// Models that are tried, the simplest first.
+const MODELS: [CameraModel; 5] =
+    [CameraModel::Pinhole, CameraModel::Radial, CameraModel::Opencv, CameraModel::Opencv5, CameraModel::KannalaBrandt];
+
+pub(super) fn measure(
+    laboratory: &Laboratory,
+    findings: &mut Findings,
+    observer: &dyn Observer,
+) -> Result<Option<Found>, Error> {
+    let shots = laboratory.shots(Kind::Chart);
+    if shots.is_empty() {
+        findings.missing(WHAT, Kind::Chart);
+        return Ok(None);
+    }
+    let stated = laboratory.stated.chart.as_ref();
+    let mosaic = shots.iter().all(|shot| shot.is_raw()) && laboratory.camera.is_mosaic();
+    let chart = ChartInput {
+        target: stated.and_then(|chart| chart.target.as_ref()).map(|target| match target.value {
+            ChartOfPoints::Checkerboard => Target::Checkerboard,
+            ChartOfPoints::Dots => Target::Dots,
+        }),
+        grid: stated.and_then(|chart| chart.grid.as_ref()).map(|grid| grid.value.map(|n| n as usize)),
+        channel: laboratory.camera.channel().filter(|_| mosaic),
+        cfa: laboratory.camera.told_cfa.clone().filter(|_| mosaic),
+        truth: TruthInput { truth: laboratory.truth(Kind::Chart).filter(|_| stated.is_none()), camera: None },
+        ..ChartInput::default()
+    };
+    if stated.is_none() && chart.truth.truth.is_none() {
+        let why = "nothing states the distance of the chart's points: [chart] pitch_mm of laboratory.toml, or a truth.json beside the pictures";
+        findings.unknown(WHAT, why);
+        return Ok(None);
+    }
+    let request = ViewsRequest {
+        chart,
+        pitch_mm: stated.map(|chart| chart.pitch_mm.value),
+        pixel_pitch_um: laboratory.camera.pixel_pitch_um,
+        ..ViewsRequest::new(shots.iter().map(|shot| shot.file.clone()).collect())
+    };
+    let made = request.found_by_best_of(&MODELS, request.options(), observer);
+    let Some((found, tried)) = findings.attempt(WHAT, made)? else { return Ok(None) };
+    let mut report = Report::new("calibrate", "camera from views of a plane chart, least squares of all points");
+    found.add_to(&mut report, &request);
+    report.table(models(&tried));
+    findings.part("Projection and distortion", Kind::Chart, report);
+    tell(&found, laboratory, findings);
+    Ok(Some(found))
+}
+
+fn tell(found: &Found, laboratory: &Laboratory, findings: &mut Findings) {
+    if laboratory.camera.pixel_pitch_um.is_none() {
+        findings.unknown(
+            "focal length in millimetres",
+            "nothing states the pixels' pitch: pixel_pitch_um of laboratory.toml",
+        );
+    }
+    for parameter in &found.camera.parameters {
+        let name = parameter.name;
+        let (key, unit) = (format!("lens.projection.{name}"), if name.ends_with("_px") { "px" } else { "" });
+        let label = match name {
+            "fx_px" => "principal distance, columns".to_owned(),
+            "fy_px" => "principal distance, rows".to_owned(),
+            "cx_px" => "principal point, column".to_owned(),
+            "cy_px" => "principal point, row".to_owned(),
+            _ => format!("{name} ({})", found.model),
+        };
+        findings.found(Kind::Chart, &key, &label, unit, parameter.estimate);
+        if let Some(pitch_um) = laboratory.camera.pixel_pitch_um.filter(|_| name == "fx_px") {
+            let mm = parameter.estimate.scaled(0.001 * pitch_um);
+            findings.found(Kind::Chart, "lens.principal_distance_mm", "principal distance", "mm", mm);
+        }
+    }
+}
+
+/// How well each model fits.
+fn models(tried: &[TriedModel]) -> Table {
+    let least = tried.iter().filter(|t| t.whole).map(|t| t.information).fold(f64::INFINITY, f64::min);
+    let row = |t: &TriedModel| {
+        let verdict = match (t.whole, t.information == least) {
+            (false, _) => "folds the picture over",
+            (true, true) => "taken",
+            (true, false) => "",
+        };
+        let name = Cell::Text(t.model.name().to_owned());
+        vec![
+            name,
+            Cell::Number(t.rms_px, 5),
+            Cell::Number(1e3 * (t.information - least), 2),
+            Cell::Text(verdict.to_owned()),
+        ]
+    };
+    Table {
+        key: "models",
+        columns: vec![
+            ("model", "model"),
+            ("rms_px", "rms px"),
+            ("criterion_over_least", "criterion over the least, 10⁻³"),
+            ("verdict", ""),
+        ],
+        rows: tried.iter().map(row).collect(),
+    }
+}

@@ -1,0 +1,79 @@
+//! What is known of the camera by its pictures and by what is stated of them.
+
+use super::shot::Shot;
+use crate::error::Error;
+use etendue_scene::record;
+
+/// The stand-in for the pitch of pixels, µm, where nothing states it.
+pub(super) const PITCH_UM: f64 = 5.0;
+
+/// Of the camera.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Camera {
+    /// Maker, model and number, as far as EXIF data say.
+    pub(super) name: Option<String>,
+    pub(super) size_px: [usize; 2],
+    pub(super) pixel_pitch_um: Option<f64>,
+    pub(super) bits: Option<u64>,
+    pub(super) f_number: Option<f64>,
+    /// Colour filters as a camera file names them; "mono" where side-cars say that there are none.
+    pub(super) cfa: Option<String>,
+    /// Filters that raw pictures do not state by themselves, as measurements take them.
+    pub(super) told_cfa: Option<String>,
+    /// The reading of a saturated pixel, DN, where it is stated.
+    pub(super) white_level_dn: Option<f64>,
+}
+
+impl Camera {
+    pub(super) fn of(shots: &[Shot], stated: &record::Laboratory) -> Result<Self, Error> {
+        let first = |fact: fn(&Shot) -> Option<f64>| shots.iter().find_map(fact);
+        let said = stated.cfa.as_ref().map(|cfa| cfa.value.clone());
+        let of_exif = shots.iter().find_map(|shot| shot.exif.filters.clone());
+        let of_exif = of_exif.filter(|(columns, tile)| *columns == 2 && tile.len() == 4).map(|(_, tile)| tile);
+        let of_side_car = shots.iter().find_map(|shot| shot.raw.as_ref().map(|raw| &raw.filters.channels));
+        if let (Some(said), Some(channels)) = (&said, of_side_car) {
+            return Err(Error::input(format!(
+                "laboratory.toml: cfa = \"{said}\" has no effect: side-cars state the filters {}; remove it",
+                channels.join(", ")
+            )));
+        }
+        let told_cfa = said.or(of_exif);
+        let letters = |channels: &Vec<String>| match channels.len() {
+            1 => "mono".to_owned(),
+            _ => channels.iter().filter_map(|channel| channel.chars().next()).collect(),
+        };
+        let cfa = of_side_car.map(letters).or(told_cfa.clone()).map(|cfa| cfa.to_ascii_lowercase());
+        let words = |shot: &Shot| {
+            let parts =
+                [&shot.exif.make, &shot.exif.model, &shot.exif.serial].map(|part| part.clone().unwrap_or_default());
+            Some(parts.join(" ").split_whitespace().collect::<Vec<_>>().join(" ")).filter(|name| !name.is_empty())
+        };
+        Ok(Self {
+            name: shots.iter().find_map(words),
+            size_px: shots.first().map_or([0, 0], |shot| shot.size_px),
+            pixel_pitch_um: stated
+                .pixel_pitch_um
+                .as_ref()
+                .map(|p| p.value)
+                .or_else(|| first(|shot| shot.side_car.pixel_pitch_um)),
+            bits: stated.bits.as_ref().map(|bits| bits.value).or_else(|| shots.iter().find_map(|s| s.side_car.bits)),
+            f_number: (stated.f_number.as_ref().map(|p| p.value))
+                .or_else(|| first(|shot| shot.side_car.f_number))
+                .or_else(|| first(|shot| shot.exif.f_number)),
+            white_level_dn: first(|shot| shot.raw.as_ref().map(|raw| raw.white_level_dn))
+                .or_else(|| first(|shot| shot.exif.white_level_dn)),
+            cfa,
+            told_cfa,
+        })
+    }
+
+    /// Whether pixels have colours.
+    pub(super) fn is_mosaic(&self) -> bool {
+        self.cfa.as_ref().is_some_and(|cfa| cfa != "mono")
+    }
+
+    /// The channel that stands for the camera: green of a mosaic.
+    pub(super) fn channel(&self) -> Option<String> {
+        self.is_mosaic().then(|| "green".to_owned())
+    }
+}

@@ -1,0 +1,162 @@
+//! The report as one page that needs nothing beside it: a table of what was found, what is not known, and every measurement with its curves.
+
+use super::camera::CameraFile;
+use super::folder::Laboratory;
+use super::kind::Kind;
+use super::parameter::{Findings, Parameter, Part};
+use crate::plot::{Plot, svg};
+use crate::report::{Estimate, with_uncertainty};
+use std::fmt::Write as _;
+
+/// The look of reports.
+const STYLE: &str = include_str!("style.css");
+
+/// A text as HTML.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            _ => out.push(c),
+        }
+    }
+    out
+}
+
+pub(super) fn page(laboratory: &Laboratory, findings: &Findings, camera: &CameraFile) -> String {
+    let name = laboratory.camera.name.clone().unwrap_or_else(|| "Camera".to_owned());
+    let mut html = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
+         <title>{0} – characterisation</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n",
+        escaped(&name)
+    );
+    html += &head(laboratory);
+    html += &navigation(findings);
+    html += &parameters(findings);
+    html += &not_known(findings, camera);
+    findings.parts.iter().enumerate().for_each(|(i, part)| html += &measurement(i, part));
+    let _ = write!(
+        html,
+        "<section id=\"file\"><h2>Camera file</h2><pre>{}</pre></section>\n</main>\n</body>\n</html>\n",
+        escaped(&camera.text)
+    );
+    html
+}
+
+/// What was looked at.
+fn head(laboratory: &Laboratory) -> String {
+    let [width, height] = laboratory.camera.size_px;
+    let count = |kind: &Kind| laboratory.shots(*kind).len();
+    let kinds = Kind::ALL.iter().filter(|kind| count(kind) > 0);
+    let used = kinds.map(|kind| format!("{} × {}/", count(kind), kind.folder())).collect::<Vec<_>>().join(", ");
+    let filters = laboratory.camera.cfa.clone().unwrap_or_else(|| "unknown filters".to_owned());
+    format!("<p class=\"about\">{width} × {height} px, {}. Measured by: {used}.</p>\n", escaped(&filters))
+}
+
+fn navigation(findings: &Findings) -> String {
+    let link = |(i, part): (usize, &Part)| format!("<a href=\"#part-{i}\">{}</a>", escaped(part.title));
+    let parts: Vec<String> = findings.parts.iter().enumerate().map(link).collect();
+    format!(
+        "<nav><a href=\"#parameters\">Parameters</a> <a href=\"#not-known\">Not known</a> {} <a href=\"#file\">Camera file</a></nav>\n",
+        parts.join(" ")
+    )
+}
+
+/// Value ± expanded uncertainty (k = 2), to two digits of it.
+fn expanded(e: Estimate) -> String {
+    with_uncertainty(Estimate::new(e.value, 2.0 * e.standard_uncertainty))
+}
+
+fn parameters(findings: &Findings) -> String {
+    let mut html = "<section id=\"parameters\"><h2>Parameters</h2>\n<p>± is the expanded uncertainty: an interval of about 95 % (k = 2). \
+        What each leaves out is told at its measurement.</p>\n<table><thead><tr><th>quantity</th><th class=\"number\">value ± U</th><th>unit</th>\
+        <th class=\"number\">U, %</th><th>from</th><th>key</th></tr></thead>\n"
+        .to_owned();
+    for section in ["lens", "effects", "sensor", "isp"] {
+        let of = findings.parameters.iter().filter(|p| p.key.split('.').next() == Some(section));
+        let rows: String = of.map(parameter).collect();
+        if !rows.is_empty() {
+            let _ = writeln!(
+                html,
+                "<tbody><tr class=\"group\"><th colspan=\"6\">{}</th></tr>\n{rows}</tbody>",
+                group(section)
+            );
+        }
+    }
+    html + "</table></section>\n"
+}
+
+fn group(section: &str) -> &'static str {
+    match section {
+        "lens" => "Lens",
+        "effects" => "Point spread",
+        "sensor" => "Sensor",
+        _ => "Processing",
+    }
+}
+
+fn parameter(p: &Parameter) -> String {
+    let percent = 200.0 * p.value.standard_uncertainty / p.value.value.abs();
+    let percent = if percent < 100.0 && percent > 0.0 { format!("{percent:.2}") } else { "–".to_owned() };
+    format!(
+        "<tr><td>{}</td><td class=\"number\">{}</td><td>{}</td><td class=\"number\">{percent}</td><td>{}/</td><td><code>{}</code></td></tr>\n",
+        escaped(&p.label),
+        escaped(&expanded(p.value)),
+        escaped(p.unit),
+        p.from.folder(),
+        escaped(&p.key)
+    )
+}
+
+fn not_known(findings: &Findings, camera: &CameraFile) -> String {
+    let row = |what: &str, why: &str| format!("<tr><td>{}</td><td>{}</td></tr>\n", escaped(what), escaped(why));
+    let mut rows: String = findings.unknown.iter().map(|u| row(&u.what, &u.why)).collect();
+    if !camera.stand_ins.is_empty() {
+        let why =
+            "keys that a camera file must have and that nothing tells: stand-ins, to be replaced by hand or by a base";
+        rows += &row(&camera.stand_ins.join(", "), why);
+    }
+    if rows.is_empty() {
+        rows = row("–", "every quantity that is looked for was found");
+    }
+    format!(
+        "<section id=\"not-known\"><h2>Not known</h2>\n<table><thead><tr><th>what</th><th>why, and what would tell it</th></tr></thead>\
+         <tbody>\n{rows}</tbody></table></section>\n"
+    )
+}
+
+fn measurement(index: usize, part: &Part) -> String {
+    let report = &part.report;
+    let mut html = format!(
+        "<section id=\"part-{index}\"><h2>{}</h2>\n<p>By the pictures in {}/: {}.</p>\n",
+        escaped(part.title),
+        part.from.folder(),
+        escaped(report.method())
+    );
+    let figure = |plot: &Plot| format!("<figure>{}</figure>\n", svg(std::slice::from_ref(plot)));
+    let figures: String = report.plots().iter().map(figure).collect();
+    let _ = writeln!(html, "<div class=\"plots\">\n{figures}</div>");
+    let notes: String = report.notes().iter().map(|note| format!("<li>{}</li>", escaped(note))).collect();
+    if !notes.is_empty() {
+        let _ = writeln!(html, "<ul>{notes}</ul>");
+    }
+    let _ = writeln!(
+        html,
+        "<details><summary>All figures</summary><pre>{}</pre></details></section>",
+        escaped(&report.to_string())
+    );
+    html
+}
+
+#[cfg(test)]
+mod tests {
+    use super::escaped;
+
+    #[test]
+    fn texts_cannot_become_markup() {
+        assert_eq!(escaped("<b> & \"c\""), "&lt;b&gt; &amp; &quot;c&quot;");
+    }
+}

@@ -1,0 +1,121 @@
+//! Point spread: from slanted edges, what blurs them beyond the pixels' aperture.
+
+use super::electronics::Electronics;
+use super::fall_off::black_dn;
+use super::folder::Laboratory;
+use super::kind::Kind;
+use super::parameter::Findings;
+use super::shot::Shot;
+use crate::error::Error;
+use crate::measure::sfr::responses;
+use crate::measure::{PictureInput, Selection, SfrRequest, SignalLevels, TruthInput};
+use crate::report::{Estimate, Report};
+use etendue_metrology::sfr::{Blur, Orientation, Sfr, blur};
+
+const WHAT: &str = "point spread";
+/// Of the profile's fine detail, pixels of one colour.
+const REACH_PX: f64 = 6.0;
+
+/// Blur along rows (of edges near columns) and along columns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spread {
+    pub(super) along_rows: Option<Blur>,
+    pub(super) along_columns: Option<Blur>,
+}
+
+pub(super) fn measure(
+    laboratory: &Laboratory,
+    electronics: Option<&Electronics>,
+    findings: &mut Findings,
+) -> Result<Option<Spread>, Error> {
+    let shots = laboratory.shots(Kind::Edges);
+    if shots.is_empty() {
+        findings.missing(WHAT, Kind::Edges);
+        return Ok(None);
+    }
+    let (mut all, mut first) = (Vec::new(), None);
+    for shot in shots {
+        let made = responses(&request(laboratory, electronics, shot));
+        let Some((report, edges)) = findings.attempt(WHAT, made)? else { return Ok(None) };
+        all.extend(edges);
+        first.get_or_insert(report);
+    }
+    let Some(report) = first else { return Ok(None) };
+    let of = |orientation: Orientation| {
+        let edges: Vec<&Sfr> = all.iter().filter(|edge| edge.orientation == orientation).collect();
+        blur(&edges)
+    };
+    let spread = Spread { along_rows: of(Orientation::Vertical), along_columns: of(Orientation::Horizontal) };
+    spread.tell(report, findings);
+    Ok(Some(spread))
+}
+
+fn request(laboratory: &Laboratory, electronics: Option<&Electronics>, shot: &Shot) -> SfrRequest {
+    let camera = &laboratory.camera;
+    let mosaic = shot.is_raw() && camera.is_mosaic();
+    let regions = laboratory.stated.edges.iter().flat_map(|edges| &edges.regions_px);
+    let edges: Vec<[usize; 4]> = regions.map(|region| region.value.map(|n| n as usize)).collect();
+    let truth = laboratory.truth(Kind::Edges).filter(|_| edges.is_empty());
+    let input = PictureInput {
+        selection: Selection {
+            channel: camera.channel().filter(|_| mosaic),
+            cfa: camera.told_cfa.clone().filter(|_| mosaic),
+            ..Selection::default()
+        },
+        levels: SignalLevels { black: black_dn(shot, electronics), full_scale: None },
+        truth: TruthInput { truth, camera: None },
+    };
+    let reach = if mosaic { 2.0 * REACH_PX } else { REACH_PX };
+    let pixel_pitch_um = camera.pixel_pitch_um;
+    SfrRequest {
+        edges,
+        edge_degree: 2,
+        shading_degree: 1,
+        reach_px: Some(reach),
+        pixel_pitch_um,
+        input,
+        ..SfrRequest::new(&shot.file)
+    }
+}
+
+/// Whether a blur is told from none: two standard uncertainties above 0.
+pub(super) fn told(e: Estimate) -> bool {
+    e.value > 2.0 * e.standard_uncertainty
+}
+
+impl Spread {
+    /// Blurs with their names.
+    fn blurs(&self) -> [(&'static str, &'static str, Option<Blur>); 2] {
+        [("horizontal", "along rows", self.along_rows), ("vertical", "along columns", self.along_columns)]
+    }
+
+    fn tell(&self, mut report: Report, findings: &mut Findings) {
+        for (key, along, blur) in self.blurs() {
+            let Some(blur) = blur else {
+                let what = format!("point spread {along}");
+                findings.unknown(&what, "fewer than three edges in edges/ lie across it, or they do not determine it");
+                continue;
+            };
+            let (variance, exchange) = (format!("effects.psf.variance_{key}_px2"), format!("sensor.crosstalk.{key}"));
+            findings.found(
+                Kind::Edges,
+                &variance,
+                &format!("variance of the spread {along}"),
+                "px²",
+                blur.variance_px2,
+            );
+            findings.found(Kind::Edges, &exchange, &format!("exchange with neighbours {along}"), "", blur.exchange);
+            report.fact(
+                &format!("misfit_{key}"),
+                &format!("response less that of spread and exchange {along}, largest"),
+                "",
+                blur.misfit,
+            );
+        }
+        findings.part("Response of slanted edges", Kind::Edges, report);
+        findings.unknown(
+            "point spread apart from exchange between pixels across corners",
+            "edges near rows and columns tell sums over columns and rows of neighbours only",
+        );
+    }
+}

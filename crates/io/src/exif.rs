@@ -1,0 +1,224 @@
+//! What EXIF data say of how a picture was taken: camera, exposure, aperture, colour filters, levels.
+//!
+//! Read from the APP1 segment of JPEG, the eXIf chunk of PNG, and the directories of TIFF and DNG themselves (Exif 2.32, CIPA DC-008; TIFF/EP,
+//! ISO 12234-2; Digital Negative 1.4, Adobe 2012). Only the first directory and the Exif directory that it names are looked at. Numbers that
+//! lie beyond the file, and of kinds that the tag does not have, are taken for not stated. Left out: maker notes, BigTIFF, directories of
+//! further pictures.
+
+use crate::source::read_bytes;
+use crate::{Error, png_chunks};
+use std::path::Path;
+
+/// What is stated; `None` where it is not.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Exif {
+    /// The camera's maker.
+    pub make: Option<String>,
+    /// The camera's model.
+    pub model: Option<String>,
+    /// The body's number.
+    pub serial: Option<String>,
+    /// Exposure time, s.
+    pub exposure_s: Option<f64>,
+    /// The f-number.
+    pub f_number: Option<f64>,
+    /// Sensitivity: ISO speed.
+    pub iso: Option<f64>,
+    /// Columns of the colour filters' tile, and its letters R, G, B row by row.
+    pub filters: Option<(usize, String)>,
+    /// Reading of no light, DN.
+    pub black_level_dn: Option<f64>,
+    /// Reading of saturation, DN.
+    pub white_level_dn: Option<f64>,
+}
+
+/// The EXIF data of a picture file; `None` where it has none.
+///
+/// # Errors
+/// Where the file cannot be read.
+pub fn read_exif(file: &Path) -> Result<Option<Exif>, Error> {
+    Ok(exif_of(&read_bytes(file, "picture")?))
+}
+
+/// The EXIF data in the bytes of a picture file.
+#[must_use]
+pub fn exif_of(bytes: &[u8]) -> Option<Exif> {
+    let data = match bytes {
+        [0xff, 0xd8, ..] => of_jpeg(bytes)?,
+        [0x89, b'P', b'N', b'G', ..] => png_chunks::exif(bytes)?,
+        _ => bytes,
+    };
+    Tiff::of(data).map(Tiff::exif)
+}
+
+/// The TIFF in the APP1 segment.
+fn of_jpeg(bytes: &[u8]) -> Option<&[u8]> {
+    const APP1: u8 = 0xe1;
+    const SCAN: u8 = 0xda;
+    let mut rest = bytes.get(2..)?;
+    loop {
+        let [0xff, marker, high, low, ..] = rest else { return None };
+        let length = usize::from(u16::from_be_bytes([*high, *low]));
+        let data = rest.get(4..2 + length)?;
+        match (*marker, data.strip_prefix(b"Exif\0\0")) {
+            (SCAN, _) => return None,
+            (APP1, Some(tiff)) => return Some(tiff),
+            _ => rest = rest.get(2 + length..)?,
+        }
+    }
+}
+
+/// A plain TIFF's bytes.
+#[derive(Clone, Copy)]
+struct Tiff<'a> {
+    bytes: &'a [u8],
+    big: bool,
+}
+
+/// An entry of a directory: its kind, and its value's bytes.
+struct Entry<'a> {
+    kind: u16,
+    data: &'a [u8],
+}
+
+impl<'a> Tiff<'a> {
+    fn of(bytes: &'a [u8]) -> Option<Self> {
+        match bytes {
+            [b'I', b'I', 42, 0, ..] => Some(Self { bytes, big: false }),
+            [b'M', b'M', 0, 42, ..] => Some(Self { bytes, big: true }),
+            _ => None,
+        }
+    }
+
+    fn short(self, at: usize) -> Option<u16> {
+        let two: [u8; 2] = self.bytes.get(at..at.checked_add(2)?)?.try_into().ok()?;
+        Some(if self.big { u16::from_be_bytes(two) } else { u16::from_le_bytes(two) })
+    }
+
+    fn long(self, at: usize) -> Option<u32> {
+        let four: [u8; 4] = self.bytes.get(at..at.checked_add(4)?)?.try_into().ok()?;
+        Some(if self.big { u32::from_be_bytes(four) } else { u32::from_le_bytes(four) })
+    }
+
+    fn entry(self, directory: usize, tag: u16) -> Option<Entry<'a>> {
+        const ENTRY: usize = 12;
+        let entries = usize::from(self.short(directory)?);
+        let at = (0..entries).map(|i| directory + 2 + ENTRY * i).find(|at| self.short(*at) == Some(tag))?;
+        let kind = self.short(at + 2)?;
+        let size = match kind {
+            1 | 2 | 6 | 7 => 1,
+            3 | 8 => 2,
+            4 | 9 | 11 => 4,
+            5 | 10 | 12 => 8,
+            _ => return None,
+        };
+        let length = usize::try_from(self.long(at + 4)?).ok()?.checked_mul(size)?;
+        let start = if length <= 4 { at + 8 } else { self.long(at + 8)? as usize };
+        Some(Entry { kind, data: self.bytes.get(start..start.checked_add(length)?)? })
+    }
+
+    fn text(self, directory: usize, tag: u16) -> Option<String> {
+        let entry = self.entry(directory, tag).filter(|entry| entry.kind == 2)?;
+        let text = String::from_utf8_lossy(entry.data);
+        let text: String = text.trim_end_matches('\0').trim().chars().filter(|c| !c.is_control()).collect();
+        (!text.is_empty()).then_some(text)
+    }
+
+    /// The first number of an entry.
+    fn number(self, directory: usize, tag: u16) -> Option<f64> {
+        let entry = self.entry(directory, tag)?;
+        let value = Self { bytes: entry.data, ..self };
+        let number = match entry.kind {
+            1 => f64::from(*entry.data.first()?),
+            3 => f64::from(value.short(0)?),
+            4 => f64::from(value.long(0)?),
+            5 => f64::from(value.long(0)?) / f64::from(value.long(4)?),
+            _ => return None,
+        };
+        number.is_finite().then_some(number)
+    }
+
+    fn exif(self) -> Exif {
+        const EXIF: u16 = 34_665;
+        let first = self.long(4).map_or(0, |at| at as usize);
+        // What has no Exif directory may have its entries in the first (TIFF/EP).
+        let further = self.number(first, EXIF).map_or(first, |at| at as usize);
+        let number = |tag: u16| self.number(further, tag).or_else(|| self.number(first, tag));
+        let above_zero = |tag: u16| number(tag).filter(|n| *n > 0.0);
+        Exif {
+            make: self.text(first, 271),
+            model: self.text(first, 272),
+            serial: self.text(further, 42_033).or_else(|| self.text(first, 50_735)),
+            exposure_s: above_zero(33_434),
+            f_number: above_zero(33_437),
+            iso: above_zero(34_855),
+            filters: self.filters(first),
+            black_level_dn: number(50_714),
+            white_level_dn: above_zero(50_717),
+        }
+    }
+
+    /// TIFF/EP's tile of colour filters.
+    fn filters(self, directory: usize) -> Option<(usize, String)> {
+        let columns = self.entry(directory, 33_421).filter(|e| e.kind == 3 && e.data.len() == 4)?;
+        let columns = usize::from(Self { bytes: columns.data, ..self }.short(2)?);
+        let tile = self.entry(directory, 33_422)?.data;
+        let letters: String =
+            tile.iter().map(|c| Some(*b"RGB".get(usize::from(*c))? as char)).collect::<Option<_>>()?;
+        (columns > 0 && !letters.is_empty() && letters.len().is_multiple_of(columns)).then_some((columns, letters))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A directory of a model, and an Exif directory of an exposure of 1/250 s, of either byte order.
+    fn tiff(big: bool) -> Vec<u8> {
+        let short = |v: u16| if big { v.to_be_bytes() } else { v.to_le_bytes() }.to_vec();
+        let long = |v: u32| if big { v.to_be_bytes() } else { v.to_le_bytes() }.to_vec();
+        let entry =
+            |tag: u16, kind: u16, count: u32, value: Vec<u8>| [short(tag), short(kind), long(count), value].concat();
+        let head = if big { b"MM\0\x2a".to_vec() } else { b"II\x2a\0".to_vec() };
+        [
+            head,
+            long(8),
+            short(2),
+            entry(272, 2, 3, b"X1\0\0".to_vec()),
+            entry(34_665, 4, 1, long(38)),
+            long(0),
+            short(1),
+            entry(33_434, 5, 1, long(56)),
+            long(0),
+            long(1),
+            long(250),
+        ]
+        .concat()
+    }
+
+    #[test]
+    fn exposures_are_read_from_every_kind_of_file() {
+        for big in [false, true] {
+            let plain = tiff(big);
+            let jpeg =
+                [&b"\xff\xd8\xff\xe1"[..], &(8 + plain.len() as u16).to_be_bytes(), b"Exif\0\0", &plain].concat();
+            let length = (plain.len() as u32).to_be_bytes();
+            let png = [&b"\x89PNG\r\n\x1a\n"[..], &length, b"eXIf", &plain, &[0; 4]].concat();
+            for file in [&plain, &jpeg, &png] {
+                let exif = exif_of(file).expect("data");
+                assert_eq!((exif.model.as_deref(), exif.exposure_s), (Some("X1"), Some(0.004)));
+                assert_eq!((exif.make, exif.iso), (None, None));
+            }
+        }
+    }
+
+    #[test]
+    fn cut_files_state_less_and_do_not_fail() {
+        let whole = tiff(true);
+        for length in 0..whole.len() {
+            assert!(exif_of(&whole[..length]).is_none_or(|exif| exif.exposure_s.is_none()), "{length}");
+        }
+        assert_eq!(exif_of(b"\xff\xd8\xff\xda\0\x02"), None);
+        assert_eq!(exif_of(b"no picture"), None);
+    }
+}

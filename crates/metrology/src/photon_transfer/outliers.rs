@@ -1,0 +1,140 @@
+//! Pixels of another kind: hot ones, which have far more dark current than most, and dead ones, which do not answer to light.
+//!
+//! ```text
+//! hot:   I = (ȳ_long − ȳ_short)/(K (t_long − t_short)) above T = max(6 σ_I, 10 ⟨I⟩)       σ_I: 1.4826 times the median deviation
+//!        m = Σ (min(I, C) − T)/n_below       share = n/N exp(T/m)
+//! dead:  (ȳ_bright − ȳ_dark) below half of its mean
+//! ```
+//!
+//! Additional currents are taken to be exponential, as `hot` of a camera file is: m is the maximum of the likelihood where currents above C
+//! (saturated pixels) are known to be no less (censored, Deemer & Votaw 1955), and what lies below T is added by the same law. Uncertainty: of numbers n as
+//! √n, of m as m/√n_below. Fewer than five are counted and no share is told of them.
+
+use super::Stack;
+use crate::Estimate;
+use etendue_core::maths::f64::exp;
+
+/// Fewer tell no share.
+pub const FEWEST: usize = 5;
+/// The standard deviation of a normal distribution over its median magnitude.
+const NORMAL: f64 = 1.482_602_2;
+
+/// Pixels far from the others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outliers {
+    /// Columns and rows of the stack, from 0.
+    pub places: Vec<[usize; 2]>,
+    /// Their part of all pixels; `None` of fewer than [`FEWEST`].
+    pub share: Option<Estimate>,
+    /// Hot ones: mean of their additional current, e⁻/s.
+    pub mean_e_s: Option<Estimate>,
+    /// The limit beyond which a pixel was counted: e⁻/s, or a part of the mean response.
+    pub limit: f64,
+    /// Hot ones: what their additional currents add to the mean current of all pixels, e⁻/s.
+    pub added_e_s: f64,
+    /// Spread of the other pixels' currents, e⁻/s, noise included: 1.4826 times their median deviation.
+    pub spread_e_s: f64,
+}
+
+/// Hot pixels, by the averages of stacks without light of a long and a short exposure, s.
+#[must_use]
+pub fn hot_pixels(
+    (long, long_s): (&Stack, f64),
+    (short, short_s): (&Stack, f64),
+    gain_dn_per_e: f64,
+    full_scale_dn: Option<f64>,
+) -> Option<Outliers> {
+    let per_dn = 1.0 / (gain_dn_per_e * (long_s - short_s));
+    if !(per_dn.is_finite() && per_dn > 0.0) || long.width() != short.width() || long.height() != short.height() {
+        return None;
+    }
+    let (long_dn, short_dn) = (long.average(), short.average());
+    let currents: Vec<f64> = long_dn.iter().zip(&short_dn).map(|(l, s)| per_dn * (l - s)).collect();
+    let mut sorted = currents.clone();
+    let middle = median(&mut sorted);
+    let mut off: Vec<f64> = currents.iter().map(|i| (i - middle).abs()).collect();
+    let spread_e_s = NORMAL * median(&mut off);
+    let limit = middle + (6.0 * spread_e_s).max(10.0 * middle.max(0.0));
+    let is_full = |i: usize| full_scale_dn.is_some_and(|full| long_dn[i] >= 0.98 * full);
+    let found: Vec<usize> = (0..currents.len()).filter(|i| currents[*i] > limit).collect();
+    let below = found.iter().filter(|i| !is_full(**i)).count();
+    let places = found.iter().map(|i| [i % long.width(), i / long.width()]).collect();
+    let added_e_s = found.iter().map(|i| currents[*i] - middle).sum::<f64>() / currents.len() as f64;
+    let none = Outliers { places, share: None, mean_e_s: None, limit, added_e_s, spread_e_s };
+    if below < FEWEST {
+        return Some(none);
+    }
+    let excess: f64 = found.iter().map(|i| currents[*i] - limit).sum();
+    let mean = excess / below as f64;
+    let u_mean = mean / (below as f64).sqrt();
+    let all = found.len() as f64;
+    let share = all / currents.len() as f64 * exp(limit / mean);
+    let u_share = share * (1.0 / all + (limit * u_mean / (mean * mean)) * (limit * u_mean / (mean * mean))).sqrt();
+    let (share, mean_e_s) = (Some(Estimate::new(share, u_share)), Some(Estimate::new(mean, u_mean)));
+    Some(Outliers { share, mean_e_s, ..none })
+}
+
+/// Dead pixels, by the averages of stacks with light and without.
+#[must_use]
+pub fn dead_pixels(dark: &Stack, bright: &Stack) -> Outliers {
+    const HALF: f64 = 0.5;
+    let signal: Vec<f64> = bright.average().iter().zip(&dark.average()).map(|(b, d)| b - d).collect();
+    let mean = signal.iter().sum::<f64>() / signal.len() as f64;
+    let found = (0..signal.len()).filter(|i| signal[*i] < HALF * mean);
+    let places: Vec<[usize; 2]> = found.map(|i| [i % dark.width(), i / dark.width()]).collect();
+    let (count, all) = (places.len() as f64, signal.len() as f64);
+    let share = (places.len() >= FEWEST).then(|| Estimate::new(count / all, count.sqrt() / all));
+    Outliers { places, share, mean_e_s: None, limit: HALF, added_e_s: 0.0, spread_e_s: 0.0 }
+}
+
+/// The median; sorts.
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Image;
+    use etendue_core::maths::f64::ln;
+
+    fn stack(values: &[f64], width: usize) -> Stack {
+        let image = Image::from_samples(width, values.len() / width, values.iter().map(|v| *v as f32).collect());
+        let mut stack = Stack::new(width, values.len() / width);
+        stack.push(&image.expect("a rectangle")).expect("a frame");
+        stack
+    }
+
+    #[test]
+    fn hot_pixels_have_their_share_and_mean_although_some_are_saturated() {
+        const COUNT: usize = 40_000;
+        const HOT: usize = 400;
+        // 1 e⁻/s with some scatter, and an exponential of 2 000 e⁻/s by its quantiles; 2 s at 0.5 DN/e⁻ are 1 DN for 1 e⁻/s.
+        let quantile = |i: usize| -2000.0 * ln(1.0 - (i as f64 + 0.5) / HOT as f64);
+        let current = |i: usize| {
+            let usual = 1.0 + 0.1 * ((i * 7919 % 101) as f64 / 50.0 - 1.0);
+            if i % 100 == 0 { usual + quantile(i / 100) } else { usual }
+        };
+        let long: Vec<f64> = (0..COUNT).map(|i| (64.0 + current(i)).min(4095.0)).collect();
+        let found = hot_pixels((&stack(&long, 200), 2.5), (&stack(&[64.0; COUNT], 200), 0.5), 0.5, Some(4095.0));
+        let found = found.expect("two exposures");
+        // Those below the limit of about 10 e⁻/s are added: 0.5 % of 400.
+        assert!((390..=HOT).contains(&found.places.len()) && found.places[0] == [0, 1], "{:?}", &found.places[..2]);
+        let (share, mean) = (found.share.expect("many"), found.mean_e_s.expect("many"));
+        assert!((share.value / 0.01 - 1.0).abs() < 0.01, "{share:?}");
+        // A hundredth of the pixels adds 20 e⁻/s; what saturates is cut.
+        assert!((15.0..20.0).contains(&found.added_e_s) && found.spread_e_s < 0.2, "{found:?}");
+        assert!((mean.value / 2000.0 - 1.0).abs() < 0.02 && mean.standard_uncertainty < 120.0, "{mean:?}");
+    }
+
+    #[test]
+    fn dead_pixels_are_found_by_their_places() {
+        let mut bright = [100.0; 600];
+        [3, 77, 78, 200, 599].iter().for_each(|i| bright[*i] = 20.0);
+        let found = dead_pixels(&stack(&[10.0; 600], 30), &stack(&bright, 30));
+        assert_eq!(found.places, [[3, 0], [17, 2], [18, 2], [20, 6], [29, 19]]);
+        assert!((found.share.expect("five").value - 5.0 / 600.0).abs() < 1e-15);
+        assert_eq!(dead_pixels(&stack(&[10.0; 600], 30), &stack(&[100.0; 600], 30)).share, None);
+    }
+}

@@ -1,0 +1,97 @@
+//! A laboratory file: what is known of the pictures of a laboratory folder and does not stand in them.
+
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{choice, exactly, keyed_by_name, list, number, record, text, vector, whole};
+
+record! {
+    /// What `etendue characterise` cannot read in pictures, their EXIF data or side-cars.
+    pub struct Laboratory check(check) {
+        /// Distance of the pixels' centres, µm, above 0. Default: as side-cars say.
+        optional pixel_pitch_um: Placed<f64> = number("µm").above(0.0);
+        /// Bits of the converter, 1 … 24. Default: as side-cars say.
+        optional bits: Placed<u64> = whole(1, 24);
+        /// The lens's f-number, 0.5 or more. Default: as side-cars or EXIF data say.
+        optional f_number: Placed<f64> = number("").at_least(0.5);
+        /// Colour filters of raw pictures, a tile of two by two from the top left, row by row: "RGGB". Default: as side-cars or EXIF data say.
+        optional cfa: Placed<String> = text("four of the letters R, G and B");
+        /// Exposure times of folders of pictures that do not state their own, s, by the folder's path from the laboratory folder:
+        /// `{ "dark/long" = 4.0 }`. The longest path that fits counts.
+        many exposures_s: (Placed<String>, Placed<f64>) = keyed_by_name(number("s").at_least(0.0));
+        /// The light of the pictures in `flat/`. Default: even and steady, of unknown strength.
+        optional flat: FlatLight = record();
+        /// The chart in `chart/`. Default: as the truth.json beside the pictures says.
+        optional chart: LaboratoryChart = record();
+        /// The slanted edges in `edges/`. Default: as the truth.json beside the pictures says.
+        optional edges: LaboratoryEdges = record();
+        /// The ColorChecker in `checker/`. Default: as the truth.json beside the pictures says.
+        optional checker: LaboratoryChecker = record();
+    }
+}
+
+record! {
+    /// Light on the bare sensor, of one wavelength.
+    pub struct FlatLight {
+        /// Photons a second on the whole square of a pixel, above 0.
+        required photons_per_s: Placed<f64> = number("1/s").above(0.0);
+        /// Wavelength of the light, nm, 300 … 1 100.
+        required wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
+    }
+}
+
+choice! {
+    /// Charts of points.
+    pub enum ChartOfPoints {
+        /// Squares, dark and bright; its points are the inner corners.
+        "checkerboard" => Checkerboard,
+        /// A square grid of discs.
+        "dots" => Dots,
+    }
+}
+
+record! {
+    /// A plane chart of points.
+    pub struct LaboratoryChart {
+        /// Which. Default: whichever shows more points.
+        optional target: Placed<ChartOfPoints> = choice();
+        /// Distance of neighbouring points, mm, above 0.
+        required pitch_mm: Placed<f64> = number("mm").above(0.0);
+        /// Columns and rows of its points; of a checkerboard the inner corners. Default: as found.
+        optional grid: Placed<[f64; 2]> = vector::<2>(number("").at_least(2.0));
+    }
+}
+
+record! {
+    /// Where edges lie.
+    pub struct LaboratoryEdges {
+        /// Parts of the pictures that hold one edge each: left column, top row, columns, rows.
+        many regions_px: Placed<[f64; 4]> = list(vector::<4>(number("px").at_least(0.0)), 1);
+    }
+}
+
+record! {
+    /// Where a ColorChecker lies, lit by daylight D65.
+    pub struct LaboratoryChecker {
+        /// Middles of the four corner patches, raster coordinates, px: dark skin, bluish green, black, white.
+        required corners_px: Placed<[Placed<[f64; 2]>; 4]> = exactly(vector::<2>(number("px").at_least(0.0)));
+    }
+}
+
+/// The letters of a tile of two by two.
+fn is_tile(text: &str) -> bool {
+    text.len() == 4 && text.bytes().all(|letter| b"RGB".contains(&letter))
+}
+
+fn check(laboratory: &Laboratory, faults: &mut Faults) {
+    if let Some(cfa) = laboratory.cfa.as_ref().filter(|cfa| !is_tile(&cfa.value)) {
+        faults.add(&cfa.place, format!("\"{}\" is no tile of filters", cfa.value), "give four of R, G and B: \"RGGB\"");
+    }
+    let whole = |numbers: &[f64]| numbers.iter().all(|n| n.fract() == 0.0);
+    if let Some(grid) = laboratory.chart.as_ref().and_then(|chart| chart.grid.as_ref()).filter(|g| !whole(&g.value)) {
+        faults.add(&grid.place, format!("{:?} are no counts", grid.value), "give whole numbers");
+    }
+    let regions = laboratory.edges.iter().flat_map(|edges| &edges.regions_px);
+    for region in regions.filter(|region| !whole(&region.value)) {
+        faults.add(&region.place, format!("{:?} has a part of a pixel", region.value), "give whole numbers");
+    }
+}
