@@ -220,7 +220,9 @@ pub enum OpticsError {
         what: &'static str,
     },
     /// A lens that the route at the pupil cannot serve.
-    #[error("the route at the pupil needs one viewpoint; a {kind} has none: render it with route = \"lens\"")]
+    #[error(
+        "the route at the pupil needs one viewpoint that is known; that of a {kind} is not: render it with route = \"lens\""
+    )]
     NoPupilRoute {
         /// What the lens is.
         kind: &'static str,

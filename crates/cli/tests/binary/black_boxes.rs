@@ -216,3 +216,22 @@ fn ray_transfer_files_that_cannot_be_used_are_told() {
     let pupil = job("", sensor, &transferred("lens.json", 57.315), 1).replace("spp = 1", "route = \"pupil\"\nspp = 1");
     plan(folder.path(), &pupil).refused(&["route", "ray-transfer lens"]);
 }
+
+/// The cameras that ship with such lenses. ISET has this lens's film for infinity at 57.315 mm.
+#[test]
+fn shipped_cameras_are_measured_as_their_files_say() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let camera = root().join("scenes/cameras/ray-transfer.toml");
+    let said = etendue(["measure", "lens", &text(&camera)]).ok().out;
+    assert!(said.contains("ray-transfer lens, 99.56") && said.contains("f/2.99"), "{said}");
+    let description = std::fs::read_to_string(&camera).expect("the camera file");
+    assert!(description.contains("focus_distance_m = 25"), "{description}");
+    let (file, _) = published();
+    let far = description.replace("focus_distance_m = 25", "focus_distance_m = 1e9");
+    let far = far.replace("../lenses/dgauss28deg-zemax-poly6-raytransfer.json", &file);
+    std::fs::write(folder.path().join("far.toml"), far).expect("written");
+    let said = etendue(["measure", "lens", &text(&folder.path().join("far.toml"))]).ok().out;
+    assert!(said.contains("the sensor stands 57.31"), "{said}");
+    let said = etendue(["measure", "lens", &text(&root().join("scenes/cameras/zemax-fall-off.toml"))]).ok().out;
+    assert!(said.contains("1.0000") && said.contains("relative-illumination.txt"), "{said}");
+}

@@ -31,10 +31,17 @@ fn block<'a>(text: &'a str, kind: &str) -> Option<&'a str> {
 }
 
 fn tasks(page: &str) -> Vec<Task> {
-    let task = |text: &str| Task {
-        title: text.lines().next().expect("a title").to_owned(),
-        commands: block(text, "sh").expect("commands").to_owned(),
-        printed: block(text, "text").map_or(vec![], |lines| lines.lines().map(str::to_owned).collect()),
+    let task = |text: &str| {
+        let title = text.lines().next().expect("a title").to_owned();
+        assert!(
+            ["sh", "text"].iter().all(|kind| text.matches(&format!("```{kind}\n")).count() <= 1),
+            "{title}: one block of a kind"
+        );
+        Task {
+            title,
+            commands: block(text, "sh").expect("commands").to_owned(),
+            printed: block(text, "text").map_or(vec![], |lines| lines.lines().map(str::to_owned).collect()),
+        }
     };
     page.split("\n## ").skip(1).map(task).collect()
 }
@@ -124,5 +131,6 @@ fn the_book_has_all_its_tasks() {
         assert_eq!(tasks(&page("cookbook", name)).len(), count, "{name}");
     }
     assert!(TUTORIALS.iter().all(|name| tutorials.contains(&format!("]({name}.md)"))), "{tutorials}");
-    assert!(overview.contains("Thirty-five tasks"), "{} tasks", PAGES.iter().map(|(_, count)| count).sum::<usize>());
+    assert_eq!(PAGES.iter().map(|(_, count)| count).sum::<usize>(), 35);
+    assert!(overview.contains("Thirty-five tasks"), "{overview}");
 }

@@ -90,7 +90,7 @@ impl<'a> Listing<'a> {
             if has(&["deg"]) {
                 return Ok(FieldUnit::Degrees);
             }
-            if has(&["inch", "centimet", "(cm", "(in", "(m)"]) {
+            if has(&["inch", "centimet", "(cm", "(in)", "in inch", "(m)"]) {
                 return Err(self.fault(number, "the fields are neither in degrees nor in mm; export with a lens in mm"));
             }
             if has(&["millimet", "(mm", "in mm"]) {
@@ -108,7 +108,9 @@ impl<'a> Listing<'a> {
 pub(super) fn wavelength_nm(lines: &[(usize, &str)]) -> Option<f64> {
     const NM_PER_UM: f64 = 1000.0;
     let about = lines.iter().filter(|(_, line)| line.to_lowercase().contains("wavelength"));
-    let number = |line: &str| line.split([' ', '\t', ':', '=']).find_map(|word| word.parse::<f64>().ok());
+    // Of "Wavelength 2: 0.5876 µm" the first number is its index.
+    let stated = |line: &str| line.split_once([':', '=']).map_or(line, |(_, stated)| stated).to_owned();
+    let number = |line: &str| stated(line).split([' ', '\t']).find_map(|word| word.parse::<f64>().ok());
     about.filter_map(|(_, line)| number(line)).map(|um| um * NM_PER_UM).find(|nm| (100.0..20_000.0).contains(nm))
 }
 

@@ -94,6 +94,9 @@ fn pass(node: &Node) -> Read<(f64, PassAsset)> {
     }
 }
 
+/// Ellipses or circles of a wavelength at most: some ten times what files have.
+const MAX_REGIONS: usize = 4096;
+
 fn ellipses(pass: &Node) -> Read<PassAsset> {
     let list = |key: &str| pass.key(key)?.numbers();
     let positions = pass.key("positions")?;
@@ -102,6 +105,12 @@ fn ellipses(pass: &Node) -> Read<PassAsset> {
     let [centres_x, centres_y] = [list("centersX")?, list("centersY")?];
     if [&radii_x, &radii_y, &centres_x, &centres_y].iter().any(|other| other.len() != heights.len()) {
         return Err(Fault::at(positions.line, "expected as many radii and centres as positions"));
+    }
+    if heights.len() > MAX_REGIONS {
+        return Err(Fault::at(
+            positions.line,
+            format!("found {} positions; expected {MAX_REGIONS} at most", heights.len()),
+        ));
     }
     let rising = heights.windows(2).all(|pair| pair[1] > pair[0]);
     if heights.first() != Some(&0.0) || !rising {
@@ -117,6 +126,9 @@ fn ellipses(pass: &Node) -> Read<PassAsset> {
 
 fn circles(radii: &Node, sensitivities: &Node) -> Read<PassAsset> {
     let (values, centres) = (radii.numbers()?, sensitivities.numbers()?);
+    if values.len() > MAX_REGIONS {
+        return Err(Fault::at(radii.line, format!("found {} circles; expected {MAX_REGIONS} at most", values.len())));
+    }
     if values.len() != centres.len() || values.is_empty() || values.iter().any(|r| *r <= 0.0) {
         return Err(Fault::at(radii.line, "expected radii above 0, and as many sensitivities"));
     }

@@ -35,6 +35,9 @@ const KEYS: [&str; 8] = [
     "polynomials",
 ];
 
+/// Wavelengths of a file at most: some hundred times what files have.
+const MAX_WAVELENGTHS: usize = 512;
+
 /// Reads a ray-transfer file.
 ///
 /// # Errors
@@ -58,6 +61,10 @@ fn read(text: &str) -> Read<RayTransferAsset> {
     let items = polynomials.items().unwrap_or(std::slice::from_ref(polynomials));
     let read = |node: &Node| functions::read(node, output_offset_mm, with_dz);
     let mut transfers = items.iter().map(read).collect::<Read<Vec<_>>>()?;
+    if transfers.len() > MAX_WAVELENGTHS {
+        let told = format!("holds {} wavelengths; expected {MAX_WAVELENGTHS} at most", transfers.len());
+        return Err(Fault::at(polynomials.line, told));
+    }
     if transfers.is_empty() {
         return Err(Fault::at(polynomials.line, "holds no wavelength; expected one at least"));
     }

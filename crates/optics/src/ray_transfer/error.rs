@@ -7,7 +7,7 @@ pub enum RayTransferError {
     #[error("a polynomial has a coefficient that is not finite, or a power above 32")]
     Polynomial,
     /// A region that is none.
-    #[error("what passes is told by ellipses at heights that rise from 0, or by circles of radii above 0")]
+    #[error("the rays that pass are given by ellipses at heights that rise from 0, or by circles of radii above 0")]
     Pass,
     /// Wavelengths that do not rise.
     #[error("ray-transfer functions are of one or more rising wavelengths above 0 nm")]
@@ -22,6 +22,15 @@ pub enum RayTransferError {
         sensor_mm: f64,
         /// Where the input plane is, mm.
         plane_mm: f64,
+    },
+    /// A sensor at or behind the plane on which it is said which rays pass.
+    #[error(
+        "the plane on which the file says which rays pass lies at or behind a sensor {sensor_mm} mm behind the last surface: give a larger distance, or \
+         correct \"intersectPlaneDistance\""
+    )]
+    PassPlane {
+        /// Where the sensor stands, mm.
+        sensor_mm: f64,
     },
     /// The middle of the sensor is dark.
     #[error(

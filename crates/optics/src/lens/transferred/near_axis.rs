@@ -24,13 +24,15 @@ pub(super) struct NearAxis {
     pub(super) vergence_per_mm: f64,
 }
 
-/// Fields of the chief rays, of the reach of the functions.
-const FIELDS: [f64; 5] = [0.02, 0.04, 0.06, 0.08, 0.1];
+/// Fields of the chief rays, of the reach of the functions: nearer to the axis the fit's errors of where ellipses lie are as large as what is looked for.
+const FIELDS: [f64; 5] = [0.1, 0.2, 0.3, 0.4, 0.5];
+/// Heights of the rays that tell the focal length, of the bundle's radius on the axis.
+const HEIGHTS: [f64; 5] = [0.04, 0.08, 0.12, 0.16, 0.2];
 /// Zones of the bundle on the axis, of its radius: the middles of equal areas.
 const ZONES: usize = 16;
 const RIM: usize = 32;
-/// Places of the sensor that are looked at for a focus, in focal lengths from the input plane.
-const FARTHEST: f64 = 6.0;
+/// The farthest place of the sensor that is looked at for a focus, in focal lengths from the input plane.
+const MAX_SENSOR_DISTANCE: f64 = 6.0;
 const HALVINGS: usize = 80;
 
 impl NearAxis {
@@ -41,6 +43,9 @@ impl NearAxis {
             return Err(RayTransferError::SensorTooNear { sensor_mm, plane_mm });
         }
         let dark = || RayTransferError::Dark { sensor_mm };
+        if transfer.pupil_distance_mm(sensor_mm) <= 0.0 {
+            return Err(RayTransferError::PassPlane { sensor_mm });
+        }
         let sight = Sight { transfer, sensor_mm, of: Some(transfer.nearest(PRINCIPAL_NM)) };
         let known_mm = transfer.transfers()[transfer.nearest(PRINCIPAL_NM)].pass.greatest_height_mm();
         let chiefs = Chiefs::near(&sight, if known_mm.is_finite() { known_mm } else { reach_mm }).ok_or_else(dark)?;
@@ -78,7 +83,7 @@ impl NearAxis {
         let radius_mm = transfer.transfers()[transfer.nearest(PRINCIPAL_NM)].pass.radius_on_axis_mm();
         let focal_mm = focal_length_mm(transfer, radius_mm).ok_or(RayTransferError::Powerless)?;
         let low_mm = transfer.input_offset_mm().max(0.0) + 1e-6 * focal_mm;
-        let mut places = [low_mm, low_mm + FARTHEST * focal_mm];
+        let mut places = [low_mm, low_mm + MAX_SENSOR_DISTANCE * focal_mm];
         let off = |sensor_mm: f64| Self::at(transfer, sensor_mm, reach_mm).map(|near| near.vergence_per_mm - wanted);
         // A sensor too far away may see no light, and one too near none either: the bracket is where both ends are known.
         let known: Vec<(f64, f64)> = (0..=48)
@@ -125,7 +130,7 @@ fn focal_length_mm(transfer: &RayTransfer, radius_mm: f64) -> Option<f64> {
         let ray = sight.meridian_ray(height_mm, height_mm, PRINCIPAL_NM)?;
         Some((height_mm, ray.direction.y / ray.direction.z))
     };
-    let rays: Vec<(f64, f64)> = FIELDS.iter().filter_map(|part| slope(2.0 * part * radius_mm)).collect();
+    let rays: Vec<(f64, f64)> = HEIGHTS.iter().filter_map(|part| slope(part * radius_mm)).collect();
     let squares: f64 = rays.iter().map(|(height, _)| height * height).sum();
     let turned: f64 = rays.iter().map(|(height, slope)| height * slope).sum();
     Some(-squares / turned).filter(|f| f.is_finite() && *f > 0.0)
@@ -158,7 +163,8 @@ impl Chiefs {
         }
         Some(Self {
             entrance_mm: crossings / front,
-            exit_mm: exits / behind,
+            // The sign of what is as good as infinite is the fit's error.
+            exit_mm: if behind > 0.0 { (exits / behind).abs() } else { f64::INFINITY },
             principal_distance_mm: heights / products,
         })
     }
