@@ -98,7 +98,9 @@ pub fn laboratory(
     let sensor = bare(&body).and_then(|bare| bare.sensor).ok_or_else(|| lacks(request))?;
     let bench = Bench { request, folder, existing, declared, has_frame_period, has_isp, observer };
     let mut files = vec![bench.declared.clone()];
-    files.extend(bench.even_light(&sensor)?);
+    let series = bench.even_light(&sensor);
+    // Where there is no series, there is no laboratory.
+    files.extend(series.inspect_err(|_| drop(std::fs::remove_file(&bench.declared)))?);
     files.extend(bench.long_exposures(sensor.parameters().charge.dark.mean_e_s())?);
     files.extend(bench.lens(sensor.parameters().channels.len() > 1, body.raster.width())?);
     Ok(files)

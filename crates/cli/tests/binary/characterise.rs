@@ -143,6 +143,9 @@ fn what_is_missing_is_said_and_left_out_or_a_base_s() {
     assert!(report["stand_ins"].to_string().contains("lens.f_number"), "{report:#}");
     let whole = std::fs::read_to_string(place.path().join("found.toml")).expect("a camera file");
     assert!(whole.contains("f_number = 4") && whole.contains("a stand-in: not measured"), "{whole}");
+    let amplified = text(&root().join("scenes/cameras/web-night.toml"));
+    let (ran, _) = characterised(some.path(), &["--base", &amplified]);
+    ran.refused(&["web-night.toml", "sensor.analogue_gain", "which holds it"]);
     let base = text(&root().join("scenes/cameras/ccd-mono.toml"));
     let (ran, place) = characterised(some.path(), &["--base", &base]);
     ran.ok();

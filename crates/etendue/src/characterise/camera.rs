@@ -319,7 +319,7 @@ impl Draft<'_> {
             isp.put("colour_matrix", matrix.map(list).to_vec());
             self.beside("isp.colour_matrix", format!("± {}", matrix.map(doubts).join("; ")));
         }
-        // Colours are those of what a sensor's electronics deliver.
-        (self.found.electronics.is_some() || self.based).then_some(isp)
+        // They belong to spectral responsivities, which only a base has.
+        self.based.then_some(isp)
     }
 }

@@ -94,6 +94,10 @@ fn selection(laboratory: &Laboratory, shot: &Shot) -> Selection {
 
 /// Red, green and blue in the field's middle, less the reading of no light.
 fn white(laboratory: &Laboratory, electronics: Option<&Electronics>, shot: &Shot) -> Result<[Estimate; 3], Error> {
+    if !shot.is_raw() {
+        let told = "is a developed picture, whose white balance is its development's: give the raw";
+        return Err(Error::input(format!("{}: {told}", shot.name())));
+    }
     let colours = selection(laboratory, shot).colours(&shot.file)?;
     let colours = colours.ok_or_else(|| Error::input(format!("{}: not in colour", shot.name())))?;
     let black = levels(laboratory, electronics, shot).black(&colours[1]);

@@ -32,11 +32,14 @@ pub(super) fn measure(
     };
     let input = PictureInput {
         selection: Selection {
-            channel: laboratory.camera.channel(),
-            cfa: laboratory.camera.told_cfa.clone(),
+            channel: laboratory.camera.channel().filter(|_| shot.is_raw()),
+            cfa: laboratory.camera.told_cfa.clone().filter(|_| shot.is_raw()),
             ..Selection::default()
         },
-        levels: SignalLevels { black: black_dn(shot, electronics), full_scale: laboratory.camera.white_level_dn },
+        levels: SignalLevels {
+            black: black_dn(shot, electronics),
+            full_scale: laboratory.camera.white_level_dn.filter(|_| shot.is_raw()),
+        },
         ..PictureInput::default()
     };
     let request = VignettingRequest::new(FlatFieldRequest { input, ..FlatFieldRequest::new(&shot.file) });

@@ -3,6 +3,7 @@
 //! The measurements are those of [`measure`](crate::measure), one after the other; what each finds is put into one camera file with its standard uncertainty,
 //! and what could not be known is said with the reason. docs/characterise.md tells how a folder is laid out.
 
+mod base;
 mod camera;
 mod checks;
 mod colour;
@@ -62,6 +63,7 @@ pub struct Characterisation {
 /// # Errors
 /// Where the folder cannot be used: pictures that cannot be read, of several cameras, copies, saturated flats; or where nothing at all can be found.
 pub fn characterise(request: &CharacteriseRequest, observer: &dyn Observer) -> Result<Characterisation, Error> {
+    let laid_over = request.base.as_deref().map(|file| base::open(file).map(|camera| (file, camera))).transpose()?;
     let laboratory = Laboratory::open(&request.folder, observer)?;
     let (mut findings, mut found) = (Findings::default(), Found::default());
     let f = &mut findings;
@@ -71,6 +73,14 @@ pub fn characterise(request: &CharacteriseRequest, observer: &dyn Observer) -> R
     found.geometry = geometry::measure(&laboratory, f, observer)?;
     found.spread = spread::measure(&laboratory, electronics, f)?;
     found.colour = colour::measure(&laboratory, electronics, f)?;
+    if let Some((file, camera)) = &laid_over {
+        base::refuse_what_is_measured(file, camera, &found)?;
+    } else if found.colour.is_some() {
+        f.unknown(
+            "white balance and colour matrix of the camera file",
+            "they belong to the spectral responsivities, which light of one wavelength does not tell: lay the file over one that has them (--base)",
+        );
+    }
     let lens = [Kind::Field, Kind::Chart, Kind::Edges, Kind::Checker];
     found.exposure_s = lens.iter().find_map(|kind| laboratory.shots(*kind).first()?.exposure_s);
     if findings.parameters.is_empty() {
@@ -135,6 +145,7 @@ impl Characterisation {
         let base = self.base.as_deref().map(|base| named_from(parent, base)).transpose()?;
         let camera =
             camera_file(&self.laboratory, &self.found, base.as_deref(), picture.as_ref().map(|p| (&*picture_name, p)));
+        base::check(&parent.join(format!("{stem}{}", ENDINGS[0])), &camera.text)?;
         let mut files = vec![
             (format!("{stem}{}", ENDINGS[0]), camera.text.clone().into_bytes()),
             (format!("{stem}{}", ENDINGS[1]), format!("{:#}\n", self.json(&camera)).into_bytes()),

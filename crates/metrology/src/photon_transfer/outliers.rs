@@ -68,6 +68,10 @@ pub fn hot_pixels(
     let mean = excess / below as f64;
     let u_mean = mean / (below as f64).sqrt();
     let all = found.len() as f64;
+    // A law that is followed so far below what was seen of it tells nothing.
+    if limit > mean {
+        return Some(none);
+    }
     let share = all / currents.len() as f64 * exp(limit / mean);
     let u_share = share * (1.0 / all + (limit * u_mean / (mean * mean)) * (limit * u_mean / (mean * mean))).sqrt();
     let (share, mean_e_s) = (Some(Estimate::new(share, u_share)), Some(Estimate::new(mean, u_mean)));
@@ -114,7 +118,7 @@ mod tests {
         let quantile = |i: usize| -2000.0 * ln(1.0 - (i as f64 + 0.5) / HOT as f64);
         let current = |i: usize| {
             let usual = 1.0 + 0.1 * ((i * 7919 % 101) as f64 / 50.0 - 1.0);
-            if i % 100 == 0 { usual + quantile(i / 100) } else { usual }
+            if i.is_multiple_of(100) { usual + quantile(i / 100) } else { usual }
         };
         let long: Vec<f64> = (0..COUNT).map(|i| (64.0 + current(i)).min(4095.0)).collect();
         let found = hot_pixels((&stack(&long, 200), 2.5), (&stack(&[64.0; COUNT], 200), 0.5), 0.5, Some(4095.0));
