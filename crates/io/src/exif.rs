@@ -26,8 +26,6 @@ pub struct Exif {
     pub iso: Option<f64>,
     /// Columns of the colour filters' tile, and its letters R, G, B row by row.
     pub filters: Option<(usize, String)>,
-    /// Reading of no light, DN.
-    pub black_level_dn: Option<f64>,
     /// Reading of saturation, DN.
     pub white_level_dn: Option<f64>,
 }
@@ -153,7 +151,6 @@ impl<'a> Tiff<'a> {
             f_number: above_zero(33_437),
             iso: above_zero(34_855),
             filters: self.filters(first),
-            black_level_dn: number(50_714),
             white_level_dn: above_zero(50_717),
         }
     }

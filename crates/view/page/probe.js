@@ -151,6 +151,9 @@ function rangeOf(curves) {
   return high > low ? [low, high] : Number.isFinite(low) ? [low - 0.5, low + 0.5] : [0, 1];
 }
 
+// Of layers that are smaller on the page than in the file, what was counted.
+const counted = (layer) => (layer.step > 1 ? node("caption", { class: "quiet" }, `of the page's pixels, each of which stands for ${layer.step} × ${layer.step} of the file's`) : null);
+
 // Pixels at the ends of what a number can hold.
 function clipLine(layer, planes) {
   if (layer.kind !== "picture" && layer.kind !== "raw") return null;
@@ -158,7 +161,7 @@ function clipLine(layer, planes) {
   const count = (numbers, is) => numbers.reduce((sum, v) => sum + (is(v) ? 1 : 0), 0);
   const part = (n, numbers) => `${n} (${told(100 * n / numbers.length, 3)} %)`;
   const rows = names.map((name, i) => node("tr", {}, node("th", { scope: "row" }, name || "DN"), node("td", { class: "number", "data-name": "at the top" }, part(count(planes[i], (v) => v >= top), planes[i])), node("td", { class: "number" }, part(count(planes[i], (v) => v <= 0), planes[i]))));
-  return node("table", {}, node("thead", {}, node("tr", {}, node("th"), node("th", { class: "number" }, `at ${told(top)} or more`), node("th", { class: "number" }, "at 0"))), node("tbody", {}, ...rows));
+  return node("table", {}, counted(layer), node("thead", {}, node("tr", {}, node("th"), node("th", { class: "number" }, `at ${told(top)} or more`), node("th", { class: "number" }, "at 0"))), node("tbody", {}, ...rows));
 }
 
 // Mean and root mean square of a difference, of what is finite.
@@ -174,7 +177,7 @@ function identityCounts({ layer, planes }) {
   for (const id of planes[0]) counts.set(id, (counts.get(id) ?? 0) + 1);
   const sorted = [...counts].sort((a, b) => b[1] - a[1]), names = new Map(layer.names.map(([id, name]) => [id, name]));
   const rows = sorted.slice(0, 30).map(([id, n]) => node("tr", {}, node("td", {}, `${names.get(id) || ""} (${id})`), node("td", { class: "number" }, `${n} px`), node("td", { class: "number" }, `${told(100 * n / planes[0].length, 3)} %`)));
-  return node("table", {}, node("tbody", {}, ...rows, sorted.length > 30 ? node("tr", {}, node("td", { class: "quiet" }, `and ${sorted.length - 30} more`)) : null));
+  return node("table", {}, counted(layer), node("tbody", {}, ...rows, sorted.length > 30 ? node("tr", {}, node("td", { class: "quiet" }, `and ${sorted.length - 30} more`)) : null));
 }
 
 function about() {

@@ -1,5 +1,6 @@
 //! Text within HTML, and data within its scripts.
 
+use etendue::escaped;
 use serde_json::Value;
 
 /// A page: its head, and what stands in the body. Nothing of `style` and `body` is escaped.
@@ -15,11 +16,6 @@ pub(crate) fn document(title: &str, style: &str, body: &str) -> String {
 
 /// What a page of this program has near its beginning.
 pub(crate) const GENERATOR: &str = "<meta name=\"generator\" content=\"etendue ";
-
-/// Text as HTML shows it.
-pub(crate) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
 
 /// JSON as a script may contain it, whatever names it holds.
 pub(crate) fn in_script(value: &Value) -> String {

@@ -116,6 +116,11 @@ impl Layer {
     pub(crate) fn pixel_bytes(&self) -> usize {
         self.planes.iter().map(|plane| plane.samples.width()).sum()
     }
+
+    /// Whether a pixel of a smaller layer has the mean of several; otherwise it has one of theirs.
+    pub(crate) fn has_means(&self) -> bool {
+        self.kind.has_means() && !self.planes.iter().any(|plane| matches!(plane.samples, Samples::Whole(_)))
+    }
 }
 
 impl Kind {

@@ -1,7 +1,8 @@
 //! The report of a measurement as one page: what was found, tables, plots, notes.
 
-use crate::html::{document, escaped};
+use crate::html::document;
 use etendue::Error;
+use etendue::escaped;
 use etendue::report::{Cell, Report, Table};
 use serde_json::Value;
 use std::fmt::Write as _;

@@ -177,7 +177,7 @@ impl Stand<'_> {
             "width": width,
             "height": height,
             "step": step,
-            "has_means": layer.kind.has_means(),
+            "has_means": layer.has_means(),
             "planes": planes.map(|(plane, kept)| plane_json(plane, *kept)).collect::<Vec<_>>(),
             "chunk": chunk,
             "facts": self.facts,

@@ -11,7 +11,9 @@ use crate::observer::Observer;
 use crate::report::Estimate;
 use etendue_io::emva_descriptor::DescribedLevel;
 use etendue_metrology::patch_statistics::patch_statistics;
-use etendue_metrology::photon_transfer::{FEWEST, Figures, Nonuniformity, Outliers, dead_pixels, hot_pixels};
+use etendue_metrology::photon_transfer::{
+    FEWEST, Figures, Nonuniformity, Outliers, Pattern, dead_pixels, hot_pixels, nonuniformity,
+};
 
 /// Pixels at the border have fewer neighbours to exchange light with.
 const BORDER: usize = 2;
@@ -57,6 +59,7 @@ pub(super) fn measure(
         PtcRequest { relative_light: photons_per_s.is_none(), selection: selection.clone(), ..PtcRequest::new("") };
     findings.part("Photon transfer", Kind::Flat, ptc::report(&request, &found));
     let (hot, dead) = outliers(laboratory, &groups, &found);
+    let patterns = findings.attempt("DSNU, PRNU", patterns(&found, &hot, &dead))?.flatten();
     let efficiency = match &laboratory.stated.flat {
         Some(light) => findings
             .attempt("quantum efficiency of the channels", efficiency(&selection, &flat, &found))?
@@ -70,7 +73,7 @@ pub(super) fn measure(
             .dark_current_mean_e_per_s
             .map(|mean| cool(mean, hot.as_ref(), groups[0].stack.width() * groups[0].stack.height())),
         saturated: found.data.saturation_reached(),
-        patterns: found.fixed.as_ref().map(|fixed| fixed.patterns),
+        patterns,
         hot,
         dead,
         efficiency,
@@ -127,6 +130,17 @@ fn outliers(laboratory: &Laboratory, groups: &[Group], found: &Found) -> (Option
         hot_pixels(long, short, found.figures.gain_dn_per_e.value, laboratory.camera.white_level_dn)
     });
     (hot, found.fixed.as_ref().map(|fixed| dead_pixels(&fixed.dark, &fixed.bright)))
+}
+
+/// Fixed patterns of the pixels that are neither hot nor dead: those have keys of their own.
+fn patterns(found: &Found, hot: &Option<Outliers>, dead: &Option<Outliers>) -> Result<Option<Nonuniformity>, Error> {
+    let Some(fixed) = &found.fixed else { return Ok(None) };
+    let places: Vec<[usize; 2]> =
+        [hot, dead].into_iter().flatten().flat_map(|outliers| outliers.places.clone()).collect();
+    let [dark, bright] = [&fixed.dark, &fixed.bright].map(|stack| Pattern::of(&stack.replacing(&places)));
+    let refused = |fault: etendue_metrology::photon_transfer::TransferError| Error::input(fault.to_string());
+    let gain = found.figures.gain_dn_per_e;
+    nonuniformity(&dark.map_err(refused)?, &bright.map_err(refused)?, gain, &found.data).map(Some).map_err(refused)
 }
 
 /// The mean dark current without what hot pixels add. Which pixels a specimen has, of all that are like it, is in the uncertainty.

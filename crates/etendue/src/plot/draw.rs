@@ -4,6 +4,7 @@ use super::axis::Fitted;
 use super::figure::{Colour, Mark, Plot, Series};
 use super::layout::{BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH};
 use super::legend::{Legend, ROW};
+use crate::markup::escaped;
 use std::fmt::Write as _;
 
 /// Colours that people with colour-blindness tell apart (Okabe & Ito 2008).
@@ -174,10 +175,6 @@ fn line(out: &mut String, from: (f64, f64), to: (f64, f64), colour: &str) {
 fn label(out: &mut String, at: (f64, f64), anchor: &str, text: &str) {
     let _ =
         writeln!(out, "<text x=\"{:.2}\" y=\"{:.2}\" text-anchor=\"{anchor}\">{}</text>", at.0, at.1, escaped(text));
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]

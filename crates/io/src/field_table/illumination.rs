@@ -28,7 +28,7 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<FieldTableAsset, Error> {
     if table.rows[0].numbers.len() > 2 {
         notes.push("its effective f-numbers are not used".to_owned());
     }
-    Ok(FieldTableAsset { unit, points, wavelength_nm, notes, hash: [0; 32] })
+    Ok(FieldTableAsset { unit, points, notes, hash: [0; 32] })
 }
 
 /// Field without its sign, and ratio.

@@ -20,6 +20,7 @@
 
 use super::TransferError;
 use crate::{Estimate, Image};
+use std::collections::HashSet;
 
 /// Sums over the frames of one level.
 #[derive(Clone, Debug)]
@@ -51,6 +52,13 @@ impl Sums {
             *first += value;
             *second += value * value;
         }
+    }
+
+    /// Adds to the sum of a number, whose variance stays.
+    fn shift(&mut self, i: usize, change: f64, frames: f64) {
+        let (before, after) = (self.first[i], self.first[i] + change);
+        self.first[i] = after;
+        self.second[i] += (after * after - before * before) / frames;
     }
 
     /// Unbiased variance of each number over `frames`.
@@ -152,6 +160,28 @@ impl Stack {
     pub fn average(&self) -> Vec<f64> {
         let frames = self.frames() as f64;
         self.sums.first.iter().map(|sum| sum / frames).collect()
+    }
+
+    /// The stack in which some places (column, row) have the readings of the nearest pixel of their row that is none of them. What rows, columns and frames share over time
+    /// stays as it is; a row that has no other pixel does, too.
+    #[must_use]
+    pub fn replacing(&self, places: &[[usize; 2]]) -> Self {
+        let taken: HashSet<[usize; 2]> = places.iter().copied().collect();
+        let (mut stack, frames) = (self.clone(), self.frames() as f64);
+        let mut changed = 0.0;
+        for &[x, y] in &taken {
+            let others = (0..self.width).filter(|other| !taken.contains(&[*other, y]));
+            let Some(other) = others.min_by_key(|other| other.abs_diff(x)) else { continue };
+            let (at, from) = (y * self.width + x, y * self.width + other);
+            let change = self.sums.first[from] - self.sums.first[at];
+            (stack.sums.first[at], stack.sums.second[at]) = (self.sums.first[from], self.sums.second[from]);
+            stack.rows.shift(y, change / self.width as f64, frames);
+            stack.columns.shift(x, change / self.height as f64, frames);
+            changed += change;
+        }
+        let shift = changed / (frames * (self.width * self.height) as f64);
+        stack.frame_means.iter_mut().for_each(|mean| *mean += shift);
+        stack
     }
 
     /// Mean and temporal variance.
@@ -262,6 +292,34 @@ mod tests {
         // What rows share is nearly all of it: 2 · 5²/4, less 5/64 of their averages.
         let shared = 5.0 * (1.0 - 1.0 / 64.0);
         assert!(statistics.variance_dn2.standard_uncertainty > (2.0 * shared * shared / 4.0_f64).sqrt());
+    }
+
+    /// As if the frames had been taken with the neighbour's readings there, but for what rows and columns share over time.
+    #[test]
+    fn places_take_the_readings_of_their_neighbours() {
+        let frames = [[1.0_f32, 2.0, 3.0, 40.0, 5.0, 7.0], [2.0, 5.0, 3.0, 80.0, 6.0, 6.0]];
+        let stack = |frames: &[[f32; 6]; 2]| {
+            let mut stack = Stack::new(3, 2);
+            frames.iter().for_each(|frame| stack.push(&image(3, frame)).expect("a frame"));
+            stack
+        };
+        let (found, expected) = (
+            stack(&frames).replacing(&[[0, 1]]),
+            stack(&frames.map(|mut f| {
+                f[3] = f[4];
+                f
+            })),
+        );
+        assert_eq!(found.average(), expected.average());
+        assert_eq!(found.sums.second, expected.sums.second);
+        let sums = |stack: &Stack| [stack.rows.first.clone(), stack.columns.first.clone()].concat();
+        assert!(sums(&found).iter().zip(sums(&expected)).all(|(a, b)| (a - b).abs() < 1e-12));
+        let mean = |stack: &Stack| stack.frame_means.iter().sum::<f64>();
+        assert!((mean(&found) - mean(&expected)).abs() < 1e-12);
+        let before = stack(&frames).rows.variances(2.0).collect::<Vec<_>>();
+        assert!(found.rows.variances(2.0).zip(before).all(|(a, b)| (a - b).abs() < 1e-9));
+        // A row without another pixel stays.
+        assert_eq!(stack(&frames).replacing(&[[0, 0], [1, 0], [2, 0]]).average(), stack(&frames).average());
     }
 
     #[test]

@@ -43,6 +43,7 @@ mod plausibility;
 mod prescribed;
 mod pupil_statements;
 mod rays;
+mod search;
 mod telecentric;
 mod thick;
 mod thin;

@@ -23,8 +23,6 @@ pub struct FieldTableAsset {
     pub unit: FieldUnit,
     /// Field, rising from 0, and value.
     pub points: Vec<(f64, f64)>,
-    /// For which wavelength it was computed, nm, where the file says so.
-    pub wavelength_nm: Option<f64>,
     /// What was made of the file and what was passed over, a sentence each.
     pub notes: Vec<String>,
     /// SHA-256 of the file.

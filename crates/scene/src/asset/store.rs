@@ -227,7 +227,7 @@ mod tests {
     }
 
     fn table(hash: [u8; 32]) -> FieldTableAsset {
-        FieldTableAsset { unit: FieldUnit::Degrees, points: Vec::new(), wavelength_nm: None, notes: Vec::new(), hash }
+        FieldTableAsset { unit: FieldUnit::Degrees, points: Vec::new(), notes: Vec::new(), hash }
     }
 
     fn camera(hash: [u8; 32]) -> CalibrationAsset {

@@ -4,27 +4,13 @@ use super::camera::CameraFile;
 use super::folder::Laboratory;
 use super::kind::Kind;
 use super::parameter::{Findings, Parameter, Part};
+use crate::markup::escaped;
 use crate::plot::{Plot, svg};
 use crate::report::{Estimate, with_uncertainty};
 use std::fmt::Write as _;
 
 /// The look of reports.
 const STYLE: &str = include_str!("style.css");
-
-/// A text as HTML.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            _ => out.push(c),
-        }
-    }
-    out
-}
 
 pub(super) fn page(laboratory: &Laboratory, findings: &Findings, camera: &CameraFile) -> String {
     let name = laboratory.camera.name.clone().unwrap_or_else(|| "Camera".to_owned());

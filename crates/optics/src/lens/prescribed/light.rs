@@ -2,9 +2,10 @@
 
 use super::Prescribed;
 use super::meridian::Meridian;
-use super::opening::{Opening, unit};
+use super::opening::Opening;
 use super::region::Ellipse;
 use crate::lens::gauss::GAUSS;
+use crate::lens::search::unit;
 use crate::prescription::trace::LensRay;
 use crate::pupil::{MM, concentric};
 use crate::wavelength::PRINCIPAL_NM;

@@ -8,10 +8,10 @@
 use super::bundles::{Cell, bundles};
 use super::meridian::Meridian;
 use super::quadrature::Area;
+use crate::lens::search::last_open;
 use crate::prescription::Prescription;
 use crate::prescription::indices::Media;
 use crate::prescription::trace::{Rims, Way};
-use etendue_core::maths::f64::sin_cos;
 use glam::DVec2;
 
 /// One sensor height and wavelength.
@@ -52,14 +52,7 @@ impl Opening<'_> {
         let first = scanned.or_else(|| seed.filter(|x| along(*x)))?;
         let last = (0..=SCAN).rev().find(|i| along(at(*i))).map_or(first, at);
         let step = (high - low) / SCAN as f64;
-        let edge = |inside: f64, sign: f64| {
-            let mut bracket = [inside, inside + sign * step];
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (bracket[0] + bracket[1]);
-                bracket[usize::from(!along(middle))] = middle;
-            }
-            bracket[0]
-        };
+        let edge = |inside: f64, sign: f64| last_open([inside, inside + sign * step], HALVINGS, along);
         Some([edge(first, -1.0), edge(last, 1.0)])
     }
 
@@ -69,12 +62,7 @@ impl Opening<'_> {
         let along = |r: f64| self.passes(centre + direction * r);
         let step = far / steps as f64;
         let Some(inside) = (0..steps).rev().map(|i| step * i as f64).find(|r| along(*r)) else { return 0.0 };
-        let mut bracket = [inside, inside + step];
-        for _ in 0..halvings {
-            let middle = 0.5 * (bracket[0] + bracket[1]);
-            bracket[usize::from(!along(middle))] = middle;
-        }
-        bracket[0]
+        last_open([inside, inside + step], halvings, along)
     }
 
     /// Whether what passes in the meridional plane is one piece.
@@ -152,10 +140,4 @@ fn rear_slopes(lens: &Prescription, s_mm: f64) -> [f64; 2] {
     let corners = [radius - s_mm, -radius - s_mm].map(|y| [y / near, y / far]);
     let all = corners.into_iter().flatten();
     [all.clone().fold(f64::INFINITY, f64::min), all.fold(f64::NEG_INFINITY, f64::max)]
-}
-
-/// The unit vector at an angle from the meridian.
-pub(super) fn unit(angle: f64) -> DVec2 {
-    let (s, c) = sin_cos(angle);
-    DVec2::new(c, s)
 }

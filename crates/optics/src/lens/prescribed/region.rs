@@ -12,7 +12,8 @@
 
 use super::bundles::Cell;
 use super::meridian::Meridian;
-use super::opening::{Opening, unit};
+use super::opening::Opening;
+use crate::lens::search::{lit_as_far_as, unit};
 use crate::prescription::Prescription;
 use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::PI;
@@ -78,7 +79,7 @@ impl Regions {
     /// height, where it has one. `None` where the middle of the sensor is dark.
     pub(super) fn new(lens: &Prescription, picture_mm: f64, chief: impl Fn(f64) -> Option<f64>) -> Option<Self> {
         let look = |s_mm: f64| ellipse(lens, s_mm, chief(s_mm));
-        let limit_mm = lit_as_far_as(picture_mm, |s_mm| look(s_mm).is_some())?;
+        let limit_mm = lit_as_far_as(picture_mm, 2 * INTERVALS, |s_mm| look(s_mm).is_some())?;
         let width = limit_mm / INTERVALS as f64;
         // A height that is dark between lit ones has any ellipse: nothing passes there.
         let next = |last: &mut Option<Ellipse>, i: usize| {
@@ -151,18 +152,6 @@ pub(super) fn ellipse(lens: &Prescription, s_mm: f64, chief: Option<f64>) -> Opt
         };
         Some(Ellipse { centre, axes: DVec2::new(half, across).max(DVec2::splat(1e-9)) })
     })
-}
-
-/// The greatest height up to `picture_mm` below which all heights are lit.
-fn lit_as_far_as(picture_mm: f64, lit: impl Fn(f64) -> bool) -> Option<f64> {
-    let at = |i: usize| picture_mm * i as f64 / (2 * INTERVALS) as f64;
-    let Some(dark) = (0..=2 * INTERVALS).find(|i| !lit(at(*i))) else { return Some(picture_mm) };
-    let mut bracket = [at(dark.checked_sub(1)?), at(dark)];
-    for _ in 0..30 {
-        let middle = 0.5 * (bracket[0] + bracket[1]);
-        bracket[usize::from(!lit(middle))] = middle;
-    }
-    Some(bracket[0])
 }
 
 impl Interval {

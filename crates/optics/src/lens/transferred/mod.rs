@@ -20,6 +20,7 @@ use crate::error::OpticsError;
 use crate::lens::focus::Conjugates;
 use crate::lens::gauss::GAUSS;
 use crate::lens::paraxial_properties::ParaxialProperties;
+use crate::lens::search::towards;
 use crate::pupil::{MM, concentric_disc};
 use crate::range::positive;
 use crate::ray_transfer::{RayTransfer, RayTransferError, TransferRay};
@@ -29,7 +30,7 @@ use etendue_core::maths::f64::atan2;
 use etendue_core::ray::PupilRay;
 use glam::{DVec2, DVec3};
 use near_axis::NearAxis;
-use pupils::{Oval, Pupils, towards};
+use pupils::{Oval, Pupils};
 use sight::Sight;
 
 /// Where the sensor stands.

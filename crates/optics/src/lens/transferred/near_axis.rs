@@ -1,8 +1,9 @@
 //! First-order numbers of a lens that is known by its ray-transfer functions: least squares over rays near the axis, as fits have errors of their own.
 
-use super::pupils::{Oval, towards};
+use super::pupils::Oval;
 use super::sight::Sight;
 use crate::lens::focus::Conjugates;
+use crate::lens::search::towards;
 use crate::pupil::MM;
 use crate::ray_transfer::{RayTransfer, RayTransferError};
 use crate::wavelength::PRINCIPAL_NM;

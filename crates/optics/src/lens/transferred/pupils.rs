@@ -4,8 +4,8 @@
 //! semi-axes are linear, and are stretched until the oval holds what passes at the ends of the interval and between them, plus a margin.
 
 use super::sight::Sight;
-use core::f64::consts::{PI, TAU};
-use etendue_core::maths::f64::sin_cos;
+use crate::lens::search::{lit_as_far_as, towards};
+use core::f64::consts::PI;
 use glam::DVec2;
 
 const INTERVALS: usize = 48;
@@ -41,7 +41,8 @@ pub(super) struct Proposal {
 impl Pupils {
     /// As far as `reach_mm` from the axis or the light reaches; `None` where the middle of the sensor is dark.
     pub(super) fn new(sight: &Sight<'_>, reach_mm: f64) -> Option<Self> {
-        let limit_mm = lit_as_far_as(reach_mm, |radius_mm| sight.meridional(radius_mm).is_some())?;
+        let limit_mm = lit_as_far_as(reach_mm, 2 * INTERVALS, |radius_mm| sight.meridional(radius_mm).is_some())
+            .filter(|limit_mm| *limit_mm > 0.0)?;
         let step = limit_mm / INTERVALS as f64;
         // A distance that is dark between lit ones has any oval: nothing passes there.
         let next = |last: &mut Option<Oval>, i: usize| {
@@ -109,22 +110,4 @@ impl Oval {
         let axes_mm = DVec2::new((0.5 * (most.x - least.x)).max(1e-9), across);
         Some(Self { centre_mm: 0.5 * (most.x + least.x), axes_mm })
     }
-}
-
-/// The unit vector of one of some directions.
-pub(super) fn towards(i: usize, directions: usize) -> DVec2 {
-    let (sin, cos) = sin_cos(TAU * i as f64 / directions as f64);
-    DVec2::new(cos, sin)
-}
-
-/// The greatest distance up to `reach_mm` below which all are lit.
-fn lit_as_far_as(reach_mm: f64, is_lit: impl Fn(f64) -> bool) -> Option<f64> {
-    let at = |i: usize| reach_mm * i as f64 / (2 * INTERVALS) as f64;
-    let Some(dark) = (0..=2 * INTERVALS).find(|i| !is_lit(at(*i))) else { return Some(reach_mm) };
-    let mut bracket = [at(dark.checked_sub(1)?), at(dark)];
-    for _ in 0..30 {
-        let middle = 0.5 * (bracket[0] + bracket[1]);
-        bracket[usize::from(!is_lit(middle))] = middle;
-    }
-    (bracket[0] > 0.0).then_some(bracket[0])
 }

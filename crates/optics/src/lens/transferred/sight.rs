@@ -3,6 +3,7 @@
 //! A lens of revolution is the same for all points at one distance from the axis. In the frame of such a point a point q of the pupil's plane has q.x along
 //! the meridian, away from the axis on the point's side, and q.y across it.
 
+use crate::lens::search::last_open;
 use crate::ray_transfer::{RayTransfer, TransferRay};
 use glam::DVec2;
 
@@ -17,7 +18,7 @@ pub(super) struct Sight<'a> {
 }
 
 /// Slopes, to either side, at which the pupil is looked for: 63° from the axis.
-const STEEPEST: f64 = 2.0;
+const MAX_SLOPE: f64 = 2.0;
 const SCAN: i32 = 2048;
 const HALVINGS: usize = 48;
 /// Places along a way at which its last open one is looked for.
@@ -39,12 +40,12 @@ impl Sight<'_> {
 
     /// The interval of the meridian that passes, from its first to its last point, mm; `None` where none does.
     pub(super) fn meridional(&self, radius_mm: f64) -> Option<[f64; 2]> {
-        let step = STEEPEST * self.distance_mm() / f64::from(SCAN);
+        let step = MAX_SLOPE * self.distance_mm() / f64::from(SCAN);
         let at = |i: i32| radius_mm + step * f64::from(i);
         let is_open = |x: f64| self.passes(radius_mm, DVec2::new(x, 0.0));
         let first = (-SCAN..=SCAN).map(at).find(|x| is_open(*x))?;
         let last = (-SCAN..=SCAN).rev().map(at).find(|x| is_open(*x)).unwrap_or(first);
-        let edge = |inside: f64, outside: f64| halved([inside, outside], is_open);
+        let edge = |inside: f64, outside: f64| last_open([inside, outside], HALVINGS, is_open);
         Some([edge(first, first - step), edge(last, last + step)])
     }
 
@@ -53,7 +54,7 @@ impl Sight<'_> {
         let at = |i: usize| most * i as f64 / LOOKS as f64;
         let is_open = |t: f64| self.passes(radius_mm, from + step * t);
         let last = (0..=LOOKS).rev().find(|i| is_open(at(*i)));
-        last.map_or(0.0, |i| halved([at(i), at(i + 1)], is_open))
+        last.map_or(0.0, |i| last_open([at(i), at(i + 1)], HALVINGS, is_open))
     }
 
     /// The ray of the meridian that leaves by a place of it, as its height above the axis at a distance from the sensor, and its slope; `None` where there is
@@ -67,13 +68,4 @@ impl Sight<'_> {
         ray.direction = ray.direction.normalize();
         Some(ray)
     }
-}
-
-/// The last open place between an open and a closed one.
-fn halved(mut bracket: [f64; 2], is_open: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (bracket[0] + bracket[1]);
-        bracket[usize::from(!is_open(middle))] = middle;
-    }
-    bracket[0]
 }

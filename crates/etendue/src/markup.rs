@@ -1,0 +1,7 @@
+//! Text in HTML and SVG.
+
+/// A text as it stands in HTML and SVG, in attributes too.
+#[must_use]
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,47 @@
+//! Searches for the edges of what lets light through.
+
+use core::f64::consts::TAU;
+use etendue_core::maths::f64::sin_cos;
+use glam::DVec2;
+
+/// The last open place between an open one and a closed one, by so many bisections.
+pub(super) fn last_open(mut bracket: [f64; 2], halvings: usize, is_open: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..halvings {
+        let middle = 0.5 * (bracket[0] + bracket[1]);
+        bracket[usize::from(!is_open(middle))] = middle;
+    }
+    bracket[0]
+}
+
+/// The greatest distance up to `reach_mm` below which all are lit, looked for at so many steps; `None` where the first is dark.
+pub(super) fn lit_as_far_as(reach_mm: f64, steps: usize, is_lit: impl Fn(f64) -> bool) -> Option<f64> {
+    let at = |i: usize| reach_mm * i as f64 / steps as f64;
+    let Some(dark) = (0..=steps).find(|i| !is_lit(at(*i))) else { return Some(reach_mm) };
+    Some(last_open([at(dark.checked_sub(1)?), at(dark)], 30, is_lit))
+}
+
+/// The unit vector at an angle.
+pub(super) fn unit(angle_rad: f64) -> DVec2 {
+    let (sin, cos) = sin_cos(angle_rad);
+    DVec2::new(cos, sin)
+}
+
+/// The unit vector of one of some directions all around.
+pub(super) fn towards(i: usize, directions: usize) -> DVec2 {
+    unit(TAU * i as f64 / directions as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_are_found_between_steps() {
+        assert!((last_open([1.0, 2.0], 40, |x| x < 1.3) - 1.3).abs() < 1e-10);
+        let lit = lit_as_far_as(10.0, 96, |x| x < 7.03).expect("lit at 0");
+        assert!((lit - 7.03).abs() < 1e-6, "{lit}");
+        assert_eq!(lit_as_far_as(10.0, 96, |_| true), Some(10.0));
+        assert_eq!(lit_as_far_as(10.0, 96, |_| false), None);
+        assert!((towards(1, 4) - DVec2::Y).length() < 1e-15);
+    }
+}
