@@ -18,6 +18,8 @@ pub struct RenderSettings {
     pub max_bounces: u32,
     /// Whether caustics of lamps are followed.
     pub caustics: bool,
+    /// Whether lobes are widened that come after wider ones.
+    pub regularize: bool,
     /// What lights are drawn by: "gloss" or "irradiance".
     pub light_sampling: &'static str,
     /// Side of the squares of pixels that share the tails of their paths; 1 where none do.
@@ -52,6 +54,7 @@ impl Job {
             integrator,
             max_bounces: s.max_bounces,
             caustics: s.caustics,
+            regularize: s.regularize,
             light_sampling: s.light_sampling.word(),
             path_reuse_px: s.blocks.side_px(),
             wavelengths: s.wavelengths,

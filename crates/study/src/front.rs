@@ -174,6 +174,7 @@ mod tests {
                 integrator,
                 max_bounces: 64,
                 caustics: true,
+                regularize: false,
                 path_reuse_px: 1,
                 light_sampling: "gloss",
                 wavelengths: 4,

@@ -23,7 +23,7 @@ const FEW: u32 = 2;
 const MANY: u32 = 8;
 const SEEDS: u32 = 8;
 /// Ways that a study looks at, about: what its time is shared among.
-const WAYS: f64 = 18.0;
+const WAYS: f64 = 19.0;
 /// The part of the time that pilots may have; the rest is for whole frames and for trying what is recommended.
 const PILOTS_PART: f64 = 0.7;
 /// Samples that are told of a job whose pixels get as many as their noise asks for.
@@ -173,20 +173,23 @@ impl Bench<'_> {
             integrator: Integrator::Path,
             max_bounces: stated.max_bounces.max(EXACT_BOUNCES),
             caustics: true,
+            regularize: false,
             ..stated
         };
         let bare = WayToRender { caustics: false, ..path };
         let short = |max_bounces| WayToRender { max_bounces, ..bare };
-        let less = |integrator| WayToRender { integrator, max_bounces: 1, caustics: true, path_reuse_px: 1, ..stated };
+        let widened = WayToRender { regularize: true, ..path };
+        let less = |integrator| WayToRender { integrator, max_bounces: 1, path_reuse_px: 1, ..path };
         self.keep(path, Role::Exact, None)?;
         self.keep(bare, Role::Approximation, Some(path))?;
+        self.look_at(widened, Role::Approximation, Some(path))?;
         for bounces in [16, 8, 4, 2] {
             self.look_at(short(bounces), Role::Approximation, Some(bare))?;
         }
         self.look_at(less(Integrator::Direct), Role::Approximation, Some(bare))?;
         self.look_at(less(Integrator::Flat), Role::Approximation, Some(bare))?;
         // The job's own, compared with what leaves out as little as it may beside its own omissions.
-        let against = if stated.is_exact() { None } else { Some(if stated.caustics { path } else { bare }) };
+        let against = if stated.is_exact() { None } else { Some(if stated.caustics || stated.regularize { path } else { bare }) };
         self.look_at(stated, Role::Stated, against)?;
         let own = self.ways.iter().position(|measured| measured.way == stated).expect("looked at");
         let own = self.ways.remove(own);
@@ -327,8 +330,8 @@ impl Bench<'_> {
         let stated = self.ways[0].way;
         let is_of_own = |m: &Measured| {
             m.role == Role::Choice
-                && (m.way.integrator, m.way.max_bounces, m.way.caustics)
-                    == (stated.integrator, stated.max_bounces, stated.caustics)
+                && (m.way.integrator, m.way.max_bounces, m.way.caustics, m.way.regularize)
+                    == (stated.integrator, stated.max_bounces, stated.caustics, stated.regularize)
         };
         let gains = |m: &&Measured| !is_of_own(m) || cost(m, &self.ways[0], spp, frame) < 1.0;
         self.ways.iter().filter(gains).cloned().collect()

@@ -39,6 +39,8 @@ pub struct WayToRender {
     pub max_bounces: u32,
     /// Whether caustics of lamps are followed; of paths only.
     pub caustics: bool,
+    /// Whether lobes are widened that come after wider ones; of paths only.
+    pub regularize: bool,
     /// Side of the squares of pixels that share the tails of their paths; of paths only.
     pub path_reuse_px: u32,
     /// What lights are drawn by: "gloss" or "irradiance".
@@ -61,6 +63,7 @@ impl WayToRender {
             integrator: settings.integrator,
             max_bounces: settings.max_bounces,
             caustics: settings.caustics,
+            regularize: settings.regularize,
             path_reuse_px: settings.path_reuse_px,
             light_sampling: settings.light_sampling,
             wavelengths: settings.wavelengths,
@@ -75,6 +78,7 @@ impl WayToRender {
         if self.integrator == Integrator::Path {
             keys.push(("max_bounces", self.max_bounces.to_string()));
             keys.push(("caustics", self.caustics.to_string()));
+            keys.push(("regularize", self.regularize.to_string()));
             keys.push(("path_reuse_px", self.path_reuse_px.to_string()));
         }
         keys.push(("light_sampling", format!("\"{}\"", self.light_sampling)));
@@ -106,14 +110,15 @@ impl WayToRender {
             return format!("{}, {wavelengths}{accelerator}", self.integrator.name());
         }
         let caustics = if self.caustics { "caustics" } else { "no caustics" };
+        let lobes = if self.regularize { ", widened lobes" } else { "" };
         let reuse = if self.path_reuse_px == 1 { String::new() } else { format!(", reuse {} px", self.path_reuse_px) };
-        format!("path, {} bounces, {caustics}{reuse}, {wavelengths}{accelerator}", self.max_bounces)
+        format!("path, {} bounces, {caustics}{lobes}{reuse}, {wavelengths}{accelerator}", self.max_bounces)
     }
 
     /// Whether it follows all the light that the exact form follows: it has no bias.
     #[must_use]
     pub fn is_exact(&self) -> bool {
-        self.integrator == Integrator::Path && self.caustics && self.max_bounces >= EXACT_BOUNCES
+        self.integrator == Integrator::Path && self.caustics && !self.regularize && self.max_bounces >= EXACT_BOUNCES
     }
 
     /// What it leaves out of the exact form, in words.
@@ -126,7 +131,8 @@ impl WayToRender {
                 let bounces = (self.max_bounces < EXACT_BOUNCES)
                     .then(|| format!("light after more than {} bounces", self.max_bounces));
                 let caustics = (!self.caustics).then(|| "caustics of lamps".to_owned());
-                bounces.into_iter().chain(caustics).collect::<Vec<_>>().join(" and ")
+                let lobes = self.regularize.then(|| "how narrow lobes behind wider ones are".to_owned());
+                bounces.into_iter().chain(caustics).chain(lobes).collect::<Vec<_>>().join(" and ")
             }
         }
     }
@@ -138,8 +144,16 @@ const BLIND: &str = "irradiance";
 pub(crate) const LIGHT_SAMPLINGS: [&str; 2] = ["gloss", BLIND];
 
 /// Keys of `[render]` that say a way.
-pub(crate) const WAY_KEYS: [&str; 7] =
-    ["integrator", "max_bounces", "caustics", "path_reuse_px", "light_sampling", "wavelengths_per_path", "accelerator"];
+pub(crate) const WAY_KEYS: [&str; 8] = [
+    "integrator",
+    "max_bounces",
+    "caustics",
+    "regularize",
+    "path_reuse_px",
+    "light_sampling",
+    "wavelengths_per_path",
+    "accelerator",
+];
 /// Keys of `[render]` that say how many samples there are.
 pub(crate) const SAMPLE_KEYS: [&str; 6] = ["spp", "noise_threshold", "min_spp", "max_spp", "passes", "replicates"];
 

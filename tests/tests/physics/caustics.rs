@@ -11,8 +11,10 @@ use etendue_tests::{Job, Shot};
 
 const REFLECTANCE: f64 = 0.5;
 const ELEVATION_DEG: f64 = 45.0;
+const FOLLOWED: &str = "caustics = true";
+const LEFT_OUT: &str = "caustics = false";
 
-fn shot(light: &str, caustics: bool) -> Shot {
+fn shot(light: &str, caustics: &str) -> Shot {
     Job::new(format!(
         r#"
         [[cameras]]
@@ -26,7 +28,7 @@ fn shot(light: &str, caustics: bool) -> Shot {
         spp = 2048
         replicates = 16
         max_bounces = 2
-        caustics = {caustics}
+        {caustics}
         wavelength_range_nm = [500, 600]
         band_width_nm = 100
         [[scene.materials]]
@@ -55,7 +57,7 @@ fn shot(light: &str, caustics: bool) -> Shot {
 }
 
 /// A sun over +x, 20° across so that chance finds it, of 1 W·m⁻²·nm⁻¹ in the mean over all legal wavelengths.
-fn sunlit(caustics: bool) -> (f64, f64) {
+fn sunlit(caustics: &str) -> (f64, f64) {
     let sun = format!(
         "[[scene.lights]]\ntype = \"sun\"\nname = \"sun\"\nelevation_deg = {ELEVATION_DEG}\nazimuth_deg = 0\n\
          angular_diameter_deg = 20\nirradiance_w_m2 = 800\ntemperature_k = 20000\n"
@@ -65,7 +67,7 @@ fn sunlit(caustics: bool) -> (f64, f64) {
 
 #[test]
 fn left_out_the_ground_sees_the_sun_once_and_followed_twice() {
-    let (without, with) = (sunlit(false), sunlit(true));
+    let (without, with) = (sunlit(LEFT_OUT), sunlit(FOLLOWED));
     // The normal irradiance of the band: what the wall-less ground of the same job would tell.
     let bare = etendue_spectra::illuminant::blackbody(20_000.0);
     let normal = bare.band_mean(500.0, 600.0) * 800.0 / bare.integral(300.0, 1100.0);
@@ -84,5 +86,13 @@ fn left_out_the_ground_sees_the_sun_once_and_followed_twice() {
 #[test]
 fn light_of_the_surroundings_is_kept_to_the_bit() {
     let sky = "[scene.environment]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 1\n";
-    assert_eq!(shot(sky, false).radiance().mean, shot(sky, true).radiance().mean);
+    assert_eq!(shot(sky, LEFT_OUT).radiance().mean, shot(sky, FOLLOWED).radiance().mean);
+}
+
+/// The wall's highlight widened to the breadth of the matt ground's: the light is there within a tenth, and less noisy than when chance finds it.
+#[test]
+fn widened_lobes_bring_the_light_by_many_samples() {
+    let (narrow, wide) = (sunlit(FOLLOWED), sunlit("regularize = true"));
+    assert!((wide.0 / narrow.0 - 1.0).abs() < 0.1, "{wide:?} {narrow:?}");
+    assert!(wide.1 < 0.5 * narrow.1, "{wide:?} {narrow:?}");
 }

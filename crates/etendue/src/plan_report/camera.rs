@@ -68,6 +68,8 @@ pub struct SettingsReport {
     pub max_bounces: u32,
     /// Whether caustics of lamps are followed.
     pub caustics: bool,
+    /// Whether lobes are widened that come after wider ones: a bias.
+    pub regularize: bool,
     /// Samples a pixel; the most that a pixel gets where noise decides.
     pub spp: u32,
     /// Samples that every pixel gets where noise decides; else null.
@@ -226,6 +228,7 @@ impl SettingsReport {
             },
             max_bounces: s.max_bounces,
             caustics: s.caustics && s.level == Level::Path,
+            regularize: s.regularize,
             spp: s.spp,
             min_spp: s.adaptive.map(|limit| limit.min_spp),
             noise_threshold: s.adaptive.map(|limit| limit.threshold),

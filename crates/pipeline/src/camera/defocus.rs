@@ -17,8 +17,22 @@ const MAX_MARGIN: f64 = 0.25;
 /// picture's longer side at most.
 #[must_use]
 pub fn margin_px(depth_of_field: &DepthOfField, body: &CameraBody) -> usize {
-    let most = MAX_MARGIN * body.raster.width().max(body.raster.height()) as f64;
-    depth_of_field.reach_px(&body.lens, &body.raster, NEAREST_M).min(most as usize)
+    reach_px(depth_of_field, body).min(most_px(body))
+}
+
+/// How far things at 1 m and farther blur, and the margin that is kept, px, where that is less: light from beyond it counts as the mean of what is within.
+#[must_use]
+pub fn short_margin_px(depth_of_field: &DepthOfField, body: &CameraBody) -> Option<[usize; 2]> {
+    let [reach, most] = [reach_px(depth_of_field, body), most_px(body)];
+    (reach > most).then_some([reach, most])
+}
+
+fn reach_px(depth_of_field: &DepthOfField, body: &CameraBody) -> usize {
+    depth_of_field.reach_px(&body.lens, &body.raster, NEAREST_M)
+}
+
+fn most_px(body: &CameraBody) -> usize {
+    (MAX_MARGIN * body.raster.width().max(body.raster.height()) as f64) as usize
 }
 
 /// Pixels around the picture, columns and rows: those of the effects behind the lens, and `margin_px` for depth of field.

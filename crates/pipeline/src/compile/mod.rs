@@ -19,6 +19,7 @@ mod lamp_motion;
 mod lens;
 mod light;
 mod linear_picture;
+mod margin;
 mod material;
 mod medium;
 mod modulation;
@@ -194,6 +195,7 @@ fn camera_plan(
     let body = camera::body(&setup.camera, context)?;
     let mut products = settings::products(&setup.output, &body, context);
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
+    margin::remark_reach(&setup.name, &depth_of_field, &body, context);
     let delivered = (&setup.output, &mut products);
     let (settings, passes) = settings::settings(&setup.render, &body, &depth_of_field, delivered, choices, context)?;
     effects::check_spread_by(setup.camera.effects.as_ref(), &settings.route, context);

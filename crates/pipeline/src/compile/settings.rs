@@ -1,6 +1,7 @@
 //! `[render]` and `[output]`: what is delivered, and how the light is found.
 
 use super::context::Context;
+use super::margin;
 use super::samples::{Samples, has_variance, samples};
 use super::{Choices, Quality};
 use crate::camera::behind_lens::front_on_picture;
@@ -194,7 +195,7 @@ pub(super) fn settings(
     let bands = if cube { Some(bands(render, range_nm, context)?) } else { None };
     check_size(body, &route, &Layout { bands, folded, watched: adaptive.is_some() }, context)?;
     remark_losses(products, &route, folded, body, context);
-    remark_margin(body, context);
+    margin::remark(body, context);
     remark_bands(render, cube, context);
     let level = level(render);
     let is_watched = adaptive.is_some() && route == Route::Lens;
@@ -206,6 +207,7 @@ pub(super) fn settings(
         max_bounces: max_bounces(level, render, choices),
         // Of paths only.
         caustics: level != Level::Path || render.caustics.as_ref().is_none_or(|c| c.value),
+        regularize: level == Level::Path && render.regularize.as_ref().is_some_and(|r| r.value),
         light_sampling: match render.light_sampling.as_ref().map(|sampling| sampling.value) {
             Some(render::LightSampling::Irradiance) => LightSampling::Irradiance,
             Some(render::LightSampling::Gloss) | None => LightSampling::Gloss,
@@ -296,13 +298,6 @@ fn remark_losses(products: &Products, route: &Route, folded: bool, body: &Camera
     if products.variance && products.irradiance && *route != Route::Lens {
         context
             .remark("irradiance behind a lens put on stored radiance brings no variance; the radiance does".to_owned());
-    }
-}
-
-/// Light from beyond the picture that the lens does not give.
-fn remark_margin(body: &CameraBody, context: &mut Context<'_>) {
-    if let (Ok(()), Err(error)) = (body.lens.check(&body.raster), body.lens.check(&body.film())) {
-        context.warn(format!("beyond the picture, where the effects take light from, some is missing: {error}"));
     }
 }
 

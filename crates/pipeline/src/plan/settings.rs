@@ -40,6 +40,8 @@ pub struct Settings {
     pub max_bounces: u32,
     /// Whether caustics of lamps are followed.
     pub caustics: bool,
+    /// Whether lobes are widened that come after wider ones; of paths only.
+    pub regularize: bool,
     /// What lights are drawn by.
     pub light_sampling: LightSampling,
     /// Wavelengths a path: 1, 4 or 8.

@@ -43,6 +43,11 @@ record! {
         /// camera, not between matt surfaces. Belongs to integrator = "path".
         /// Default: true.
         optional caustics: Placed<bool> = flag();
+        /// Whether lobes that come after wider ones are widened (path-space regularisation): metals, coats, glass and paint that a path meets behind a matt or
+        /// glossy surface are rougher than they are, so that lamps in them are found without rare bright samples. The picture is biased: caustics
+        /// and mirror images in what other surfaces mirror are blurred. What is seen straight is as it was. With caustics = false, light of lobes that
+        /// stay narrow (panes, sheeting, models of exponents) is left out still. Belongs to integrator = "path". Default: false.
+        optional regularize: Placed<bool> = flag();
         /// Paths of blocks of this many by this many pixels of one colour share their tails: 1 (none do), 2, 4 or 8. It takes
         /// much less time for the same error where light is scattered from surface to surface, but errors of the pixels of
         /// a block are then alike. Belongs to integrator = "path". Default: 1.
@@ -230,6 +235,7 @@ impl Render {
             integrator: None,
             max_bounces: None,
             caustics: None,
+            regularize: None,
             path_reuse_px: None,
             light_sampling: None,
             wavelengths_per_path: None,
@@ -274,6 +280,7 @@ impl Render {
         let keys = [
             ("max_bounces", self.max_bounces.as_ref().map(|b| &b.place)),
             ("caustics", self.caustics.as_ref().map(|c| &c.place)),
+            ("regularize", self.regularize.as_ref().map(|r| &r.place)),
             ("path_reuse_px", self.path_reuse_px.as_ref().map(|t| &t.place)),
         ];
         keys.into_iter().filter_map(|(key, place)| Some((key, place?)))
@@ -300,6 +307,7 @@ impl Render {
             integrator: a.integrator.or(b.integrator),
             max_bounces: a.max_bounces.or(b.max_bounces),
             caustics: a.caustics.or(b.caustics),
+            regularize: a.regularize.or(b.regularize),
             path_reuse_px: a.path_reuse_px.or(b.path_reuse_px),
             light_sampling: a.light_sampling.or(b.light_sampling),
             wavelengths_per_path: a.wavelengths_per_path.or(b.wavelengths_per_path),

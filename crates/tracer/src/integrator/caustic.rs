@@ -38,6 +38,11 @@ impl History {
         self.least = self.least.min(density);
     }
 
+    /// The least density of any scattering so far, 1/sr; infinite where all were mirrors.
+    pub(super) fn least_density(self) -> f32 {
+        self.least
+    }
+
     /// Whether the path has been scattered by anything but smooth surfaces.
     pub(super) fn is_matt(self) -> bool {
         self.matt

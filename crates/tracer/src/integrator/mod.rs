@@ -21,6 +21,7 @@ mod mis;
 mod path;
 mod path_tracer;
 mod radiance;
+mod regularize;
 mod scatter_at_particle;
 mod scatter_in_medium;
 mod settings;

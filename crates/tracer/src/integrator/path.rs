@@ -275,7 +275,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         };
         let frame = self.frame(material, &point, lookup, self.ray.direction);
         let bsdf = if E::SURFACES {
-            material_table.bsdf(material, lookup, frame.front, self.wavelengths)
+            material_table.widened_bsdf(material, lookup, (frame.front, self.least_alpha(&frame)), self.wavelengths)
         } else {
             material_table.matt_bsdf(material, self.wavelengths)
         };

@@ -44,6 +44,8 @@ pub struct PathSettings {
     /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones, and mirrors on much less glossy ones, is followed (`caustic.rs`).
     /// Without it the picture is darker by that light, and free of the rare bright samples that find it.
     pub caustics: bool,
+    /// Whether micro-facets are widened whose lobes the path would find by luck (`regularize.rs`).
+    pub regularize: bool,
     /// Whether only light counts that media scatter into the camera's rays before these meet a surface, a drop or a flake.
     pub only_airlight: bool,
 }
@@ -59,6 +61,7 @@ impl Default for PathSettings {
             strategies: Strategies::Both,
             light_sampling: LightSampling::Gloss,
             caustics: true,
+            regularize: false,
             only_airlight: false,
         }
     }

@@ -75,7 +75,7 @@ pub struct CarPaint {
     coverage: f32,
     facets: Ggx,
     coat: Coat,
-    coat_facets: Option<Ggx>,
+    coat_alpha: f32,
     place: PlaceInRows,
     inside: Inside,
 }
@@ -169,7 +169,7 @@ impl CarPaint {
         let facets = Ggx { alpha: parts.flake_alpha as f32 };
         Ok(Self {
             inside: Inside::new(facets, &coat, place),
-            coat_facets: Ggx::of(parts.coat_alpha as f32),
+            coat_alpha: parts.coat_alpha as f32,
             pigment: parts.pigment,
             flakes: parts.flakes,
             coverage: parts.coverage as f32,
@@ -207,7 +207,10 @@ impl SurfaceModel for CarPaint {
             let out = f * self.inside.out + d * turned * (1.0 - turned);
             if round > 1e-6 { (sent / (round * (1.0 - round))).min(1.0 / out) } else { 0.0 }
         });
-        CarPaintBsdf { paint: self, flakes, pigment, turned, again }
+        // Outside, what flakes send on is spread by the coat's refraction as well.
+        let facets = Ggx { alpha: self.facets.alpha.max(point.least_alpha / self.coat.n) };
+        let coat_facets = Ggx::of(point.widened(self.coat_alpha));
+        CarPaintBsdf { paint: self, facets, coat_facets, flakes, pigment, turned, again }
     }
 
     fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
@@ -246,6 +249,10 @@ pub enum CarPaintError {
 #[derive(Clone, Copy, Debug)]
 pub struct CarPaintBsdf<'a, const N: usize> {
     paint: &'a CarPaint,
+    /// The flakes' facets, in the coat.
+    facets: Ggx,
+    /// `None` for a smooth coat.
+    coat_facets: Option<Ggx>,
     /// s F.
     flakes: Spectral<N>,
     /// (1 − s) d.
@@ -283,7 +290,7 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
         let matt = self.pigment + self.round(wo.z) * self.round(wi.z) * self.again;
         let mut value_cos = self.flakes * (both * flake) + matt * (both * FRAC_1_PI * wi.z);
         let mut pdf = discrete_sampler.of(1) * flake_pdf + discrete_sampler.of(2) * cosine_hemisphere_pdf(wi.z);
-        if let Some(facets) = self.paint.coat_facets {
+        if let Some(facets) = self.coat_facets {
             let m = half_vector(wo, wi);
             value_cos += Spectral::splat(fresnel::dielectric(wo.dot(m), n) * facets.reflect(wo, wi, m));
             pdf += discrete_sampler.of(0) * facets.reflect_pdf(wo, m);
@@ -293,7 +300,7 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
 
     /// Of flakes of reflectance 1, f′ cos θᵢ for directions outside, and the density there of drawing them.
     fn flake(&self, wo: Vec3, wi: Vec3) -> (f32, f32) {
-        let (n, facets) = (self.paint.coat.n, self.paint.facets);
+        let (n, facets) = (self.paint.coat.n, self.facets);
         let (o, i) = (bent(wo, 1.0 / n, inner_cos(wo.z, n)), bent(wi, 1.0 / n, inner_cos(wi.z, n)));
         let m = half_vector(o, i);
         (facets.reflect(o, i, m) * wi.z / i.z, facets.reflect_pdf(o, m) * wi.z / (n * n * i.z))
@@ -303,7 +310,7 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
     fn sample_flake(&self, wo: Vec3, u: Vec2) -> Option<Vec3> {
         let n = self.paint.coat.n;
         let o = bent(wo, 1.0 / n, inner_cos(wo.z, n));
-        let i = mirrored(o, self.paint.facets.sample(o, u));
+        let i = mirrored(o, self.facets.sample(o, u));
         let cos = outer_cos(i.z, n).filter(|_| i.z > 0.0)?;
         Some(bent(i, n, cos))
     }
@@ -325,12 +332,12 @@ impl<const N: usize> BsdfModel<N> for CarPaintBsdf<'_, N> {
         let both = through * through / (n * n);
         let matt = self.pigment + self.round(wo.z) * self.round(wo.z) * self.again;
         // Slopes of half vectors are those inside times n cos θ′/cos θ.
-        let width = (self.paint.facets.alpha * n * inner / wo.z).min(1.0);
+        let width = (self.facets.alpha * n * inner / wo.z).min(1.0);
         let mirror = Vec3::new(-wo.x, -wo.y, wo.z);
         let peak = self.flakes.mean() * both * self.flake(wo, mirror).0;
         let flakes = GlossLobe { about: About::HalfVector, width, peak, f0: 1.0 };
         let gloss = Gloss::over(matt.mean() * both * FRAC_1_PI).with(flakes);
-        match self.paint.coat_facets {
+        match self.coat_facets {
             Some(facets) => gloss.with(facets.gloss(wo, fresnel::dielectric(1.0, n))),
             None => gloss,
         }
@@ -338,7 +345,7 @@ impl<const N: usize> BsdfModel<N> for CarPaintBsdf<'_, N> {
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let discrete_sampler = self.discrete_sampler(wo)?;
-        let wi = match (discrete_sampler.draw(choice), self.paint.coat_facets) {
+        let wi = match (discrete_sampler.draw(choice), self.coat_facets) {
             (0, Some(facets)) => mirrored(wo, facets.sample(wo, u)),
             (0, None) => {
                 let reflectance = fresnel::dielectric(wo.z, self.paint.coat.n) / discrete_sampler.of(0);

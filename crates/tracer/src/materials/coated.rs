@@ -92,7 +92,7 @@ impl SurfaceModel for Coated {
         let n2 = self.coat.n * self.coat.n;
         let inner = 1.0 - mean / n2;
         let seen = point.reflectance(&self.base).map(|a| a / (n2 * (1.0 - a * inner)));
-        let facets = Ggx::of(alpha);
+        let facets = Ggx::of(point.widened(alpha));
         CoatedBsdf { coat: &self.coat, facets, place, mean_transmittance: mean, seen_mean: seen.mean(), seen }
     }
 

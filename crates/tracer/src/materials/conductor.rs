@@ -128,7 +128,7 @@ impl SurfaceModel for Conductor {
     }
 
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> ConductorBsdf<N> {
-        let alpha = point.factor(self.alpha);
+        let alpha = point.widened(point.factor(self.alpha));
         let rough = alpha >= MIRROR_ALPHA;
         let fresnel = match &self.index {
             Index::Complex(index) => {

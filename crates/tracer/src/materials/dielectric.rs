@@ -80,7 +80,7 @@ impl SurfaceModel for Dielectric {
 
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> DielectricBsdf {
         let eta = if point.front { self.n } else { 1.0 / self.n };
-        let facets = Ggx::of(point.factor(self.alpha)).filter(|_| self.n - 1.0 >= FACETS_FROM);
+        let facets = Ggx::of(point.widened(point.factor(self.alpha))).filter(|_| self.n - 1.0 >= FACETS_FROM);
         DielectricBsdf { eta, facets }
     }
 
@@ -224,7 +224,7 @@ mod tests {
             let glass = Dielectric::new(n, alpha, None).expect("legal");
             for (cos, front) in [(1.0_f32, true), (0.3, true), (1e-4, true), (0.5, false), (1e-4, false)] {
                 let (lookup, wavelengths) = (Lookup::point(Vec2::ZERO), Wavelengths::<1>::uniform(400.0, 700.0, 0.5));
-                let point = ShadingPoint { textures: &[], lookup: &lookup, front, wavelengths: &wavelengths };
+                let point = ShadingPoint { textures: &[], lookup: &lookup, front, wavelengths: &wavelengths, least_alpha: 0.0 };
                 let bsdf = glass.resolve(&point);
                 let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
                 let cell = |i: u32| {

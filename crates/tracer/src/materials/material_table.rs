@@ -232,7 +232,22 @@ impl MaterialTable {
         front: bool,
         wavelengths: &Wavelengths<N>,
     ) -> Bsdf<'_, N> {
-        self.materials[id.0 as usize].surface.resolve(&self.point(lookup, front, wavelengths))
+        self.widened_bsdf(id, lookup, (front, 0.0), wavelengths)
+    }
+
+    /// The same with micro-facets of a roughness α of `least_alpha` at least: those of metals, coats, glass and paint, under the tables of
+    /// energy that they have by themselves. Other lobes are as they are.
+    #[must_use]
+    #[inline(always)]
+    pub(crate) fn widened_bsdf<const N: usize>(
+        &self,
+        id: MaterialId,
+        lookup: &Lookup,
+        (front, least_alpha): (bool, f32),
+        wavelengths: &Wavelengths<N>,
+    ) -> Bsdf<'_, N> {
+        let point = ShadingPoint { least_alpha, ..self.point(lookup, front, wavelengths) };
+        self.materials[id.0 as usize].surface.resolve(&point)
     }
 
     /// The same where [`MaterialTable::is_matt`].
@@ -252,6 +267,6 @@ impl MaterialTable {
         front: bool,
         wavelengths: &'p Wavelengths<N>,
     ) -> ShadingPoint<'p, N> {
-        ShadingPoint { textures: &self.textures, lookup, front, wavelengths }
+        ShadingPoint { textures: &self.textures, lookup, front, wavelengths, least_alpha: 0.0 }
     }
 }

@@ -17,6 +17,8 @@ pub(super) struct ShadingPoint<'p, const N: usize> {
     pub(super) front: bool,
     /// Wavelengths of the path, nm.
     pub(super) wavelengths: &'p Wavelengths<N>,
+    /// The least roughness α that micro-facets have here: 0 where they are as they are.
+    pub(super) least_alpha: f32,
 }
 
 impl<const N: usize> ShadingPoint<'_, N> {
@@ -24,6 +26,12 @@ impl<const N: usize> ShadingPoint<'_, N> {
     #[inline(always)]
     pub(super) fn reflectance(&self, reflectance: &Reflectance) -> Spectral<N> {
         reflectance.at(self.textures, self.lookup, self.wavelengths)
+    }
+
+    /// The roughness α of micro-facets here that have `alpha` by themselves.
+    #[inline(always)]
+    pub(super) fn widened(&self, alpha: f32) -> f32 {
+        alpha.max(self.least_alpha)
     }
 
     /// A number over the surface here, 0 to 1.

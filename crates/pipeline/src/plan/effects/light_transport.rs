@@ -19,6 +19,7 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
         later_bounces(camera, paths),
         beyond_the_limit(&camera.settings),
         caustics(camera),
+        regularization(camera),
         light_sampling(camera),
         path_reuse(camera),
         adaptive_sampling(camera),
@@ -98,6 +99,16 @@ fn caustics(camera: &CameraPlan) -> PlannedEffect {
     };
     let effect = PlannedEffect::new(GROUP, "caustics", status).described_by("render.caustics");
     effect.dropped_by([of_camera(camera, "render.caustics", "false")])
+}
+
+fn regularization(camera: &CameraPlan) -> PlannedEffect {
+    let status = where_there(
+        camera.settings.regularize,
+        "metals, coats, glass and paint that a path meets behind wider lobes are rougher than they are: a bias".to_owned(),
+        "lobes are as narrow as models say",
+    );
+    let effect = PlannedEffect::new(GROUP, "regularisation", status).described_by("render.regularize");
+    effect.dropped_by([of_camera(camera, "render.regularize", "false")])
 }
 
 fn light_sampling(camera: &CameraPlan) -> PlannedEffect {

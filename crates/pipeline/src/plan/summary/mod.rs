@@ -203,6 +203,9 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     if !s.caustics {
         line(f, "left out", "caustics of suns and lamps (light thrown by smooth surfaces on matt ones), as asked")?;
     }
+    if s.regularize {
+        line(f, "widened", "lobes of metals, coats, glass and paint behind wider ones (a bias), as asked")?;
+    }
     let cube = |bands: Bands| {
         let noise = spectrum::band_noise(camera, bands);
         format!("{} band means of {} nm are kept{noise}", bands.count(), bands.width_nm())

@@ -110,3 +110,31 @@ fn what_gloss_shows_of_a_mirror_is_left_out_in_both_ways_of_finding_it() {
     let uncertainty = with.standard_error() + without.standard_error();
     assert!(with.mean > without.mean + 5.0 * uncertainty, "{with:?} {without:?}");
 }
+
+/// What a matt floor sees of a small lamp in a ball of each glossy surface: with widened lobes, the same light however it is found, in fewer rare
+/// samples.
+#[test]
+fn widened_lobes_are_told_alike_by_both_ways_of_finding_light() {
+    let mut quieter = 0;
+    for (name, surface) in glossy_surfaces() {
+        let mut scene = Scene::default();
+        let floor = scene.material(matt(0.8), None);
+        let ball = scene.material(surface, None);
+        let lamp = scene.material(Surface::Absorber, Some((50.0, EmissionSides::Both)));
+        scene.square(Vec3::ZERO, 20.0, floor);
+        scene.sphere(DVec3::new(1.5, 0.0, 0.8), 0.7, ball);
+        scene.sphere(DVec3::new(-1.0, 0.5, 3.0), 0.4, lamp);
+        let ready = scene.ready();
+        let look = |regularize, strategies, samples| {
+            let settings = PathSettings { regularize, strategies, ..bounces(2) };
+            ready.look(&ray([-2.0, 0.0, 1.0], [0.5, 0.0, 0.0]), samples, settings)
+        };
+        let both = look(true, Strategies::Both, 2048);
+        agree(&look(true, Strategies::Scattering, 16384), &both);
+        agree(&look(true, Strategies::Lights, 4096), &both);
+        let narrow = look(false, Strategies::Both, 2048);
+        assert!(both.mean < 1.5 * narrow.mean + 5.0 * narrow.standard_error(), "{name}: {both:?} {narrow:?}");
+        quieter += u32::from(both.standard_error() < 0.7 * narrow.standard_error());
+    }
+    assert!(quieter >= 4, "{quieter} surfaces have narrow facets here");
+}

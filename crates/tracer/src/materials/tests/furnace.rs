@@ -63,3 +63,30 @@ fn car_paint_never_sends_back_more_than_arrives() {
         }
     }
 }
+
+/// What widens facets alone, and leaves the tables of energy as they are, loses light and never makes any.
+#[test]
+fn widened_facets_never_send_back_more_than_arrives() {
+    let white = [
+        ("metal", rough(&bright_metal(), 0.0, Distribution::Ggx, true)),
+        ("thin coat", paint(1.0, 1.1, 1e-3)),
+        ("coat", paint(1.0, 1.5, 0.0)),
+        ("dense coat", paint(1.0, 4.0, 0.05)),
+        ("car paint", car_paint(1.0, 1.0, 0.7, 0.1, 0.0)),
+        ("glass", glass(1.5, 0.0)),
+    ];
+    for (name, surface) in white {
+        let material_table = material_table(surface);
+        for least_alpha in [0.1, 0.26, 0.5, 1.0] {
+            let widened = material_table.widened_bsdf(MaterialId(0), &LOOKUP, (true, least_alpha), &WAVELENGTHS);
+            assert!(!widened.is_delta(), "{name}");
+            for degrees in [0.0, 40.0, 75.0, 89.0] {
+                let sent = albedos_of::<{ 1 << 18 }>(&widened, at_degrees(degrees))[0][0];
+                assert!(sent < 1.0 + ALLOWED, "{name} of {least_alpha} at {degrees}°: {sent}");
+                // Towards grazing, rough coats mirror less than smooth ones of the same table.
+                let floor = if name == "glass" { 0.0 } else if degrees > 60.0 { 0.5 } else { 0.85 };
+                assert!(sent > floor, "{name} of {least_alpha} at {degrees}°: {sent}");
+            }
+        }
+    }
+}

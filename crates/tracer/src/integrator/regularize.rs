@@ -1,0 +1,60 @@
+//! Path-space regularisation: micro-facets as wide as what a path has been scattered by.
+//!
+//! A path that a wide lobe has scattered meets the image of a lamp in a narrower one by luck alone, in a few samples as many times too bright as the
+//! second lobe is narrower. Where a caller asks for it ([`super::PathSettings::regularize`]), each lobe of micro-facets (metals, coats, paint, glass) is
+//! widened, until its density is at most [`SHARPER`] times that of the widest scattering before it (Kaplanyan and Dachsbacher, "Path space
+//! regularization for holistic and robust light transport", 2013; there after matt surfaces and of mirrors alone). What is seen straight or in mirrors is as it was;
+//! images of lamps in what other surfaces mirror are blurred, their light is kept but for what models lose at greater roughness. The mean is another
+//! one: the picture is biased.
+
+use core::f32::consts::PI;
+use etendue_core::maths::f32::cbrt;
+
+use super::effects::Effects;
+use super::path::Path;
+use crate::materials::ShadingFrame;
+
+/// How many times as dense a lobe may be as the widest scattering before it.
+const SHARPER: f32 = 4.0;
+
+/// Density of the widest scattering that counts, 1/sr: that of a matt surface along its normal. Tails of lobes and grazing directions count as this.
+const WIDEST_PER_SR: f32 = 1.0 / PI;
+
+impl<const N: usize, E: Effects> Path<'_, N, E> {
+    /// The least roughness α of micro-facets at a surface that the path has met: 0 where they are as they are.
+    #[inline(always)]
+    pub(super) fn least_alpha(&self, frame: &ShadingFrame) -> f32 {
+        if !self.tracer.settings.regularize || self.bounces == 0 {
+            return 0.0;
+        }
+        alpha_of_density(SHARPER * self.history.least_density().max(WIDEST_PER_SR), frame.wo.z)
+    }
+}
+
+/// A roughness α at which a GGX lobe's density at its axis, seen at a cosine, is at most `density`, 1/sr. The density is
+/// 1/(2π α² (cos + √(cos² + α² sin²))), and the root at least cos and, with the cosine, at least α: two bounds, of which the lower α does.
+fn alpha_of_density(density: f32, cos: f32) -> f32 {
+    let (steep, grazing) = (1.0 / (4.0 * PI * density * cos).sqrt(), cbrt(1.0 / (2.0 * PI * density)));
+    steep.min(grazing).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::materials::Ggx;
+    use glam::Vec3;
+
+    #[test]
+    fn lobes_are_no_denser_than_asked_and_not_much_wider_than_that_takes() {
+        for density in [0.4_f32, 1.3, 4.0, 30.0, 1000.0, 1e6] {
+            for cos in [1.0_f32, 0.7, 0.2, 0.03, 1e-3] {
+                let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+                let peak = |alpha| Ggx { alpha }.reflect_pdf(wo, Vec3::Z);
+                let alpha = alpha_of_density(density, cos);
+                assert!(alpha == 1.0 || peak(alpha) <= density * 1.001, "{density} {cos}: {}", peak(alpha));
+                assert!(peak(0.6 * alpha) > density || alpha < 1e-4, "{density} {cos}: {alpha}");
+            }
+        }
+        assert_eq!(alpha_of_density(f32::INFINITY, 0.5), 0.0);
+    }
+}
