@@ -189,7 +189,8 @@ impl Bench<'_> {
         self.look_at(less(Integrator::Direct), Role::Approximation, Some(bare))?;
         self.look_at(less(Integrator::Flat), Role::Approximation, Some(bare))?;
         // The job's own, compared with what leaves out as little as it may beside its own omissions.
-        let against = if stated.is_exact() { None } else { Some(if stated.caustics || stated.regularize { path } else { bare }) };
+        let against =
+            if stated.is_exact() { None } else { Some(if stated.caustics || stated.regularize { path } else { bare }) };
         self.look_at(stated, Role::Stated, against)?;
         let own = self.ways.iter().position(|measured| measured.way == stated).expect("looked at");
         let own = self.ways.remove(own);

@@ -1,7 +1,7 @@
 //! Meshes, lamps, lenses, tables, trajectories.
 
 use super::seeds::{repository, stored, write};
-use super::target::{NUMBERS as PER_NUMBER, RECORDS, TREE, Target, told};
+use super::target::{NUMBERS as PER_NUMBER, RECORDS, SCANNED, TREE, Target, told};
 use etendue_io::field_table::read_field_table;
 use etendue_io::mesh::{read_mesh, read_mesh_frame};
 use etendue_io::photometry::read_photometry;
@@ -327,7 +327,7 @@ pub(super) const FIELD_TABLE: Target = Target {
     )
 };
 pub(super) const RAY_TRANSFER: Target = Target {
-    times: TREE,
+    times: SCANNED,
     ..text_target(
         "ray-transfer",
         "a.json",

@@ -1,7 +1,7 @@
 //! Calibrated cameras of other programs.
 
 use super::seeds::{repository, stored};
-use super::target::{TREE, Target, told};
+use super::target::{SCANNED, Target, told};
 use etendue_io::calibration::{CalibrationFormat, read_calibration};
 use std::path::Path;
 
@@ -41,7 +41,7 @@ const fn target(
     prepare: fn(&Path) -> Vec<Vec<u8>>,
     read: fn(&Path) -> String,
 ) -> Target {
-    Target { name, file, prepare, read, words: WORDS, is_text: true, times: TREE, constant_bytes: 16 << 20 }
+    Target { name, file, prepare, read, words: WORDS, is_text: true, times: SCANNED, constant_bytes: 16 << 20 }
 }
 
 /// Reads the camera of every name that is tried.

@@ -34,6 +34,8 @@ impl Target {
 
 /// What a byte of a text may take as a tree with the place of every value (TOML, YAML, JSON), bytes: such files are limited to 16 MiB.
 pub(super) const TREE: u64 = 256;
+/// The same of YAML and of JSON that is read as such: braces that may be a key are scanned to their end before anything is read.
+pub(super) const SCANNED: u64 = 400;
 /// As a list of records of a lens or a lamp, whose files are limited likewise.
 pub(super) const RECORDS: u64 = 64;
 /// As numbers of a table or a mesh while they are brought into their form; vectors that grow are counted with what they grow from.

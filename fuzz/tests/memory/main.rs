@@ -54,6 +54,8 @@ fn a_reader_holds_a_stated_multiple_of_its_file() {
         ("scene", dense("format = 1\na = [", "{a=1},", "]\n")),
         ("opencv", dense("a: [", "1,", "1]\n")),
         ("kalibr", dense("cam0: [", "[1],", "1]\n")),
+        ("kalibr", format!("a: 0\n[{}0]", "0,".repeat((1 << 20) + 8)).into_bytes()),
+        ("ray-transfer", dense("{\"a\":[", "00,", "0]}")),
         ("f-theta", dense("{\"a\":[", "{},", "1]}")),
         ("side-car", dense("{\"a\":[", "[],", "1]}")),
         ("truth", dense("{\"a\":[", "[],", "1]}")),

@@ -89,10 +89,24 @@ fn light_of_the_surroundings_is_kept_to_the_bit() {
     assert_eq!(shot(sky, LEFT_OUT).radiance().mean, shot(sky, FOLLOWED).radiance().mean);
 }
 
-/// The wall's highlight widened to the breadth of the matt ground's: the light is there within a tenth, and less noisy than when chance finds it.
+/// The wall's highlight widened to some tens of degrees: a part of the light lands elsewhere (the wall ends 100 m above, and the lobe reaches over the
+/// horizon), most of it here, less noisy than when chance finds it.
 #[test]
 fn widened_lobes_bring_the_light_by_many_samples() {
-    let (narrow, wide) = (sunlit(FOLLOWED), sunlit("regularize = true"));
-    assert!((wide.0 / narrow.0 - 1.0).abs() < 0.1, "{wide:?} {narrow:?}");
+    let (without, narrow, wide) = (sunlit(LEFT_OUT), sunlit(FOLLOWED), sunlit("regularize = true"));
+    let share = (wide.0 - without.0) / (narrow.0 - without.0);
+    assert!((0.5..1.0).contains(&share), "{share}: {without:?} {narrow:?} {wide:?}");
     assert!(wide.1 < 0.5 * narrow.1, "{wide:?} {narrow:?}");
+    assert_eq!(sunlit("caustics = false\n        regularize = true"), without, "left out is left out");
+}
+
+/// Under an even sky nothing lands elsewhere: what is missing is what models lose at greater roughness.
+#[test]
+fn widened_lobes_lose_little_of_an_even_sky() {
+    let sky = "[scene.environment]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 1\n";
+    let of = |keys| mean_and_error(shot(sky, keys).radiance().estimate());
+    let (narrow, wide) = (of(FOLLOWED), of("regularize = true"));
+    // Half of the sky is seen in the wall. GGX facets of α = 0.3 to 0.5 lose 1 to 5 % by what they scatter among themselves (Kulla and Conty 2017).
+    let kept = wide.0 / narrow.0;
+    assert!((0.975..1.001).contains(&kept), "{kept}: {narrow:?} {wide:?}");
 }

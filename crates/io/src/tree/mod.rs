@@ -5,6 +5,7 @@
 
 mod fault;
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use saphyr_parser::{Event, Parser, ScalarStyle, Span, StrInput};
@@ -28,11 +29,21 @@ enum Value {
 
 /// Deeper than any such file.
 const DEEPEST: usize = 32;
+/// More values in lists than any such file has: one takes up to 800 bytes while it is read.
+const MOST_VALUES: usize = 1 << 21;
 
 /// Reads a document whose root is a map.
 pub(crate) fn parse(text: &str) -> Read<Node> {
+    let values = text.bytes().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
+    if values > MOST_VALUES {
+        return Err(Fault::at(0, format!("holds {values} values in lists; at most {MOST_VALUES} are read")));
+    }
     let header = if text.starts_with("%YAML") { text.find('\n').unwrap_or(text.len()) } else { 0 };
-    let mut events = Events { parser: Parser::new_from_str(&text[header..]) };
+    let text = as_value(&text[header..]);
+    let mut events = Events { parser: Parser::new_from_str(&text) };
+    if matches!(text, Cow::Owned(_)) {
+        while !matches!(events.next()?, (Event::Scalar(..), _)) {}
+    }
     loop {
         match events.next()? {
             (Event::StreamStart | Event::DocumentStart(_), _) => {}
@@ -45,6 +56,18 @@ pub(crate) fn parse(text: &str) -> Read<Node> {
                 };
             }
         }
+    }
+}
+
+/// A document of braces or brackets as the value of a key, on the same lines. By itself it might be a key of its own, so that the scanner would keep all
+/// tokens of it until its end, some 400 bytes a byte.
+fn as_value(text: &str) -> Cow<'_, str> {
+    let start = text.len() - text.trim_start().len();
+    if text[start..].starts_with(['{', '[']) {
+        let lines = "\n".repeat(text[..start].matches('\n').count());
+        Cow::Owned(format!("{lines}document: {}", &text[start..]))
+    } else {
+        Cow::Borrowed(text)
     }
 }
 
@@ -213,6 +236,17 @@ mod tests {
         let root = parse("{\n\t\"a\":1,\n    \"b\": [[1, 2], [3, 4.0]]\n}\n").expect("JSON");
         assert_eq!(root.key("b").expect("there").numbers().expect("numbers"), [1.0, 2.0, 3.0, 4.0]);
         assert_eq!(root.key("a").expect("there").count().expect("count"), 1);
+    }
+
+    #[test]
+    fn lines_of_json_are_those_of_the_file() {
+        let root = parse("\n\n {\"a\": 1,\n\"b\":\n[1,\n2]\n}\n").expect("JSON");
+        assert_eq!((root.line, root.key("a").expect("there").line, root.key("b").expect("there").line), (3, 3, 5));
+        assert_eq!(root.keys(), ["a", "b"]);
+        assert_eq!(parse("{\"a\": 1,\n\"a\": 2}").expect_err("twice").line, 2);
+        assert!(parse("[1, 2]").expect_err("a list").what.contains("keys"));
+        let many = format!("{{\"a\": [{}0]}}", "0,".repeat(MOST_VALUES));
+        assert!(parse(&many).expect_err("too many").what.contains("at most 2097152"));
     }
 
     #[test]

@@ -43,10 +43,10 @@ record! {
         /// camera, not between matt surfaces. Belongs to integrator = "path".
         /// Default: true.
         optional caustics: Placed<bool> = flag();
-        /// Whether lobes that come after wider ones are widened (path-space regularisation): metals, coats, glass and paint that a path meets behind a matt or
-        /// glossy surface are rougher than they are, so that lamps in them are found without rare bright samples. The picture is biased: caustics
-        /// and mirror images in what other surfaces mirror are blurred. What is seen straight is as it was. With caustics = false, light of lobes that
-        /// stay narrow (panes, sheeting, models of exponents) is left out still. Belongs to integrator = "path". Default: false.
+        /// Whether lobes that come after wider ones are widened (path-space regularisation): metals, coats, glass and paint that a path meets behind a glossy
+        /// surface (and behind a matt one where caustics are followed) are rougher than they are, so that lamps in them are found without rare bright
+        /// samples. The picture is biased: mirror images in what other surfaces mirror, and caustics, are blurred. What is seen straight or in
+        /// mirrors is as it was. Belongs to integrator = "path". Default: false.
         optional regularize: Placed<bool> = flag();
         /// Paths of blocks of this many by this many pixels of one colour share their tails: 1 (none do), 2, 4 or 8. It takes
         /// much less time for the same error where light is scattered from surface to surface, but errors of the pixels of

@@ -2,10 +2,10 @@
 //!
 //! A path that a wide lobe has scattered meets the image of a lamp in a narrower one by luck alone, in a few samples as many times too bright as the
 //! second lobe is narrower. Where a caller asks for it ([`super::PathSettings::regularize`]), each lobe of micro-facets (metals, coats, paint, glass) is
-//! widened, until its density is at most [`SHARPER`] times that of the widest scattering before it (Kaplanyan and Dachsbacher, "Path space
-//! regularization for holistic and robust light transport", 2013; there after matt surfaces and of mirrors alone). What is seen straight or in mirrors is as it was;
-//! images of lamps in what other surfaces mirror are blurred, their light is kept but for what models lose at greater roughness. The mean is another
-//! one: the picture is biased.
+//! widened, until its density is at most [`SHARE`] of that of the widest scattering before it, or [`LEAST_PER_SR`] (Kaplanyan and Dachsbacher, "Path space
+//! regularization for holistic and robust light transport", 2013; there of mirrors). What is seen straight or in mirrors is as it was; images of lamps in
+//! what other surfaces mirror are blurred, and their light is kept but for what models lose at greater roughness. The mean is another one: the picture
+//! is biased. Where caustics are left out, they still are: behind a matt surface nothing is widened then.
 
 use core::f32::consts::PI;
 use etendue_core::maths::f32::cbrt;
@@ -14,20 +14,23 @@ use super::effects::Effects;
 use super::path::Path;
 use crate::materials::ShadingFrame;
 
-/// How many times as dense a lobe may be as the widest scattering before it.
-const SHARPER: f32 = 4.0;
+/// How dense a lobe may be beside the widest scattering before it. Of 4, 1, 1/2, 0.3 and 0.2, tried on car paint that sees a wet road at 64 samples, the
+/// last two leave no speckle.
+const SHARE: f32 = 0.25;
 
-/// Density of the widest scattering that counts, 1/sr: that of a matt surface along its normal. Tails of lobes and grazing directions count as this.
-const WIDEST_PER_SR: f32 = 1.0 / PI;
+/// How dense any lobe may be, 1/sr: that of a GGX lobe of α = 0.28 along the normal.
+const LEAST_PER_SR: f32 = 1.0;
 
 impl<const N: usize, E: Effects> Path<'_, N, E> {
     /// The least roughness α of micro-facets at a surface that the path has met: 0 where they are as they are.
     #[inline(always)]
     pub(super) fn least_alpha(&self, frame: &ShadingFrame) -> f32 {
-        if !self.tracer.settings.regularize || self.bounces == 0 {
+        let settings = &self.tracer.settings;
+        let left_out = self.history.is_matt() && !settings.caustics;
+        if !settings.regularize || self.bounces == 0 || left_out {
             return 0.0;
         }
-        alpha_of_density(SHARPER * self.history.least_density().max(WIDEST_PER_SR), frame.wo.z)
+        alpha_of_density((SHARE * self.history.least_density()).max(LEAST_PER_SR), frame.wo.z)
     }
 }
 
@@ -49,7 +52,7 @@ mod tests {
         for density in [0.4_f32, 1.3, 4.0, 30.0, 1000.0, 1e6] {
             for cos in [1.0_f32, 0.7, 0.2, 0.03, 1e-3] {
                 let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
-                let peak = |alpha| Ggx { alpha }.reflect_pdf(wo, Vec3::Z);
+                let peak = |alpha| Ggx::of(alpha).map_or(f32::INFINITY, |facets| facets.reflect_pdf(wo, Vec3::Z));
                 let alpha = alpha_of_density(density, cos);
                 assert!(alpha == 1.0 || peak(alpha) <= density * 1.001, "{density} {cos}: {}", peak(alpha));
                 assert!(peak(0.6 * alpha) > density || alpha < 1e-4, "{density} {cos}: {alpha}");

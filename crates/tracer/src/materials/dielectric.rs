@@ -224,7 +224,8 @@ mod tests {
             let glass = Dielectric::new(n, alpha, None).expect("legal");
             for (cos, front) in [(1.0_f32, true), (0.3, true), (1e-4, true), (0.5, false), (1e-4, false)] {
                 let (lookup, wavelengths) = (Lookup::point(Vec2::ZERO), Wavelengths::<1>::uniform(400.0, 700.0, 0.5));
-                let point = ShadingPoint { textures: &[], lookup: &lookup, front, wavelengths: &wavelengths, least_alpha: 0.0 };
+                let point =
+                    ShadingPoint { textures: &[], lookup: &lookup, front, wavelengths: &wavelengths, least_alpha: 0.0 };
                 let bsdf = glass.resolve(&point);
                 let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
                 let cell = |i: u32| {

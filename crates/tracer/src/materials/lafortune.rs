@@ -356,8 +356,13 @@ mod tests {
         let base = Reflectance::Spectrum(Spectrum::constant(0.5));
         let model = Lafortune::new(base, vec![lobe]).expect("a matt surface");
         let (lookup, wavelengths) = (Lookup::point(Vec2::ZERO), Wavelengths::<1>::uniform(400.0, 700.0, 0.5));
-        let bsdf =
-            model.resolve(&ShadingPoint { textures: &[], lookup: &lookup, front: true, wavelengths: &wavelengths, least_alpha: 0.0 });
+        let bsdf = model.resolve(&ShadingPoint {
+            textures: &[],
+            lookup: &lookup,
+            front: true,
+            wavelengths: &wavelengths,
+            least_alpha: 0.0,
+        });
         let (wo, wi) = (Vec3::new(0.8, 0.0, 0.6), Vec3::new(-0.8, 0.0, 0.6));
         let value = bsdf.evaluate(wo, wi);
         assert!((value.value_cos[0] - 0.3 * FRAC_1_PI).abs() < 1e-7 && value.pdf > 0.0, "{value:?}");

@@ -47,6 +47,10 @@ fn other_hours() -> Vec<File> {
     let sunset = hours::job("The street in the evening sun.", "scene-sunset.toml", "automotive-evening.toml");
     let night = hours::job("The street at night.", "scene-night.toml", "automotive-night.toml");
     let wet = hours::job("The street at night after rain.", "scene-wet-night.toml", "automotive-night.toml");
+    let wet = wet.replace(
+        "caustics = false\n",
+        "caustics = false\n# Car paint sees the wet road, and the wet road car paint.\nregularize = true\n",
+    );
     let files = [
         ("scene-sunset.toml", hours::sunset_scene()),
         ("sunset.toml", sunset),

@@ -104,7 +104,8 @@ fn caustics(camera: &CameraPlan) -> PlannedEffect {
 fn regularization(camera: &CameraPlan) -> PlannedEffect {
     let status = where_there(
         camera.settings.regularize,
-        "metals, coats, glass and paint that a path meets behind wider lobes are rougher than they are: a bias".to_owned(),
+        "metals, coats, glass and paint that a path meets behind wider lobes are rougher than they are: a bias"
+            .to_owned(),
         "lobes are as narrow as models say",
     );
     let effect = PlannedEffect::new(GROUP, "regularisation", status).described_by("render.regularize");

@@ -84,7 +84,13 @@ fn widened_facets_never_send_back_more_than_arrives() {
                 let sent = albedos_of::<{ 1 << 18 }>(&widened, at_degrees(degrees))[0][0];
                 assert!(sent < 1.0 + ALLOWED, "{name} of {least_alpha} at {degrees}°: {sent}");
                 // Towards grazing, rough coats mirror less than smooth ones of the same table.
-                let floor = if name == "glass" { 0.0 } else if degrees > 60.0 { 0.5 } else { 0.85 };
+                let floor = if name == "glass" {
+                    0.0
+                } else if degrees > 60.0 {
+                    0.5
+                } else {
+                    0.85
+                };
                 assert!(sent > floor, "{name} of {least_alpha} at {degrees}°: {sent}");
             }
         }
