@@ -27,6 +27,7 @@ pub const TARGETS: &[Target] = &[
     assets::PLY,
     scenes::PBRT,
     scenes::MITSUBA,
+    scenes::GLTF_SCENE,
     assets::MTL,
     assets::MESH_FRAME,
     assets::IES,

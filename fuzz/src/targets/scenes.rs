@@ -1,7 +1,7 @@
 //! Scenes of other programs.
 
-use super::assets::text_target;
-use super::seeds::{repository, write};
+use super::assets::{GLTF, text_target};
+use super::seeds::{repository, stored, write};
 use super::target::{TREE, Target, told};
 use std::path::Path;
 
@@ -100,4 +100,16 @@ pub(super) const MITSUBA: Target = Target {
         imported,
         MITSUBA_WORDS,
     )
+};
+
+/// Lights, cameras and what moves: each part that moves has the text of the whole, which is limited.
+pub(super) const GLTF_SCENE: Target = Target {
+    name: "gltf-scene",
+    prepare: |_| {
+        let mut seeds = stored("gltf");
+        seeds.extend(stored("gltf-scene"));
+        seeds
+    },
+    read: imported,
+    ..GLTF
 };

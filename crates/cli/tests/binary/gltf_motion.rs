@@ -115,7 +115,9 @@ fn rendered(folder: &Path, job: &Path, name: &str, seed: &str) -> String {
     let out = text(&folder.join(name));
     let sampling = ["--set", "output.variance=true", "--set", "render.replicates=16", "--spp", "32", "--seed", seed];
     etendue(["render", &text(job), "-o", &out].iter().copied().chain(sampling)).ok();
-    format!("{out}/eye/radiance.exr")
+    // Pictures of what moves have a number.
+    let still = format!("{out}/eye/radiance.exr");
+    if Path::new(&still).exists() { still } else { format!("{out}/eye/radiance.0000.exr") }
 }
 
 /// At the beginning all stands as in a file that does not move: meshes, the camera, the lamp, by every interpolation; where the arm stands elsewhere it is found.

@@ -33,7 +33,8 @@ pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
     let mut scene = Scene::default();
     let mesh = if stage.mesh_nodes.is_empty() { None } else { Some(read_mesh(file).map_err(Error::input)?) };
     let still = stage.mesh_nodes.iter().any(|node| motion.parts.mover_of[*node].is_none());
-    let moving = add_moving(&mut scene, &motion, (file, folder), &mut files, &mut report);
+    let moving = add_moving(&mut scene, &motion, (file, folder), &mut files, &mut report)
+        .map_err(|told| Error::input(format!("{}: {told}", file.display())))?;
     match (mesh.is_some(), still, motion.movers.is_empty()) {
         (false, ..) => report.push("it has no meshes".to_owned()),
         (true, false, _) => report.push("all its meshes move".to_owned()),

@@ -45,7 +45,9 @@ pub(super) fn add_moving(
     (source, folder): (&Path, &Path),
     files: &mut Vec<(String, Vec<u8>)>,
     report: &mut Vec<String>,
-) -> Moving {
+) -> Result<Moving, String> {
+    let shown = motion.movers.iter().filter(|mover| mover.has_mesh).count();
+    motion.parts.check_size(if motion.movers.is_empty() { 0 } else { shown + 1 })?;
     let mut names = Names::default();
     let mut moving = Moving { frames: Vec::new() };
     for (number, mover) in motion.movers.iter().enumerate() {
@@ -81,7 +83,7 @@ pub(super) fn add_moving(
     if let (Some(blob), false) = (&motion.parts.blob, motion.movers.is_empty()) {
         files.push((format!("meshes/{BLOB}"), blob.clone()));
     }
-    moving
+    Ok(moving)
 }
 
 /// A part as a file in `meshes/`.
@@ -119,7 +121,8 @@ impl Way<'_> {
         let columns = [DVec3::Y, DVec3::Z, DVec3::X].map(|axis| to_world(turn * axis));
         // The file's y, z, x are our z, x, y: columns are where our x, y, z go.
         let [z, x, y] = columns;
-        let angles = rounded(angles_deg(DMat3::from_cols(x, y, z)));
+        // Without zeros below zero.
+        let angles = rounded(angles_deg(DMat3::from_cols(x, y, z))).map(|angle| angle + 0.0);
         let position = to_world(position);
         FramePlacement {
             position_m: (position != DVec3::ZERO).then(|| position.to_array().into()),

@@ -75,6 +75,9 @@ impl<'a> Importer<'a> {
         let alpha = if is_rough { self.alpha(element)? } else { Factor::Number(0.0.into()) };
         if is_rough {
             self.note_slopes(element)?;
+            self.scenery.report.note(
+                "the base of a \"roughplastic\" is brighter than in Mitsuba, whose rough borders lose light: by a tenth at α = 0.2",
+            );
         }
         let gloss = self.reflectance(element, "specular_reflectance", 1.0, &|v| v)?;
         if !matches!(&gloss, etendue_scene::record::Reflectance::Plain(etendue_scene::record::Colour::Grey(v)) if v.value == 1.0)

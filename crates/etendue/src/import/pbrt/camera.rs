@@ -7,6 +7,9 @@ use etendue_core::maths::f64 as maths;
 use glam::{DAffine3, DMat3, DVec3};
 use std::rc::Rc;
 
+/// The field of what stands in for a camera that is not understood, degrees of the shorter side: a normal lens's.
+const STAND_IN_DEG: f64 = 40.0;
+
 /// The size of the picture.
 pub(super) struct Film {
     size_px: [u64; 2],
@@ -75,9 +78,11 @@ impl PbrtCamera {
             }
             "orthographic" => Kind::Orthographic,
             other => {
-                return Err(format!(
-                    "this camera is not read; expected perspective or orthographic (a lens file: state it as our lens of \"{other}\")"
+                parameters.0.iter().for_each(|p| p.used.set(true));
+                report.note(format!(
+                    "the camera \"{other}\" is not understood: a perspective of {STAND_IN_DEG}° from its place is ours (a lens file: state it as our lens)"
                 ));
+                Kind::Perspective { fov_deg: STAND_IN_DEG }
             }
         };
         let window = parameters.numbers("screenwindow")?.map(<[f64; 4]>::try_from).transpose();

@@ -1,5 +1,6 @@
 //! A glTF file without the nodes that move, and each of these by itself: the same file with another tree.
 
+use etendue_scene::limits;
 use serde_json::{Map, Value, json};
 
 use super::base64::unescaped;
@@ -12,6 +13,12 @@ pub struct GltfParts {
     /// The binary chunk of a GLB file, which its parts name as a file of their own.
     pub blob: Option<Vec<u8>>,
     movers: Vec<usize>,
+    /// Whether a node is one of them.
+    is_mover: Vec<bool>,
+    /// Whether a node hangs on another.
+    is_child: Vec<bool>,
+    /// Of the JSON, bytes.
+    bytes: u64,
     /// The mover that each node stands still in; `None` in the file.
     pub mover_of: Vec<Option<usize>>,
 }
@@ -24,7 +31,24 @@ impl GltfParts {
         mover_of: Vec<Option<usize>>,
     ) -> Result<Self, String> {
         let json = document::json_of(bytes)?;
-        Ok(Self { json, blob, movers, mover_of })
+        let (mut is_mover, mut is_child) = (vec![false; mover_of.len()], vec![false; mover_of.len()]);
+        movers.iter().for_each(|node| is_mover[*node] = true);
+        let nodes = json.get("nodes").and_then(Value::as_array);
+        let children = nodes.into_iter().flatten().filter_map(|node| node.get("children")?.as_array());
+        for child in children.flatten().filter_map(Value::as_u64) {
+            if let Some(is_child) = is_child.get_mut(child as usize) {
+                *is_child = true;
+            }
+        }
+        Ok(Self { json, blob, movers, is_mover, is_child, bytes: bytes.len() as u64, mover_of })
+    }
+
+    /// Refuses what as many parts would multiply the file beyond the limit.
+    ///
+    /// # Errors
+    /// Where they would.
+    pub fn check_size(&self, parts: usize) -> Result<(), String> {
+        limits::MESH.check_unpacked(self.bytes.saturating_mul(parts as u64))
     }
 
     /// The part that a mover shows, scaled by three numbers along its own axes and not moved; of `None` all that stands still. `way` leads to what the
@@ -38,9 +62,11 @@ impl GltfParts {
         let roots: Vec<Value> = match root.get("scenes").and_then(|scenes| scenes.get(scene)?.get("nodes")?.as_array())
         {
             Some(nodes) => nodes.clone(),
-            None => (0..self.mover_of.len()).filter(|node| !self.is_child(*node)).map(|node| json!(node)).collect(),
+            None => (0..self.mover_of.len()).filter(|node| !self.is_child[*node]).map(|node| json!(node)).collect(),
         };
-        let is_mover = |node: &Value| node.as_u64().is_some_and(|node| self.movers.contains(&(node as usize)));
+        let is_mover = |node: &Value| {
+            node.as_u64().and_then(|node| self.is_mover.get(node as usize)).is_some_and(|is_mover| *is_mover)
+        };
         let shown: Vec<Value> = match mover {
             None => roots.into_iter().filter(|node| !is_mover(node)).collect(),
             Some((mover, _)) => vec![json!(self.movers[mover])],
@@ -78,12 +104,6 @@ impl GltfParts {
             }
         }
         serde_json::to_vec(&json).unwrap_or_default()
-    }
-
-    fn is_child(&self, node: usize) -> bool {
-        let nodes = self.json.get("nodes").and_then(Value::as_array);
-        let children = nodes.into_iter().flatten().filter_map(|node| node.get("children")?.as_array());
-        children.flatten().any(|child| child.as_u64() == Some(node as u64))
     }
 }
 
