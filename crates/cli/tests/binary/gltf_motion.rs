@@ -24,7 +24,7 @@ const CURVE: [f32; 27] = [
 /// stands at the beginning.
 fn scene(interpolation: &str, is_still: bool) -> Value {
     let mut arm = json!({ "name": "arm", "mesh": 0, "children": [2, 3, 4] });
-    let mut hand = json!({ "name": "hand", "mesh": 0, "translation": [0.2, 0.6, 0.1], "rotation": [0, 0, HALF, HALF] });
+    let mut hand = json!({ "name": "hand", "mesh": 0, "translation": [1.1, 0.4, 0.1], "rotation": [0, 0, HALF, HALF] });
     if is_still {
         arm["translation"] = json!(PLACES[..3]);
         arm["rotation"] = json!(TURNS[..4]);
@@ -113,7 +113,16 @@ fn rendered(folder: &Path, job: &Path, name: &str, seed: &str) -> String {
     );
     fs::write(job, small).expect("written");
     let out = text(&folder.join(name));
-    let sampling = ["--set", "output.variance=true", "--set", "render.replicates=16", "--spp", "32", "--seed", seed];
+    // Few bands: a difference shows in them soonest.
+    let sampling = [
+        "--set=output.variance=true",
+        "--set=render.replicates=32",
+        "--set=render.wavelength_range_nm=[400,700]",
+        "--set=render.band_width_nm=100",
+        "--spp=128",
+        "--seed",
+        seed,
+    ];
     etendue(["render", &text(job), "-o", &out].iter().copied().chain(sampling)).ok();
     // Pictures of what moves have a number.
     let still = format!("{out}/eye/radiance.exr");
