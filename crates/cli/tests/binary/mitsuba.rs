@@ -139,7 +139,6 @@ fn agrees_as(source: &Path, name: &str, share: Share, whole: f64) {
     let (ours, theirs) = (rendered(place.path(), source), stored(name));
     let (largest, mean) = apart(&ours, &theirs, share);
     let critical = CRITICAL;
-    println!("{file}: {largest} standard errors of {critical}, {mean} of the whole");
     assert!(largest < critical, "{file}: {largest} standard errors, where {critical} are allowed");
     assert!(mean.abs() < whole, "{file}: the whole picture is {mean} brighter");
     // A test that could not fail would be of no use: light by a twentieth, and the picture the other way round.
