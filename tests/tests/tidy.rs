@@ -53,6 +53,7 @@ const KEEPERS: &[(&str, &[&str])] = &[
     ("image", &["io", "scenes"]),
     ("tobj", &["io"]),
     ("gltf", &["io"]),
+    ("roxmltree", &["io"]),
     ("saphyr-parser", &["io"]),
     ("toml", &["scene"]),
     ("clap", &["cli"]),

@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | in | Wavefront OBJ with its MTL, glTF 2.0, PLY | [`mesh`] |
 //! | in | scenes of pbrt-v4, directive by directive | [`pbrt`] |
+//! | in | scenes of Mitsuba 3, element by element | [`mitsuba`] |
 //! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
 //! | in | PNG, JPEG, TIFF, OpenEXR and raw pictures to be measured | [`photograph`] |
 //! | in | EXIF data of pictures | [`exif`] |
@@ -45,6 +46,7 @@ pub mod inspect;
 pub mod jpeg;
 mod made_folders;
 pub mod mesh;
+pub mod mitsuba;
 pub mod output;
 pub mod pbrt;
 pub mod photograph;

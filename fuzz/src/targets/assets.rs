@@ -16,7 +16,7 @@ use std::path::Path;
 const CONSTANT: u64 = 16 << 20;
 
 /// A reader of text.
-const fn text_target(
+pub(super) const fn text_target(
     name: &'static str,
     file: &'static str,
     prepare: fn(&Path) -> Vec<Vec<u8>>,
@@ -135,51 +135,6 @@ pub(super) const PLY: Target = Target {
         },
         |file| told(read_mesh(file)),
         PLY_WORDS,
-    )
-};
-const PBRT_WORDS: &[&str] = &[
-    "WorldBegin",
-    "AttributeBegin",
-    "AttributeEnd",
-    "ObjectBegin \"o\"",
-    "ObjectEnd",
-    "ObjectInstance \"o\"",
-    "ReverseOrientation",
-    "Scale -1 1 0",
-    "Rotate 90 0 0 0",
-    "LookAt 0 0 0 0 0 0 0 0 1",
-    "CoordSysTransform \"camera\"",
-    "Shape \"bilinearmesh\"",
-    "Shape \"loopsubdiv\"",
-    "Shape \"plymesh\" \"string filename\" \"a.pbrt\"",
-    "Include \"a.pbrt\"",
-    "\"float lensradius\" 1e-3 \"float focaldistance\" 1e-9",
-    "\"texture reflectance\" \"t\"",
-    "Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"t\"",
-    "\"spectrum eta\" [ 400 1 700 2 ]",
-    "LightSource \"infinite\" \"string filename\" \"a.pbrt\"",
-    "MediumInterface \"smoke\" \"\"",
-    "1e308",
-    "-0",
-];
-
-/// A placed shape may take as much as its own lines and its mesh; an instance of one, a line alone.
-pub(super) const PBRT: Target = Target {
-    times: TREE,
-    ..text_target(
-        "pbrt",
-        "a.pbrt",
-        |folder| {
-            let scenes =
-                repository(["scenes/import/shapes.pbrt", "scenes/import/smoke.pbrt", "scenes/import/box.pbrt"]);
-            write(folder, "box.pbrt", scenes[2].clone());
-            scenes
-        },
-        |file| {
-            let made = file.with_file_name("made");
-            told(etendue::import(file, (&made, etendue::Existing::Replace), &etendue::Unobserved))
-        },
-        PBRT_WORDS,
     )
 };
 pub(super) const MESH_FRAME: Target =

@@ -5,6 +5,7 @@ mod calibrations;
 mod descriptions;
 mod pictures;
 mod results;
+mod scenes;
 mod seeds;
 mod target;
 
@@ -24,7 +25,9 @@ pub const TARGETS: &[Target] = &[
     assets::GLB,
     assets::GLTF,
     assets::PLY,
-    assets::PBRT,
+    scenes::PBRT,
+    scenes::MITSUBA,
+    scenes::GLTF_SCENE,
     assets::MTL,
     assets::MESH_FRAME,
     assets::IES,

@@ -224,6 +224,36 @@ fn lights_of_pbrt_have_the_levels_of_closed_forms() {
     }
 }
 
+/// A black disc of alpha 0.25 in the way of parallel light takes a quarter of it; one of alpha 0 is not there, and a camera that is not understood has one in
+/// its place. Each ray meets the disc or not: 24 576 of them know three quarters to 0.4 %, of which four are allowed.
+#[test]
+fn alpha_of_pbrt_is_opacity() {
+    let disc = |alpha: &str| {
+        format!(
+            "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [ 0 0 0 ] Translate 0 1.5 2 Shape \"disk\" \"float alpha\" {alpha} AttributeEnd "
+        )
+    };
+    let sun = "LightSource \"distant\" \"float illuminance\" 300 \"point3 from\" [ 0 3 4 ] \"point3 to\" [ 0 0 0 ] ";
+    for (alpha, illuminance, phrase) in
+        [("0.25", 180.0, "made: 2 objects"), ("0", 240.0, "a shape of alpha 0 is left out")]
+    {
+        let place = tempfile::tempdir().expect("a temporary folder");
+        let (made, out) = (place.path().join("made"), place.path().join("out"));
+        fs::write(place.path().join("a.pbrt"), pbrt(&format!("{sun}{}", disc(alpha)))).expect("written");
+        let told = etendue(["import", &text(&place.path().join("a.pbrt")), "-o", &text(&made)]).ok();
+        assert!(told.err.contains(phrase), "{}", told.err);
+        etendue(["render", &text(&made.join("job.toml")), "-o", &text(&out), "--spp", "256"]).ok();
+        let (found, expected) = (luminance(place.path(), "camera"), 0.5 * illuminance / std::f64::consts::PI);
+        assert!((found - expected).abs() <= 0.016 * expected, "{alpha}: {found} cd/m² for {expected}");
+    }
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let scene =
+        pbrt(sun).replace("\"perspective\" \"float fov\" 0.2", "\"realistic\" \"string lensfile\" \"wide.dat\"");
+    fs::write(place.path().join("a.pbrt"), scene).expect("written");
+    let told = etendue(["import", &text(&place.path().join("a.pbrt")), "-o", &text(&place.path().join("made"))]).ok();
+    assert!(told.err.contains("the camera \"realistic\" is not understood: a perspective of 40°"), "{}", told.err);
+}
+
 /// The scenes of scenes/import against the same written down by hand, by the Z test of `compare`; a lamp that is a tenth brighter is found.
 #[test]
 fn scenes_of_pbrt_are_those_of_our_own_words() {

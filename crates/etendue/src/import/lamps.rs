@@ -38,3 +38,15 @@ pub(super) fn parallel(name: &str, from: DVec3, lux: f64, colour: LightColour) -
     let sun = Sun::new(name, elevation, azimuth, SunLevel::Illuminance(lux.into()));
     Light::Sun(Sun { colour: Some(colour), angular_diameter_deg: Some(PARALLEL_DEG.into()), ..sun })
 }
+
+/// The same in a frame, which suns have none of.
+pub(super) fn in_frame(light: Light, frame: Option<String>) -> Light {
+    let mut light = light;
+    let frame = frame.map(|frame| frame.as_str().into());
+    match &mut light {
+        Light::Point(lamp) => lamp.placement.frame = frame,
+        Light::Spot(lamp) => lamp.placement.frame = frame,
+        _ => {}
+    }
+    light
+}

@@ -5,8 +5,11 @@
 
 mod gltf;
 mod lamps;
+mod mitsuba;
+mod moving;
 mod naming;
 mod pbrt;
+mod scenery;
 mod written;
 
 use crate::error::Error;
@@ -16,7 +19,7 @@ use std::path::{Path, PathBuf};
 use written::Written;
 
 /// What is imported, by the endings of files.
-const KINDS: &str = ".glb, .gltf or .pbrt";
+const KINDS: &str = ".glb, .gltf, .pbrt or .xml (Mitsuba)";
 
 /// Writes `scene.toml`, `job.toml` and what they need into a folder, of a scene of another program; answers with their paths. What was
 /// mapped to what and what was dropped stands at the head of the scene and goes to the observer.
@@ -32,6 +35,7 @@ pub fn import(
     let reader = match ending.to_str() {
         Some("glb" | "gltf") => gltf::imported,
         Some("pbrt") => pbrt::imported,
+        Some("xml") => mitsuba::imported,
         _ => {
             let shown = file.display();
             return Err(Error::input(format!("{shown}: not a scene that is imported; expected a file of {KINDS}")));

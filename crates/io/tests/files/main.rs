@@ -9,6 +9,7 @@ mod f_theta;
 mod gltf;
 mod lamps;
 mod meshes;
+mod mitsuba;
 mod openexr;
 mod pbrt;
 mod pixel_centres;

@@ -1,12 +1,14 @@
 //! Cameras and films.
 
 use super::parameters::Parameters;
-use super::report::Report;
-use super::scenery::Graphics;
+use crate::import::scenery::{Graphics, Report, to_ours};
 use crate::import::written::{ImportedCamera, View, pose_of};
 use etendue_core::maths::f64 as maths;
 use glam::{DAffine3, DMat3, DVec3};
 use std::rc::Rc;
+
+/// The field of what stands in for a camera that is not understood, degrees of the shorter side: a normal lens's.
+const STAND_IN_DEG: f64 = 40.0;
 
 /// The size of the picture.
 pub(super) struct Film {
@@ -76,9 +78,11 @@ impl PbrtCamera {
             }
             "orthographic" => Kind::Orthographic,
             other => {
-                return Err(format!(
-                    "this camera is not read; expected perspective or orthographic (a lens file: state it as our lens of \"{other}\")"
+                parameters.0.iter().for_each(|p| p.used.set(true));
+                report.note(format!(
+                    "the camera \"{other}\" is not understood: a perspective of {STAND_IN_DEG}° from its place is ours (a lens file: state it as our lens)"
                 ));
+                Kind::Perspective { fov_deg: STAND_IN_DEG }
             }
         };
         let window = parameters.numbers("screenwindow")?.map(<[f64; 4]>::try_from).transpose();
@@ -96,16 +100,9 @@ impl PbrtCamera {
         Ok(Self { to_world: graphics.to_world.inverse(), kind: own, lens, frame_aspect, window, outside })
     }
 
-    /// From pbrt's world to ours: upwards goes the axis nearest to the camera's up, forward the one after it (x, y, z, x), and the picture is not mirrored.
+    /// From pbrt's world to ours.
     pub(super) fn to_ours(&self) -> DMat3 {
-        let up = self.to_world.matrix3.y_axis;
-        let size = up.abs();
-        let axis = if size.z >= size.x && size.z >= size.y { 2 } else { usize::from(size.y >= size.x) };
-        let unit = |i: usize| DVec3::from_array(std::array::from_fn(|j| f64::from(u8::from(i == j))));
-        let (ahead, up) = (unit((axis + 1) % 3), unit(axis) * up[axis].signum());
-        // Left-handed unless the camera is mirrored, as by `Scale -1 1 1` before it.
-        let left = up.cross(ahead) * if self.to_world.matrix3.determinant() > 0.0 { -1.0 } else { 1.0 };
-        DMat3::from_cols(ahead, left, up).transpose()
+        to_ours(self.to_world.matrix3)
     }
 
     pub(super) fn imported(self, film: &Film, to_ours: DMat3, report: &mut Report) -> Placed {

@@ -1,29 +1,12 @@
 //! Spectra: rgb, tables, black bodies and names.
 
 use super::parameters::Parameters;
-use super::scenery::Scenery;
+use crate::import::scenery::{LightUnit, Scenery, coefficient_of_rgb, illuminant_of};
 use etendue_io::pbrt::{PbrtParameter, PbrtValues};
-use etendue_scene::record::{Colour, Curve, LightColour};
+use etendue_scene::record::{Colour, LightColour};
 use etendue_spectra::colour::BT709;
 use etendue_spectra::illuminant;
-use etendue_spectra::upsample::reflectance_spectrum;
 use etendue_spectra::{Outside, Spectrum};
-use std::fmt::Write as _;
-
-/// The light of a parameter: its colour, and the luminance of pbrt's unit of it, cd/m². Zero luminance is no light.
-pub(super) struct LightUnit {
-    pub(super) colour: LightColour,
-    pub(super) luminance: f64,
-}
-
-fn illuminant_of(name: &str) -> LightColour {
-    LightColour::Illuminant(name.into())
-}
-
-/// The share of light at a number a wavelength.
-pub(super) fn grey(values: [f64; 3]) -> Option<f64> {
-    (values[0] == values[1] && values[1] == values[2]).then_some(values[0])
-}
 
 pub(super) fn three(name: &str, numbers: &[f64]) -> Result<[f64; 3], String> {
     let found = numbers.len();
@@ -46,21 +29,6 @@ pub(super) fn table(name: &str, numbers: &[f64]) -> Result<Spectrum, String> {
 }
 
 impl Scenery {
-    /// A file of a spectrum beside the scene; its path.
-    pub(super) fn spectrum_file(&mut self, points: &[(f64, f64)]) -> String {
-        let mut text = "wavelength_nm,value\n".to_owned();
-        points.iter().for_each(|(nm, value)| writeln!(text, "{nm},{value}").expect("a text grows"));
-        let name = self.file_names.take("spectrum", "spectrum");
-        self.add_file(format!("spectra/{name}.csv"), text.into_bytes())
-    }
-
-    /// A smooth spectrum as a table.
-    pub(super) fn smooth_file(&mut self, spectrum: &Spectrum, factor: f64) -> String {
-        let points: Vec<(f64, f64)> =
-            (60..=166).map(|i| 5 * i).map(|nm| (f64::from(nm), factor * f64::from(spectrum.at(nm as f32)))).collect();
-        self.spectrum_file(&points)
-    }
-
     /// The light of the parameter `name`; white of luminance 1 where it is not there.
     pub(super) fn light(&mut self, parameters: Parameters<'_>, name: &str) -> Result<LightUnit, String> {
         let Some(parameter) = parameters.find(name) else {
@@ -103,21 +71,6 @@ impl Scenery {
         LightUnit { colour: illuminant_of(known.as_deref().unwrap_or("D65")), luminance: 1.0 }
     }
 
-    /// A share of light of a parameter called `name`, cut off at 0 and 1, which is said.
-    fn cut(&mut self, name: &str, share: f64) -> f64 {
-        let legal = share.clamp(0.0, 1.0);
-        if legal != share {
-            self.report.note(format!("\"{name}\" beyond 0 … 1 is cut off there"));
-        }
-        legal
-    }
-
-    /// The same of linear sRGB.
-    pub(super) fn share_of_rgb(&mut self, name: &str, rgb: [f64; 3]) -> Colour {
-        let legal = rgb.map(|v| self.cut(name, v));
-        grey(legal).map_or(Colour::LinearSrgb(legal.into()), |v| Colour::Grey(v.into()))
-    }
-
     /// A share of light, 0 … 1.
     pub(super) fn share(&mut self, parameter: &PbrtParameter) -> Result<Colour, String> {
         let name = &parameter.name;
@@ -158,23 +111,6 @@ impl Scenery {
             }
             Some((kind, _)) => return Err(format!("\"{kind} {name}\": expected an rgb or a table of wavelengths")),
         };
-        if rgb.iter().any(|v| *v < 0.0) {
-            return Err(format!("\"{name}\" below 0"));
-        }
-        // As pbrt has colours beyond 1: a reflectance of half the largest, times twice that.
-        let largest = rgb.iter().fold(0.0_f64, |most, v| most.max(*v));
-        if let Some(even) = grey(rgb) {
-            return Ok((Spectrum::from_fn(|_| even), Some(even)));
-        }
-        let reflectance = reflectance_spectrum(rgb.map(|v| (0.5 * v / largest) as f32));
-        Ok((Spectrum::from_fn(|nm| 2.0 * largest * f64::from(reflectance.at(nm as f32))), None))
-    }
-
-    /// A number, or a table.
-    pub(super) fn curve(&mut self, spectrum: &Spectrum, even: Option<f64>, factor: f64) -> Curve {
-        match even {
-            Some(even) => Curve::Constant((factor * even).into()),
-            None => Curve::File(self.smooth_file(spectrum, factor).as_str().into()),
-        }
+        coefficient_of_rgb(name, rgb)
     }
 }

@@ -1,16 +1,13 @@
 //! Pictures of light from infinity: from pbrt's equal-area square to our equirectangular ones.
 
 use super::octahedral::{direction_of, square_of};
-use super::scenery::{Graphics, Scenery};
-use etendue_core::maths::f64 as maths;
-use etendue_io::Provenance;
-use etendue_io::exr::{Layer, encode_layers};
+use crate::import::scenery::{Graphics, Scenery, linear_pixels};
 use etendue_io::picture::read_picture;
-use etendue_scene::asset::{ImageAsset, ImagePixels};
+use etendue_scene::asset::ImageAsset;
 use etendue_scene::record::Environment;
 use etendue_scene::record::environment::EnvironmentImage;
 use etendue_spectra::colour::BT709;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use std::f64::consts::PI;
 
 impl Scenery {
@@ -46,17 +43,8 @@ impl Scenery {
         // Of the square 4 n² pixels cover the sphere as finely as 2 n × 4 n of ours do at the horizon.
         let rows = image.height as usize;
         let to_light = graphics.to_world.matrix3.inverse() * self.to_ours.transpose();
-        let channels = resampled(&texels, rows, to_light);
-        let names = ["B", "G", "R"];
-        let layers: Vec<(String, Layer<'_>)> = names
-            .iter()
-            .zip([&channels[2], &channels[1], &channels[0]])
-            .map(|(n, c)| ((*n).to_owned(), Layer::Float(c)))
-            .collect();
-        let bytes = encode_layers(2 * rows, rows, &layers, &Provenance::default()).map_err(|e| e.to_string())?;
-        let name = self.file_names.take("environment", "environment");
-        let path = self.add_file(format!("{name}.exr"), bytes);
-        self.check_size()?;
+        let found = |direction: DVec3| texels.bilinear(square_of((to_light * direction).normalize_or(DVec3::Z)));
+        let path = self.environment_file(rows, &found)?;
         self.report
             .note(format!("the light of `{file}`: resampled to {} by {rows} pixels, 1 is {scale} cd/m²", 2 * rows));
         Ok(Some(Environment::Image(EnvironmentImage::new(path.as_str(), scale))))
@@ -71,12 +59,7 @@ struct Texels<'a> {
 
 impl<'a> Texels<'a> {
     fn of(image: &'a ImageAsset) -> Option<Self> {
-        let pixel: Box<dyn Fn(usize) -> [f32; 3] + 'a> = match &image.pixels {
-            ImagePixels::Rgb32F(pixels) => Box::new(|i| pixels[i]),
-            ImagePixels::Rgba32F(pixels) => Box::new(|i| [pixels[i][0], pixels[i][1], pixels[i][2]]),
-            _ => return None,
-        };
-        Some(Self { size: image.width as usize, pixel })
+        Some(Self { size: image.width as usize, pixel: linear_pixels(image)? })
     }
 
     /// What a surface that faces +z of the picture gets, lx of numbers in cd/m².
@@ -115,34 +98,11 @@ impl<'a> Texels<'a> {
     }
 }
 
-/// Red, green and blue of `rows` rows of twice as many columns, each the mean of four by four points.
-fn resampled(texels: &Texels<'_>, rows: usize, to_light: DMat3) -> [Vec<f32>; 3] {
-    const POINTS: usize = 4;
-    let columns = 2 * rows;
-    let mut channels = [(); 3].map(|()| Vec::with_capacity(rows * columns));
-    for row in 0..rows {
-        for column in 0..columns {
-            let mut sum = [0.0; 3];
-            for point in 0..POINTS * POINTS {
-                let along = |pixel: usize, i: usize| pixel as f64 + (i as f64 + 0.5) / POINTS as f64;
-                let azimuth = PI * (1.0 - along(column, point % POINTS) / rows as f64);
-                let elevation = PI * (0.5 - along(row, point / POINTS) / rows as f64);
-                let ((sa, ca), (se, ce)) = (maths::sin_cos(azimuth), maths::sin_cos(elevation));
-                let direction = (to_light * DVec3::new(ce * ca, ce * sa, se)).normalize_or(DVec3::Z);
-                let found = texels.bilinear(square_of(direction));
-                sum = std::array::from_fn(|i| sum[i] + found[i]);
-            }
-            for (channel, sum) in channels.iter_mut().zip(sum) {
-                channel.push((sum / (POINTS * POINTS) as f64) as f32);
-            }
-        }
-    }
-    channels
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::import::scenery::resampled;
+    use etendue_core::maths::f64 as maths;
 
     const SIZE: usize = 32;
 
@@ -150,7 +110,7 @@ mod tests {
     fn half(is_white: impl Fn(usize, usize) -> bool) -> Vec<f32> {
         let pixel = |i: usize| [f32::from(u8::from(is_white(i % SIZE, i / SIZE))); 3];
         let texels = Texels { size: SIZE, pixel: Box::new(pixel) };
-        resampled(&texels, SIZE, DMat3::IDENTITY)[0].clone()
+        resampled(SIZE, &|direction| texels.bilinear(square_of(direction)))[0].clone()
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::camera::{Film, PbrtCamera};
 use super::parameters::Parameters;
-use super::scenery::{Graphics, Scenery};
+use crate::import::scenery::{Graphics, Scenery};
 use crate::import::written::{Written, written};
 use etendue_core::maths::f64 as maths;
 use etendue_io::pbrt::{PbrtDirective, PbrtParameter, PbrtPlace};
@@ -38,17 +38,9 @@ pub(super) struct Interpreter {
 
 impl Interpreter {
     pub(super) fn new(file: &Path, folder: &Path) -> Self {
-        let none: Rc<str> = Rc::from("");
         Self {
             scenery: Scenery::new(file, folder),
-            graphics: Graphics {
-                to_world: DAffine3::IDENTITY,
-                reverse_orientation: false,
-                material: none.clone(),
-                area_light: None,
-                inside: none.clone(),
-                outside: none,
-            },
+            graphics: Graphics::plain(),
             blocks: Vec::new(),
             systems: HashMap::new(),
             camera: None,
@@ -212,7 +204,7 @@ impl Interpreter {
             }
             _ => return self.shape(kind, parameters),
         }
-        self.scenery.note_unused(&format!("{name} \"{kind}\""), given);
+        self.scenery.note_unused(&format!("{name} \"{kind}\""), given.unused());
         Ok(())
     }
 

@@ -1,8 +1,8 @@
 //! Lights that are no surfaces.
 
 use super::parameters::Parameters;
-use super::scenery::{Graphics, Scenery};
 use crate::import::lamps;
+use crate::import::scenery::{Graphics, Scenery};
 use etendue_core::maths::f64 as maths;
 use etendue_scene::record::{Emission, Environment, Level};
 use glam::DVec3;

@@ -1,18 +1,15 @@
 //! Materials.
 
 use super::colour::table;
-use super::known::{INTERFACE, KnownTexture};
 use super::parameters::Parameters;
-use super::scenery::Scenery;
+use crate::import::scenery::{INTERFACE, KnownTexture, Scenery, plain};
 use etendue_io::pbrt::PbrtValues;
 use etendue_scene::asset::COAT_INDICES;
-use etendue_scene::record::SurfaceEmission;
+use etendue_scene::record::Colour;
 use etendue_scene::record::material::{
     Coated, Conductor, Dielectric, Diffuse, Factor, Leaf, Material, Metal, Mix, Surface, ThinSheet,
 };
-use etendue_scene::record::{Colour, Reflectance};
-use etendue_spectra::{Spectrum, metal, upsample};
-use std::fmt::Write as _;
+use etendue_spectra::{Spectrum, metal};
 use std::rc::Rc;
 
 /// pbrt's α of a roughness.
@@ -60,30 +57,6 @@ impl Scenery {
                 "".into()
             }
         }
-    }
-
-    /// A material by its name in ours; the grey one where it is empty.
-    pub(super) fn known_material(&mut self, own: &str) -> String {
-        if !own.is_empty() {
-            return own.to_owned();
-        }
-        if let Some(grey) = self.known.materials.get("") {
-            return grey.to_string();
-        }
-        let grey: Rc<str> = self.names.take("default", "default").into();
-        self.known.materials.insert(String::new(), grey.clone());
-        self.scene.materials.push(Material::new(&*grey, Surface::Diffuse(Diffuse::new(plain(0.5)))));
-        grey.to_string()
-    }
-
-    /// A copy of a material that gives light.
-    pub(super) fn glowing(&mut self, own: &str, emission: SurfaceEmission) -> String {
-        let own = self.known_material(own);
-        let name = self.names.take(&format!("{own}-light"), "light");
-        let found = self.scene.materials.iter().find(|m| m.name.value == own).cloned();
-        let surface = found.map_or_else(|| Surface::Diffuse(Diffuse::new(plain(0.5))), |m| m.surface.0);
-        self.scene.materials.push(Material { emission: Some(emission), ..Material::new(name.as_str(), surface) });
-        name
     }
 
     fn surface_of(&mut self, kind: &str, parameters: Parameters<'_>) -> Result<Option<Surface>, String> {
@@ -210,7 +183,6 @@ impl Scenery {
         Ok(Conductor::new(metal, alpha))
     }
 
-    /// As pbrt has it: n = 1 and the k that reflects so at normal incidence.
     fn metal_of_reflectance(&mut self, parameters: Parameters<'_>) -> Result<Metal, String> {
         let parameter = parameters.find("reflectance").ok_or("no reflectance")?;
         let rgb = match self.texture_of(parameter, true)? {
@@ -228,12 +200,7 @@ impl Scenery {
                 }
             },
         };
-        let reflectance = upsample::reflectance_spectrum(rgb.map(|v| v as f32));
-        let k = |nm: f32| {
-            let r = f64::from(reflectance.at(nm)).clamp(0.0, 0.9999);
-            2.0 * r.sqrt() / (1.0 - r).sqrt()
-        };
-        Ok(self.index_file(|_| 1.0, k))
+        Ok(self.metal_of_rgb(rgb))
     }
 
     fn metal_of_index(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Metal, String> {
@@ -262,17 +229,6 @@ impl Scenery {
         }
     }
 
-    fn index_file(&mut self, n: impl Fn(f32) -> f64, k: impl Fn(f32) -> f64) -> Metal {
-        let mut text = "wavelength_nm,n,k\n".to_owned();
-        for nm in (60_u16..=166).map(|i| 5 * i) {
-            let at = f32::from(nm);
-            writeln!(text, "{nm},{},{}", n(at).max(1e-3), k(at).max(0.0)).expect("a text grows");
-        }
-        let name = self.file_names.take("metal", "metal");
-        let path = self.add_file(format!("spectra/{name}.csv"), text.into_bytes());
-        Metal::File(path.as_str().into())
-    }
-
     fn mix(&mut self, parameters: Parameters<'_>) -> Result<Surface, String> {
         let names = parameters.texts("materials")?.ok_or("a mix without its \"materials\"")?;
         let [a, b] = names else { return Err(format!("{} materials, where a mix has two", names.len())) };
@@ -283,8 +239,4 @@ impl Scenery {
         let weight = self.factor(parameters, "amount", 0.5, kept)?;
         Ok(Surface::Mix(Mix::new(a.as_str(), b.as_str(), weight)))
     }
-}
-
-fn plain(reflectance: f64) -> Reflectance {
-    Reflectance::Plain(Colour::Grey(reflectance.into()))
 }

@@ -1,10 +1,9 @@
 //! Media.
 
-use super::known::Homogeneous;
 use super::parameters::Parameters;
-use super::scenery::Scenery;
-use etendue_scene::record::medium::{Everywhere, Extinction, HenyeyGreenstein, Isotropic, MediumShape, Phase};
-use etendue_scene::record::{Medium, Transform};
+use crate::import::scenery::{Homogeneous, Scenery};
+use etendue_scene::record::Transform;
+use etendue_scene::record::medium::{Everywhere, MediumShape};
 use etendue_spectra::Spectrum;
 
 impl Scenery {
@@ -37,25 +36,6 @@ impl Scenery {
         }
         self.known.media.insert(name.to_owned(), Homogeneous { extinction, albedo, g });
         Ok(())
-    }
-
-    /// Fills a part of the world with a medium; nothing where the name is empty or not understood.
-    pub(super) fn fill(&mut self, name: &str, shape: MediumShape, transform: Transform) {
-        let Some(Homogeneous { extinction, albedo, g }) = self.known.media.get(name).cloned() else {
-            self.report.note(format!("a part of the world has no medium: \"{name}\" is not there or not understood"));
-            return;
-        };
-        let phase = match g {
-            0.0 => Phase::Isotropic(Isotropic::default()),
-            g => Phase::HenyeyGreenstein(HenyeyGreenstein::new(g)),
-        };
-        let own = self.names.take(name, "medium");
-        self.scene.media.push(Medium {
-            albedo: Some(albedo),
-            phase: Some(phase),
-            shape: Some(shape),
-            ..Medium::new(own.as_str(), Extinction::PerMetre(extinction), transform)
-        });
     }
 
     /// The medium that the camera stands in.

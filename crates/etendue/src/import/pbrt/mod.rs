@@ -5,19 +5,15 @@
 //! pbrt's space is left-handed and has no up: ours is its mirror image, with the axis upwards that is nearest to the camera's up, so that pictures
 //! are the same. A length of 1 is a metre; a radiance of 1 of white light is 1 cd/m², by which pbrt's `power` and `illuminance` are lm and lx.
 
-mod area_light;
 mod camera;
 mod colour;
 mod environment;
 mod interpreter;
-mod known;
 mod light;
 mod material;
 mod media;
 mod octahedral;
 mod parameters;
-mod report;
-mod scenery;
 mod shape;
 mod surface;
 mod texture;

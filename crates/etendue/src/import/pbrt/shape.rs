@@ -1,32 +1,13 @@
 //! Shapes: meshes in their places, spheres, discs.
 
-use super::known::INTERFACE;
 use super::parameters::Parameters;
-use super::scenery::{Graphics, Scenery};
-use crate::import::naming::rounded;
-use etendue_io::mesh::{PlacedTriangles, encode_obj, encode_ply, read_mesh};
-use etendue_scene::record::medium::{MediumMesh, MediumShape, MediumSphere};
-use etendue_scene::record::mesh::Axis;
-use etendue_scene::record::shape::{Disc, Sphere};
-use etendue_scene::record::transform::angles_deg;
-use etendue_scene::record::{Body, Mesh, Object, Shape, Transform};
-use glam::{DAffine3, DMat3, DVec3};
-
-/// Triangles as a file has them.
-#[derive(Default)]
-struct Triangles {
-    positions: Vec<[f64; 3]>,
-    normals: Vec<[f64; 3]>,
-    uvs: Vec<[f64; 2]>,
-    triangles: Vec<[u32; 3]>,
-}
+use crate::import::scenery::{Graphics, Scenery, Triangles, above_zero};
+use etendue_scene::record::material::Factor;
 
 impl Scenery {
     pub(super) fn shape(&mut self, kind: &str, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
         let told = |what: String| format!("Shape \"{kind}\": {what}");
-        if parameters.find("alpha").is_some() {
-            self.report.note("\"alpha\" of a shape is not used: all of it is there");
-        }
+        let Some(graphics) = &self.with_alpha(parameters, graphics).map_err(told)? else { return Ok(()) };
         match kind {
             "trianglemesh" => {
                 let mesh = Triangles::of(parameters).map_err(told)?;
@@ -55,8 +36,27 @@ impl Scenery {
                 return Ok(());
             }
         }
-        self.note_unused(&format!("Shape \"{kind}\""), parameters);
+        self.note_unused(&format!("Shape \"{kind}\""), parameters.unused());
         Ok(())
+    }
+
+    /// What holds for a shape with its "alpha"; `None` where it says that nothing is there.
+    fn with_alpha(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<Option<Graphics>, String> {
+        let opacity = match self.factor(parameters, "alpha", 1.0, |alpha| alpha)? {
+            Factor::Number(share) if share.value >= 1.0 => None,
+            Factor::Number(share) if share.value <= 0.0 => {
+                // So lights are hidden in pbrt's scenes: a shape that nobody sees gives light all the same.
+                self.report.note(match graphics.area_light {
+                    Some(_) => {
+                        "a light of alpha 0, which pbrt lets shine unseen, is left out: what shines is seen here"
+                    }
+                    None => "a shape of alpha 0 is left out: it is not there",
+                });
+                return Ok(None);
+            }
+            some => Some(some),
+        };
+        Ok(Some(Graphics { opacity, ..graphics.clone() }))
     }
 
     fn ply(&mut self, parameters: Parameters<'_>) -> Result<Triangles, String> {
@@ -67,41 +67,7 @@ impl Scenery {
         if parameters.find("displacement").is_some() {
             self.report.note("\"displacement\" of a mesh is not used");
         }
-        let asset = read_mesh(&self.source_folder.join(name)).map_err(|e| e.to_string())?;
-        let place = |p: &[f32; 3]| std::array::from_fn(|i| asset.origin[i] + f64::from(p[i]));
-        Ok(Triangles {
-            positions: asset.positions.iter().map(place).collect(),
-            normals: asset.normals.iter().map(|n| n.map(f64::from)).collect(),
-            uvs: asset.uvs.iter().map(|uv| uv.map(f64::from)).collect(),
-            triangles: asset.triangles,
-        })
-    }
-
-    /// From a shape's space to our world.
-    fn placed(&self, graphics: &Graphics) -> DAffine3 {
-        DAffine3::from_mat3(self.to_ours) * graphics.to_world
-    }
-
-    fn mesh(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
-        if mesh.triangles.is_empty() {
-            self.report.note("a mesh without triangles is left out");
-            return Ok(());
-        }
-        let placed = mesh.placed(self.placed(graphics), graphics.reverse_orientation);
-        let count = placed.triangles.len();
-        let file = self.file_names.take("mesh", "mesh");
-        if self.is_seen(graphics) {
-            let path = self.add_file(format!("meshes/{file}.ply"), encode_ply(&placed));
-            let up_axis = Some(Axis::Z.into());
-            self.scene.meshes.push(Mesh { up_axis, ..Mesh::new(file.as_str(), path.as_str()) });
-            self.object("mesh", Body::Mesh(file.as_str().into()), Transform::default(), graphics, count);
-        }
-        if fills(graphics) {
-            let path = self.add_file(format!("meshes/{file}-medium.obj"), encode_obj(&placed));
-            let shape = MediumShape::Mesh(MediumMesh::new(path.as_str()));
-            self.fill(&graphics.inside, shape, Transform::default());
-        }
-        self.check_size()
+        Triangles::read(&self.source_folder.join(name))
     }
 
     fn sphere(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
@@ -112,30 +78,7 @@ impl Scenery {
         if !is_whole {
             self.report.note("a part of a sphere is the whole sphere");
         }
-        let Some((rotation, scale)) = orthogonal(self.placed(graphics).matrix3) else {
-            self.report.note("a sheared sphere is left out");
-            return Ok(());
-        };
-        let placed = self.placed(graphics).translation;
-        if graphics.reverse_orientation && graphics.area_light.is_some() {
-            self.report.note("a sphere that shines inwards shines outwards");
-        }
-        let is_even = (scale.max_element() - scale.min_element()).abs() <= 1e-9 * scale.max_element();
-        let (radius, transform) = match is_even {
-            true => (radius * scale.x, place(placed, DMat3::IDENTITY, DVec3::ONE)),
-            false => (radius, place(placed, rotation, scale)),
-        };
-        let body = Body::Shape(Shape::Sphere(Sphere::new(radius)));
-        if self.is_seen(graphics) {
-            self.object("sphere", body, transform.clone(), graphics, 1);
-        }
-        if fills(graphics) {
-            if !is_even {
-                self.report.note("a medium in an ellipsoid is left out");
-                return Ok(());
-            }
-            self.fill(&graphics.inside, MediumShape::Sphere(MediumSphere::new(radius)), transform);
-        }
+        self.whole_sphere(radius, graphics);
         Ok(())
     }
 
@@ -144,78 +87,8 @@ impl Scenery {
         if parameters.number("innerradius", 0.0)? > 0.0 || parameters.number("phimax", 360.0)? < 360.0 {
             self.report.note("a ring or a part of a disc is the whole disc");
         }
-        let placed = self.placed(graphics);
-        let Some((rotation, scale)) = orthogonal(placed.matrix3) else {
-            self.report.note("a sheared disc is left out");
-            return Ok(());
-        };
-        // `orthogonal` may have turned x round, which a disc does not show, but not its front.
-        let rotation = match graphics.reverse_orientation {
-            true => DMat3::from_cols(-rotation.x_axis, rotation.y_axis, -rotation.z_axis),
-            false => rotation,
-        };
-        let centre = placed.transform_point3(DVec3::new(0.0, 0.0, parameters.number("height", 0.0)?));
-        if self.is_seen(graphics) {
-            let scale = DVec3::new(scale.x, scale.y, 1.0);
-            let body = Body::Shape(Shape::Disc(Disc::new(radius)));
-            self.object("disk", body, place(centre, rotation, scale), graphics, 1);
-        }
+        self.whole_disc(radius, parameters.number("height", 0.0)?, graphics);
         Ok(())
-    }
-
-    /// Whether a surface is one, and not the border of a medium alone.
-    fn is_seen(&mut self, graphics: &Graphics) -> bool {
-        let is_border = &*graphics.material == INTERFACE;
-        if is_border && graphics.area_light.is_some() {
-            self.report.note("a shape without a surface gives no light, as in pbrt");
-        }
-        !is_border
-    }
-
-    /// An object of the material and the light that hold now; `count` is how many shapes it is in pbrt.
-    fn object(&mut self, kind: &str, body: Body, transform: Transform, graphics: &Graphics, count: usize) {
-        let material = match &graphics.area_light {
-            None => self.known_material(&graphics.material),
-            Some(light) => {
-                if light.has_flux() && count > 1 {
-                    self.report.note("\"power\" of an area light holds for each triangle of a mesh, as in pbrt; triangles are taken as equally bright");
-                }
-                self.glowing(&graphics.material, light.emission(count))
-            }
-        };
-        let name = self.names.take(kind, "object");
-        let material = Some(material.as_str().into());
-        self.scene.objects.push(Object { material, ..Object::new(name.as_str(), body, transform) });
-    }
-}
-
-/// Whether a shape parts a medium within from what is outside.
-fn fills(graphics: &Graphics) -> bool {
-    !graphics.inside.is_empty() && graphics.inside != graphics.outside
-}
-
-fn above_zero(name: &str, value: f64) -> Result<f64, String> {
-    if value > 0.0 { Ok(value) } else { Err(format!("\"{name}\" of {value}; expected a number above 0")) }
-}
-
-/// A rotation and the scales before it, which make a matrix up to a turn of x; `None` where it shears.
-fn orthogonal(m: DMat3) -> Option<(DMat3, DVec3)> {
-    let axes = [m.x_axis, m.y_axis, m.z_axis];
-    let scale = DVec3::from_array(axes.map(DVec3::length));
-    let [x, y, z] = axes.map(DVec3::normalize_or_zero);
-    let square = [x.dot(y), y.dot(z), z.dot(x)].iter().all(|c| c.abs() < 1e-6);
-    let x = if x.cross(y).dot(z) < 0.0 { -x } else { x };
-    square.then_some((DMat3::from_cols(x, y, z), scale))
-}
-
-/// A transform of ours; what is as by default is not stated.
-fn place(position: DVec3, rotation: DMat3, scale: DVec3) -> Transform {
-    let angles = rounded(angles_deg(rotation));
-    Transform {
-        position_m: Some(position.to_array().into()),
-        rotation_deg: Some(angles).filter(|a| *a != [0.0; 3]).map(Into::into),
-        scale: Some(scale).filter(|s| *s != DVec3::ONE).map(|s| s.to_array().into()),
-        ..Transform::default()
     }
 }
 
@@ -248,32 +121,6 @@ impl Triangles {
             }
         }
         Ok(Self { positions, normals, uvs, triangles: Vec::new() })
-    }
-
-    /// The same in our world. Winding is that of the normal, which a mirror does not turn.
-    fn placed(self, to_ours: DAffine3, reversed: bool) -> PlacedTriangles {
-        let inverse = to_ours.matrix3.inverse().transpose();
-        let side = if reversed { -1.0 } else { 1.0 };
-        let positions: Vec<DVec3> =
-            self.positions.iter().map(|p| to_ours.transform_point3(DVec3::from_array(*p))).collect();
-        let normals: Vec<DVec3> =
-            self.normals.iter().map(|n| (inverse * DVec3::from_array(*n)).normalize_or_zero() * side).collect();
-        let turned = (to_ours.matrix3.determinant() < 0.0) != reversed;
-        let wind = |[a, b, c]: [u32; 3]| {
-            let facing = |[a, b, c]: [usize; 3]| (positions[b] - positions[a]).cross(positions[c] - positions[a]);
-            let own = [a, b, c].map(|i| i as usize);
-            let turn = match normals.is_empty() {
-                true => turned,
-                false => own.iter().map(|i| normals[*i]).sum::<DVec3>().dot(facing(own)) < 0.0,
-            };
-            if turn { [a, c, b] } else { [a, b, c] }
-        };
-        PlacedTriangles {
-            triangles: self.triangles.into_iter().map(wind).collect(),
-            normals: normals.iter().map(|n| n.to_array()).collect(),
-            uvs: self.uvs,
-            positions: positions.iter().map(|p| p.to_array()).collect(),
-        }
     }
 }
 

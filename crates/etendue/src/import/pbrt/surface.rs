@@ -1,8 +1,7 @@
 //! The directive of surfaces that give light.
 
-use super::area_light::AreaLight;
 use super::parameters::Parameters;
-use super::scenery::Scenery;
+use crate::import::scenery::{AreaLight, Scenery};
 
 impl Scenery {
     /// `None` of one that is dark.

@@ -1,14 +1,19 @@
 //! Textures.
 
-use super::colour::grey;
-use super::known::KnownTexture;
 use super::parameters::Parameters;
-use super::scenery::Scenery;
+use crate::import::scenery::{KnownTexture, Scenery, grey};
 use etendue_io::pbrt::{PbrtParameter, PbrtValues};
-use etendue_scene::record::material::Factor;
+use etendue_io::picture::read_picture;
+use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_scene::record::material::factor::FactorTexture;
+use etendue_scene::record::material::{Channel, Factor};
 use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_scene::record::{Colour, Reflectance, Texture};
+
+/// Whether a picture says how much of it is there.
+fn has_opacity(image: &ImageAsset) -> bool {
+    matches!(image.pixels, ImagePixels::Rgba8(_) | ImagePixels::Rgba32F(_))
+}
 
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
 
@@ -23,7 +28,7 @@ impl Scenery {
         let told = |what: String| format!("Texture \"{name}\": {what}");
         let is_colour = values != "float";
         let known = match kind {
-            "imagemap" => self.picture(name, parameters).map_err(told)?,
+            "imagemap" => self.picture(name, is_colour, parameters).map_err(told)?,
             "constant" => match parameters.find("value") {
                 Some(value) => self.even(value).map_err(told)?,
                 None => Some(KnownTexture::Even([1.0; 3])),
@@ -36,7 +41,7 @@ impl Scenery {
             KnownTexture::Even([0.5; 3])
         });
         self.known.textures.insert((is_colour, name.to_owned()), known);
-        self.note_unused(&format!("Texture \"{kind}\""), parameters);
+        self.note_unused(&format!("Texture \"{kind}\""), parameters.unused());
         Ok(())
     }
 
@@ -51,7 +56,12 @@ impl Scenery {
         }
     }
 
-    fn picture(&mut self, name: &str, parameters: Parameters<'_>) -> Result<Option<KnownTexture>, String> {
+    fn picture(
+        &mut self,
+        name: &str,
+        is_colour: bool,
+        parameters: Parameters<'_>,
+    ) -> Result<Option<KnownTexture>, String> {
         let file = parameters.text("filename")?.ok_or("an imagemap without \"filename\"")?;
         let ending = file.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
         if !ENDINGS.contains(&ending.as_str()) {
@@ -98,7 +108,10 @@ impl Scenery {
             uv_offset: Some(uv_offset.into()),
             ..Texture::new(own.as_str(), path.as_str(), encoding)
         });
-        Ok(Some(KnownTexture::Picture { name: own, scale }))
+        // pbrt takes the opacity of a picture that has one as its number, as leaves are cut out. A picture that cannot be read is told by the plan.
+        let has_alpha =
+            !is_colour && read_picture(&self.source_folder.join(file)).is_ok_and(|image| has_opacity(&image));
+        Ok(Some(KnownTexture::Picture { name: own, scale, has_alpha }))
     }
 
     fn scaled(&self, is_colour: bool, parameters: Parameters<'_>) -> Result<Option<KnownTexture>, String> {
@@ -119,9 +132,9 @@ impl Scenery {
             (Some(KnownTexture::Even(a)), Some(KnownTexture::Even(b))) => {
                 Some(KnownTexture::Even(std::array::from_fn(|i| a[i] * b[i])))
             }
-            (Some(KnownTexture::Picture { name, scale }), Some(KnownTexture::Even(by)))
-            | (Some(KnownTexture::Even(by)), Some(KnownTexture::Picture { name, scale })) => {
-                grey(by).map(|by| KnownTexture::Picture { name, scale: scale * by })
+            (Some(KnownTexture::Picture { name, scale, has_alpha }), Some(KnownTexture::Even(by)))
+            | (Some(KnownTexture::Even(by)), Some(KnownTexture::Picture { name, scale, has_alpha })) => {
+                grey(by).map(|by| KnownTexture::Picture { name, scale: scale * by, has_alpha })
             }
             _ => None,
         })
@@ -165,7 +178,7 @@ impl Scenery {
         Ok(match self.texture_of(parameter, true)? {
             None => Reflectance::Plain(self.share(parameter)?),
             Some(KnownTexture::Even(rgb)) => Reflectance::Plain(self.share_of_rgb(name, rgb)),
-            Some(KnownTexture::Picture { name, scale }) => {
+            Some(KnownTexture::Picture { name, scale, .. }) => {
                 let scale = self.legal_scale(scale).map(Into::into);
                 Reflectance::Texture { name: name.as_str().into(), scale }
             }
@@ -185,12 +198,17 @@ impl Scenery {
             Some(parameter) => match self.texture_of(parameter, false)? {
                 None => parameters.number(name, default)?,
                 Some(KnownTexture::Even(rgb)) => rgb[0],
-                Some(KnownTexture::Picture { name: texture, scale }) => {
+                Some(KnownTexture::Picture { name: texture, scale, has_alpha }) => {
                     if map(0.25) != 0.25 {
                         self.report.note(format!("a picture of \"{name}\" is taken as α itself, not as its square"));
                     }
                     let scale = self.legal_scale(scale).map(Into::into);
-                    return Ok(Factor::Texture(FactorTexture { scale, ..FactorTexture::new(texture.as_str()) }));
+                    let channel = has_alpha.then(|| Channel::Alpha.into());
+                    return Ok(Factor::Texture(FactorTexture {
+                        scale,
+                        channel,
+                        ..FactorTexture::new(texture.as_str())
+                    }));
                 }
             },
         };

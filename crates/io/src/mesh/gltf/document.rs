@@ -55,6 +55,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), String> {
     Ok((document.into_json(), blob.map(<[u8]>::to_vec)))
 }
 
+/// The JSON as it stands in the file.
+pub(super) fn json_of(bytes: &[u8]) -> Result<serde_json::Value, String> {
+    let (json, _) = if bytes.starts_with(MAGIC) { chunks(bytes)? } else { (bytes, None) };
+    serde_json::from_slice(json).map_err(|cause| format!("no glTF: its JSON: {cause}"))
+}
+
 /// Refuses positions that are not there, which the crate's own check takes for granted.
 fn check_positions(root: &Root) -> Result<(), String> {
     let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);

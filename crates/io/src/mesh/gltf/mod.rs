@@ -6,7 +6,7 @@
 //!
 //! All nodes of the scene become one mesh in the file's axes and units (+y up, +z forward, m): their transforms are applied in f64, skins as they
 //! stand at rest. Animations are reported, and so is all else that is not used. Lights and cameras, which have no place in a mesh, are read by themselves
-//! ([`read_gltf_stage`]).
+//! ([`read_gltf_stage`]), and so is what animations move ([`read_gltf_motion`]).
 
 mod accessor;
 mod baked;
@@ -16,14 +16,20 @@ mod document;
 mod extras;
 mod flatten;
 mod material;
+mod motion;
 mod nodes;
+mod parts;
 mod picture;
 mod placed;
 mod report;
 mod skin;
 mod stage;
+mod tracks;
 
+pub use motion::{GltfMotion, GltfMover, read_gltf_motion};
+pub use parts::GltfParts;
 pub use stage::{GltfCamera, GltfLight, GltfLightKind, GltfProjection, GltfStage, read_gltf_stage};
+pub use tracks::GltfTrack;
 
 use std::path::Path;
 

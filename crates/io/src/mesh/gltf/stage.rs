@@ -20,8 +20,8 @@ pub struct GltfStage {
     pub lights: Vec<GltfLight>,
     /// The cameras of the scene's nodes.
     pub cameras: Vec<GltfCamera>,
-    /// Whether a node of the scene shows a mesh.
-    pub has_meshes: bool,
+    /// The nodes of the scene that show a mesh, by their numbers in the file.
+    pub mesh_nodes: Vec<usize>,
     /// How many animations it has.
     pub animations: usize,
 }
@@ -31,6 +31,8 @@ pub struct GltfStage {
 pub struct GltfLight {
     /// Its name, or its node's; empty where neither has one.
     pub name: String,
+    /// The number of its node in the file.
+    pub node: usize,
     /// From its own axes, in which it shines along −z, to the file's.
     pub to_file: DAffine3,
     /// How it shines.
@@ -64,6 +66,8 @@ pub enum GltfLightKind {
 pub struct GltfCamera {
     /// Its name, or its node's; empty where neither has one.
     pub name: String,
+    /// The number of its node in the file.
+    pub node: usize,
     /// From its own axes, in which it looks along −z with +y up, to the file's.
     pub to_file: DAffine3,
     /// How it projects.
@@ -103,18 +107,23 @@ fn read(bytes: &[u8]) -> Result<GltfStage, String> {
     for number in shown {
         let (node, to_file) = (&root.nodes[number], to_file[number]);
         let node_name = node.name.clone().unwrap_or_default();
-        stage.has_meshes |= node.mesh.is_some();
+        stage.mesh_nodes.extend(node.mesh.map(|_| number));
         if let Some(light) = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()) {
-            stage.lights.push(light_of(&root, light.light.value(), node_name.clone(), to_file)?);
+            stage.lights.push(light_of(&root, light.light.value(), (number, node_name.clone()), to_file)?);
         }
         if let Some(camera) = node.camera {
-            stage.cameras.push(camera_of(&root, camera.value(), node_name, to_file)?);
+            stage.cameras.push(camera_of(&root, camera.value(), (number, node_name), to_file)?);
         }
     }
     Ok(stage)
 }
 
-fn light_of(root: &Root, number: usize, node_name: String, to_file: DAffine3) -> Result<GltfLight, String> {
+fn light_of(
+    root: &Root,
+    number: usize,
+    (node, node_name): (usize, String),
+    to_file: DAffine3,
+) -> Result<GltfLight, String> {
     let lights = root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
     let light = lights
         .and_then(|l| l.lights.get(number))
@@ -127,6 +136,7 @@ fn light_of(root: &Root, number: usize, node_name: String, to_file: DAffine3) ->
     }
     Ok(GltfLight {
         name: light.name.clone().unwrap_or(node_name),
+        node,
         to_file,
         kind: kind_of(light).map_err(|what| wrong(&what))?,
         colour,
@@ -152,7 +162,12 @@ fn kind_of(light: &Light) -> Result<GltfLightKind, String> {
     }
 }
 
-fn camera_of(root: &Root, number: usize, node_name: String, to_file: DAffine3) -> Result<GltfCamera, String> {
+fn camera_of(
+    root: &Root,
+    number: usize,
+    (node, node_name): (usize, String),
+    to_file: DAffine3,
+) -> Result<GltfCamera, String> {
     let camera = root
         .cameras
         .get(number)
@@ -175,5 +190,5 @@ fn camera_of(root: &Root, number: usize, node_name: String, to_file: DAffine3) -
         }
         (None, None) => return Err(format!("camera {number} has no projection; export it again")),
     };
-    Ok(GltfCamera { name: camera.name.clone().unwrap_or(node_name), to_file, projection })
+    Ok(GltfCamera { name: camera.name.clone().unwrap_or(node_name), node, to_file, projection })
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 /// Sentences in the order in which they came.
 #[derive(Debug, Default)]
-pub(super) struct Report {
+pub(in crate::import) struct Report {
     order: Vec<String>,
     counts: HashMap<String, (usize, String)>,
     /// The file and line that is being read.
@@ -13,11 +13,11 @@ pub(super) struct Report {
 
 impl Report {
     /// What follows stands here.
-    pub(super) fn at(&mut self, place: String) {
+    pub(in crate::import) fn at(&mut self, place: String) {
         self.place = place;
     }
 
-    pub(super) fn note(&mut self, sentence: impl Into<String>) {
+    pub(in crate::import) fn note(&mut self, sentence: impl Into<String>) {
         let (sentence, place) = (sentence.into(), &self.place);
         match self.counts.get_mut(&sentence) {
             Some((count, _)) => *count += 1,
@@ -28,7 +28,7 @@ impl Report {
         }
     }
 
-    pub(super) fn lines(&self) -> Vec<String> {
+    pub(in crate::import) fn lines(&self) -> Vec<String> {
         let line = |sentence: &String| {
             let (count, place) = &self.counts[sentence];
             match (count, place.as_str()) {

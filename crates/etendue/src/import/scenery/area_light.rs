@@ -5,18 +5,18 @@ use etendue_scene::record::{Emission, Level, LightColour, SurfaceEmission};
 
 /// The light of the shapes that follow.
 #[derive(Clone, Debug)]
-pub(super) struct AreaLight {
-    pub(super) colour: LightColour,
+pub(in crate::import) struct AreaLight {
+    pub(in crate::import) colour: LightColour,
     /// cd/m², of shapes without a flux.
-    pub(super) luminance: f64,
+    pub(in crate::import) luminance: f64,
     /// Flux of each of pbrt's shapes, a triangle or a sphere, lm.
-    pub(super) flux: Option<f64>,
-    pub(super) two_sided: bool,
+    pub(in crate::import) flux: Option<f64>,
+    pub(in crate::import) two_sided: bool,
 }
 
 impl AreaLight {
     /// The emission of an object that is `count` of pbrt's shapes.
-    pub(super) fn emission(&self, count: usize) -> SurfaceEmission {
+    pub(in crate::import) fn emission(&self, count: usize) -> SurfaceEmission {
         let level = match self.flux {
             Some(lm) => Level::LuminousFlux((lm * count as f64).into()),
             None => Level::Luminance(self.luminance.into()),
@@ -26,7 +26,7 @@ impl AreaLight {
     }
 
     /// Whether it gives each of pbrt's shapes a flux.
-    pub(super) fn has_flux(&self) -> bool {
+    pub(in crate::import) fn has_flux(&self) -> bool {
         self.flux.is_some()
     }
 }

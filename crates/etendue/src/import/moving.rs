@@ -1,0 +1,241 @@
+//! Nodes of glTF files that move, as frames with keys and objects in them.
+
+use super::naming::{Names, path_between, rounded};
+use etendue_core::maths::f64 as maths;
+use etendue_io::mesh::{GltfMotion, GltfMover, GltfTrack};
+use etendue_scene::record::frame::{FrameKey, FramePlacement};
+use etendue_scene::record::object::Keyframe;
+use etendue_scene::record::transform::angles_deg;
+use etendue_scene::record::{Body, Frame, Mesh, Object, Scene, Transform};
+use glam::{DMat3, DQuat, DVec3};
+use std::path::Path;
+
+/// Keys of a cubic curve from one of the file's to the next.
+const CUBIC_KEYS: usize = 16;
+/// The binary chunk of a GLB file, by its name in `meshes/`.
+const BLOB: &str = "chunk.bin";
+/// How long a jump of a track with steps takes, s.
+const JUMP_S: f64 = 1e-6;
+/// From key to key tracks turn by less, degrees.
+const MAX_TURN_DEG: f64 = 170.0;
+
+/// From the file's axes (+y up, +z forward) to the world's (+z up, +x forward).
+fn to_world(v: DVec3) -> DVec3 {
+    DVec3::new(v.z, v.x, v.y)
+}
+
+/// What moves, as it stands in the written scene.
+pub(super) struct Moving {
+    /// Frames and the scale of lengths in them, by the numbers of movers.
+    frames: Vec<(String, f64)>,
+}
+
+impl Moving {
+    /// The name of a mover's frame, and the scale of lengths in its node.
+    pub(super) fn frame(&self, mover: usize) -> (&str, f64) {
+        let (name, scale) = &self.frames[mover];
+        (name, *scale)
+    }
+}
+
+/// Adds what moves to a scene, and its meshes to what is written.
+pub(super) fn add_moving(
+    scene: &mut Scene,
+    motion: &GltfMotion,
+    (source, folder): (&Path, &Path),
+    files: &mut Vec<(String, Vec<u8>)>,
+    report: &mut Vec<String>,
+) -> Result<Moving, String> {
+    let shown = motion.movers.iter().filter(|mover| mover.has_mesh).count();
+    motion.parts.check_size(if motion.movers.is_empty() { 0 } else { shown + 1 })?;
+    let mut names = Names::default();
+    let mut moving = Moving { frames: Vec::new() };
+    for (number, mover) in motion.movers.iter().enumerate() {
+        let name = names.take(&mover.name, "mover");
+        let above = mover.parent.map_or(1.0, |parent| moving.frames[parent].1);
+        let (turn, scale, _) = mover.to_parent;
+        let way = Way { mover, above, turn };
+        let times = way.times();
+        let mut frame = Frame::new(name.as_str(), way.placement(times.first().copied().unwrap_or(0.0)));
+        if times.len() > 1 {
+            frame = Frame::new(name.as_str(), FramePlacement::default());
+            frame.keys = times.iter().map(|time_s| FrameKey::new(*time_s, way.placement(*time_s))).collect();
+        }
+        frame.parent = mover.parent.map(|parent| moving.frames[parent].0.as_str().into());
+        scene.frames.push(frame);
+        report.push(format!("node \"{name}\" moves: a frame of {} keys{}", times.len(), way.told(&times)));
+        let whole = above * scale;
+        if mover.has_mesh {
+            let own = if mover.scale.is_some() { DVec3::ONE } else { mover.rest.2 };
+            let part = format!("meshes/{name}.gltf");
+            let bytes = part_of(motion, Some((number, (whole * own).to_array())), (source, folder));
+            files.push((part.clone(), bytes));
+            scene.meshes.push(Mesh::new(name.as_str(), part.as_str()));
+            let body = Body::Mesh(name.as_str().into());
+            let mut object = Object::new(name.as_str(), body, Transform::default());
+            object.frame = Some(name.as_str().into());
+            object.keys = mover.scale.as_ref().map(scale_keys).unwrap_or_default();
+            scene.objects.push(object);
+        }
+        // Of an uneven scale nothing that moves stands within, and lights and cameras are not scaled.
+        moving.frames.push((name, whole * mover.rest.2.x));
+    }
+    if let (Some(blob), false) = (&motion.parts.blob, motion.movers.is_empty()) {
+        files.push((format!("meshes/{BLOB}"), blob.clone()));
+    }
+    Ok(moving)
+}
+
+/// A part as a file in `meshes/`.
+pub(super) fn part_of(
+    motion: &GltfMotion,
+    mover: Option<(usize, [f64; 3])>,
+    (source, folder): (&Path, &Path),
+) -> Vec<u8> {
+    let beside = source.parent().unwrap_or(Path::new(""));
+    let way = |name: &str| path_between(&folder.join("meshes"), &beside.join(name)).to_string_lossy().into_owned();
+    motion.parts.part(mover, BLOB, &way)
+}
+
+struct Way<'a> {
+    mover: &'a GltfMover,
+    /// The scale of lengths in what it stands in.
+    above: f64,
+    /// From its parent's axes to those of the frame above.
+    turn: DQuat,
+}
+
+impl Way<'_> {
+    /// Place and rotation in the frame above, in the file's axes.
+    fn at(&self, time_s: f64) -> (DVec3, DQuat) {
+        let (translation, rotation, _) = self.mover.rest;
+        let own = self.mover.translation.as_ref().map_or(translation, |t| DVec3::from_array(t.at(time_s, straight)));
+        let own_turn =
+            self.mover.rotation.as_ref().map_or(rotation, |t| DQuat::from_array(t.at(time_s, slerp)).normalize());
+        let (_, scale, moved) = self.mover.to_parent;
+        (self.above * (moved + scale * (self.turn * own)), self.turn * own_turn)
+    }
+
+    fn placement(&self, time_s: f64) -> FramePlacement {
+        let (position, turn) = self.at(time_s);
+        let columns = [DVec3::Y, DVec3::Z, DVec3::X].map(|axis| to_world(turn * axis));
+        // The file's y, z, x are our z, x, y: columns are where our x, y, z go.
+        let [z, x, y] = columns;
+        // Without zeros below zero.
+        let angles = rounded(angles_deg(DMat3::from_cols(x, y, z))).map(|angle| angle + 0.0);
+        let position = to_world(position);
+        FramePlacement {
+            position_m: (position != DVec3::ZERO).then(|| position.to_array().into()),
+            rotation_deg: (angles != [0.0; 3]).then(|| angles.into()),
+            ..FramePlacement::default()
+        }
+    }
+
+    /// Times of keys between which straight lines and slerps say the motion.
+    fn times(&self) -> Vec<f64> {
+        let mut times = Vec::new();
+        self.mover.translation.iter().for_each(|track| add_times(track, &mut times));
+        self.mover.rotation.iter().for_each(|track| add_times(track, &mut times));
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let wide: Vec<f64> = times
+            .windows(2)
+            .filter(|pair| angle_deg(self.at(pair[0]).1, self.at(pair[1]).1) > MAX_TURN_DEG)
+            .map(|pair| 0.5 * (pair[0] + pair[1]))
+            .collect();
+        times.extend(wide);
+        times.sort_by(f64::total_cmp);
+        times
+    }
+
+    /// What is not exact.
+    fn told(&self, times: &[f64]) -> String {
+        let (translation, rotation) = (&self.mover.translation, &self.mover.rotation);
+        let mut told = String::new();
+        if translation.as_ref().is_some_and(GltfTrack::is_step) || rotation.as_ref().is_some_and(GltfTrack::is_step) {
+            told += "; its steps take 1 µs";
+        }
+        if translation.as_ref().is_some_and(GltfTrack::is_cubic) || rotation.as_ref().is_some_and(GltfTrack::is_cubic) {
+            let (mut off_m, mut off_deg) = (0.0_f64, 0.0_f64);
+            for pair in times.windows(2) {
+                let [from, middle, to] = [pair[0], 0.5 * (pair[0] + pair[1]), pair[1]].map(|time| self.at(time));
+                off_m = off_m.max((middle.0 - 0.5 * (from.0 + to.0)).length());
+                let between = DQuat::from_array(slerp(from.1.to_array(), to.1.to_array(), 0.5));
+                off_deg = off_deg.max(angle_deg(middle.1, between));
+            }
+            told += &format!(
+                "; its cubic curves have {CUBIC_KEYS} keys from key to key, half-way off by {off_m:.2e} m and {off_deg:.2e}° at most"
+            );
+        }
+        told
+    }
+}
+
+fn add_times<const N: usize>(track: &GltfTrack<N>, times: &mut Vec<f64>) {
+    times.extend(&track.times_s);
+    for pair in track.times_s.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        if track.is_step() && to - JUMP_S > from {
+            times.push(to - JUMP_S);
+        }
+        if track.is_cubic() {
+            times.extend((1..CUBIC_KEYS).map(|i| from + (to - from) * i as f64 / CUBIC_KEYS as f64));
+        }
+    }
+}
+
+/// Keys of an object whose size changes.
+fn scale_keys(track: &GltfTrack<3>) -> Vec<Keyframe> {
+    let mut times = Vec::new();
+    add_times(track, &mut times);
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    let key = |time_s: f64| {
+        let scale = to_world(DVec3::from_array(track.at(time_s, straight)));
+        Keyframe::new(time_s, Transform { scale: Some(scale.to_array().into()), ..Transform::default() })
+    };
+    times.into_iter().map(key).collect()
+}
+
+fn straight(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
+    std::array::from_fn(|i| a[i] + share * (b[i] - a[i]))
+}
+
+/// From rotation to rotation about one axis at an even rate, the short way (Shoemake 1985).
+fn slerp(a: [f64; 4], b: [f64; 4], share: f64) -> [f64; 4] {
+    let unit = |q: [f64; 4]| {
+        let length = q.iter().map(|v| v * v).sum::<f64>().sqrt();
+        q.map(|v| v / length)
+    };
+    let (a, b) = (unit(a), unit(b));
+    let cos: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    let angle = maths::acos(cos.abs().min(1.0));
+    let (from, to) = match angle < 1e-6 {
+        true => (1.0 - share, share),
+        false => {
+            let sin = |angle: f64| maths::sin(angle);
+            (sin((1.0 - share) * angle) / sin(angle), sin(share * angle) / sin(angle))
+        }
+    };
+    std::array::from_fn(|i| from * a[i] + to * cos.signum() * b[i])
+}
+
+fn angle_deg(a: DQuat, b: DQuat) -> f64 {
+    2.0 * maths::acos(a.dot(b).abs().min(1.0)).to_degrees()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rotations_go_the_short_way() {
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        let (still, quarter) = ([0.0, 0.0, 0.0, 1.0], [0.0, half, 0.0, half]);
+        for sign in [1.0, -1.0] {
+            let middle = DQuat::from_array(slerp(still, quarter.map(|v| sign * v), 0.5));
+            assert!((angle_deg(middle, DQuat::from_array(still)) - 45.0).abs() < 1e-9, "{middle}");
+            assert!((angle_deg(middle, DQuat::from_array(quarter)) - 45.0).abs() < 1e-9, "{middle}");
+        }
+    }
+}

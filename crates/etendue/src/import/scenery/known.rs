@@ -1,0 +1,43 @@
+//! What the names of a file stand for.
+
+use etendue_scene::record::Curve;
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// What stands in the place of a material's name where a surface only parts two media.
+pub(in crate::import) const INTERFACE: &str = "interface/";
+
+/// What a texture became.
+#[derive(Clone)]
+pub(in crate::import) enum KnownTexture {
+    /// The same everywhere.
+    Even([f64; 3]),
+    /// A texture of ours, times a number.
+    Picture {
+        name: String,
+        scale: f64,
+        /// Whether its number is its opacity, as of pbrt's pictures with one.
+        has_alpha: bool,
+    },
+}
+
+/// A homogeneous medium.
+#[derive(Clone)]
+pub(in crate::import) struct Homogeneous {
+    pub(in crate::import) extinction: Curve,
+    pub(in crate::import) albedo: Curve,
+    pub(in crate::import) g: f64,
+}
+
+/// Names and what they stand for.
+#[derive(Default)]
+pub(in crate::import) struct Known {
+    /// Textures, those of colours (true) and those of numbers apart.
+    pub(in crate::import) textures: HashMap<(bool, String), KnownTexture>,
+    /// Names of ours of the file's materials; the empty name is that of the grey one.
+    pub(in crate::import) materials: HashMap<String, Rc<str>>,
+    /// Names of copies of which only a share is there, by what they are copies of and the share.
+    pub(in crate::import) thinned: HashMap<String, Rc<str>>,
+    /// Media that are understood.
+    pub(in crate::import) media: HashMap<String, Homogeneous>,
+}

@@ -1,0 +1,100 @@
+//! What is made, and the state that holds for a shape.
+
+use super::area_light::AreaLight;
+use super::known::Known;
+use super::report::Report;
+use crate::import::naming::{Names, path_between};
+use etendue_scene::limits;
+use etendue_scene::record::Scene;
+use etendue_scene::record::material::Factor;
+use glam::{DAffine3, DMat3};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+/// The scene as far as it is made.
+pub(in crate::import) struct Scenery {
+    pub(in crate::import) scene: Scene,
+    pub(in crate::import) report: Report,
+    pub(in crate::import) file_names: Names,
+    pub(in crate::import) names: Names,
+    /// From the file's world to ours.
+    pub(in crate::import) to_ours: DMat3,
+    pub(in crate::import) known: Known,
+    /// The folder of the scene file.
+    pub(in crate::import) source_folder: PathBuf,
+    /// The folder of what is written.
+    folder: PathBuf,
+    pub(in crate::import) files: Vec<(String, Vec<u8>)>,
+    bytes: u64,
+}
+
+impl Graphics {
+    /// What holds where nothing is said.
+    pub(in crate::import) fn plain() -> Self {
+        let none: Rc<str> = Rc::from("");
+        Self {
+            to_world: DAffine3::IDENTITY,
+            reverse_orientation: false,
+            material: none.clone(),
+            area_light: None,
+            inside: none.clone(),
+            outside: none,
+            opacity: None,
+        }
+    }
+}
+
+impl Scenery {
+    pub(in crate::import) fn new(file: &Path, folder: &Path) -> Self {
+        Self {
+            scene: Scene::default(),
+            report: Report::default(),
+            file_names: Names::default(),
+            names: Names::default(),
+            to_ours: DMat3::IDENTITY,
+            known: Known::default(),
+            source_folder: file.parent().unwrap_or(Path::new("")).to_owned(),
+            folder: folder.to_owned(),
+            files: Vec::new(),
+            bytes: 0,
+        }
+    }
+
+    /// Adds a file to what is written; its path.
+    pub(in crate::import) fn add_file(&mut self, name: String, bytes: Vec<u8>) -> String {
+        self.bytes += bytes.len() as u64;
+        self.files.push((name.clone(), bytes));
+        name
+    }
+
+    /// Refuses what instances would multiply beyond the limit.
+    pub(in crate::import) fn check_size(&self) -> Result<(), String> {
+        limits::MESH.check_unpacked(self.bytes)
+    }
+
+    /// The path, as the written scene names it, of a file that the scene file names.
+    pub(in crate::import) fn path_of(&self, name: &str) -> String {
+        path_between(&self.folder, &self.source_folder.join(name)).to_string_lossy().into_owned()
+    }
+
+    /// Notes the parameters that nobody has asked for.
+    pub(in crate::import) fn note_unused<'a>(&mut self, of: &str, unused: impl Iterator<Item = &'a str>) {
+        for name in unused {
+            self.report.note(format!("{of}: \"{name}\" is not used"));
+        }
+    }
+}
+
+/// What holds for a shape.
+#[derive(Clone)]
+pub(in crate::import) struct Graphics {
+    /// From the space of what follows to the file's world.
+    pub(in crate::import) to_world: DAffine3,
+    pub(in crate::import) reverse_orientation: bool,
+    pub(in crate::import) material: Rc<str>,
+    pub(in crate::import) area_light: Option<Rc<AreaLight>>,
+    pub(in crate::import) inside: Rc<str>,
+    pub(in crate::import) outside: Rc<str>,
+    /// Share of the surface that is there; `None` for all.
+    pub(in crate::import) opacity: Option<Factor>,
+}

@@ -1,0 +1,282 @@
+//! Nodes that animations move.
+//!
+//! Source: glTF 2.0 Specification, 3.11 and appendix C (interpolation).
+
+use std::path::Path;
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use gltf::json::Root;
+use gltf::json::animation::{Channel, Interpolation, Property, Sampler};
+use gltf::json::scene::Node;
+use gltf::json::validation::Checked;
+
+use super::accessor::{finite, numbers};
+use super::buffers::Buffers;
+use super::document;
+use super::nodes;
+use super::parts::GltfParts;
+use super::tracks::{self, GltfTrack};
+use crate::source::read_bytes;
+use crate::{Error, Sandbox};
+
+/// What the animations of a glTF file move, all of them together.
+#[derive(Clone, Debug)]
+pub struct GltfMotion {
+    /// Nodes that move by themselves, parents before children; `parent` counts in this list.
+    pub movers: Vec<GltfMover>,
+    /// What is not used, in sentences.
+    pub notes: Vec<String>,
+    /// The file without what moves, and each of these by itself.
+    pub parts: GltfParts,
+}
+
+/// A node that moves by itself.
+#[derive(Clone, Debug)]
+pub struct GltfMover {
+    /// Its name; empty where it has none.
+    pub name: String,
+    /// Its number in the file.
+    pub node: usize,
+    /// The next one above it that moves.
+    pub parent: Option<usize>,
+    /// From its parent node's axes to those of the mover above it, or to the file's: rotation, one scale, translation.
+    pub to_parent: (DQuat, f64, DVec3),
+    /// From its own axes to the file's, without animation.
+    pub to_file: DAffine3,
+    /// Where it stands in its parent without animation: translation, rotation, scale.
+    pub rest: (DVec3, DQuat, DVec3),
+    /// Its translation over time, m.
+    pub translation: Option<GltfTrack<3>>,
+    /// Its rotation over time, quaternions x, y, z, w.
+    pub rotation: Option<GltfTrack<4>>,
+    /// Its scale over time.
+    pub scale: Option<GltfTrack<3>>,
+    /// Whether it or what stands still in it shows a mesh.
+    pub has_mesh: bool,
+}
+
+/// Reads what animations move, with the buffers that hold it.
+///
+/// # Errors
+/// Damaged files.
+pub fn read_gltf_motion(file: &Path) -> Result<GltfMotion, Error> {
+    let bytes = read_bytes(file, "scene")?;
+    read(file, &bytes).map_err(|told| Error::new(file, told))
+}
+
+fn read(file: &Path, bytes: &[u8]) -> Result<GltfMotion, String> {
+    let (root, blob) = document::parse(bytes)?;
+    let (shown, to_file) = nodes::shown(&root)?;
+    let mut notes = Vec::new();
+    let mut tracks = vec![Tracks::default(); root.nodes.len()];
+    if !root.animations.is_empty() {
+        let buffers = Buffers::read(file, &root, blob.clone(), &Sandbox::NONE)?;
+        tracks = all_tracks(&root, &buffers, &mut notes)?;
+    }
+    let above = parents(&root);
+    for node in held_by_skins(&root, &above) {
+        if std::mem::take(&mut tracks[node]).is_some() {
+            notes.push(format!("the motion of {} is not used: skins stand at rest", called(&root, node)));
+        }
+    }
+    let mut movers: Vec<GltfMover> = Vec::new();
+    let mut mover_of: Vec<Option<usize>> = vec![None; root.nodes.len()];
+    for node in &shown {
+        let node = *node;
+        mover_of[node] = above[node].and_then(|parent| mover_of[parent]);
+        let own = std::mem::take(&mut tracks[node]);
+        if own.is_some() {
+            match mover(&root, node, (mover_of[node], &movers), above[node], &to_file, own) {
+                Ok(mover) => {
+                    mover_of[node] = Some(movers.len());
+                    movers.push(mover);
+                }
+                Err(why) => notes.push(format!("the motion of {} is not used: {why}", called(&root, node))),
+            }
+        }
+        if let (Some(mover), true) = (mover_of[node], root.nodes[node].mesh.is_some()) {
+            movers[mover].has_mesh = true;
+        }
+    }
+    let parts = GltfParts::new(bytes, blob, movers.iter().map(|mover| mover.node).collect(), mover_of)?;
+    Ok(GltfMotion { movers, notes, parts })
+}
+
+#[derive(Clone, Debug, Default)]
+struct Tracks {
+    translation: Option<GltfTrack<3>>,
+    rotation: Option<GltfTrack<4>>,
+    scale: Option<GltfTrack<3>>,
+}
+
+impl Tracks {
+    fn is_some(&self) -> bool {
+        self.translation.is_some() || self.rotation.is_some() || self.scale.is_some()
+    }
+}
+
+fn called(root: &Root, node: usize) -> String {
+    match &root.nodes[node].name {
+        Some(name) => format!("node \"{name}\""),
+        None => format!("node {node}"),
+    }
+}
+
+fn parents(root: &Root) -> Vec<Option<usize>> {
+    let mut parents = vec![None; root.nodes.len()];
+    for (number, node) in root.nodes.iter().enumerate() {
+        node.children.iter().flatten().for_each(|child| parents[child.value()] = Some(number));
+    }
+    parents
+}
+
+/// Joints and all above them.
+fn held_by_skins(root: &Root, above: &[Option<usize>]) -> Vec<usize> {
+    let mut is_held = vec![false; root.nodes.len()];
+    for joint in root.skins.iter().flat_map(|skin| &skin.joints) {
+        let mut node = Some(joint.value()).filter(|node| *node < is_held.len());
+        while let Some(number) = node.filter(|number| !std::mem::replace(&mut is_held[*number], true)) {
+            node = above[number];
+        }
+    }
+    (0..is_held.len()).filter(|node| is_held[*node]).collect()
+}
+
+fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result<Vec<Tracks>, String> {
+    let mut tracks = vec![Tracks::default(); root.nodes.len()];
+    for (number, animation) in root.animations.iter().enumerate() {
+        let told = |what: String| format!("its animation {number}: {what}");
+        for channel in &animation.channels {
+            let sampler = animation.samplers.get(channel.sampler.value());
+            let sampler = sampler.ok_or_else(|| told("a channel names a sampler that is not there".to_owned()))?;
+            let node = tracks.get_mut(channel.target.node.value());
+            let node = node.ok_or_else(|| told("a channel names a node that is not there".to_owned()))?;
+            if !add(root, buffers, (channel, sampler), node).map_err(told)? {
+                let what = called(root, channel.target.node.value());
+                let note = match channel.target.path {
+                    Checked::Valid(Property::MorphTargetWeights) => format!("morph targets of {what} are not used"),
+                    _ => format!("a further animation of {what} is not used: the first holds"),
+                };
+                if !notes.contains(&note) {
+                    notes.push(note);
+                }
+            }
+        }
+    }
+    Ok(tracks)
+}
+
+/// Adds a channel to its node; `false` where it is not used.
+fn add(
+    root: &Root,
+    buffers: &Buffers,
+    (channel, sampler): (&Channel, &Sampler),
+    node: &mut Tracks,
+) -> Result<bool, String> {
+    let Checked::Valid(interpolation) = sampler.interpolation else {
+        return Err("an interpolation that is not known".to_owned());
+    };
+    let times = finite(numbers::<1>(root, buffers, sampler.input, "times")?, "time")?;
+    let times: Vec<f64> = times.into_iter().map(|[time]| time).collect();
+    let cubic = matches!(interpolation, Interpolation::CubicSpline);
+    let steps = matches!(interpolation, Interpolation::Step);
+    let of = |what: &'static str| (root, buffers, sampler.output, what);
+    match channel.target.path {
+        Checked::Valid(Property::Translation) if node.translation.is_none() => {
+            node.translation = Some(track(times, of("translations"), cubic, steps)?);
+        }
+        Checked::Valid(Property::Rotation) if node.rotation.is_none() => {
+            node.rotation = Some(track(times, of("rotations"), cubic, steps)?);
+        }
+        Checked::Valid(Property::Scale) if node.scale.is_none() => {
+            node.scale = Some(track(times, of("scales"), cubic, steps)?);
+        }
+        _ => return Ok(false),
+    }
+    Ok(true)
+}
+
+type Values<'a> = (&'a Root, &'a Buffers, gltf::json::Index<gltf::json::Accessor>, &'static str);
+
+fn track<const N: usize>(
+    times: Vec<f64>,
+    (root, buffers, index, what): Values<'_>,
+    cubic: bool,
+    steps: bool,
+) -> Result<GltfTrack<N>, String> {
+    let values = finite(numbers::<N>(root, buffers, index, what)?, what)?;
+    tracks::track(times, values, cubic, steps)
+}
+
+fn mover(
+    root: &Root,
+    number: usize,
+    (parent, movers): (Option<usize>, &[GltfMover]),
+    above: Option<usize>,
+    to_file: &[DAffine3],
+    tracks: Tracks,
+) -> Result<GltfMover, String> {
+    let node = &root.nodes[number];
+    let above = above.map_or(DAffine3::IDENTITY, |above| to_file[above]);
+    let to_parent = match parent {
+        None => above,
+        Some(parent) => {
+            let scales = movers[parent].rest.2;
+            if movers[parent].scale.is_some()
+                || (scales.max_element() - scales.min_element()).abs() > 1e-6 * scales.max_element()
+            {
+                return Err(
+                    "what it stands in changes its size, or is scaled unevenly; it stands still in it".to_owned()
+                );
+            }
+            to_file[movers[parent].node].inverse() * above
+        }
+    };
+    let to_parent = similarity(to_parent).ok_or("nodes above it are mirrored or scaled unevenly")?;
+    let rest = rest(node)?;
+    if rest.2.min_element() <= 0.0 {
+        return Err("it is mirrored, or has no size".to_owned());
+    }
+    let Tracks { translation, rotation, scale } = tracks;
+    if scale.as_ref().is_some_and(|track| track.values().any(|v| v.iter().any(|s| *s <= 0.0))) {
+        return Err("its scale passes through zero, or mirrors".to_owned());
+    }
+    let name = node.name.clone().unwrap_or_default();
+    let to_file = to_file[number];
+    Ok(GltfMover {
+        name,
+        node: number,
+        parent,
+        to_parent,
+        to_file,
+        rest,
+        translation,
+        rotation,
+        scale,
+        has_mesh: false,
+    })
+}
+
+fn rest(node: &Node) -> Result<(DVec3, DQuat, DVec3), String> {
+    if node.matrix.is_some() {
+        return Err("it has a matrix, which animations do not move".to_owned());
+    }
+    let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
+    let rotation = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |r| r.0.map(f64::from));
+    let rotation = DQuat::from_array(rotation);
+    if !rotation.is_finite() || rotation.length_squared() == 0.0 {
+        return Err("its rotation is none".to_owned());
+    }
+    Ok((node.translation.map_or(DVec3::ZERO, wide), rotation.normalize(), node.scale.map_or(DVec3::ONE, wide)))
+}
+
+/// Rotation, scale and translation of a transform that has one scale and mirrors nothing.
+fn similarity(to: DAffine3) -> Option<(DQuat, f64, DVec3)> {
+    let m = to.matrix3;
+    let lengths = [m.x_axis, m.y_axis, m.z_axis].map(DVec3::length);
+    let scale = lengths[0];
+    let is_even = lengths.iter().all(|l| (l - scale).abs() <= 1e-5 * scale) && scale > 0.0;
+    let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis].map(DVec3::normalize_or_zero);
+    let is_square = [x.dot(y), y.dot(z), z.dot(x)].iter().all(|c| c.abs() < 1e-5) && x.cross(y).dot(z) > 0.0;
+    (is_even && is_square).then(|| (DQuat::from_mat3(&DMat3::from_cols(x, y, z)).normalize(), scale, to.translation))
+}

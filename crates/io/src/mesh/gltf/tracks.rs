@@ -1,0 +1,117 @@
+//! Values over time.
+
+/// Values over time; before the first and after the last they hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GltfTrack<const N: usize> {
+    /// Times, s, rising.
+    pub times_s: Vec<f64>,
+    keys: GltfKeys<N>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum GltfKeys<const N: usize> {
+    Linear(Vec<[f64; N]>),
+    Step(Vec<[f64; N]>),
+    /// Tangent before, value, tangent after.
+    Cubic(Vec<[[f64; N]; 3]>),
+}
+
+pub(super) fn track<const N: usize>(
+    times: Vec<f64>,
+    values: Vec<[f64; N]>,
+    cubic: bool,
+    steps: bool,
+) -> Result<GltfTrack<N>, String> {
+    let each = if cubic { 3 } else { 1 };
+    if times.is_empty() || values.len() != each * times.len() {
+        return Err(format!("{} values for {} times; export it again", values.len(), times.len()));
+    }
+    if times.windows(2).any(|pair| pair[0] >= pair[1]) {
+        return Err("its times do not rise; export it again".to_owned());
+    }
+    let keys = match (cubic, steps) {
+        (true, _) => GltfKeys::Cubic(values.as_chunks().0.to_vec()),
+        (_, true) => GltfKeys::Step(values),
+        _ => GltfKeys::Linear(values),
+    };
+    Ok(GltfTrack { times_s: times, keys })
+}
+
+impl<const N: usize> GltfTrack<N> {
+    /// Whether it jumps from value to value.
+    #[must_use]
+    pub fn is_step(&self) -> bool {
+        matches!(self.keys, GltfKeys::Step(_))
+    }
+
+    /// Whether it goes along cubic curves.
+    #[must_use]
+    pub fn is_cubic(&self) -> bool {
+        matches!(self.keys, GltfKeys::Cubic(_))
+    }
+
+    pub(super) fn values(&self) -> impl Iterator<Item = [f64; N]> {
+        let (plain, cubic) = match &self.keys {
+            GltfKeys::Linear(values) | GltfKeys::Step(values) => (values.as_slice(), [].as_slice()),
+            GltfKeys::Cubic(keys) => ([].as_slice(), keys.as_slice()),
+        };
+        plain.iter().copied().chain(cubic.iter().map(|[_, value, _]| *value))
+    }
+
+    /// The value at a time: on straight lines, whose way round `between` may say otherwise, steps, or cubic Hermite curves.
+    #[must_use]
+    pub fn at(&self, time_s: f64, between: impl Fn([f64; N], [f64; N], f64) -> [f64; N]) -> [f64; N] {
+        let last = self.times_s.len() - 1;
+        let next = self.times_s.partition_point(|t| *t <= time_s);
+        let (i, share) = match next {
+            0 => (0, 0.0),
+            next if next > last => (last, 0.0),
+            next => {
+                let (from, to) = (self.times_s[next - 1], self.times_s[next]);
+                (next - 1, (time_s - from) / (to - from))
+            }
+        };
+        match &self.keys {
+            GltfKeys::Step(values) => values[i],
+            GltfKeys::Linear(values) if share == 0.0 => values[i],
+            GltfKeys::Linear(values) => between(values[i], values[i + 1], share),
+            GltfKeys::Cubic(keys) if share == 0.0 => keys[i][1],
+            GltfKeys::Cubic(keys) => {
+                let step = self.times_s[i + 1] - self.times_s[i];
+                let ([_, v0, b0], [a1, v1, _]) = (keys[i], keys[i + 1]);
+                let (t, t2, t3) = (share, share * share, share * share * share);
+                std::array::from_fn(|n| {
+                    (2.0 * t3 - 3.0 * t2 + 1.0) * v0[n]
+                        + step * (t3 - 2.0 * t2 + t) * b0[n]
+                        + (3.0 * t2 - 2.0 * t3) * v1[n]
+                        + step * (t3 - t2) * a1[n]
+                })
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn straight(a: [f64; 1], b: [f64; 1], share: f64) -> [f64; 1] {
+        [a[0] + share * (b[0] - a[0])]
+    }
+
+    #[test]
+    fn values_go_as_their_interpolation_says() {
+        let times = || vec![1.0, 2.0, 4.0];
+        let values = || vec![[0.0], [1.0], [3.0]];
+        let linear = track(times(), values(), false, false).expect("a track");
+        assert_eq!([0.0, 1.5, 3.0, 9.0].map(|t| linear.at(t, straight)[0]), [0.0, 0.5, 2.0, 3.0]);
+        let step = track(times(), values(), false, true).expect("a track");
+        assert_eq!([0.0, 1.5, 2.0, 3.9, 9.0].map(|t| step.at(t, straight)[0]), [0.0, 0.0, 1.0, 1.0, 3.0]);
+        // x = t²: at rest at 0, of speed 2 at 1.
+        let cubic =
+            track(vec![0.0, 1.0], vec![[0.0], [0.0], [0.0], [2.0], [1.0], [2.0]], true, false).expect("a track");
+        assert_eq!([0.0, 0.5, 1.0].map(|t| cubic.at(t, straight)[0]), [0.0, 0.25, 1.0]);
+        assert!(track(times(), vec![[0.0]], false, false).is_err());
+        assert!(track(vec![1.0, 1.0], vec![[0.0], [1.0]], false, false).is_err());
+    }
+}

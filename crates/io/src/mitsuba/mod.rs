@@ -1,0 +1,26 @@
+//! Scene files of Mitsuba 3, as a tree of elements.
+//!
+//! Source: "Scene XML file format" of mitsuba.readthedocs.io, and the parser of Mitsuba 3 where the page leaves a rule open. What elements mean is for
+//! whoever takes them; here parameters (`<default>`, `$name`) are put in, files that are included stand in their place, and names of files older than
+//! version 2 are spelt as today.
+//!
+//! Limits: a file and all that it includes have at most `description-mib`; elements stand at most 64 deep, files that include one another 16 deep.
+
+mod element;
+mod lines;
+mod names;
+mod parse;
+
+use std::path::Path;
+
+pub use element::{MitsubaElement, MitsubaPlace};
+
+use crate::{Error, Sandbox};
+
+/// Reads a scene file with all files that it includes, which must lie in `sandbox`; its root, a `<scene>`.
+///
+/// # Errors
+/// The first fault of the form, with its file and line.
+pub fn read_mitsuba(file: &Path, sandbox: &Sandbox) -> Result<MitsubaElement, Error> {
+    parse::Reading::new(file, sandbox).root(file)
+}
