@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// Ranks of a pixel that are written: three layers, as renderers write unless told otherwise.
-pub const RANKS: usize = 6;
+const RANKS: usize = 6;
 
 /// A kind of identities, such as objects.
 #[derive(Clone, Copy, Debug)]
