@@ -76,6 +76,10 @@ book:
 gallery *names:
     docs/pictures/gallery {{names}}
 
+# Render the pictures of docs/effects anew and measure their prices (names: some of the pages; needs Python)
+effects *names:
+    docs/pictures/effects {{names}}
+
 # Time against error of five scenes: writes docs/tradeoff-scenes.md (names: some of them)
 tradeoff *names:
     docs/pictures/tradeoff {{names}}

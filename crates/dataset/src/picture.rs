@@ -20,6 +20,11 @@ pub(crate) struct Picture<'a> {
 }
 
 impl Picture<'_> {
+    /// The coverage of objects and materials, as the bytes of a Cryptomatte.
+    pub(crate) fn cryptomatte(&self) -> Result<Vec<u8>, Error> {
+        self.results.cryptomatte()
+    }
+
     /// The pixels that would show each object were it alone.
     pub(crate) fn silhouettes(&self) -> BTreeMap<u32, Vec<usize>> {
         self.results.silhouettes(&self.truth.instance)

@@ -122,6 +122,9 @@ pub(crate) fn name(format: SetFormat) -> &'static str {
         SetFormat::Bop => "bop",
         SetFormat::WebDataset => "webdataset",
         SetFormat::NuScenes => "nuscenes",
+        SetFormat::Cryptomatte => "cryptomatte",
+        SetFormat::Mcap => "mcap",
+        SetFormat::OpenLabel => "openlabel",
     }
 }
 
@@ -145,7 +148,7 @@ fn check_class_names(variations: &Variations, classes: &[(String, u32)]) -> Resu
 const MAX_NAME_IN_TAR: usize = 69;
 
 fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
-    let needs_matrix = [SetFormat::Kitti, SetFormat::Bop, SetFormat::NuScenes];
+    let needs_matrix = [SetFormat::Kitti, SetFormat::Bop, SetFormat::NuScenes, SetFormat::Mcap];
     let needs_png = [SetFormat::Kitti, SetFormat::Cityscapes];
     for camera in &job.plan().cameras {
         let refuse = |format: SetFormat, why: &str| {

@@ -19,6 +19,6 @@ pub use compile::{
 pub use plan::{Plan, remark, summary};
 pub use render::observer::{Observer, Unobserved};
 pub use render::{
-    adaptive, block, boxes, film, frame_view, gather, light, mosaic, motion, noise_reached, pupil_depth, rays,
-    spectrum_spread, tile, truth, weather_layers,
+    adaptive, block, boxes, film, frame_view, gather, identity_coverage, light, mosaic, motion, noise_reached,
+    pupil_depth, rays, spectrum_spread, tile, truth, weather_layers,
 };

@@ -25,6 +25,7 @@ mod develop;
 mod display;
 mod dropped;
 mod drops;
+mod effect_pages;
 mod encodings;
 mod extremes;
 mod faults;

@@ -3,8 +3,12 @@
 mod bop;
 mod cityscapes;
 mod coco;
+mod cryptomatte;
 mod kitti;
+mod mcap;
 mod nuscenes;
+mod openlabel;
+mod ros;
 mod webdataset;
 mod writer;
 mod yolo;
@@ -28,5 +32,8 @@ fn writer(format: SetFormat, set: &Set) -> Result<Box<dyn Writer>, Error> {
         SetFormat::Bop => Box::new(bop::Bop::of(set)),
         SetFormat::WebDataset => Box::new(webdataset::WebDataset::of(set)),
         SetFormat::NuScenes => Box::new(nuscenes::NuScenes),
+        SetFormat::Cryptomatte => Box::new(cryptomatte::Cryptomatte),
+        SetFormat::Mcap => Box::new(mcap::Mcap::default()),
+        SetFormat::OpenLabel => Box::new(openlabel::OpenLabel),
     })
 }

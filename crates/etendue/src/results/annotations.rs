@@ -2,6 +2,7 @@
 
 use super::boxes::boxes_json;
 use super::camera::CameraResults;
+use super::cryptomatte::cryptomatte_image_of;
 use super::files::Files;
 use super::writer::{Encoder, ResultWriter};
 use crate::error::Error;
@@ -9,9 +10,10 @@ use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, Identity};
 use etendue_io::Provenance;
 use etendue_io::correspondence::{encode_flo, encode_kitti_disparity, encode_kitti_flow, encode_pfm};
-use etendue_io::exr::{self, encode_disparity, encode_motion};
+use etendue_io::exr::{self, ExrImage, encode_disparity, encode_motion};
 use etendue_pipeline::boxes::{ObjectBoxes, object_boxes, silhouettes};
 use etendue_pipeline::frame_view::FrameView;
+use etendue_pipeline::identity_coverage::{IdentityCoverage, identity_coverage};
 use etendue_pipeline::motion::{MotionTruth, NeighbourTruth, disparity, motion_truth};
 use etendue_pipeline::plan::{CorrespondenceFormat, Products};
 use serde_json::Value;
@@ -78,7 +80,29 @@ impl CameraResults {
         if asked.boxes {
             writer.json(&self.file(Files::BOXES), &self.boxes_json())?;
         }
+        if asked.cryptomatte {
+            writer.exr(&self.file(Files::CRYPTOMATTE), self.cryptomatte_image())?;
+        }
         self.write_disparity(writer)
+    }
+
+    /// Which objects and materials the pixels of the first of the frames see, and how much of each they cover. Traced anew at each call, on the caller's thread pool.
+    #[must_use]
+    pub fn identity_coverage(&self) -> IdentityCoverage {
+        identity_coverage(&self.plan, self.camera(), self.frame_numbers().start, self.simd)
+    }
+
+    /// The same as the bytes of a Cryptomatte: layers `CryptoObject` and `CryptoMaterial`, by the names of the plan.
+    ///
+    /// # Errors
+    /// Where it cannot be stored.
+    pub fn cryptomatte(&self) -> Result<Vec<u8>, Error> {
+        let bytes = self.cryptomatte_image().into_bytes();
+        bytes.map_err(|error| Error::Run(format!("{}: {error}", Files::CRYPTOMATTE)))
+    }
+
+    fn cryptomatte_image(&self) -> ExrImage<'static> {
+        cryptomatte_image_of(&self.identity_coverage(), &self.plan, &self.provenance())
     }
 
     fn write_motion(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {

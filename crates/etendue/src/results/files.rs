@@ -61,6 +61,8 @@ impl Files {
     pub const BOXES: &str = "boxes.json";
     /// Boxes of objects over all frames.
     pub const TRACKS: &str = "tracks.json";
+    /// Coverage of objects and materials.
+    pub const CRYPTOMATTE: &str = "cryptomatte.exr";
     /// The pictures of all frames.
     pub const VIDEO: &str = "picture.y4m";
     /// The ray of each pixel.
@@ -195,6 +197,8 @@ impl Files {
         let picture = entry("disparity; 0 where it is not known", "1/256 px");
         add(disparity == Some(CorrespondenceFormat::Kitti), Self::DISPARITY_PNG, picture);
         add(asked.boxes, Self::BOXES, entry("boxes of objects in the picture and in space", "px, m"));
+        let ranked = "objects and materials of each pixel by falling coverage, Cryptomatte 1.2";
+        add(asked.cryptomatte, Self::CRYPTOMATTE, entry(ranked, "1"));
         add(asked.tracks, Self::TRACKS, entry("boxes of objects over all frames, object by object", "px, m, s"));
     }
 

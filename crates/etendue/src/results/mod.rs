@@ -3,6 +3,7 @@
 mod annotations;
 mod boxes;
 mod camera;
+mod cryptomatte;
 mod done_frames;
 mod file_names;
 pub(crate) mod files;

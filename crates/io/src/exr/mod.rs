@@ -16,11 +16,13 @@
 //! | [`encode_motion`] | `flow.forward.X/Y`, `visibility.forward.ID`, `scene_flow.forward.X/Y/Z`, the same `.backward.`, `motion_vector.X/Y`, `velocity.X/Y/Z`, `time.T` |
 //! | [`encode_disparity`] | `disparity.X`, `visibility.ID` |
 //! | [`rays_image`] | `origin.X/Y/Z`, `direction.X/Y/Z`, `ray.ID` |
+//! | [`cryptomatte_image`] | `CryptoObject00.R/G/B/A`, `CryptoObject01.R/G/B/A` …, the same of materials |
 //! | [`encode_layers`] | as named |
 //! | [`encode_plane`] | the quantity's name, `variance.` and the quantity's name |
 
 mod channel;
 mod compress;
+mod cryptomatte;
 mod encode;
 mod encode_error;
 mod ground_truth;
@@ -37,6 +39,7 @@ mod spectral_read;
 #[cfg(test)]
 pub(crate) mod tests_support;
 
+pub use cryptomatte::{CryptomatteLayer, cryptomatte_id, cryptomatte_image};
 pub use encode::ExrImage;
 pub use encode_error::EncodeError;
 pub use ground_truth::{GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_image};

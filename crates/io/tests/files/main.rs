@@ -4,6 +4,7 @@ mod assets;
 mod calibration_export;
 mod calibrations;
 mod correspondence;
+mod cryptomatte;
 mod exr_files;
 mod f_theta;
 mod gltf;

@@ -19,6 +19,7 @@ pub(super) fn asked(output: &Output) -> Annotations {
         disparity: None,
         boxes: output.boxes.as_ref().is_some_and(|key| key.value),
         tracks: output.tracks.as_ref().is_some_and(|key| key.value),
+        cryptomatte: output.cryptomatte.as_ref().is_some_and(|key| key.value),
     }
 }
 

@@ -33,6 +33,8 @@ pub struct Annotations {
     pub boxes: bool,
     /// The boxes of all frames in one file.
     pub tracks: bool,
+    /// The coverage of objects and materials.
+    pub cryptomatte: bool,
 }
 
 impl Annotations {

@@ -10,7 +10,7 @@ use super::path_cost::PATH_CPU_S;
 use crate::camera::defocus::{margin_px, whole_margin_px};
 use crate::plan::film_needs::needs_irradiance;
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
-use crate::render::weather_layers;
+use crate::render::{identity_coverage, weather_layers};
 use etendue_core::Bands;
 use etendue_optics::effects::{Effect, OperationCounts};
 use etendue_optics::ghosts;
@@ -184,6 +184,8 @@ pub(super) enum Truth {
     Disparity,
     /// Objects.
     Boxes,
+    /// What each pixel's samples meet.
+    Coverage,
 }
 
 /// Processor time of a part of the ground truth, s.
@@ -194,6 +196,7 @@ pub(super) fn truth_cpu_s(camera: &CameraPlan, what: Truth) -> f64 {
         Truth::Neighbours => 3.0,
         Truth::Disparity => 2.0,
         Truth::Boxes => BOX_RAYS,
+        Truth::Coverage => f64::from(identity_coverage::spp(camera)),
     };
     pixels(camera.body.raster.width(), camera.body.raster.height()) * TRUTH_S * rays
 }

@@ -97,14 +97,19 @@ pub(super) trait SourceJob {
 /// Does a job with the rays of a camera's picture.
 pub(super) fn with_source<J: SourceJob>(camera: &CameraPlan, shot: Shot, job: J) -> J::Output {
     match &camera.settings.route {
-        Route::Lens => match &camera.body.front {
-            None => job.run(&LensSource::of(camera)),
-            Some(front) => {
-                let front = &front_at(front, camera, shot);
-                job.run(&FrontSource { lens: LensSource::of(camera), front })
-            }
-        },
+        Route::Lens => with_lens(camera, shot, job),
         Route::Pupil(projection) => job.run(projection),
+    }
+}
+
+/// Does a job with the rays through a camera's lens and what stands before it, whatever its light's route is.
+pub(super) fn with_lens<J: SourceJob>(camera: &CameraPlan, shot: Shot, job: J) -> J::Output {
+    match &camera.body.front {
+        None => job.run(&LensSource::of(camera)),
+        Some(front) => {
+            let front = &front_at(front, camera, shot);
+            job.run(&FrontSource { lens: LensSource::of(camera), front })
+        }
     }
 }
 

@@ -267,7 +267,7 @@ impl<S: RaySource> RenderJob<'_, S> {
         }
     }
 
-    fn address(&self, pixel: Pixel, replicate: u32) -> PixelAddress {
+    pub(super) fn address(&self, pixel: Pixel, replicate: u32) -> PixelAddress {
         let Sampling { seed, camera, shot: Shot { frame, capture }, .. } = self.sampling;
         let replicate = self.sampling.first_replicate() + replicate;
         PixelAddress { frame: FrameAddress { seed, camera, frame, capture }, pixel, replicate }
@@ -326,10 +326,10 @@ impl<S: RaySource> RenderJob<'_, S> {
     }
 
     /// The ray of a sample; `None` where the lens stops it.
-    fn pupil_ray(&self, pixel: Pixel, displaced_px: DVec2, stream: &PathStream, hero_nm: f32) -> Option<PupilRay> {
+    pub(super) fn pupil_ray(&self, pixel: Pixel, off_px: DVec2, stream: &PathStream, nm: f32) -> Option<PupilRay> {
         let area = stream.two(Draw::PixelArea, 0).as_dvec2() - 0.5;
         let raster = DVec2::new(f64::from(pixel.x), f64::from(pixel.y)) + 0.5 + area * self.aperture_px;
-        self.source.ray(raster - displaced_px, stream.two(Draw::Pupil, 0).as_dvec2(), f64::from(hero_nm))
+        self.source.ray(raster - off_px, stream.two(Draw::Pupil, 0).as_dvec2(), f64::from(nm))
     }
 
     /// A pixel that folds its responsivity draws wavelengths by it.
@@ -342,7 +342,7 @@ impl<S: RaySource> RenderJob<'_, S> {
     }
 
     /// The number by which the samples of a block have their moments, those of the block's first pixel.
-    fn time_number(&self, stream: &PathStream) -> f32 {
+    pub(super) fn time_number(&self, stream: &PathStream) -> f32 {
         if self.exposure.has_moments() { stream.one(Draw::Time, 0) } else { 0.0 }
     }
 }

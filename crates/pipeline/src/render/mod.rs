@@ -8,6 +8,7 @@
 //! - [`motion`] is the ground truth of what moves: optical flow, scene flow, disparity.
 //! - [`boxes`] are those of objects, in the picture and in space.
 //! - [`truth`], [`rays`] and [`pupil_depth`] are point-sampled beside it, along principal rays.
+//! - [`identity_coverage`] is which objects a pixel sees, and how much of it each covers.
 //! - [`weather_layers`] are what media, drops and flakes do to each pixel.
 //! - Every pixel has one owner and its own random address: the result depends on neither threads, nor tiles, nor shards.
 //! - Work runs on the caller's rayon pool, under the caller's [`observer::Observer`].
@@ -26,6 +27,7 @@ pub mod film;
 pub mod foretold_gain;
 pub mod frame_view;
 pub mod gather;
+pub mod identity_coverage;
 pub mod light;
 mod look_at;
 pub mod mosaic;

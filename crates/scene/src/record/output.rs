@@ -72,6 +72,9 @@ record! {
         optional boxes: Placed<bool> = flag();
         /// With "boxes": the boxes of all frames of the run once more in one file, object by object, "tracks.json". Default: false.
         optional tracks: Placed<bool> = flag();
+        /// Which objects and materials each pixel sees and how much of it each covers, through the lens and over the exposure, by as many samples as the light has
+        /// (64 at most): "cryptomatte.exr", of Psyop's specification 1.2. Default: false.
+        optional cryptomatte: Placed<bool> = flag();
         /// The pictures of all frames of the run as one video, "picture.y4m"; needs `[isp]` with pictures of 8 bits as PNG, and
         /// `[sequence]`. Default: none.
         optional video: Placed<VideoFormat> = choice();
@@ -183,6 +186,7 @@ impl Output {
             disparity_format: None,
             boxes: None,
             tracks: None,
+            cryptomatte: None,
             video: None,
             calibration_files: None,
         }
@@ -218,6 +222,7 @@ impl Output {
             disparity_format: a.disparity_format.or(b.disparity_format),
             boxes: a.boxes.or(b.boxes),
             tracks: a.tracks.or(b.tracks),
+            cryptomatte: a.cryptomatte.or(b.cryptomatte),
             video: a.video.or(b.video),
             calibration_files: a.calibration_files.or(b.calibration_files),
         }

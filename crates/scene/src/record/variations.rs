@@ -55,6 +55,12 @@ choice! {
         "webdataset" => WebDataset,
         /// nuScenes: JSON tables of scenes, poses and boxes in space.
         "nuscenes" => NuScenes,
+        /// Cryptomatte: EXR files of objects and materials with their coverage.
+        "cryptomatte" => Cryptomatte,
+        /// MCAP: messages of ROS 2, pictures, depth, calibrations and poses.
+        "mcap" => Mcap,
+        /// ASAM OpenLABEL: boxes in pictures and in space, JSON.
+        "openlabel" => OpenLabel,
     }
 }
 

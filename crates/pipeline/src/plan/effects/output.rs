@@ -67,6 +67,7 @@ fn is_one_of_many(products: &Products, key: &str) -> bool {
         "output.depth_png" => rest.depth_png_per_m = None,
         "output.rays" => rest.rays = false,
         "output.scene_flow" => rest.annotations.scene_flow = false,
+        "output.cryptomatte" => rest.annotations.cryptomatte = false,
         "output.boxes" => (rest.annotations.boxes, rest.annotations.tracks) = (false, false),
         _ => {}
     }
@@ -126,6 +127,7 @@ fn products(plan: &Plan, camera: &CameraPlan) -> Vec<Product> {
             ..truth(new("boxes", "output.boxes", annotations.boxes), Truth::Boxes)
         },
         new("tracks", "output.tracks", annotations.tracks),
+        truth(new("Cryptomatte", "output.cryptomatte", annotations.cryptomatte), Truth::Coverage),
         Product {
             cpu_s: Some(weather_s(&FrameCost::of(plan, camera))),
             ..new("layers of weather", "output.weather", p.weather)

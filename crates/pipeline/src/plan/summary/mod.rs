@@ -322,6 +322,7 @@ fn products(p: &Products) -> String {
         (p.annotations.disparity.is_some(), "disparity"),
         (p.annotations.boxes, "boxes"),
         (p.annotations.tracks, "tracks"),
+        (p.annotations.cryptomatte, "Cryptomatte"),
         (p.video, "video"),
         (p.calibration_files, "calibration files"),
     ];

@@ -1,0 +1,25 @@
+//! Cryptomatte (Psyop's specification 1.2.0): `cryptomatte/SPLIT/NAME.exr`, and with the same name the picture.
+//!
+//! The layers `CryptoObject` and `CryptoMaterial` hold, for each pixel, the objects and the materials that cover most of it, through the lens and over the exposure
+//! ([`etendue_io::exr::cryptomatte_image`]); names are those of the scene. Unlike masks, which say what the pixel's centre shows, they have soft edges.
+
+use super::writer::{Writer, write};
+use crate::picture::Picture;
+use crate::records::Records;
+use crate::set::Set;
+use etendue::{Error, OutputFolder};
+
+pub(super) struct Cryptomatte;
+
+impl Writer for Cryptomatte {
+    fn picture(&self, _set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, split) = picture.sample;
+        let stem = format!("cryptomatte/{}/{}", split.name(), picture.record.stem(sample));
+        write(folder, &format!("{stem}.{}", picture.record.extension), &picture.bytes)?;
+        write(folder, &format!("{stem}.exr"), &picture.cryptomatte()?)
+    }
+
+    fn finish(&self, _set: &Set, _records: &Records, _folder: &mut OutputFolder) -> Result<(), Error> {
+        Ok(())
+    }
+}

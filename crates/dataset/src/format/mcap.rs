@@ -1,0 +1,162 @@
+//! MCAP (Foxglove, the format's specification): `mcap/SPLIT/NNNNNN.mcap`, messages of ROS 2, a file a sample.
+//!
+//! | topic | message | of each frame |
+//! | --- | --- | --- |
+//! | `/CAMERA/image/compressed` | `sensor_msgs/msg/CompressedImage` | the picture, as it is encoded |
+//! | `/CAMERA/depth` | `sensor_msgs/msg/Image`, 32FC1 | depth along the axis, m; +∞ and NaN as REP 118 has them |
+//! | `/CAMERA/camera_info` | `sensor_msgs/msg/CameraInfo` | camera matrix; pixel centres are whole numbers |
+//! | `/tf` | `tf2_msgs/msg/TFMessage` | `world` to the camera, whose frame has its name (x right, y down, z forward) |
+//!
+//! Times are the simulated ones, half-way through the exposure, from 0 on (as with `use_sim_time`); earlier ones are 0. Messages are in the order of their times, uncompressed and in no chunks; the summary has schemas,
+//! channels and statistics.
+
+use super::ros;
+use super::writer::{Writer, write};
+use crate::picture::Picture;
+use crate::record::SampleRecord;
+use crate::records::Records;
+use crate::set::Set;
+use etendue::{Error, OutputFolder};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+const MAGIC: &[u8] = b"\x89MCAP0\r\n";
+const NS: f64 = 1e9;
+
+/// A message of a topic.
+struct Message {
+    time_ns: u64,
+    topic: String,
+    schema: &'static str,
+    data: Vec<u8>,
+}
+
+/// Messages of the sample that is being made.
+#[derive(Default)]
+pub(super) struct Mcap(RefCell<Vec<Message>>);
+
+impl Writer for Mcap {
+    fn picture(&self, _set: &Set, picture: &Picture<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {
+        let record = &picture.record;
+        let time_ns = (record.time_s * NS).round().max(0.0) as u64;
+        let at = (time_ns, record.camera.as_str());
+        let matrix = record.camera_matrix_px.expect("checked for all cameras of the format");
+        let size = (record.width_px, record.height_px);
+        let topic = |name: &str| format!("/{}/{name}", record.camera);
+        let messages = [
+            (
+                topic("image/compressed"),
+                ros::COMPRESSED_IMAGE,
+                ros::compressed_image(at, &record.extension, &picture.bytes),
+            ),
+            (topic("depth"), ros::IMAGE, ros::depth_image(at, &picture.truth.depth)),
+            (topic("camera_info"), ros::CAMERA_INFO, ros::camera_info(at, size, matrix)),
+            ("/tf".to_owned(), ros::TF_MESSAGE, ros::transform(at, &record.pose)),
+        ];
+        let of = |(topic, schema, data)| Message { time_ns, topic, schema, data };
+        self.0.borrow_mut().extend(messages.map(of));
+        Ok(())
+    }
+
+    fn sample(&self, _set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
+        let mut messages = self.0.take();
+        // Those of one time stay in the order of cameras.
+        messages.sort_by_key(|message| message.time_ns);
+        write(folder, &format!("mcap/{}/{:06}.mcap", record.split.name(), record.sample), &file(&messages))
+    }
+
+    fn finish(&self, _set: &Set, _records: &Records, _folder: &mut OutputFolder) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// Opcodes of the records that are written.
+mod opcode {
+    pub(super) const HEADER: u8 = 0x01;
+    pub(super) const FOOTER: u8 = 0x02;
+    pub(super) const SCHEMA: u8 = 0x03;
+    pub(super) const CHANNEL: u8 = 0x04;
+    pub(super) const MESSAGE: u8 = 0x05;
+    pub(super) const STATISTICS: u8 = 0x0b;
+    pub(super) const DATA_END: u8 = 0x0f;
+}
+
+/// The bytes of a file of messages.
+fn file(messages: &[Message]) -> Vec<u8> {
+    let mut schemas: BTreeMap<&str, u16> = BTreeMap::new();
+    let mut channels: BTreeMap<&str, (u16, u16)> = BTreeMap::new();
+    let mut described = Vec::new();
+    for message in messages {
+        let next = schemas.len() as u16 + 1;
+        let schema = *schemas.entry(message.schema).or_insert_with(|| {
+            record(&mut described, opcode::SCHEMA, &schema_record(next, message.schema));
+            next
+        });
+        let next = channels.len() as u16 + 1;
+        channels.entry(&message.topic).or_insert_with(|| {
+            record(&mut described, opcode::CHANNEL, &channel_record(next, schema, &message.topic));
+            (next, schema)
+        });
+    }
+    let mut bytes = MAGIC.to_vec();
+    record(&mut bytes, opcode::HEADER, &[text("ros2"), text(concat!("etendue ", env!("CARGO_PKG_VERSION")))].concat());
+    bytes.extend_from_slice(&described);
+    let mut counts: BTreeMap<u16, u64> = BTreeMap::new();
+    for message in messages {
+        let (channel, _) = channels[message.topic.as_str()];
+        let count = counts.entry(channel).or_default();
+        record(&mut bytes, opcode::MESSAGE, &message_record(channel, *count as u32, message));
+        *count += 1;
+    }
+    // No check sum: 0 says so.
+    record(&mut bytes, opcode::DATA_END, &0_u32.to_le_bytes());
+    let summary_start = bytes.len() as u64;
+    bytes.extend_from_slice(&described);
+    record(&mut bytes, opcode::STATISTICS, &statistics(messages, (schemas.len(), channels.len()), &counts));
+    let footer = [summary_start.to_le_bytes().as_slice(), &0_u64.to_le_bytes(), &0_u32.to_le_bytes()].concat();
+    record(&mut bytes, opcode::FOOTER, &footer);
+    bytes.extend_from_slice(MAGIC);
+    bytes
+}
+
+fn record(bytes: &mut Vec<u8>, opcode: u8, content: &[u8]) {
+    bytes.push(opcode);
+    bytes.extend_from_slice(&(content.len() as u64).to_le_bytes());
+    bytes.extend_from_slice(content);
+}
+
+/// Texts and maps have their length in bytes before them.
+fn text(text: &str) -> Vec<u8> {
+    [&(text.len() as u32).to_le_bytes(), text.as_bytes()].concat()
+}
+
+fn schema_record(id: u16, name: &str) -> Vec<u8> {
+    [id.to_le_bytes().to_vec(), text(name), text("ros2msg"), text(&ros::definition(name))].concat()
+}
+
+fn channel_record(id: u16, schema: u16, topic: &str) -> Vec<u8> {
+    let no_metadata = 0_u32.to_le_bytes().to_vec();
+    [id.to_le_bytes().to_vec(), schema.to_le_bytes().to_vec(), text(topic), text("cdr"), no_metadata].concat()
+}
+
+fn message_record(channel: u16, sequence: u32, message: &Message) -> Vec<u8> {
+    let time = message.time_ns.to_le_bytes();
+    [&channel.to_le_bytes()[..], &sequence.to_le_bytes(), &time, &time, &message.data].concat()
+}
+
+fn statistics(messages: &[Message], (schemas, channels): (usize, usize), counts: &BTreeMap<u16, u64>) -> Vec<u8> {
+    let time = |message: Option<&Message>| message.map_or(0, |message| message.time_ns).to_le_bytes();
+    let none = 0_u32.to_le_bytes();
+    let mut bytes = (messages.len() as u64).to_le_bytes().to_vec();
+    bytes.extend_from_slice(&(schemas as u16).to_le_bytes());
+    bytes.extend_from_slice(&(channels as u32).to_le_bytes());
+    // Attachments, metadata and chunks.
+    bytes.extend_from_slice(&[none, none, none].concat());
+    bytes.extend_from_slice(&[time(messages.first()), time(messages.last())].concat());
+    bytes.extend_from_slice(&(counts.len() as u32 * 10).to_le_bytes());
+    for (channel, count) in counts {
+        bytes.extend_from_slice(&channel.to_le_bytes());
+        bytes.extend_from_slice(&count.to_le_bytes());
+    }
+    bytes
+}

@@ -1,0 +1,153 @@
+//! ASAM OpenLABEL 1.0.0: `openlabel/SPLIT/NNNNNN.json`, a file a sample, and its pictures in `openlabel/SPLIT/images`.
+//!
+//! - A camera is a stream and a coordinate system of type `sensor_cs` (x right, y down, z forward), whose pose in `world` (`scene_cs`: x forward, y left, z up) each frame states. A camera that distorts has no
+//!   intrinsic parameters.
+//! - Objects are those with a class that some pixel shows in some picture, by their identities; `type` is the class.
+//! - `bbox` is about the pixels that show the object, centre and size, px in raster coordinates, in the coordinate system of its camera; `cuboid` is the object's box in the world, centre, quaternion (x, y, z, w)
+//!   and size, m. `num` is the share of the object that is seen.
+//! - Left out: masks, relations, actions and events, ontologies.
+
+use super::writer::{Writer, write};
+use crate::picture::Picture;
+use crate::record::{ObjectRecord, PictureRecord, Pose, SampleRecord};
+use crate::records::Records;
+use crate::set::Set;
+use etendue::{Error, OutputFolder};
+use glam::{DMat4, DQuat, DVec3};
+use serde_json::{Map, Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+
+pub(super) struct OpenLabel;
+
+/// The coordinate system of the scene.
+const WORLD: &str = "world";
+
+impl Writer for OpenLabel {
+    fn picture(&self, _set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
+        let (sample, split) = picture.sample;
+        write(folder, &format!("openlabel/{}/{}", split.name(), uri(sample, &picture.record)), &picture.bytes)
+    }
+
+    fn sample(&self, set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
+        let text = format!("{}\n", json!({ "openlabel": content(set, record) }));
+        write(folder, &format!("openlabel/{}/{:06}.json", record.split.name(), record.sample), text.as_bytes())
+    }
+
+    fn finish(&self, _set: &Set, _records: &Records, _folder: &mut OutputFolder) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+fn uri(sample: u32, picture: &PictureRecord) -> String {
+    format!("images/{}.{}", picture.stem(sample), picture.extension)
+}
+
+fn content(set: &Set, record: &SampleRecord) -> Value {
+    let mut frames: BTreeMap<u32, Vec<&PictureRecord>> = BTreeMap::new();
+    record.pictures.iter().for_each(|picture| frames.entry(picture.frame).or_default().push(picture));
+    let mut seen: BTreeMap<u32, (&ObjectRecord, BTreeSet<u32>)> = BTreeMap::new();
+    for picture in &record.pictures {
+        for object in labelled(picture) {
+            seen.entry(object.id).or_insert_with(|| (object, BTreeSet::new())).1.insert(picture.frame);
+        }
+    }
+    let cameras: Vec<&str> = set.cameras.iter().map(String::as_str).collect();
+    let mut systems = Map::new();
+    systems.insert(WORLD.to_owned(), json!({ "type": "scene_cs", "parent": "", "children": cameras }));
+    systems.extend(
+        cameras
+            .iter()
+            .map(|camera| ((*camera).to_owned(), json!({ "type": "sensor_cs", "parent": WORLD, "children": [] }))),
+    );
+    let streams = cameras.iter().filter_map(|camera| {
+        let picture = record.pictures.iter().find(|picture| picture.camera == *camera)?;
+        Some(((*camera).to_owned(), stream(picture)))
+    });
+    let objects = seen.iter().map(|(id, (object, frames))| {
+        let facts = json!({ "name": object.name, "type": object.class, "frame_intervals": intervals(frames) });
+        (id.to_string(), facts)
+    });
+    json!({
+        "metadata": { "schema_version": "1.0.0", "annotator": format!("etendue {}", env!("CARGO_PKG_VERSION")), "name": format!("sample {}", record.sample) },
+        "coordinate_systems": systems,
+        "streams": streams.collect::<Map<_, _>>(),
+        "frame_intervals": intervals(&frames.keys().copied().collect()),
+        "frames": frames.iter().map(|(number, pictures)| (number.to_string(), frame(record.sample, pictures))).collect::<Map<_, _>>(),
+        "objects": objects.collect::<Map<_, _>>(),
+    })
+}
+
+/// Those with a class that some pixel shows.
+fn labelled(picture: &PictureRecord) -> impl Iterator<Item = &ObjectRecord> {
+    picture.visible().map(|(object, ..)| object).filter(|object| object.class.is_some())
+}
+
+fn stream(picture: &PictureRecord) -> Value {
+    let Some([fx, skew, cx, fy, cy]) = picture.camera_matrix_px else { return json!({ "type": "camera" }) };
+    let matrix = [fx, skew, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0];
+    let intrinsics = json!({
+        "width_px": picture.width_px, "height_px": picture.height_px, "camera_matrix_3x4": matrix, "distortion_coeffs_1xN": [0.0, 0.0, 0.0, 0.0],
+    });
+    json!({ "type": "camera", "stream_properties": { "intrinsics_pinhole": intrinsics } })
+}
+
+/// Runs of numbers that follow each other.
+fn intervals(frames: &BTreeSet<u32>) -> Vec<Value> {
+    let mut runs: Vec<(u32, u32)> = Vec::new();
+    for frame in frames {
+        match runs.last_mut() {
+            Some((_, end)) if *end + 1 == *frame => *end = *frame,
+            _ => runs.push((*frame, *frame)),
+        }
+    }
+    runs.into_iter().map(|(start, end)| json!({ "frame_start": start, "frame_end": end })).collect()
+}
+
+fn frame(sample: u32, pictures: &[&PictureRecord]) -> Value {
+    let streams = pictures.iter().map(|picture| {
+        let facts = json!({ "uri": uri(sample, picture), "stream_properties": { "sync": { "timestamp": picture.time_s.to_string() } } });
+        (picture.camera.clone(), facts)
+    });
+    let transforms = pictures.iter().map(|picture| {
+        let facts = json!({ "src": picture.camera, "dst": WORLD, "transform_src_to_dst": { "matrix4x4": matrix(&picture.pose) } });
+        (format!("{}_to_{WORLD}", picture.camera), facts)
+    });
+    let mut objects: BTreeMap<u32, (Vec<Value>, Vec<Value>, Value)> = BTreeMap::new();
+    for picture in pictures {
+        for (object, _, [left, top, right, bottom]) in picture.visible().filter(|(object, ..)| object.class.is_some()) {
+            let (boxes, shares, solid) =
+                objects.entry(object.id).or_insert_with(|| (Vec::new(), Vec::new(), cuboid(object)));
+            let (centre, size) = ([(left + right) / 2.0, (top + bottom) / 2.0], [right - left, bottom - top]);
+            let of = |name: &str| format!("{name}_{}", picture.camera);
+            boxes.push(json!({ "name": of("bbox"), "val": [centre[0], centre[1], size[0], size[1]], "coordinate_system": picture.camera }));
+            shares.push(json!({ "name": of("visible_fraction"), "val": object.visible_fraction }));
+            *solid = cuboid(object);
+        }
+    }
+    let objects = objects.into_iter().map(|(id, (boxes, shares, solid))| {
+        (id.to_string(), json!({ "object_data": { "bbox": boxes, "cuboid": [solid], "num": shares } }))
+    });
+    let first_s = pictures.iter().map(|picture| picture.time_s).fold(f64::INFINITY, f64::min);
+    json!({
+        "frame_properties": {
+            "timestamp": first_s.to_string(),
+            "streams": streams.collect::<Map<_, _>>(),
+            "transforms": transforms.collect::<Map<_, _>>(),
+        },
+        "objects": objects.collect::<Map<_, _>>(),
+    })
+}
+
+/// Row by row, camera to world.
+fn matrix(pose: &Pose) -> [f64; 16] {
+    let [w, x, y, z] = pose.rotation_wxyz;
+    let place = DVec3::from_array(pose.position_m);
+    DMat4::from_rotation_translation(DQuat::from_xyzw(x, y, z, w), place).transpose().to_cols_array()
+}
+
+fn cuboid(object: &ObjectRecord) -> Value {
+    let solid = &object.box_3d;
+    let [w, qx, qy, qz] = solid.world.rotation_wxyz;
+    let ([x, y, z], [sx, sy, sz]) = (solid.world.centre_m, solid.size_m);
+    json!({ "name": "box_3d", "val": [x, y, z, qx, qy, qz, w, sx, sy, sz], "coordinate_system": WORLD })
+}

@@ -1,0 +1,161 @@
+//! Messages of ROS 2 in CDR (OMG, little-endian), and their definitions.
+//!
+//! Numbers are aligned to their own size, counted from behind the four bytes that say the encoding.
+
+use crate::record::Pose;
+use etendue_core::Plane;
+use etendue_core::quantity::Length;
+
+pub(super) const COMPRESSED_IMAGE: &str = "sensor_msgs/msg/CompressedImage";
+pub(super) const IMAGE: &str = "sensor_msgs/msg/Image";
+pub(super) const CAMERA_INFO: &str = "sensor_msgs/msg/CameraInfo";
+pub(super) const TF_MESSAGE: &str = "tf2_msgs/msg/TFMessage";
+
+const NS: u64 = 1_000_000_000;
+
+/// When, ns, and in which frame.
+type At<'a> = (u64, &'a str);
+
+/// The fields of the messages, and of those that these are made of.
+const DEFINITIONS: [(&str, &str, &[&str]); 11] = [
+    (COMPRESSED_IMAGE, "std_msgs/Header header\nstring format\nuint8[] data\n", &[HEADER, TIME]),
+    (
+        IMAGE,
+        "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 step\nuint8[] data\n",
+        &[HEADER, TIME],
+    ),
+    (
+        CAMERA_INFO,
+        "std_msgs/Header header\nuint32 height\nuint32 width\nstring distortion_model\nfloat64[] d\nfloat64[9] k\nfloat64[9] r\n\
+         float64[12] p\nuint32 binning_x\nuint32 binning_y\nsensor_msgs/RegionOfInterest roi\n",
+        &[HEADER, TIME, ROI],
+    ),
+    (
+        TF_MESSAGE,
+        "geometry_msgs/TransformStamped[] transforms\n",
+        &[STAMPED, HEADER, TIME, TRANSFORM, VECTOR, QUATERNION],
+    ),
+    (HEADER, "builtin_interfaces/Time stamp\nstring frame_id\n", &[]),
+    (TIME, "int32 sec\nuint32 nanosec\n", &[]),
+    (ROI, "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\nbool do_rectify\n", &[]),
+    (STAMPED, "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n", &[]),
+    (TRANSFORM, "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n", &[]),
+    (VECTOR, "float64 x\nfloat64 y\nfloat64 z\n", &[]),
+    (QUATERNION, "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n", &[]),
+];
+const HEADER: &str = "std_msgs/Header";
+const TIME: &str = "builtin_interfaces/Time";
+const ROI: &str = "sensor_msgs/RegionOfInterest";
+const STAMPED: &str = "geometry_msgs/TransformStamped";
+const TRANSFORM: &str = "geometry_msgs/Transform";
+const VECTOR: &str = "geometry_msgs/Vector3";
+const QUATERNION: &str = "geometry_msgs/Quaternion";
+
+/// The definition of a message with those that it is made of, as files of ROS 2 have it.
+pub(super) fn definition(name: &str) -> String {
+    let of = |name: &str| DEFINITIONS.iter().find(|(known, ..)| *known == name).expect("a message that is written");
+    let (_, fields, parts) = of(name);
+    let mut text = (*fields).to_owned();
+    for part in *parts {
+        text.push_str(&format!("{}\nMSG: {part}\n{}", "=".repeat(80), of(part).1));
+    }
+    text
+}
+
+/// A message that grows.
+struct Cdr(Vec<u8>);
+
+impl Cdr {
+    /// One that begins with a header.
+    fn with_header((time_ns, frame): At<'_>) -> Self {
+        let mut cdr = Self(vec![0, 1, 0, 0]);
+        cdr.header((time_ns, frame));
+        cdr
+    }
+
+    fn header(&mut self, (time_ns, frame): At<'_>) {
+        self.u32((time_ns / NS) as u32);
+        self.u32((time_ns % NS) as u32);
+        self.text(frame);
+    }
+
+    fn align(&mut self, size: usize) {
+        let length = self.0.len() - 4;
+        self.0.resize(4 + length.next_multiple_of(size), 0);
+    }
+
+    fn u32(&mut self, value: u32) {
+        self.align(4);
+        self.0.extend_from_slice(&value.to_le_bytes());
+    }
+
+    fn f64s(&mut self, values: &[f64]) {
+        self.align(8);
+        values.iter().for_each(|value| self.0.extend_from_slice(&value.to_le_bytes()));
+    }
+
+    /// With its length, which counts the zero at its end.
+    fn text(&mut self, text: &str) {
+        self.u32(text.len() as u32 + 1);
+        self.0.extend_from_slice(text.as_bytes());
+        self.0.push(0);
+    }
+
+    fn bytes(&mut self, bytes: &[u8]) {
+        self.u32(bytes.len() as u32);
+        self.0.extend_from_slice(bytes);
+    }
+}
+
+/// A picture as it is encoded, by the extension of its files.
+pub(super) fn compressed_image(at: At<'_>, extension: &str, picture: &[u8]) -> Vec<u8> {
+    let mut cdr = Cdr::with_header(at);
+    cdr.text(if extension == "jpg" { "jpeg" } else { extension });
+    cdr.bytes(picture);
+    cdr.0
+}
+
+/// Depths, m.
+pub(super) fn depth_image(at: At<'_>, depth: &Plane<Length>) -> Vec<u8> {
+    let (width, height) = (depth.width() as u32, depth.height() as u32);
+    let mut cdr = Cdr::with_header(at);
+    cdr.u32(height);
+    cdr.u32(width);
+    cdr.text("32FC1");
+    cdr.0.push(0);
+    cdr.u32(4 * width);
+    let numbers: Vec<u8> = depth.samples().iter().flat_map(|depth| depth.to_le_bytes()).collect();
+    cdr.bytes(&numbers);
+    cdr.0
+}
+
+/// A camera without distortion, of this size, px, and fx, skew, cx, fy, cy in raster coordinates.
+pub(super) fn camera_info(at: At<'_>, (width, height): (usize, usize), [fx, skew, cx, fy, cy]: [f64; 5]) -> Vec<u8> {
+    // ROS counts pixel centres as whole numbers.
+    let (cx, cy) = (cx - 0.5, cy - 0.5);
+    let mut cdr = Cdr::with_header(at);
+    cdr.u32(height as u32);
+    cdr.u32(width as u32);
+    cdr.text("plumb_bob");
+    cdr.u32(5);
+    cdr.f64s(&[0.0; 5]);
+    cdr.f64s(&[fx, skew, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]);
+    cdr.f64s(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+    cdr.f64s(&[fx, skew, cx, 0.0, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    // Binning, and a region of interest, that are not there.
+    (0..6).for_each(|_| cdr.u32(0));
+    cdr.0.push(0);
+    cdr.0
+}
+
+/// From the world to a camera.
+pub(super) fn transform((time_ns, camera): At<'_>, pose: &Pose) -> Vec<u8> {
+    let [w, x, y, z] = pose.rotation_wxyz;
+    let mut cdr = Cdr(vec![0, 1, 0, 0]);
+    cdr.u32(1);
+    cdr.header((time_ns, "world"));
+    cdr.text(camera);
+    cdr.f64s(&pose.position_m);
+    cdr.f64s(&[x, y, z, w]);
+    cdr.0
+}

@@ -1,0 +1,149 @@
+"""Data sets for compositing, robots and annotation tools, read by the formats' own readers."""
+
+import json
+import struct
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import etendue
+
+SIZE = {"width_px": 96, "height_px": 72, "pixel_pitch_um": 250}
+FORMATS = ["cryptomatte", "openlabel", "mcap"]
+# A block of some 25 × 25 px: centres of pixels count an edge along rows or columns to half a pixel, two of them to 25 px.
+EDGES = 25
+
+
+@pytest.fixture(scope="module")
+def boxes(tmp_path_factory):
+    """Two Cornell boxes, sixteen samples a pixel."""
+    folder = tmp_path_factory.mktemp("boxes") / "set"
+    changes = {f"cameras.front.sensor.{key}": value for key, value in SIZE.items()}
+    etendue.dataset(ROOT / "scenes/cornell/cornell.toml", output=folder, samples=range(0, 2), format=FORMATS, spp=16, integrator="flat", set=changes)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def drive(tmp_path_factory):
+    """Two frames of a camera of the drive."""
+    folder = tmp_path_factory.mktemp("drive") / "set"
+    changes = {"cameras.right": None, "cameras.rear": None, "cameras.left.output": None}
+    sizes = {f"cameras.left.sensor.{key}": value for key, value in {"width_px": 96, "height_px": 60, "pixel_pitch_um": 60}.items()}
+    etendue.dataset(ROOT / "scenes/drive/drive.toml", output=folder, frames=range(0, 2), spp=1, integrator="flat", set={**changes, **sizes}, format=["mcap", "openlabel"])
+    return folder
+
+
+def pictures(folder):
+    """Records of samples with their pictures."""
+    samples = [json.loads(path.read_text()) for path in sorted((folder / "samples").glob("*.json"))]
+    return [(sample, picture) for sample in samples for picture in sample["pictures"]]
+
+
+def stem(sample, picture):
+    return f"{sample['sample']:06}_{picture['camera']}_{picture['frame']:04}"
+
+
+def identity(mmh3, name):
+    """The specification's own lines for the conversion of a hash."""
+    hashed = mmh3.hash(name.encode(), signed=False)
+    if (hashed >> 23 & 255) in (0, 255):
+        hashed ^= 1 << 23
+    return struct.unpack("<f", struct.pack("<I", hashed))[0], f"{hashed:08x}"
+
+
+def test_cryptomatte_s_identities_are_the_hashes_of_names(boxes):
+    mmh3, exr = pytest.importorskip("mmh3"), pytest.importorskip("OpenEXR")
+    for sample, picture in pictures(boxes):
+        name = boxes / f"cryptomatte/train/{stem(sample, picture)}.exr"
+        assert name.with_suffix(".png").is_file()
+        with exr.File(str(name), separate_channels=True) as file:
+            header, channels = dict(file.header()), {key: np.array(channel.pixels) for key, channel in file.channels().items()}
+        for layer in ("CryptoObject", "CryptoMaterial"):
+            key = f"cryptomatte/{mmh3.hash(layer.encode(), signed=False):08x}"[: len("cryptomatte/") + 7]
+            facts = {fact: header[f"{key}/{fact}"] for fact in ("name", "hash", "conversion", "manifest")}
+            assert (facts["name"], facts["hash"], facts["conversion"]) == (layer, "MurmurHash3_32", "uint32_to_float32")
+            manifest = json.loads(facts["manifest"])
+            known = {identity(mmh3, name)[0]: name for name in manifest}
+            assert all(identity(mmh3, name)[1] == digits for name, digits in manifest.items())
+            ranks = [(channels[f"{layer}{rank // 2:02}.{'RB'[rank % 2]}"], channels[f"{layer}{rank // 2:02}.{'GA'[rank % 2]}"]) for rank in range(6)]
+            coverage = np.array([share for _, share in ranks])
+            assert (np.diff(coverage, axis=0) <= 0).all() and (coverage.sum(axis=0) <= 1 + 1e-6).all()
+            assert all(((ids == 0) == (shares == 0)).all() for ids, shares in ranks)
+            assert {float(number) for ids, _ in ranks for number in np.unique(ids)} - {0.0} <= set(known)
+        # A block's coverage is its mask but for its edges: pixels of the mask have more than none of it.
+        assert {"short-block", "tall-block", "lamp"} <= set(json.loads(header["cryptomatte/3ae39a5/manifest"]))
+        shown = {entry["name"]: entry["visible_pixels"] for entry in picture["objects"]}
+        block = identity(mmh3, "short-block")[0]
+        area = sum(np.where(channels[f"CryptoObject0{rank // 2}.{'RB'[rank % 2]}"] == np.float32(block), channels[f"CryptoObject0{rank // 2}.{'GA'[rank % 2]}"], 0).sum() for rank in range(6))
+        assert abs(area - shown["short-block"]) < EDGES, (area, shown["short-block"])
+        assert ((channels["CryptoObject00.G"] > 0.05) & (channels["CryptoObject00.G"] < 0.95)).any(), "edges are soft"
+
+
+def test_cryptomatte_s_masks_are_found_by_an_independent_reader(boxes):
+    reader = pytest.importorskip("cryptomatte_api")
+    sample, picture = pictures(boxes)[0]
+    mattes = reader.Cryptomatte.load(str(boxes / f"cryptomatte/train/{stem(sample, picture)}.exr"), load_preview=False)
+    matte = next(matte for matte in (mattes if isinstance(mattes, list) else [mattes]) if matte.metadata().name() == "CryptoObject")
+    mask = np.asarray(matte.mask("short-block"))
+    assert mask.max() == pytest.approx(1) and mask.min() == 0
+    shown = {entry["name"]: entry["visible_pixels"] for entry in picture["objects"]}
+    assert abs(mask.sum() - shown["short-block"]) < EDGES
+
+
+def messages(name):
+    """Messages by topic, decoded."""
+    reader = pytest.importorskip("mcap.reader")
+    decoder = pytest.importorskip("mcap_ros2.decoder")
+    found = {}
+    with open(name, "rb") as file:
+        opened = reader.make_reader(file, decoder_factories=[decoder.DecoderFactory()])
+        summary = opened.get_summary()
+        for _, channel, message, decoded in opened.iter_decoded_messages():
+            found.setdefault(channel.topic, []).append((message.log_time, decoded))
+    assert summary.statistics.message_count == sum(map(len, found.values())) and summary.statistics.channel_count == len(found)
+    return found
+
+
+def test_mcap_has_our_pictures_depth_cameras_and_poses(drive):
+    (name,) = (drive / "mcap/train").glob("*.mcap")
+    found = messages(name)
+    assert set(found) == {"/left/image/compressed", "/left/depth", "/left/camera_info", "/tf"} and all(len(of) == 2 for of in found.values())
+    for place, (_, picture) in enumerate(pictures(drive)):
+        fx, skew, cx, fy, cy = picture["camera_matrix_px"]
+        for topic, of in found.items():
+            time_ns, message = of[place]
+            stamp = message.transforms[0].header.stamp if topic == "/tf" else message.header.stamp
+            assert time_ns == stamp.sec * 10**9 + stamp.nanosec and abs(time_ns / 1e9 - picture["time_s"]) < 1e-9
+        image, depth, info = (found[f"/left/{topic}"][place][1] for topic in ("image/compressed", "depth", "camera_info"))
+        assert image.format == "png" and bytes(image.data)[:8] == b"\x89PNG\r\n\x1a\n" and image.header.frame_id == "left"
+        assert (depth.width, depth.height, depth.encoding, depth.step) == (96, 60, "32FC1", 384)
+        metres = np.frombuffer(bytes(depth.data), "<f4").reshape(60, 96)
+        assert np.isinf(metres).any() and 1 < metres[-1, 48] < 20, "the sky, and the road before the car"
+        assert info.distortion_model == "plumb_bob" and list(info.k) == [fx, skew, cx - 0.5, 0, fy, cy - 0.5, 0, 0, 1] and list(info.d) == [0] * 5
+        transform = found["/tf"][place][1].transforms[0]
+        assert (transform.header.frame_id, transform.child_frame_id) == ("world", "left")
+        at, turned = transform.transform.translation, transform.transform.rotation
+        assert [at.x, at.y, at.z] == picture["pose"]["position_m"] and [turned.w, turned.x, turned.y, turned.z] == picture["pose"]["rotation_wxyz"]
+
+
+def test_openlabel_is_valid_by_the_standard_s_schema_and_has_our_boxes(drive, boxes):
+    checker = pytest.importorskip("openlabel_checker.cli")
+    for folder, count in ((drive, 1), (boxes, 2)):
+        files = sorted((folder / "openlabel/train").glob("*.json"))
+        assert len(files) == count
+        assert [checker.main([str(name)]) for name in files] == [0] * count
+    for sample, picture in pictures(drive):
+        content = json.loads((drive / f"openlabel/train/{sample['sample']:06}.json").read_text())["openlabel"]
+        frame = content["frames"][str(picture["frame"])]
+        assert (drive / "openlabel/train" / frame["frame_properties"]["streams"]["left"]["uri"]).is_file()
+        seen = {str(entry["id"]): entry for entry in picture["objects"] if entry["class"] and entry["mask_rle"]}
+        assert set(frame["objects"]) == set(seen) and set(seen) <= set(content["objects"])
+        for name, entry in seen.items():
+            data = frame["objects"][name]["object_data"]
+            x, y, width, height = data["bbox"][0]["val"]
+            assert np.allclose([x - width / 2, y - height / 2, x + width / 2, y + height / 2], entry["visible_box_px"])
+            assert data["cuboid"][0]["val"][:3] == entry["box_3d"]["world"]["centre_m"] and data["cuboid"][0]["val"][7:] == entry["box_3d"]["size_m"]
+            assert content["objects"][name]["type"] == entry["class"]
+        pose = np.array(frame["frame_properties"]["transforms"]["left_to_world"]["transform_src_to_dst"]["matrix4x4"]).reshape(4, 4)
+        assert np.allclose(pose[:3, 3], picture["pose"]["position_m"]) and np.allclose(pose[:3, :3] @ pose[:3, :3].T, np.eye(3))
