@@ -3,6 +3,7 @@
 use crate::draw::Split;
 use crate::mask;
 use crate::record::{PictureRecord, Pose, objects};
+use core::cell::OnceCell;
 use etendue::{CameraResults, Error, GroundTruth, camera_mount, pinhole_view};
 use etendue_core::CameraPose;
 use glam::DQuat;
@@ -17,12 +18,18 @@ pub(crate) struct Picture<'a> {
     pub(crate) bytes: Vec<u8>,
     pub(crate) truth: &'a GroundTruth,
     results: &'a CameraResults,
+    /// Made when it is first asked for: it is that of all frames of the results.
+    cryptomatte: &'a OnceCell<Vec<u8>>,
 }
 
 impl Picture<'_> {
     /// The coverage of objects and materials, as the bytes of a Cryptomatte.
-    pub(crate) fn cryptomatte(&self) -> Result<Vec<u8>, Error> {
-        self.results.cryptomatte()
+    pub(crate) fn cryptomatte(&self) -> Result<&[u8], Error> {
+        if let Some(known) = self.cryptomatte.get() {
+            return Ok(known);
+        }
+        let made = self.results.cryptomatte()?;
+        Ok(self.cryptomatte.get_or_init(|| made))
     }
 
     /// The pixels that would show each object were it alone.
@@ -45,6 +52,7 @@ pub(crate) fn each(
         object.mask_rle = masks.get(&object.id).map(|runs| mask::text(runs));
     }
     let camera = results.name();
+    let cryptomatte = OnceCell::new();
     let view = pinhole_view(results.camera()).ok();
     for (frame, taken) in results.frame_numbers().zip(results.frames()) {
         let file = results.picture_file(&taken).ok_or_else(|| no_picture(camera))?;
@@ -72,7 +80,7 @@ pub(crate) fn each(
             mount: camera_mount(results.camera()).as_ref().map(pose_record),
             objects: objects.clone(),
         };
-        take(&Picture { sample, record, bytes, truth: &truth, results })?;
+        take(&Picture { sample, record, bytes, truth: &truth, results, cryptomatte: &cryptomatte })?;
     }
     Ok(())
 }

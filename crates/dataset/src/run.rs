@@ -136,6 +136,7 @@ impl Run<'_> {
         let set = drawn.set();
         let job = self.job(&drawn, &set).map_err(|error| of_sample(error, sample, &set))?;
         self.set.check_classes(&job, sample)?;
+        self.set.check_cameras(&job).map_err(|error| of_sample(error, sample, &set))?;
         let plan = job.plan().hash_text();
         let mut record = SampleRecord { sample, split: drawn.split, seed: drawn.seed, set, plan, pictures: Vec::new() };
         let options = RenderOptions { frames: self.request.frames.clone(), simd: self.request.simd };

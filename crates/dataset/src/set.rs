@@ -1,5 +1,6 @@
 //! What is the same for all samples: cameras, classes, formats; and the file that says so.
 
+use crate::format::topic_name;
 use crate::picture::no_picture;
 use crate::request::DatasetRequest;
 use etendue::{Error, Job, pinhole_view};
@@ -90,6 +91,11 @@ impl Set {
         idle.map(|(_, key, format)| format!("\"{key}\" has no effect without the format {}", name(format))).collect()
     }
 
+    /// Refuses a sample whose cameras a format cannot describe.
+    pub(crate) fn check_cameras(&self, job: &Job) -> Result<(), Error> {
+        check_cameras(job, &self.formats)
+    }
+
     /// Refuses a sample whose classes are others: numbers would not mean the same in all files.
     pub(crate) fn check_classes(&self, job: &Job, sample: u32) -> Result<(), Error> {
         let mut classes = job.plan().classes.clone();
@@ -150,6 +156,7 @@ const MAX_NAME_IN_TAR: usize = 69;
 fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
     let needs_matrix = [SetFormat::Kitti, SetFormat::Bop, SetFormat::NuScenes, SetFormat::Mcap];
     let needs_png = [SetFormat::Kitti, SetFormat::Cityscapes];
+    let names: Vec<&str> = job.plan().cameras.iter().map(|camera| camera.name.as_str()).collect();
     for camera in &job.plan().cameras {
         let refuse = |format: SetFormat, why: &str| {
             Err(Error::input(format!("--format {}: camera {}: {why}", name(format), camera.name)))
@@ -166,6 +173,9 @@ fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
                 &format!("its name is longer than {MAX_NAME_IN_TAR} characters; rename it"),
             );
         }
+        if let Some((format, why)) = unfit_name(&camera.name, &names, formats) {
+            return refuse(format, &why);
+        }
         if let Some(format) = formats.iter().find(|format| needs_matrix.contains(format))
             && let Err(why) = pinhole_view(camera)
         {
@@ -175,7 +185,37 @@ fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
     Ok(())
 }
 
+/// A format that cannot have a camera of this name, and why.
+fn unfit_name(name: &str, names: &[&str], formats: &[SetFormat]) -> Option<(SetFormat, String)> {
+    let with_world = [SetFormat::Mcap, SetFormat::OpenLabel].into_iter().find(|format| formats.contains(format))?;
+    if name == "world" {
+        return Some((with_world, "\"world\" is the frame that cameras stand in; rename it".to_owned()));
+    }
+    let alike = |other: &&&str| **other != name && topic_name(other) == topic_name(name);
+    let other = names.iter().find(alike).filter(|_| formats.contains(&SetFormat::Mcap))?;
+    Some((SetFormat::Mcap, format!("its topics have the names of those of {other}; rename it")))
+}
+
 /// Bytes as digits.
 pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_cameras_that_formats_cannot_have_are_told() {
+        let of = |name, names: &[&str], format| {
+            unfit_name(name, names, &[SetFormat::Coco, format]).map(|(format, _)| format)
+        };
+        assert_eq!(of("world", &["world"], SetFormat::Mcap), Some(SetFormat::Mcap));
+        assert_eq!(of("world", &["world"], SetFormat::OpenLabel), Some(SetFormat::OpenLabel));
+        assert_eq!(of("world", &["world"], SetFormat::Kitti), None);
+        assert_eq!(of("a-b", &["a-b", "a_b"], SetFormat::Mcap), Some(SetFormat::Mcap));
+        assert_eq!(of("a-b", &["a-b", "a_b"], SetFormat::OpenLabel), None);
+        assert_eq!(of("a-b", &["a-b", "c"], SetFormat::Mcap), None);
+        assert_eq!([topic_name("0-left"), topic_name("front")], ["camera_0_left", "front"]);
+    }
 }

@@ -246,6 +246,9 @@ fn bad_variations_are_refused_where_they_stand() {
             "distorted",
         ]);
     }
+    let told = distorted.trim_start_matches("--set=").replace('"', "\\\"");
+    let varied = format!("format = 1\n[[presets]]\nname = \"lens\"\nchoices = [[\"{told}\"]]\n");
+    place.run_of(&varied, &["--format", "mcap"]).refused(&["sample 0", "--format mcap", "distorted"]);
     place.run_of(&file, &["--set=cameras.front.isp=null"]).refused(&["camera front", "[isp]"]);
     place.run_of(&file, &["--samples", "0..2000000"]).refused(&["--samples"]);
 }

@@ -16,7 +16,7 @@ impl Writer for Cryptomatte {
         let (sample, split) = picture.sample;
         let stem = format!("cryptomatte/{}/{}", split.name(), picture.record.stem(sample));
         write(folder, &format!("{stem}.{}", picture.record.extension), &picture.bytes)?;
-        write(folder, &format!("{stem}.exr"), &picture.cryptomatte()?)
+        write(folder, &format!("{stem}.exr"), picture.cryptomatte()?)
     }
 
     fn finish(&self, _set: &Set, _records: &Records, _folder: &mut OutputFolder) -> Result<(), Error> {

@@ -42,7 +42,7 @@ impl Writer for Mcap {
         let at = (time_ns, record.camera.as_str());
         let matrix = record.camera_matrix_px.expect("checked for all cameras of the format");
         let size = (record.width_px, record.height_px);
-        let topic = |name: &str| format!("/{}/{name}", record.camera);
+        let topic = |name: &str| format!("/{}/{name}", ros::topic_name(&record.camera));
         let messages = [
             (
                 topic("image/compressed"),

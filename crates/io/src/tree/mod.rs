@@ -29,21 +29,18 @@ enum Value {
 
 /// Deeper than any such file.
 const DEEPEST: usize = 32;
-/// More values in lists than any such file has: one takes up to 800 bytes while it is read.
+/// More commas and brackets than any such file has: what stands between two takes up to 800 bytes while it is read.
 const MOST_VALUES: usize = 1 << 21;
 
 /// Reads a document whose root is a map.
 pub(crate) fn parse(text: &str) -> Read<Node> {
     let values = text.bytes().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
     if values > MOST_VALUES {
-        return Err(Fault::at(0, format!("holds {values} values in lists; at most {MOST_VALUES} are read")));
+        return Err(Fault::at(0, format!("holds {values} commas and brackets; at most {MOST_VALUES} are read")));
     }
     let header = if text.starts_with("%YAML") { text.find('\n').unwrap_or(text.len()) } else { 0 };
-    let text = as_value(&text[header..]);
+    let text = as_document(&text[header..]);
     let mut events = Events { parser: Parser::new_from_str(&text) };
-    if matches!(text, Cow::Owned(_)) {
-        while !matches!(events.next()?, (Event::Scalar(..), _)) {}
-    }
     loop {
         match events.next()? {
             (Event::StreamStart | Event::DocumentStart(_), _) => {}
@@ -59,13 +56,13 @@ pub(crate) fn parse(text: &str) -> Read<Node> {
     }
 }
 
-/// A document of braces or brackets as the value of a key, on the same lines. By itself it might be a key of its own, so that the scanner would keep all
-/// tokens of it until its end, some 400 bytes a byte.
-fn as_value(text: &str) -> Cow<'_, str> {
+/// A document that begins with a brace or bracket, behind the mark of a document on its line: by itself it might be a key, so that the scanner would keep
+/// all tokens of it until its end, some 400 bytes a byte. Others that do the same, as behind a remark, are bounded by [`MOST_VALUES`].
+fn as_document(text: &str) -> Cow<'_, str> {
     let start = text.len() - text.trim_start().len();
     if text[start..].starts_with(['{', '[']) {
         let lines = "\n".repeat(text[..start].matches('\n').count());
-        Cow::Owned(format!("{lines}document: {}", &text[start..]))
+        Cow::Owned(format!("{lines}--- {}", &text[start..]))
     } else {
         Cow::Borrowed(text)
     }
@@ -243,6 +240,9 @@ mod tests {
         let root = parse("\n\n {\"a\": 1,\n\"b\":\n[1,\n2]\n}\n").expect("JSON");
         assert_eq!((root.line, root.key("a").expect("there").line, root.key("b").expect("there").line), (3, 3, 5));
         assert_eq!(root.keys(), ["a", "b"]);
+        let tight = parse("{\n\"a\": [1,\n2],\n\t\"b\": \"x\"\n}").expect("JSON without indentation, and with tabs");
+        assert_eq!(tight.key("a").expect("there").numbers().expect("numbers"), [1.0, 2.0]);
+        assert_eq!((tight.key("b").expect("there").line, parse("{\n\"a\":\n\"x\"\n}").expect("JSON").line), (4, 1));
         assert_eq!(parse("{\"a\": 1,\n\"a\": 2}").expect_err("twice").line, 2);
         assert!(parse("[1, 2]").expect_err("a list").what.contains("keys"));
         let many = format!("{{\"a\": [{}0]}}", "0,".repeat(MOST_VALUES));

@@ -169,6 +169,7 @@ fn truth(camera: &CameraPlan) -> f64 {
         (annotations.needs_neighbours(), Truth::Neighbours),
         (annotations.disparity.is_some(), Truth::Disparity),
         (annotations.boxes, Truth::Boxes),
+        (annotations.cryptomatte, Truth::Coverage),
     ];
     wanted.into_iter().filter(|(wanted, _)| *wanted).map(|(_, what)| truth_cpu_s(camera, what)).sum()
 }

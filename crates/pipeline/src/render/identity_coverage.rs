@@ -44,7 +44,7 @@ pub struct IdentityCoverage {
     pub materials: Vec<Vec<Share>>,
 }
 
-/// The coverage of a frame of a camera, by as many samples as its light has, 64 at most; on the caller's pool.
+/// The coverage of a frame of a camera, by as many samples as its light has, 64 at most, or one of each replicate where these are more; on the caller's pool.
 #[must_use]
 pub fn identity_coverage(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) -> IdentityCoverage {
     let shot = Shot { frame, capture: 0 };
@@ -53,7 +53,8 @@ pub fn identity_coverage(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Sim
 
 /// Samples a pixel.
 pub(crate) fn spp(camera: &CameraPlan) -> u32 {
-    weather_layers::spp(camera).min(MAX_SPP.next_multiple_of(camera.settings.replicates))
+    let replicates = camera.settings.replicates;
+    weather_layers::spp(camera).min((MAX_SPP / replicates * replicates).max(replicates))
 }
 
 struct CoverageJob<'a> {

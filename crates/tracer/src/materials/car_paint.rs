@@ -209,8 +209,9 @@ impl SurfaceModel for CarPaint {
         });
         // Outside, what flakes send on is spread by the coat's refraction as well.
         let facets = Ggx { alpha: self.facets.alpha.max(point.least_alpha / self.coat.n) };
-        let coat_facets = Ggx::of(point.widened(self.coat_alpha));
-        CarPaintBsdf { paint: self, facets, coat_facets, flakes, pigment, turned, again }
+        let coat_alpha = point.widened(self.coat_alpha);
+        let (coat_facets, is_widened) = (Ggx::of(coat_alpha), coat_alpha > self.coat_alpha);
+        CarPaintBsdf { paint: self, facets, coat_facets, is_widened, flakes, pigment, turned, again }
     }
 
     fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
@@ -253,6 +254,8 @@ pub struct CarPaintBsdf<'a, const N: usize> {
     facets: Ggx,
     /// `None` for a smooth coat.
     coat_facets: Option<Ggx>,
+    /// Whether they are rougher than the coat.
+    is_widened: bool,
     /// s F.
     flakes: Spectral<N>,
     /// (1 − s) d.
@@ -292,7 +295,8 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
         let mut pdf = discrete_sampler.of(1) * flake_pdf + discrete_sampler.of(2) * cosine_hemisphere_pdf(wi.z);
         if let Some(facets) = self.coat_facets {
             let m = half_vector(wo, wi);
-            value_cos += Spectral::splat(fresnel::dielectric(wo.dot(m), n) * facets.reflect(wo, wi, m));
+            let reflected = if self.is_widened { 1.0 - self.through(wo.z) } else { fresnel::dielectric(wo.dot(m), n) };
+            value_cos += Spectral::splat(reflected * facets.reflect(wo, wi, m));
             pdf += discrete_sampler.of(0) * facets.reflect_pdf(wo, m);
         }
         BsdfValue { value_cos, pdf }

@@ -92,8 +92,16 @@ impl SurfaceModel for Coated {
         let n2 = self.coat.n * self.coat.n;
         let inner = 1.0 - mean / n2;
         let seen = point.reflectance(&self.base).map(|a| a / (n2 * (1.0 - a * inner)));
-        let facets = Ggx::of(point.widened(alpha));
-        CoatedBsdf { coat: &self.coat, facets, place, mean_transmittance: mean, seen_mean: seen.mean(), seen }
+        let least = point.widened(alpha);
+        CoatedBsdf {
+            coat: &self.coat,
+            facets: Ggx::of(least),
+            is_widened: least > alpha,
+            place,
+            mean_transmittance: mean,
+            seen_mean: seen.mean(),
+            seen,
+        }
     }
 
     fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
@@ -196,6 +204,8 @@ pub struct CoatedBsdf<'a, const N: usize> {
     coat: &'a Coat,
     /// `None` for a smooth coat.
     facets: Option<Ggx>,
+    /// Whether they are rougher than the coat.
+    is_widened: bool,
     place: PlaceInRows,
     /// T̄ here.
     mean_transmittance: f32,
@@ -230,7 +240,9 @@ impl<const N: usize> BsdfModel<N> for CoatedBsdf<'_, N> {
         let base_pdf = (1.0 - share) * cosine_hemisphere_pdf(wi.z);
         let Some(facets) = self.facets else { return BsdfValue { value_cos: base, pdf: base_pdf } };
         let m = half_vector(wo, wi);
-        let coat = fresnel::dielectric(wo.dot(m), self.coat.n) * facets.reflect(wo, wi, m);
+        // What the coat reflects is spread by wider facets, and is no less for their tilt.
+        let share_reflected = if self.is_widened { 1.0 - through } else { fresnel::dielectric(wo.dot(m), self.coat.n) };
+        let coat = share_reflected * facets.reflect(wo, wi, m);
         BsdfValue { value_cos: base + Spectral::splat(coat), pdf: base_pdf + share * facets.reflect_pdf(wo, m) }
     }
 

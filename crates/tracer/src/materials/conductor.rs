@@ -128,7 +128,8 @@ impl SurfaceModel for Conductor {
     }
 
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> ConductorBsdf<N> {
-        let alpha = point.widened(point.factor(self.alpha));
+        let told = point.factor(self.alpha);
+        let alpha = point.widened(told);
         let rough = alpha >= MIRROR_ALPHA;
         let fresnel = match &self.index {
             Index::Complex(index) => {
@@ -148,7 +149,8 @@ impl SurfaceModel for Conductor {
             };
             More { loss, tint: mean.map(|mean| loss.tint(mean)) }
         });
-        ConductorBsdf { fresnel, facets: rough.then(|| self.distribution.of_alpha(alpha)), more }
+        let facets = rough.then(|| self.distribution.of_alpha(alpha));
+        ConductorBsdf { fresnel, facets, is_widened: alpha > told, more }
     }
 
     fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
@@ -208,10 +210,17 @@ pub struct ConductorBsdf<const N: usize> {
     fresnel: Fresnel<N>,
     /// `None` for a mirror.
     facets: Option<Facets>,
+    /// Whether they are rougher than the surface.
+    is_widened: bool,
     more: Option<More<N>>,
 }
 
 impl<const N: usize> ConductorBsdf<N> {
+    /// The reflectance of a facet `m`; of widened facets that of the surface: their tilt spreads what it reflects, and changes it no further.
+    fn reflected(&self, wo: Vec3, m: Vec3) -> Spectral<N> {
+        self.fresnel(if self.is_widened { wo.z } else { wo.dot(m) })
+    }
+
     fn fresnel(&self, cos_i: f32) -> Spectral<N> {
         match self.fresnel {
             Fresnel::Complex(n, k) => Spectral::from_fn(|i| fresnel::conductor(cos_i, n[i], k[i])),
@@ -250,7 +259,7 @@ impl<const N: usize> BsdfModel<N> for ConductorBsdf<N> {
     fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let Some(facets) = self.facets else { return BsdfValue::ZERO };
         let m = half_vector(wo, wi);
-        let (once, pdf) = (self.fresnel(wo.dot(m)) * facets.reflect(wo, wi, m), facets.reflect_pdf(wo, m));
+        let (once, pdf) = (self.reflected(wo, m) * facets.reflect(wo, wi, m), facets.reflect_pdf(wo, m));
         let Some(more) = &self.more else { return BsdfValue { value_cos: once, pdf } };
         let wo_loss = more.loss.at(wo.z);
         let share = self.share_of(more, wo_loss, wo);
@@ -275,7 +284,7 @@ impl<const N: usize> BsdfModel<N> for ConductorBsdf<N> {
         let wi = mirrored(wo, m);
         (wi.z > 0.0).then(|| BsdfSample {
             wi,
-            weight: self.fresnel(wo.dot(m)) * facets.weight(wo, wi),
+            weight: self.reflected(wo, m) * facets.weight(wo, wi),
             pdf: facets.reflect_pdf(wo, m),
             event: Event::Scatter,
         })
