@@ -22,7 +22,8 @@ impl<'a> Importer<'a> {
         let told = |what: String| element.fault(what);
         let kind = element.kind();
         if (kind == "instance" && depth >= 1) || (kind == "shapegroup" && depth >= 2) {
-            let told = format!("the shape \"{kind}\" within an instance, which Mitsuba does not allow; put its shapes there");
+            let told =
+                format!("the shape \"{kind}\" within an instance, which Mitsuba does not allow; put its shapes there");
             return Err(element.fault(told));
         }
         // What is instanced stands where its instances are.
@@ -183,7 +184,7 @@ impl<'a> Importer<'a> {
         if flag(element, "face_normals", false)? {
             mesh.normals.clear();
         } else if mesh.normals.is_empty() {
-            mesh.smooth();
+            mesh.smooth(graphics.to_world);
         }
         // Without normals the winding alone says which side is the front, and a mirror turns it.
         let is_turned = mesh.normals.is_empty() && graphics.to_world.matrix3.determinant() < 0.0;
