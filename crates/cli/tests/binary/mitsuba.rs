@@ -233,7 +233,7 @@ fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
         ),
         (
             "<shape type=\"shapegroup\" id=\"g\"><shape type=\"instance\"><ref id=\"g\"/></shape></shape><shape type=\"instance\"><ref id=\"g\"/></shape>",
-            "or in a circle",
+            "within an instance, which Mitsuba does not allow",
         ),
         ("<shape type=\"obj\"><string name=\"filename\" value=\"none.obj\"/></shape>", "none.obj"),
         ("<bsdf type=\"diffuse\" id=\"a\"/><bsdf type=\"diffuse\" id=\"a\"/>", "a second element is called \"a\""),

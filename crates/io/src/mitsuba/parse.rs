@@ -1,7 +1,7 @@
 //! XML to elements.
 
 use std::cell::Cell;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
@@ -18,16 +18,20 @@ use crate::{Error, Sandbox};
 const MAX_INCLUDES: usize = 16;
 /// Elements within one another.
 const MAX_DEPTH: usize = 64;
+/// Bytes of a parameter's name.
+const MAX_NAME: usize = 64;
 
 /// What is known while files are read.
 pub(super) struct Reading<'a> {
-    /// That of the first file: paths of included files are relative to it.
-    folder: PathBuf,
+    /// Where included files are sought behind the folder of the file that includes them: that of the first file, then those of <path>.
+    folders: Vec<PathBuf>,
     sandbox: &'a Sandbox,
     /// Of all files so far.
     bytes: u64,
     /// Parameters and their values.
     defaults: HashMap<String, String>,
+    /// How long their names are.
+    lengths: BTreeSet<usize>,
     count: usize,
 }
 
@@ -50,7 +54,8 @@ impl OpenFile {
 impl<'a> Reading<'a> {
     pub(super) fn new(file: &Path, sandbox: &'a Sandbox) -> Self {
         let folder = file.parent().unwrap_or(Path::new("")).to_owned();
-        Self { folder, sandbox, bytes: 0, defaults: HashMap::new(), count: 0 }
+        let (defaults, lengths) = (HashMap::new(), BTreeSet::new());
+        Self { folders: vec![folder], sandbox, bytes: 0, defaults, lengths, count: 0 }
     }
 
     /// The root of the first file.
@@ -95,14 +100,15 @@ impl<'a> Reading<'a> {
             "lookAt" => "lookat",
             word => word,
         };
-        let Some(tag) = TAGS.iter().find(|tag| **tag == word) else {
+        let Some(&tag) = TAGS.iter().find(|tag| **tag == word) else {
             return Err(file.fault(node, format!("<{}> is no element of Mitsuba's scenes", shortened(word))));
         };
         let attributes = node
             .attributes()
             .map(|attribute| {
                 let value = self.with_parameters(attribute.value()).map_err(|told| file.fault(node, told))?;
-                let value = if file.is_old && attribute.name() == "name" { modern(&value) } else { value };
+                let is_parameter = attribute.name() == "name" && !matches!(tag, "default" | "alias" | "include");
+                let value = if file.is_old && is_parameter { modern(&value) } else { value };
                 Ok((attribute.name().into(), value.into()))
             })
             .collect::<Result<Vec<_>, Error>>()?;
@@ -117,6 +123,9 @@ impl<'a> Reading<'a> {
             } else if child.is_text() && child.text().is_some_and(|text| !text.trim().is_empty()) {
                 return Err(file.fault(&child, format!("text within <{tag}>; expected elements alone")));
             }
+        }
+        if file.is_old && tag == "bsdf" && element.kind() == "diffuse" {
+            element.children.iter_mut().for_each(rename_reflectance);
         }
         Ok(element)
     }
@@ -140,6 +149,11 @@ impl<'a> Reading<'a> {
                 if name.is_empty() {
                     return Err(element.fault("<default> without a name"));
                 }
+                if name.len() > MAX_NAME {
+                    let told = format!("<default> with a name of {} bytes; expected {MAX_NAME} at most", name.len());
+                    return Err(element.fault(told));
+                }
+                self.lengths.insert(name.len());
                 self.defaults.entry(name).or_insert(value);
             }
             "include" => {
@@ -149,13 +163,20 @@ impl<'a> Reading<'a> {
                     _ => siblings.push(included),
                 }
             }
-            _ => siblings.push(element),
+            tag => {
+                if tag == "path" {
+                    self.folders.push(beside(&file.path).join(needed("value")?));
+                }
+                siblings.push(element);
+            }
         }
         Ok(())
     }
 
     fn included(&mut self, name: &str, at: &MitsubaElement, file: &OpenFile) -> Result<MitsubaElement, Error> {
-        let path = self.folder.join(name);
+        let sought = || std::iter::once(beside(&file.path)).chain(self.folders.iter().map(PathBuf::as_path));
+        let path = sought().map(|folder| folder.join(name)).find(|path| path.is_file());
+        let path = path.unwrap_or_else(|| self.folders[0].join(name));
         self.sandbox.check(&path).map_err(|why| at.fault(format!("<include filename=\"{name}\">: {why}")))?;
         if file.includes + 1 >= MAX_INCLUDES {
             let told = format!("files include one another more than {MAX_INCLUDES} deep; include less, or each once");
@@ -170,8 +191,8 @@ impl<'a> Reading<'a> {
         let mut rest = value;
         while let Some((before, after)) = rest.split_once('$') {
             made.push_str(before);
-            let found = self.defaults.iter().filter(|(name, _)| after.starts_with(name.as_str()));
-            let Some((name, value)) = found.max_by_key(|(name, _)| name.len()) else {
+            let mut names = self.lengths.iter().rev().filter_map(|length| after.get(..*length));
+            let Some((name, value)) = names.find_map(|name| self.defaults.get_key_value(name)) else {
                 let word: String = after.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
                 let word = shortened(&word);
                 return Err(format!("no <default name=\"{word}\" …> stands before \"${word}\": add it, with a value"));
@@ -179,10 +200,22 @@ impl<'a> Reading<'a> {
             made.push_str(value);
             rest = &after[name.len()..];
             // What parameters of parameters make counts as text that is read.
-            self.bytes += value.len() as u64;
+            self.bytes += value.len().max(1) as u64;
             limits::DESCRIPTION.check_unpacked(self.bytes)?;
         }
         made.push_str(rest);
         Ok(made)
     }
+}
+
+/// The folder of a file.
+fn beside(file: &Path) -> &Path {
+    file.parent().unwrap_or(Path::new(""))
+}
+
+/// What colours a `diffuse` of a version before 2, by its name of today.
+fn rename_reflectance(parameter: &mut MitsubaElement) {
+    let names =
+        parameter.attributes.iter_mut().filter(|(name, value)| &**name == "name" && &**value == "diffuse_reflectance");
+    names.for_each(|(_, value)| *value = "reflectance".into());
 }

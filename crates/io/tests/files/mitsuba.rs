@@ -86,3 +86,33 @@ fn included_files_lie_in_the_sandbox() {
     let told = read_mitsuba(&file, &sandbox).expect_err("outside").to_string();
     assert!(told.contains("a.xml:1: ") && told.contains("leads out of"), "{told}");
 }
+
+/// Names of parameters stay as they are, and `$name` names them so.
+#[test]
+fn parameters_of_old_files_keep_their_names() {
+    let text = "<scene version=\"0.5.0\"><default name=\"camDist\" value=\"3\"/><default name=\"cam\" value=\"9\"/>\
+        <bsdf type=\"diffuse\"><rgb name=\"diffuseReflectance\" value=\"1\"/><float name=\"intIOR\" value=\"$camDist\"/></bsdf></scene>";
+    let root = read(&[("a.xml", text)]).expect("read");
+    let [colour, index] = &root.children[0].children[..] else { panic!("{root:?}") };
+    assert_eq!((colour.name(), index.name(), index.attribute("value")), ("reflectance", "int_ior", Some("3")));
+}
+
+/// First beside the file that includes, then beside the first file, then where `<path>` leads.
+#[test]
+fn included_files_are_sought_beside_the_file_that_includes_them() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, body: &str| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+        fs::write(path, format!("<scene version=\"3.0.0\">{body}</scene>")).expect("written");
+    };
+    let ball = |id: &str| format!("<shape type=\"sphere\" id=\"{id}\"/>");
+    write("a.xml", "<path value=\"store\"/><include filename=\"parts/b.xml\"/>");
+    write("parts/b.xml", "<include filename=\"c.xml\"/><include filename=\"d.xml\"/><include filename=\"e.xml\"/>");
+    for (name, id) in [("parts/c.xml", "inner"), ("c.xml", "outer"), ("d.xml", "first"), ("store/e.xml", "stored")] {
+        write(name, &ball(id));
+    }
+    let root = read_mitsuba(&folder.path().join("a.xml"), &Sandbox::NONE).expect("read");
+    let ids: Vec<_> = root.children.iter().filter_map(|child| child.attribute("id")).collect();
+    assert_eq!(ids, ["inner", "first", "stored"]);
+}

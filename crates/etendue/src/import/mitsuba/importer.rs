@@ -24,6 +24,8 @@ pub(super) struct Importer<'a> {
     pub(super) surfaces: HashMap<usize, Rc<str>>,
     /// What textures became, by the numbers of their elements.
     pub(super) textures: HashMap<usize, KnownTexture>,
+    /// Whether pictures lie on shapes and surfaces, by the numbers of their elements.
+    pub(super) pictured: HashMap<usize, bool>,
     /// Names of media, by the numbers of their elements; empty for what is not understood.
     pub(super) media: HashMap<usize, Rc<str>>,
     cameras: Vec<ImportedCamera>,
@@ -36,6 +38,7 @@ impl<'a> Importer<'a> {
             ids: HashMap::new(),
             surfaces: HashMap::new(),
             textures: HashMap::new(),
+            pictured: HashMap::new(),
             media: HashMap::new(),
             cameras: Vec::new(),
         };

@@ -21,6 +21,11 @@ impl<'a> Importer<'a> {
         self.at(element);
         let told = |what: String| element.fault(what);
         let kind = element.kind();
+        if (kind == "instance" && depth >= 1) || (kind == "shapegroup" && depth >= 2) {
+            let told =
+                format!("the shape \"{kind}\" within an instance, which Mitsuba does not allow; put its shapes there");
+            return Err(element.fault(told));
+        }
         // What is instanced stands where its instances are.
         if kind == "shapegroup" && depth == 0 {
             return Ok(());
@@ -84,6 +89,7 @@ impl<'a> Importer<'a> {
                 self.scenery.whole_disc(1.0, 0.0, &graphics);
             }
         }
+        self.scenery.check_size().map_err(told)?;
         self.note_unused(element);
         Ok(())
     }
@@ -101,8 +107,11 @@ impl<'a> Importer<'a> {
         let mut graphics = graphics;
         graphics.reverse_orientation = flag(element, "flip_normals", false)?;
         let is_group = |e: &&MitsubaElement| e.name() != "exterior";
-        if let Some(bsdf) = self.within(element, "bsdf")?.first() {
-            graphics.material = self.bsdf(bsdf, 0)?;
+        match self.within(element, "bsdf")?.first() {
+            Some(bsdf) => graphics.material = self.bsdf(bsdf, 0)?,
+            // What shines reflects nothing unless it is told to.
+            None if !self.within(element, "emitter")?.is_empty() => graphics.material = self.scenery.black(),
+            None => {}
         }
         if let Some(emitter) = self.within(element, "emitter")?.first() {
             self.at(emitter);
@@ -137,11 +146,18 @@ impl<'a> Importer<'a> {
         Ok(Some(AreaLight { colour: unit.colour, luminance: unit.luminance, flux: None, two_sided: false }))
     }
 
-    /// Whether a picture lies on a surface.
-    fn has_picture(&self, element: &'a MitsubaElement, depth: usize) -> Result<bool, Error> {
-        if depth >= MAX_DEPTH {
-            return Ok(true);
+    /// Whether a picture lies on a surface; each is looked at once, and what stands in a circle counts as having one.
+    fn has_picture(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<bool, Error> {
+        if let Some(known) = self.pictured.get(&element.number) {
+            return Ok(*known);
         }
+        self.pictured.insert(element.number, true);
+        let has = depth >= MAX_DEPTH || self.finds_picture(element, depth)?;
+        self.pictured.insert(element.number, has);
+        Ok(has)
+    }
+
+    fn finds_picture(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<bool, Error> {
         for child in &element.children {
             let meant = match (child.tag, child.name()) {
                 ("ref", "interior" | "exterior") => continue,
@@ -168,7 +184,7 @@ impl<'a> Importer<'a> {
         if flag(element, "face_normals", false)? {
             mesh.normals.clear();
         } else if mesh.normals.is_empty() {
-            mesh.smooth();
+            mesh.smooth(graphics.to_world);
         }
         // Without normals the winding alone says which side is the front, and a mirror turns it.
         let is_turned = mesh.normals.is_empty() && graphics.to_world.matrix3.determinant() < 0.0;

@@ -53,7 +53,8 @@ impl<'a> Importer<'a> {
         // Of files before version 2.
         let own = |name: &str, default: f64| Ok::<f64, Error>(stated(element, name)?.unwrap_or(default));
         let [su, sv] = [m.x_axis.x * own("uscale", 1.0)?, m.y_axis.y * own("vscale", 1.0)?];
-        let [tu, tv] = [t.x + own("uoffset", 0.0)?, t.y + own("voffset", 0.0)?];
+        // There what is added is added before it is scaled.
+        let [tu, tv] = [t.x + su * own("uoffset", 0.0)?, t.y + sv * own("voffset", 0.0)?];
         if m.x_axis.y != 0.0 || m.y_axis.x != 0.0 || su <= 0.0 || sv <= 0.0 {
             return Ok(None);
         }

@@ -11,6 +11,9 @@ use glam::{DAffine3, DMat3};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+/// Objects of a scene, instances counted each: as text they have about 100 MB.
+const MAX_OBJECTS: usize = 1_000_000;
+
 /// The scene as far as it is made.
 pub(in crate::import) struct Scenery {
     pub(in crate::import) scene: Scene,
@@ -69,6 +72,9 @@ impl Scenery {
 
     /// Refuses what instances would multiply beyond the limit.
     pub(in crate::import) fn check_size(&self) -> Result<(), String> {
+        if self.scene.objects.len() > MAX_OBJECTS {
+            return Err(format!("the scene has more than {MAX_OBJECTS} objects with all instances; instance less"));
+        }
         limits::MESH.check_unpacked(self.bytes)
     }
 

@@ -22,6 +22,18 @@ impl Scenery {
         grey.to_string()
     }
 
+    /// The black surface of lights that have none of their own, one for all of them.
+    pub(in crate::import) fn black(&mut self) -> Rc<str> {
+        const KEY: &str = "black/";
+        if let Some(black) = self.known.materials.get(KEY) {
+            return black.clone();
+        }
+        let black: Rc<str> = self.names.take("black", "black").into();
+        self.known.materials.insert(KEY.to_owned(), black.clone());
+        self.scene.materials.push(Material::new(&*black, Surface::Diffuse(Diffuse::new(plain(0.0)))));
+        black
+    }
+
     /// A copy of a material that gives light.
     pub(in crate::import) fn glowing(&mut self, own: &str, emission: SurfaceEmission) -> String {
         let own = self.known_material(own);

@@ -27,9 +27,12 @@ impl Triangles {
         })
     }
 
-    /// Gives every vertex the mean normal of its triangles, each by its angle there (Thürmer and Wüthrich 1998), as Mitsuba does.
-    pub(in crate::import) fn smooth(&mut self) {
-        let at = |i: u32| DVec3::from_array(self.positions[i as usize]);
+    /// Gives every vertex the mean normal of its triangles, each by its angle there (Thürmer and Wüthrich 1998), as Mitsuba does: of the triangles as they
+    /// lie in the file's world, whose front a mirror turns.
+    pub(in crate::import) fn smooth(&mut self, to_world: DAffine3) {
+        let at = |i: u32| to_world.transform_point3(DVec3::from_array(self.positions[i as usize]));
+        // The way back of `placed`: normals go by the inverse transposed.
+        let back = to_world.matrix3.transpose();
         let mut sums = vec![DVec3::ZERO; self.positions.len()];
         for [a, b, c] in self.triangles.iter().copied() {
             let normal = (at(b) - at(a)).cross(at(c) - at(a)).normalize_or_zero();
@@ -38,7 +41,7 @@ impl Triangles {
                 sums[here as usize] += maths::atan2(u.cross(v).length(), u.dot(v)) * normal;
             }
         }
-        self.normals = sums.into_iter().map(|sum| sum.normalize_or(DVec3::Z).to_array()).collect();
+        self.normals = sums.into_iter().map(|sum| (back * sum.normalize_or(DVec3::Z)).to_array()).collect();
     }
 
     /// The same in our world. Winding is that of the normal, which a mirror does not turn.
@@ -78,8 +81,21 @@ mod tests {
         let positions = vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.], [1., 1., 0.]];
         let triangles = vec![[0, 4, 1], [0, 2, 4], [0, 1, 3], [0, 3, 2]];
         let mut corner = Triangles { positions, triangles, ..Triangles::default() };
-        corner.smooth();
+        corner.smooth(DAffine3::IDENTITY);
         let diagonal = -DVec3::ONE.normalize();
         assert!((DVec3::from_array(corner.normals[0]) - diagonal).length() < 1e-12, "{:?}", corner.normals[0]);
+    }
+
+    /// A roof of two halves, stretched and mirrored in its place: the ridge's normal is that of the place.
+    #[test]
+    fn normals_are_those_of_the_place() {
+        let positions = vec![[0., 0., 1.], [0., 1., 1.], [1., 0., 0.], [-1., 0., 0.]];
+        let mut roof = Triangles { positions, triangles: vec![[0, 2, 1], [0, 1, 3]], ..Triangles::default() };
+        let place = DAffine3::from_scale(DVec3::new(3.0, -1.0, 0.5));
+        roof.smooth(place);
+        let placed = roof.placed(place, false);
+        let down = DVec3::from_array(placed.normals[0]);
+        assert!((down - DVec3::NEG_Z).length() < 1e-12, "{down}: a mirror turns the front");
+        assert_eq!(placed.triangles, [[0, 2, 1], [0, 1, 3]]);
     }
 }
