@@ -99,14 +99,3 @@ fn widened_lobes_bring_the_light_by_many_samples() {
     assert!(wide.1 < 0.5 * narrow.1, "{wide:?} {narrow:?}");
     assert_eq!(sunlit("caustics = false\n        regularize = true"), without, "left out is left out");
 }
-
-/// Under an even sky nothing lands elsewhere: what is missing is what models lose at greater roughness.
-#[test]
-fn widened_lobes_lose_little_of_an_even_sky() {
-    let sky = "[scene.environment]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 1\n";
-    let of = |keys| mean_and_error(shot(sky, keys).radiance().estimate());
-    let (narrow, wide) = (of(FOLLOWED), of("regularize = true"));
-    // Half of the sky is seen in the wall. GGX facets of α = 0.3 to 0.5 lose 1 to 5 % by what they scatter among themselves (Kulla and Conty 2017).
-    let kept = wide.0 / narrow.0;
-    assert!((0.975..1.001).contains(&kept), "{kept}: {narrow:?} {wide:?}");
-}
