@@ -199,6 +199,7 @@ fn what_cannot_move_is_said_and_damage_is_refused() {
         (change("/animations/0/channels/0/sampler", json!(9)), "a.gltf"),
         (change("/animations/0/samplers/0/output", json!(2)), "translations"),
         (change("/animations/0/samplers/0/input", json!(0)), "times"),
+        (change("/accessors/2/count", json!(2_000_000)), "more than 1000000 keys"),
     ] {
         let place = tempfile::tempdir().expect("a temporary folder");
         imported(place.path(), &file, "a").0.refused(&["a.gltf", phrase]);
