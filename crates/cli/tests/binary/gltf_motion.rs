@@ -199,9 +199,34 @@ fn what_cannot_move_is_said_and_damage_is_refused() {
         (change("/animations/0/channels/0/sampler", json!(9)), "a.gltf"),
         (change("/animations/0/samplers/0/output", json!(2)), "translations"),
         (change("/animations/0/samplers/0/input", json!(0)), "times"),
+        (change("/accessors/2/count", json!(2_000_000)), "more than 1000000 keys"),
+        // Zeros of the curve's tangents.
+        (
+            change(
+                "/accessors/4",
+                json!({ "bufferView": 6, "byteOffset": 24, "componentType": 5126, "count": 3, "type": "VEC4" }),
+            ),
+            "key 0 of its rotations is a quaternion without length",
+        ),
     ] {
         let place = tempfile::tempdir().expect("a temporary folder");
         imported(place.path(), &file, "a").0.refused(&["a.gltf", phrase]);
         assert!(!place.path().join("a made").exists(), "{phrase}: nothing is written");
     }
+}
+
+/// What moves may be called as the file, or as the part of it that stands still.
+#[test]
+fn what_moves_and_what_stands_have_names_apart() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let mut file = scene("LINEAR", false);
+    file["nodes"][1]["name"] = json!("still");
+    file["nodes"][2]["name"] = json!("A");
+    let (told, job) = imported(place.path(), &file, "a");
+    told.ok();
+    let made = fs::read_to_string(job.with_file_name("scene.toml")).expect("a scene");
+    for part in ["still", "still-2", "A-2"] {
+        assert!(made.contains(&format!("file = \"meshes/{part}.gltf\"")), "{part}: {made}");
+    }
+    etendue(["plan", &text(&job)]).ok();
 }

@@ -243,9 +243,48 @@ fn damaged_scenes_are_refused_with_their_line_and_nothing_is_written() {
         ),
         ("<sensor type=\"perspective\"><float name=\"fov\" value=\"180\"/></sensor>", "a field of 180°"),
         ("<emitter type=\"point\"><rgb name=\"intensity\" value=\"1 -1 0\"/></emitter>", "light below 0"),
+        (
+            "<shape type=\"cube\"><transform name=\"to_world\"><rotate x=\"1\"/></transform></shape>",
+            "<rotate> without \"angle\"",
+        ),
+        (
+            "<shape type=\"cube\"><transform name=\"to_world\"><scale w=\"1\"/></transform></shape>",
+            "\"w\" of <scale>; expected value, x, y, z",
+        ),
+        (
+            "<spectrum type=\"srgb\" id=\"s\"><ref name=\"color\" id=\"s\"/></spectrum>\
+             <emitter type=\"constant\"><ref name=\"radiance\" id=\"s\"/></emitter>",
+            "with another such",
+        ),
     ] {
         let (place, ran) = imported(body);
         ran.refused(&["a.xml:2: ", phrase]);
         assert!(!place.path().join("made").exists(), "{phrase}: nothing is written");
     }
+}
+
+/// What shines reflects nothing where it has no surface; many blends of blends are looked at once each; a volume that is the same everywhere is its value.
+#[test]
+fn lights_without_a_surface_are_black_and_blends_of_blends_are_quick() {
+    let blend = |i: usize| {
+        let below = if i == 0 { "w".to_owned() } else { format!("b{}", i - 1) };
+        format!(
+            "<bsdf type=\"blendbsdf\" id=\"b{i}\"><float name=\"weight\" value=\"0.5\"/><ref id=\"{below}\"/><ref id=\"{below}\"/></bsdf>\n"
+        )
+    };
+    let blends: String = (0..40).map(blend).collect();
+    let deep = format!("<bsdf type=\"diffuse\" id=\"w\"/>{blends}<shape type=\"disk\"><ref id=\"b39\"/></shape>");
+    imported(&deep).1.refused(&["surfaces stand more than"]);
+    let (place, ran) = imported(
+        "<shape type=\"sphere\"><emitter type=\"area\"/></shape>\n<shape type=\"disk\"><emitter type=\"area\"/></shape>\n\
+         <shape type=\"sphere\"><bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"BK7\"/></bsdf>\
+         <medium name=\"interior\" type=\"homogeneous\"><volume name=\"albedo\" type=\"constvolume\"><float name=\"value\" value=\"0.25\"/></volume>\
+         <float name=\"sigma_t\" value=\"2\"/></medium></shape>\n",
+    );
+    ran.ok();
+    let scene = fs::read_to_string(place.path().join("made/scene.toml")).expect("a scene");
+    assert_eq!(scene.matches("name = \"black\"").count(), 1, "{scene}");
+    assert!(scene.contains("reflectance = 0\n") || scene.contains("reflectance = 0.0"), "{scene}");
+    assert!(scene.contains("0.25"), "{scene}");
+    etendue(["plan", &text(&place.path().join("made/job.toml"))]).ok();
 }

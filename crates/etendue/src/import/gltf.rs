@@ -33,26 +33,34 @@ pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
     let mut scene = Scene::default();
     let mesh = if stage.mesh_nodes.is_empty() { None } else { Some(read_mesh(file).map_err(Error::input)?) };
     let still = stage.mesh_nodes.iter().any(|node| motion.parts.mover_of[*node].is_none());
-    let moving = add_moving(&mut scene, &motion, (file, folder), &mut files, &mut report)
+    // What stands still is called as the file, and its part of the file "still": no part that moves may be.
+    let mut names = Names::default();
+    let mut still_name = String::new();
+    if still {
+        let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+        still_name = names.take(&stem, "model");
+        names.take("still", "still");
+    }
+    let moving = add_moving(&mut scene, &motion, (file, folder), &mut names, &mut files, &mut report)
         .map_err(|told| Error::input(format!("{}: {told}", file.display())))?;
     match (mesh.is_some(), still, motion.movers.is_empty()) {
         (false, ..) => report.push("it has no meshes".to_owned()),
         (true, false, _) => report.push("all its meshes move".to_owned()),
         (true, true, true) => {
             let way = path_between(folder, file).to_string_lossy().into_owned();
-            add_still(&mut scene, file, &way, &mut report);
+            add_still(&mut scene, &still_name, &way, &mut report);
         }
         (true, true, false) => {
             let part = "meshes/still.gltf".to_owned();
             files.push((part.clone(), part_of(&motion, None, (file, folder))));
-            add_still(&mut scene, file, &part, &mut report);
+            add_still(&mut scene, &still_name, &part, &mut report);
         }
     }
     report.extend(motion.notes.iter().cloned());
-    let mut names = Names::default();
+    let mut light_names = Names::default();
     let held = Held { motion: &motion, moving: &moving };
     for light in &stage.lights {
-        scene.lights.extend(light_of(light, &held, &mut names, &mut report));
+        scene.lights.extend(light_of(light, &held, &mut light_names, &mut report));
     }
     if scene.lights.is_empty() && !mesh.as_ref().is_some_and(glows) {
         let level = Level::Luminance(SKY_CD_M2.into());
@@ -67,12 +75,9 @@ pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
 }
 
 /// The mesh of what stands still, in a file that `way` leads to.
-fn add_still(scene: &mut Scene, file: &Path, way: &str, report: &mut Vec<String>) {
-    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
-    let name = Names::default().take(&stem, "model");
-    scene.meshes.push(Mesh::new(name.as_str(), way));
-    let body = Body::Mesh(name.as_str().into());
-    scene.objects.push(Object::new(name.as_str(), body, Transform::default()));
+fn add_still(scene: &mut Scene, name: &str, way: &str, report: &mut Vec<String>) {
+    scene.meshes.push(Mesh::new(name, way));
+    scene.objects.push(Object::new(name, Body::Mesh(name.into()), Transform::default()));
     report.push(format!("its meshes: object \"{name}\", materials and pictures as the plan tells"));
 }
 

@@ -2,7 +2,7 @@
 
 use super::naming::{Names, path_between, rounded};
 use etendue_core::maths::f64 as maths;
-use etendue_io::mesh::{GltfMotion, GltfMover, GltfTrack};
+use etendue_io::mesh::{GLTF_CUBIC_KEYS as CUBIC_KEYS, GLTF_MIN_TURN, GltfMotion, GltfMover, GltfTrack};
 use etendue_scene::record::frame::{FrameKey, FramePlacement};
 use etendue_scene::record::object::Keyframe;
 use etendue_scene::record::transform::angles_deg;
@@ -10,8 +10,6 @@ use etendue_scene::record::{Body, Frame, Mesh, Object, Scene, Transform};
 use glam::{DMat3, DQuat, DVec3};
 use std::path::Path;
 
-/// Keys of a cubic curve from one of the file's to the next.
-const CUBIC_KEYS: usize = 16;
 /// The binary chunk of a GLB file, by its name in `meshes/`.
 const BLOB: &str = "chunk.bin";
 /// How long a jump of a track with steps takes, s.
@@ -38,17 +36,17 @@ impl Moving {
     }
 }
 
-/// Adds what moves to a scene, and its meshes to what is written.
+/// Adds what moves to a scene, by names that are free, and its meshes to what is written.
 pub(super) fn add_moving(
     scene: &mut Scene,
     motion: &GltfMotion,
     (source, folder): (&Path, &Path),
+    names: &mut Names,
     files: &mut Vec<(String, Vec<u8>)>,
     report: &mut Vec<String>,
 ) -> Result<Moving, String> {
     let shown = motion.movers.iter().filter(|mover| mover.has_mesh).count();
     motion.parts.check_size(if motion.movers.is_empty() { 0 } else { shown + 1 })?;
-    let mut names = Names::default();
     let mut moving = Moving { frames: Vec::new() };
     for (number, mover) in motion.movers.iter().enumerate() {
         let name = names.take(&mover.name, "mover");
@@ -110,8 +108,7 @@ impl Way<'_> {
     fn at(&self, time_s: f64) -> (DVec3, DQuat) {
         let (translation, rotation, _) = self.mover.rest;
         let own = self.mover.translation.as_ref().map_or(translation, |t| DVec3::from_array(t.at(time_s, straight)));
-        let own_turn =
-            self.mover.rotation.as_ref().map_or(rotation, |t| DQuat::from_array(t.at(time_s, slerp)).normalize());
+        let own_turn = self.mover.rotation.as_ref().map_or(rotation, |t| turn_at(t, time_s));
         let (_, scale, moved) = self.mover.to_parent;
         (self.above * (moved + scale * (self.turn * own)), self.turn * own_turn)
     }
@@ -169,6 +166,17 @@ impl Way<'_> {
         }
         told
     }
+}
+
+/// A rotation at a time; that of the key before where a cubic curve passes through zero.
+fn turn_at(track: &GltfTrack<4>, time_s: f64) -> DQuat {
+    let turn = |time_s: f64| DQuat::from_array(track.at(time_s, slerp));
+    let own = turn(time_s);
+    if own.length() >= GLTF_MIN_TURN {
+        return own.normalize();
+    }
+    let before = track.times_s.partition_point(|time| *time <= time_s).saturating_sub(1);
+    turn(track.times_s[before]).normalize()
 }
 
 fn add_times<const N: usize>(track: &GltfTrack<N>, times: &mut Vec<f64>) {

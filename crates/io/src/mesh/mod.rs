@@ -37,8 +37,8 @@ pub use asset::read_mesh;
 pub(crate) use asset::read_mesh_in;
 pub use frame::read_mesh_frame;
 pub use gltf::{
-    GltfCamera, GltfLight, GltfLightKind, GltfMotion, GltfMover, GltfParts, GltfProjection, GltfStage, GltfTrack,
-    read_gltf_motion, read_gltf_stage,
+    GLTF_CUBIC_KEYS, GLTF_MIN_TURN, GltfCamera, GltfLight, GltfLightKind, GltfMotion, GltfMover, GltfParts,
+    GltfProjection, GltfStage, GltfTrack, read_gltf_motion, read_gltf_stage,
 };
 pub(crate) use ply::is_ply;
 pub use ply::{PlacedTriangles, encode_obj, encode_ply};

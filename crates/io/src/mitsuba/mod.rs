@@ -4,7 +4,8 @@
 //! whoever takes them; here parameters (`<default>`, `$name`) are put in, files that are included stand in their place, and names of files older than
 //! version 2 are spelt as today.
 //!
-//! Limits: a file and all that it includes have at most `description-mib`; elements stand at most 64 deep, files that include one another 16 deep.
+//! Limits: a file and all that it includes have at most `description-mib`; elements stand at most 64 deep, files that include one another 16 deep; names of
+//! parameters have at most 64 bytes, and files are sought in at most 64 folders.
 
 mod element;
 mod lines;

@@ -18,6 +18,8 @@ use crate::{Error, Sandbox};
 const MAX_INCLUDES: usize = 16;
 /// Elements within one another.
 const MAX_DEPTH: usize = 64;
+/// Folders that <path> leads to: every file is sought in all of them.
+const MAX_FOLDERS: usize = 64;
 /// Bytes of a parameter's name.
 const MAX_NAME: usize = 64;
 
@@ -165,6 +167,9 @@ impl<'a> Reading<'a> {
             }
             tag => {
                 if tag == "path" {
+                    if self.folders.len() > MAX_FOLDERS {
+                        return Err(element.fault(format!("more than {MAX_FOLDERS} <path>; expected fewer folders")));
+                    }
                     self.folders.push(beside(&file.path).join(needed("value")?));
                 }
                 siblings.push(element);

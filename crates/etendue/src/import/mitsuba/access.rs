@@ -77,7 +77,7 @@ pub(super) fn text<'a>(element: &'a MitsubaElement, name: &str) -> Result<Option
 /// The truth of a parameter, or `default`.
 pub(super) fn flag(element: &MitsubaElement, name: &str, default: bool) -> Result<bool, Error> {
     let Some(parameter) = find(element, name) else { return Ok(default) };
-    match value(parameter, &["boolean"])? {
+    match value(parameter, &["boolean"])?.to_ascii_lowercase().as_str() {
         "true" => Ok(true),
         "false" => Ok(false),
         _ => Err(parameter.fault(format!("\"{name}\": expected true or false"))),

@@ -157,6 +157,9 @@ impl<'a> Importer<'a> {
         let Some(texture) = found.first() else {
             return Err(element.fault("a \"normalmap\" without a <texture>"));
         };
+        self.scenery.report.note(
+            "green of a \"normalmap\" points up in its picture here; in Mitsuba it follows v, and points down on a rectangle and a PLY file: set y = \"down\" there",
+        );
         let normal_map = match self.texture(texture, true)? {
             KnownTexture::Picture { name, .. } => Some(NormalMap::new(name.as_str())),
             KnownTexture::Even(_) => None,

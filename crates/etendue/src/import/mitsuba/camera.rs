@@ -99,7 +99,7 @@ fn yfov_rad(sensor: &MitsubaElement, [width, height]: [u64; 2]) -> Result<f64, E
     if !(0.0..180.0).contains(&fov_deg) || fov_deg == 0.0 {
         return Err(sensor.fault(format!("a field of {fov_deg}°; expected an angle between 0° and 180°")));
     }
-    let of = match text(sensor, "fov_axis")?.unwrap_or("x") {
+    let of = match text(sensor, "fov_axis")?.unwrap_or("x").to_ascii_lowercase().as_str() {
         "x" => w,
         "y" => h,
         "diagonal" => diagonal,

@@ -22,13 +22,15 @@ pub(super) struct Importer<'a> {
     ids: HashMap<&'a str, &'a MitsubaElement>,
     /// Names of ours of surfaces, by the numbers of their elements.
     pub(super) surfaces: HashMap<usize, Rc<str>>,
-    /// What textures became, by the numbers of their elements.
-    pub(super) textures: HashMap<usize, KnownTexture>,
+    /// What textures became, by the numbers of their elements and whether they hold numbers that are no colours.
+    pub(super) textures: HashMap<(usize, bool), KnownTexture>,
     /// Whether pictures lie on shapes and surfaces, by the numbers of their elements.
     pub(super) pictured: HashMap<usize, bool>,
     /// Names of media, by the numbers of their elements; empty for what is not understood.
     pub(super) media: HashMap<usize, Rc<str>>,
     cameras: Vec<ImportedCamera>,
+    /// Where files are sought that are not beside the scene, those of later <path> first.
+    folders: Vec<PathBuf>,
 }
 
 impl<'a> Importer<'a> {
@@ -41,7 +43,9 @@ impl<'a> Importer<'a> {
             pictured: HashMap::new(),
             media: HashMap::new(),
             cameras: Vec::new(),
+            folders: Vec::new(),
         };
+        importer.take_folders(root)?;
         importer.collect(root)?;
         importer.aliases(root)?;
         importer.take_cameras(root)?;
@@ -55,6 +59,15 @@ impl<'a> Importer<'a> {
     pub(super) fn at(&mut self, element: &MitsubaElement) {
         let file = element.place.file.file_name().unwrap_or_default().to_string_lossy();
         self.scenery.report.at(format!("{file}:{}", element.place.line));
+    }
+
+    fn take_folders(&mut self, root: &'a MitsubaElement) -> Result<(), Error> {
+        for element in all(root, "path") {
+            let name = element.attribute("value").ok_or_else(|| element.fault("<path> without \"value\""))?;
+            let beside = element.place.file.parent().unwrap_or(Path::new(""));
+            self.folders.insert(0, beside.join(name));
+        }
+        Ok(())
     }
 
     fn collect(&mut self, element: &'a MitsubaElement) -> Result<(), Error> {
@@ -110,12 +123,14 @@ impl<'a> Importer<'a> {
 
     /// The path of a file that the scene file names.
     pub(super) fn file(&self, name: &str) -> PathBuf {
-        self.scenery.source_folder.join(name)
+        let beside = self.scenery.source_folder.join(name);
+        let mut others = self.folders.iter().map(|folder| folder.join(name));
+        if beside.is_file() { beside } else { others.find(|path| path.is_file()).unwrap_or(beside) }
     }
 
     /// The path of a file as the written scene names it.
     pub(super) fn path(&self, name: &str) -> String {
-        self.scenery.path_of(name)
+        self.scenery.way_to(&self.file(name))
     }
 
     /// Notes what nobody has asked for within an element.
@@ -179,9 +194,8 @@ impl<'a> Importer<'a> {
                 let told = format!("{} \"{kind}\" is not used: how light is found is the job's", element.tag);
                 self.scenery.report.note(told);
             }
-            "path" => self.scenery.report.note("<path> is not used: files are sought beside the scene"),
             // Cameras are read; what has an id stands here to be referred to.
-            "sensor" | "alias" | "bsdf" | "texture" | "spectrum" | "medium" | "volume" | "phase" | "film"
+            "sensor" | "path" | "alias" | "bsdf" | "texture" | "spectrum" | "medium" | "volume" | "phase" | "film"
             | "rfilter" | "rgb" => {}
             // Parameters, as <default> of other versions.
             tag => self.scenery.report.note(format!("<{tag}> of the scene itself is not used")),

@@ -39,7 +39,8 @@ impl<'a> Importer<'a> {
     fn ior(element: &'a MitsubaElement, name: &str, default: &str) -> Result<f64, Error> {
         let parameter = find(element, name);
         let word = parameter.and_then(|p| p.attribute("value")).unwrap_or(default);
-        let known = SUBSTANCES.iter().find(|(substance, _)| *substance == word).map(|(_, index)| *index);
+        let known =
+            SUBSTANCES.iter().find(|(substance, _)| substance.eq_ignore_ascii_case(word)).map(|(_, index)| *index);
         match known.map_or_else(|| number_of(word), Ok) {
             Ok(index) if index > 0.0 => Ok(index),
             _ => Err(element.fault(format!("\"{name}\" of \"{word}\"; expected an index or a substance such as bk7"))),

@@ -26,7 +26,7 @@ struct Laid {
 impl<'a> Importer<'a> {
     /// What a texture became; numbers that are no colours, as normals, where `is_data`.
     pub(super) fn texture(&mut self, element: &'a MitsubaElement, is_data: bool) -> Result<KnownTexture, Error> {
-        if let Some(known) = self.textures.get(&element.number) {
+        if let Some(known) = self.textures.get(&(element.number, is_data)) {
             return Ok(known.clone());
         }
         self.at(element);
@@ -42,7 +42,7 @@ impl<'a> Importer<'a> {
             KnownTexture::Even([0.5; 3])
         });
         self.note_unused(element);
-        self.textures.insert(element.number, known.clone());
+        self.textures.insert((element.number, is_data), known.clone());
         Ok(known)
     }
 

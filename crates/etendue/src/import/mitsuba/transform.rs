@@ -24,10 +24,22 @@ pub(super) fn transform_of(element: &MitsubaElement, name: &str) -> Result<DAffi
 }
 
 fn step_of(step: &MitsubaElement) -> Result<DAffine3, Error> {
+    let known: &[&str] = match step.tag {
+        "rotate" => &["value", "x", "y", "z", "angle"],
+        "lookat" => &["origin", "target", "up"],
+        "matrix" => &["value"],
+        _ => &["value", "x", "y", "z"],
+    };
+    if let Some((name, _)) = step.attributes.iter().find(|(name, _)| !known.contains(&&**name)) {
+        return Err(step.fault(format!("\"{name:.40}\" of <{}>; expected {}", step.tag, known.join(", "))));
+    }
     match step.tag {
         "translate" => Ok(DAffine3::from_translation(triple_of(step, 0.0)?)),
         "scale" => Ok(DAffine3::from_scale(triple_of(step, 1.0)?)),
         "rotate" => {
+            if step.attribute("angle").is_none() {
+                return Err(step.fault("<rotate> without \"angle\""));
+            }
             let degrees = attribute_number(step, "angle", 0.0)?;
             let axis = triple_of(step, 0.0)?.try_normalize().ok_or_else(|| step.fault("a rotation about no axis"))?;
             Ok(DAffine3::from_mat3(rotation(degrees, axis)))

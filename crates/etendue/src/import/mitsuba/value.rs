@@ -94,6 +94,7 @@ impl<'a> Importer<'a> {
                 Some(name) => self.spectrum_file(name).map_err(told),
                 None => Err(told("a spectrum without \"value\" or \"filename\"".to_owned())),
             },
+            ("volume", "constvolume", _) => self.inner(element, "value"),
             ("spectrum" | "texture", kind, _) => self.plugin(element, kind),
             (tag, ..) => Err(told(format!("<{tag}> where a number, a colour or a texture is expected"))),
         }
@@ -103,6 +104,16 @@ impl<'a> Importer<'a> {
         let bytes = read_regular(&self.file(name), &limits::DESCRIPTION).map_err(|e| format!("{name}: {e}"))?;
         let text = String::from_utf8(bytes).map_err(|_| format!("{name}: no text"))?;
         spectrum_of_file(&text).map_err(|told| format!("{name}: {told}"))
+    }
+
+    /// What a value that only holds another says; what holds one does not hold a further one, nor itself.
+    fn inner(&self, element: &'a MitsubaElement, name: &str) -> Result<Value<'a>, Error> {
+        let told = |what: &str| element.fault(format!("a {} \"{}\" {what} \"{name}\"", element.tag, element.kind()));
+        let held = find(element, name).ok_or_else(|| told("without"))?;
+        match self.resolve(held)?.kind() {
+            "srgb" | "constvolume" => Err(told("with another such as its")),
+            _ => self.value_of(held),
+        }
     }
 
     fn plugin(&self, element: &'a MitsubaElement, kind: &str) -> Result<Value<'a>, Error> {
@@ -120,10 +131,7 @@ impl<'a> Importer<'a> {
                     false => Err(element.fault(format!("a black body of {kelvin} K"))),
                 }
             }
-            "srgb" => match find(element, "color") {
-                Some(colour) => self.value_of(colour),
-                None => Err(element.fault("a spectrum \"srgb\" without \"color\"")),
-            },
+            "srgb" => self.inner(element, "color"),
             "irregular" => paired(list("wavelengths")?, list("values")?).map_err(|told| element.fault(told)),
             "regular" => {
                 let values = list("values")?;

@@ -101,7 +101,7 @@ impl Scenery {
     fn is_seen(&mut self, graphics: &Graphics) -> bool {
         let is_border = &*graphics.material == INTERFACE;
         if is_border && graphics.area_light.is_some() {
-            self.report.note("a shape without a surface gives no light, as in pbrt");
+            self.report.note("a shape that is the border of a medium alone gives no light here");
         }
         !is_border
     }

@@ -80,7 +80,12 @@ impl Scenery {
 
     /// The path, as the written scene names it, of a file that the scene file names.
     pub(in crate::import) fn path_of(&self, name: &str) -> String {
-        path_between(&self.folder, &self.source_folder.join(name)).to_string_lossy().into_owned()
+        self.way_to(&self.source_folder.join(name))
+    }
+
+    /// The path of a file as the written scene names it.
+    pub(in crate::import) fn way_to(&self, file: &Path) -> String {
+        path_between(&self.folder, file).to_string_lossy().into_owned()
     }
 
     /// Notes the parameters that nobody has asked for.

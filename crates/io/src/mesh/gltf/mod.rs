@@ -29,7 +29,7 @@ mod tracks;
 pub use motion::{GltfMotion, GltfMover, read_gltf_motion};
 pub use parts::GltfParts;
 pub use stage::{GltfCamera, GltfLight, GltfLightKind, GltfProjection, GltfStage, read_gltf_stage};
-pub use tracks::GltfTrack;
+pub use tracks::{GLTF_CUBIC_KEYS, GLTF_MIN_TURN, GltfTrack};
 
 use std::path::Path;
 

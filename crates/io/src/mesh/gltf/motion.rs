@@ -130,11 +130,13 @@ fn parents(root: &Root) -> Vec<Option<usize>> {
     parents
 }
 
-/// Joints and all above them.
+/// Joints, nodes with skins, and all above them.
 fn held_by_skins(root: &Root, above: &[Option<usize>]) -> Vec<usize> {
     let mut is_held = vec![false; root.nodes.len()];
-    for joint in root.skins.iter().flat_map(|skin| &skin.joints) {
-        let mut node = Some(joint.value()).filter(|node| *node < is_held.len());
+    let joints = root.skins.iter().flat_map(|skin| &skin.joints).map(|joint| joint.value());
+    let skinned = root.nodes.iter().enumerate().filter(|(_, node)| node.skin.is_some()).map(|(number, _)| number);
+    for held in joints.chain(skinned) {
+        let mut node = Some(held).filter(|node| *node < is_held.len());
         while let Some(number) = node.filter(|number| !std::mem::replace(&mut is_held[*number], true)) {
             node = above[number];
         }
@@ -144,6 +146,7 @@ fn held_by_skins(root: &Root, above: &[Option<usize>]) -> Vec<usize> {
 
 fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result<Vec<Tracks>, String> {
     let mut tracks = vec![Tracks::default(); root.nodes.len()];
+    let mut keys = 0;
     for (number, animation) in root.animations.iter().enumerate() {
         let told = |what: String| format!("its animation {number}: {what}");
         for channel in &animation.channels {
@@ -151,7 +154,7 @@ fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result
             let sampler = sampler.ok_or_else(|| told("a channel names a sampler that is not there".to_owned()))?;
             let node = tracks.get_mut(channel.target.node.value());
             let node = node.ok_or_else(|| told("a channel names a node that is not there".to_owned()))?;
-            if !add(root, buffers, (channel, sampler), node).map_err(told)? {
+            if !add(root, buffers, (channel, sampler), node, &mut keys).map_err(told)? {
                 let what = called(root, channel.target.node.value());
                 let note = match channel.target.path {
                     Checked::Valid(Property::MorphTargetWeights) => format!("morph targets of {what} are not used"),
@@ -166,32 +169,41 @@ fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result
     Ok(tracks)
 }
 
-/// Adds a channel to its node; `false` where it is not used.
+/// Adds a channel to its node, and what it makes to the `keys` so far; `false` where it is not used.
 fn add(
     root: &Root,
     buffers: &Buffers,
     (channel, sampler): (&Channel, &Sampler),
     node: &mut Tracks,
+    keys: &mut u64,
 ) -> Result<bool, String> {
     let Checked::Valid(interpolation) = sampler.interpolation else {
         return Err("an interpolation that is not known".to_owned());
     };
+    let is_used = match channel.target.path {
+        Checked::Valid(Property::Translation) => node.translation.is_none(),
+        Checked::Valid(Property::Rotation) => node.rotation.is_none(),
+        Checked::Valid(Property::Scale) => node.scale.is_none(),
+        _ => false,
+    };
+    if !is_used {
+        return Ok(false);
+    }
+    let stated = root.accessors.get(sampler.input.value()).map_or(0, |accessor| accessor.count.0);
+    *keys = tracks::counted(*keys, stated, interpolation)?;
     let times = finite(numbers::<1>(root, buffers, sampler.input, "times")?, "time")?;
     let times: Vec<f64> = times.into_iter().map(|[time]| time).collect();
     let cubic = matches!(interpolation, Interpolation::CubicSpline);
     let steps = matches!(interpolation, Interpolation::Step);
     let of = |what: &'static str| (root, buffers, sampler.output, what);
     match channel.target.path {
-        Checked::Valid(Property::Translation) if node.translation.is_none() => {
-            node.translation = Some(track(times, of("translations"), cubic, steps)?);
+        Checked::Valid(Property::Rotation) => {
+            let rotation = track(times, of("rotations"), cubic, steps)?;
+            tracks::check_rotation(&rotation)?;
+            node.rotation = Some(rotation);
         }
-        Checked::Valid(Property::Rotation) if node.rotation.is_none() => {
-            node.rotation = Some(track(times, of("rotations"), cubic, steps)?);
-        }
-        Checked::Valid(Property::Scale) if node.scale.is_none() => {
-            node.scale = Some(track(times, of("scales"), cubic, steps)?);
-        }
-        _ => return Ok(false),
+        Checked::Valid(Property::Scale) => node.scale = Some(track(times, of("scales"), cubic, steps)?),
+        _ => node.translation = Some(track(times, of("translations"), cubic, steps)?),
     }
     Ok(true)
 }

@@ -1,5 +1,14 @@
 //! Values over time.
 
+use gltf::json::animation::Interpolation;
+
+/// Keys of a cubic curve from one of the file's to the next, where curves are said by keys between which lines are straight.
+pub const GLTF_CUBIC_KEYS: usize = 16;
+/// Keys that the tracks of a file may make: as text they have about 100 MB.
+const MAX_KEYS: u64 = 1_000_000;
+/// A quaternion below this length turns nothing that can be told.
+pub const GLTF_MIN_TURN: f64 = 1e-6;
+
 /// Values over time; before the first and after the last they hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GltfTrack<const N: usize> {
@@ -35,6 +44,30 @@ pub(super) fn track<const N: usize>(
         _ => GltfKeys::Linear(values),
     };
     Ok(GltfTrack { times_s: times, keys })
+}
+
+/// The keys so far with those that a track of `times` makes: cubic curves and steps are said by more.
+pub(super) fn counted(before: u64, times: u64, interpolation: Interpolation) -> Result<u64, String> {
+    let each = match interpolation {
+        Interpolation::CubicSpline => GLTF_CUBIC_KEYS as u64,
+        Interpolation::Step => 2,
+        Interpolation::Linear => 1,
+    };
+    match before.saturating_add(times.saturating_mul(each)) {
+        keys if keys <= MAX_KEYS => Ok(keys),
+        _ => Err(format!(
+            "its tracks and those before it make more than {MAX_KEYS} keys, {GLTF_CUBIC_KEYS} for each of a cubic curve, 2 for each of steps; export fewer"
+        )),
+    }
+}
+
+/// Refuses keys that are no rotation.
+pub(super) fn check_rotation(track: &GltfTrack<4>) -> Result<(), String> {
+    let length = |q: [f64; 4]| q.iter().map(|v| v * v).sum::<f64>().sqrt();
+    match track.values().position(|q| length(q) < GLTF_MIN_TURN) {
+        Some(key) => Err(format!("key {key} of its rotations is a quaternion without length; export it again")),
+        None => Ok(()),
+    }
 }
 
 impl<const N: usize> GltfTrack<N> {
@@ -113,5 +146,15 @@ mod tests {
         assert_eq!([0.0, 0.5, 1.0].map(|t| cubic.at(t, straight)[0]), [0.0, 0.25, 1.0]);
         assert!(track(times(), vec![[0.0]], false, false).is_err());
         assert!(track(vec![1.0, 1.0], vec![[0.0], [1.0]], false, false).is_err());
+    }
+
+    #[test]
+    fn keys_are_limited_and_rotations_have_length() {
+        assert_eq!(counted(5, 10, Interpolation::CubicSpline), Ok(165));
+        assert_eq!(counted(0, MAX_KEYS, Interpolation::Linear), Ok(MAX_KEYS));
+        assert!(counted(0, MAX_KEYS, Interpolation::Step).expect_err("too many").contains("1000000 keys"));
+        let rotation = |q: [f64; 4]| track(vec![0.0], vec![q], false, false).expect("a track");
+        assert!(check_rotation(&rotation([0.0, 0.0, 0.0, 1.0])).is_ok());
+        assert!(check_rotation(&rotation([0.0; 4])).expect_err("none").contains("key 0"));
     }
 }
