@@ -77,7 +77,7 @@ fn widened_facets_never_send_back_more_than_arrives() {
     ];
     for (name, surface) in white {
         let material_table = material_table(surface);
-        for least_alpha in [0.1, 0.26, 0.5, 1.0] {
+        for least_alpha in [0.1, 0.26, 0.54] {
             let widened = material_table.widened_bsdf(MaterialId(0), &LOOKUP, (true, least_alpha), &WAVELENGTHS);
             assert!(!widened.is_delta(), "{name}");
             for degrees in [0.0, 40.0, 75.0, 89.0] {
