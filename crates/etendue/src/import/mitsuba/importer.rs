@@ -29,7 +29,7 @@ pub(super) struct Importer<'a> {
     /// Names of media, by the numbers of their elements; empty for what is not understood.
     pub(super) media: HashMap<usize, Rc<str>>,
     cameras: Vec<ImportedCamera>,
-    /// Where files are sought that are not beside the scene, those of later <path> first.
+    /// Where files are sought that are not beside the scene, those of later `<path>` first.
     folders: Vec<PathBuf>,
 }
 
