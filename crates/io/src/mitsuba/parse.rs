@@ -18,14 +18,14 @@ use crate::{Error, Sandbox};
 const MAX_INCLUDES: usize = 16;
 /// Elements within one another.
 const MAX_DEPTH: usize = 64;
-/// Folders that <path> leads to: every file is sought in all of them.
+/// Folders that `<path>` leads to: every file is sought in all of them.
 const MAX_FOLDERS: usize = 64;
 /// Bytes of a parameter's name.
 const MAX_NAME: usize = 64;
 
 /// What is known while files are read.
 pub(super) struct Reading<'a> {
-    /// Where included files are sought behind the folder of the file that includes them: that of the first file, then those of <path>.
+    /// Where included files are sought behind the folder of the file that includes them: that of the first file, then those of `<path>`.
     folders: Vec<PathBuf>,
     sandbox: &'a Sandbox,
     /// Of all files so far.
