@@ -34,6 +34,11 @@ pub struct Key {
     pub scale: DVec3,
 }
 
+/// From rotation to rotation the short way about one axis at an even rate (Shoemake 1985), `share` of the way, 0 … 1. Both of any length but 0.
+pub fn slerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
+    Turn::even(from.normalize(), to.normalize()).at(share)
+}
+
 /// How a track moves from key to key.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Interpolation {

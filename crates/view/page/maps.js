@@ -223,20 +223,27 @@ function paintRaw(layer, numbers, settings, gain, put) {
   return { raw: [black, white], gain };
 }
 
-// B − A as a layer of its own; null where the two cannot be subtracted.
+// Kinds whose planes mean something one by one: those that one result alone has are left out of the difference.
+const APART = ["number", "parts"];
+
+// B − A as a layer of its own, plane by plane of the same name; null where the two cannot be subtracted. `left_out` names the planes that one alone has.
 function differenceOf(a, b, planesA, planesB) {
   if (a.width !== b.width || a.height !== b.height || a.kind !== b.kind || a.kind === "boxes") return null;
   if (a.kind === "spectrum" && String(a.centres_nm) !== String(b.centres_nm)) return null;
   const values = (layer) => layer.planes.map((plane, i) => [plane, i]).filter(([plane]) => !plane.is_error);
   const [ofA, ofB] = [values(a), values(b)];
-  if (ofA.length !== ofB.length) return null;
   if (a.kind === "identity") {
     const numbers = Float32Array.from(planesA[0], (id, i) => (id === planesB[0][i] ? 0 : 1));
     return [{ ...a, kind: "unequal", planes: [a.planes[0]] }, [numbers]];
   }
-  const planes = ofA.map(([, i], place) => {
-    const [x, y] = [planesA[i], planesB[ofB[place][1]]];
+  const named = (planes, name) => planes.find(([plane]) => plane.name === name);
+  const pairs = ofA.map((one) => [one, named(ofB, one[0].name)]).filter(([, other]) => other);
+  const alone = [[ofA, ofB, "A"], [ofB, ofA, "B"]].flatMap(([own, others, result]) =>
+    own.filter(([plane]) => !named(others, plane.name)).map(([plane]) => `${plane.name} (only ${result})`));
+  if (!pairs.length || (alone.length && !APART.includes(a.kind))) return null;
+  const planes = pairs.map(([[, i], [, j]]) => {
+    const [x, y] = [planesA[i], planesB[j]];
     return Float32Array.from(x, (v, pixel) => (v === y[pixel] ? 0 : y[pixel] - v));
   });
-  return [{ ...a, kind: "difference", of: a.kind, planes: ofA.map(([plane]) => plane) }, planes];
+  return [{ ...a, kind: "difference", of: a.kind, planes: pairs.map(([[plane]]) => plane), left_out: alone }, planes];
 }

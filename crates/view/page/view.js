@@ -111,7 +111,8 @@ async function shownLayers() {
     case "difference": {
       const made = first && second && differenceLayer(first, second);
       if (!made) return [{ name: "B − A: there is no difference of these", shown: [null] }];
-      return [{ name: made[0].kind === "unequal" ? "where B is not A" : "B − A", shown: [{ layer: made[0], planes: made[1] }] }];
+      const without = made[0].left_out?.length ? `, without ${made[0].left_out.join(", ")}` : "";
+      return [{ name: made[0].kind === "unequal" ? "where B is not A" : `B − A${without}`, shown: [{ layer: made[0], planes: made[1] }] }];
     }
     default: return [{ name: names[0], shown: [first] }, { name: names[1], shown: [second] }];
   }

@@ -167,6 +167,27 @@ fn light_is_that_of_the_file(browser: &mut Browser, file: &ExrFile, pixel: [usiz
     assert_eq!(browser.value("document.querySelectorAll('#chart polygon').length"), 1, "the standard error");
 }
 
+/// As in a page whose sensors have other effects: planes that one result alone has move no other.
+fn planes_are_subtracted_by_name(browser: &mut Browser) {
+    let mut made = |kind: &str, of_a: &str, of_b: &str| {
+        let layer = |names: &str| {
+            let planes = names.split(' ').map(|name| format!("{{ name: '{name}' }}")).collect::<Vec<_>>().join(", ");
+            format!("{{ kind: '{kind}', width: 1, height: 1, planes: [{planes}] }}")
+        };
+        // A plane's number is the length of its name, ten times that in B.
+        let numbers = |names: &str, gain: usize| {
+            format!("{:?}", names.split(' ').map(|name| [gain * name.len()]).collect::<Vec<_>>())
+        };
+        let (a, b) = (layer(of_a), layer(of_b));
+        let asked = format!("differenceOf({a}, {b}, {}, {})", numbers(of_a, 1), numbers(of_b, 10));
+        browser.value(&format!("(() => {{ const d = {asked}; return d && [d[1].map(([v]) => v), d[0].left_out]; }})()"))
+    };
+    let found = made("parts", "signal dark smear", "lag2 signal dark");
+    assert_eq!(found, serde_json::json!([[54.0, 36.0], ["smear (only A)", "lag2 (only B)"]]));
+    assert_eq!(made("number", "x", "yy"), serde_json::Value::Null);
+    assert_eq!(made("colour", "R G B", "R G C"), serde_json::Value::Null);
+}
+
 fn two_results_stand_beside_each_other(browser: &mut Browser, page: &Path, [a, b]: [PathBuf; 2]) {
     let picture = |folder: &Path| {
         let picture = read_photograph(&folder.join("picture.0000.png")).expect("a picture");
@@ -185,4 +206,5 @@ fn two_results_stand_beside_each_other(browser: &mut Browser, page: &Path, [a, b
     assert_eq!(browser.numbers("root mean square"), [0.0], "both look at the same scene");
     browser.look("layer=radiance&show=difference&at=22,15");
     assert!(browser.numbers("root mean square")[0] > 0.0, "of other seeds the light differs");
+    planes_are_subtracted_by_name(browser);
 }

@@ -1,7 +1,7 @@
 //! glTF files: their mesh as it is, lights, cameras and what moves in our keys.
 
 use super::lamps;
-use super::moving::{Moving, add_moving, part_of};
+use super::moving::{Moving, add_moving, part_of, to_world};
 use super::naming::{Names, path_between};
 use super::written::{ImportedCamera, View, Written, pose_of, size_of, written};
 use crate::error::Error;
@@ -20,11 +20,6 @@ use std::path::Path;
 
 /// The sky of a scene without light, cd/m²: an overcast day's.
 const SKY_CD_M2: f64 = 2000.0;
-
-/// From the file's axes (+y up, +z forward) to the world's (+z up, +x forward).
-fn to_world(v: DVec3) -> DVec3 {
-    DVec3::new(v.z, v.x, v.y)
-}
 
 pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
     let stage = read_gltf_stage(file).map_err(Error::input)?;

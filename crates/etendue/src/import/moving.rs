@@ -2,6 +2,7 @@
 
 use super::naming::{Names, path_between, rounded};
 use etendue_core::maths::f64 as maths;
+use etendue_core::track::slerp;
 use etendue_io::mesh::{GLTF_CUBIC_KEYS as CUBIC_KEYS, GLTF_MIN_TURN, GltfMotion, GltfMover, GltfTrack};
 use etendue_scene::record::frame::{FrameKey, FramePlacement};
 use etendue_scene::record::object::Keyframe;
@@ -18,7 +19,7 @@ const JUMP_S: f64 = 1e-6;
 const MAX_TURN_DEG: f64 = 170.0;
 
 /// From the file's axes (+y up, +z forward) to the world's (+z up, +x forward).
-fn to_world(v: DVec3) -> DVec3 {
+pub(super) fn to_world(v: DVec3) -> DVec3 {
     DVec3::new(v.z, v.x, v.y)
 }
 
@@ -157,7 +158,7 @@ impl Way<'_> {
             for pair in times.windows(2) {
                 let [from, middle, to] = [pair[0], 0.5 * (pair[0] + pair[1]), pair[1]].map(|time| self.at(time));
                 off_m = off_m.max((middle.0 - 0.5 * (from.0 + to.0)).length());
-                let between = DQuat::from_array(slerp(from.1.to_array(), to.1.to_array(), 0.5));
+                let between = slerp(from.1, to.1, 0.5);
                 off_deg = off_deg.max(angle_deg(middle.1, between));
             }
             told += &format!(
@@ -170,7 +171,7 @@ impl Way<'_> {
 
 /// A rotation at a time; that of the key before where a cubic curve passes through zero.
 fn turn_at(track: &GltfTrack<4>, time_s: f64) -> DQuat {
-    let turn = |time_s: f64| DQuat::from_array(track.at(time_s, slerp));
+    let turn = |time_s: f64| DQuat::from_array(track.at(time_s, turned));
     let own = turn(time_s);
     if own.length() >= GLTF_MIN_TURN {
         return own.normalize();
@@ -209,41 +210,11 @@ fn straight(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
     std::array::from_fn(|i| a[i] + share * (b[i] - a[i]))
 }
 
-/// From rotation to rotation about one axis at an even rate, the short way (Shoemake 1985).
-fn slerp(a: [f64; 4], b: [f64; 4], share: f64) -> [f64; 4] {
-    let unit = |q: [f64; 4]| {
-        let length = q.iter().map(|v| v * v).sum::<f64>().sqrt();
-        q.map(|v| v / length)
-    };
-    let (a, b) = (unit(a), unit(b));
-    let cos: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
-    let angle = maths::acos(cos.abs().min(1.0));
-    let (from, to) = match angle < 1e-6 {
-        true => (1.0 - share, share),
-        false => {
-            let sin = |angle: f64| maths::sin(angle);
-            (sin((1.0 - share) * angle) / sin(angle), sin(share * angle) / sin(angle))
-        }
-    };
-    std::array::from_fn(|i| from * a[i] + to * cos.signum() * b[i])
+/// As a track of a file mixes its numbers.
+fn turned(a: [f64; 4], b: [f64; 4], share: f64) -> [f64; 4] {
+    slerp(DQuat::from_array(a), DQuat::from_array(b), share).to_array()
 }
 
 fn angle_deg(a: DQuat, b: DQuat) -> f64 {
     2.0 * maths::acos(a.dot(b).abs().min(1.0)).to_degrees()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rotations_go_the_short_way() {
-        let half = std::f64::consts::FRAC_1_SQRT_2;
-        let (still, quarter) = ([0.0, 0.0, 0.0, 1.0], [0.0, half, 0.0, half]);
-        for sign in [1.0, -1.0] {
-            let middle = DQuat::from_array(slerp(still, quarter.map(|v| sign * v), 0.5));
-            assert!((angle_deg(middle, DQuat::from_array(still)) - 45.0).abs() < 1e-9, "{middle}");
-            assert!((angle_deg(middle, DQuat::from_array(quarter)) - 45.0).abs() < 1e-9, "{middle}");
-        }
-    }
 }

@@ -13,12 +13,11 @@ use crate::render::truth::is_there;
 use crate::render::weather_layers;
 use etendue_core::random::{PathStream, Pixel};
 use etendue_core::{FieldRay, TimeInterval};
+use etendue_optics::PRINCIPAL_NM;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::render_space::Truth;
 use rayon::prelude::*;
 
-/// The wavelength whose rays are followed, nm: that of ground truth.
-const NM: f64 = 587.56;
 /// Samples a pixel, at most: shares are then known to some hundredths.
 const MAX_SPP: u32 = 64;
 
@@ -101,7 +100,9 @@ impl<S: RaySource> RenderJob<'_, S> {
             let first = PathStream::new(&self.address(pixel, replicate), 0);
             for sample in 0..self.sampling.spp() / replicates {
                 let stream = first.with_sample(sample);
-                let Some(ray) = self.pupil_ray(pixel, glam::DVec2::ZERO, &stream, NM as f32) else { continue };
+                let Some(ray) = self.pupil_ray(pixel, glam::DVec2::ZERO, &stream, PRINCIPAL_NM as f32) else {
+                    continue;
+                };
                 // At the pupil all rows are exposed together, and there may be fewer of them than of the picture.
                 let row = pixel.y.min(self.height - 1);
                 let moment_s = self.exposure.moment_s(row, self.time_number(&stream));

@@ -105,7 +105,7 @@ impl<'a> Importer<'a> {
         Ok(found)
     }
 
-    /// Elements of a kind within another, by themselves or by reference; those with a name are parameters of that name alone.
+    /// Elements of a kind within another, by themselves or by reference, whatever their names.
     pub(super) fn within(&self, element: &'a MitsubaElement, tag: &str) -> Result<Vec<&'a MitsubaElement>, Error> {
         let mut found = Vec::new();
         for child in element.children.iter().filter(|child| matches!(child.tag, "ref") || child.tag == tag) {

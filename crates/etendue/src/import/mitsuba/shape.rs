@@ -106,7 +106,6 @@ impl<'a> Importer<'a> {
     fn held(&mut self, element: &'a MitsubaElement, graphics: Graphics) -> Result<Graphics, Error> {
         let mut graphics = graphics;
         graphics.reverse_orientation = flag(element, "flip_normals", false)?;
-        let is_group = |e: &&MitsubaElement| e.name() != "exterior";
         match self.within(element, "bsdf")?.first() {
             Some(bsdf) => graphics.material = self.bsdf(bsdf, 0)?,
             // What shines reflects nothing unless it is told to.
@@ -118,7 +117,7 @@ impl<'a> Importer<'a> {
             graphics.area_light = self.area_light(emitter)?.map(Rc::new);
             self.note_unused(emitter);
         }
-        for child in element.children.iter().filter(is_group).filter(|child| child.name() == "interior") {
+        for child in element.children.iter().filter(|child| child.name() == "interior") {
             let medium = self.resolve(child)?;
             child.used.set(true);
             if medium.tag == "medium" {

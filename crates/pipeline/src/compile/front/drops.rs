@@ -1,5 +1,6 @@
 //! Drops of water on a wind-screen.
 
+use etendue_optics::PRINCIPAL_NM;
 use etendue_optics::front::{Course, Curve, DropsParameters, Sliding, Wiper};
 use etendue_scene::record::front::drops::{self as record, DropAmount};
 use etendue_spectra::dielectric;
@@ -8,8 +9,6 @@ use glam::DVec2;
 /// Of drops that condense and join: see the record.
 const SIZE_EXPONENT: f64 = 8.0 / 3.0;
 const CONTACT_ANGLE_DEG: f64 = 60.0;
-/// The wavelength of an index without dispersion, nm.
-const PRINCIPAL_NM: f32 = 587.56;
 
 pub(super) fn drops(r: &record::Drops) -> DropsParameters {
     let contact_angle_deg = r.contact_angle_deg.as_ref().map_or(CONTACT_ANGLE_DEG, |a| a.value);
@@ -62,6 +61,6 @@ fn water(disperses: bool) -> Curve {
     let index = &dielectric::named("water").expect("water is among the dielectrics").n;
     match disperses {
         true => Curve::Table(Box::new(index.clone())),
-        false => Curve::Constant(f64::from(index.at(PRINCIPAL_NM))),
+        false => Curve::Constant(f64::from(index.at(PRINCIPAL_NM as f32))),
     }
 }

@@ -22,15 +22,13 @@ use crate::render::truth::is_there;
 use crate::render::{Request, Shot};
 use etendue_core::quantity::{Cover, Quantity, Radiance, Transmittance};
 use etendue_core::{Bands, FieldRay, Plane, RadianceField, Spectral, SpectralCube, Wavelengths};
+use etendue_optics::PRINCIPAL_NM;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::integrator::{PathSettings, PathTracer};
 use etendue_tracer::materials::MaterialTable;
 use etendue_tracer::media::{Following, Media};
 use etendue_tracer::precipitation::Near;
 use etendue_tracer::render_space::RenderSpace;
-
-/// The wavelength of ground truth, nm: the helium d line.
-const TRUTH_NM: f32 = 587.56;
 
 /// What weather does to the pixels of a film.
 #[derive(Clone, Debug)]
@@ -153,7 +151,7 @@ impl RadianceField<1> for Shares<'_> {
             }
             Share::Transmittance => {
                 let media = near.map_or(self.media, Near::media);
-                let at = Wavelengths { nm: [TRUTH_NM], pdf: [1.0] };
+                let at = Wavelengths { nm: [PRINCIPAL_NM as f32], pdf: [1.0] };
                 media.transmittance((&ray, Following::Exact), (&asked.stream, 0), &at)
             }
         }
