@@ -169,6 +169,8 @@ fn light_is_that_of_the_file(browser: &mut Browser, file: &ExrFile, pixel: [usiz
 
 /// As in a page whose sensors have other effects: planes that one result alone has move no other.
 fn planes_are_subtracted_by_name(browser: &mut Browser) {
+    let script = std::fs::read_to_string(root().join("crates/view/page/maps.js")).expect("the page's script");
+    let (_, script) = script.split_once("const APART").expect("what a difference is made by");
     let mut made = |kind: &str, of_a: &str, of_b: &str| {
         let layer = |names: &str| {
             let planes = names.split(' ').map(|name| format!("{{ name: '{name}' }}")).collect::<Vec<_>>().join(", ");
@@ -180,7 +182,9 @@ fn planes_are_subtracted_by_name(browser: &mut Browser) {
         };
         let (a, b) = (layer(of_a), layer(of_b));
         let asked = format!("differenceOf({a}, {b}, {}, {})", numbers(of_a, 1), numbers(of_b, 10));
-        browser.value(&format!("(() => {{ const d = {asked}; return d && [d[1].map(([v]) => v), d[0].left_out]; }})()"))
+        browser.value(&format!(
+            "(() => {{ const APART{script}; const d = {asked}; return d && [d[1].map(([v]) => v), d[0].left_out]; }})()"
+        ))
     };
     let found = made("parts", "signal dark smear", "lag2 signal dark");
     assert_eq!(found, serde_json::json!([[54.0, 36.0], ["smear (only A)", "lag2 (only B)"]]));
