@@ -187,7 +187,7 @@ fn planes_are_subtracted_by_name(browser: &mut Browser) {
         ))
     };
     let found = made("parts", "signal dark smear", "lag2 signal dark");
-    assert_eq!(found, serde_json::json!([[54.0, 36.0], ["smear (only A)", "lag2 (only B)"]]));
+    assert_eq!(found, serde_json::json!([[54, 36], ["smear (only A)", "lag2 (only B)"]]));
     assert_eq!(made("number", "x", "yy"), serde_json::Value::Null);
     assert_eq!(made("colour", "R G B", "R G C"), serde_json::Value::Null);
 }
