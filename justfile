@@ -51,10 +51,6 @@ oracles:
 validate *cameras:
     cargo run --release -q -p etendue-validation --bin validate -- {{cameras}}
 
-# How often stated uncertainties cover the truth, 200 seeds of each quantity (minutes): writes docs/coverage.md
-coverage:
-    ETENDUE_BLESS=1 cargo test -p etendue-metrology
-
 # How often the intervals of characterise hold the truth, over 50 seeds (hours): writes target/laboratory/coverage.md
 laboratory *arguments:
     cargo run --release -q -p etendue-validation --bin laboratory -- {{arguments}}
