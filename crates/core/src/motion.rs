@@ -92,6 +92,14 @@ impl Motion {
         }
     }
 
+    /// The velocity in the world, m/s, of a point of the moved frame (m) at a simulated time, s: exact; at a key that of the motion after it.
+    /// 0 before the first key and from the last on.
+    #[must_use]
+    pub fn velocity_at(&self, time_s: f64, point_m: DVec3) -> DVec3 {
+        let moving = self.moving_at(time_s, time_s);
+        moving.turning * point_m + moving.velocity
+    }
+
     /// Where nothing ever moves, its transform.
     #[must_use]
     pub fn as_still(&self) -> Option<DAffine3> {

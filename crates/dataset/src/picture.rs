@@ -4,8 +4,9 @@ use crate::draw::Split;
 use crate::mask;
 use crate::record::{PictureRecord, Pose, objects};
 use core::cell::OnceCell;
-use etendue::{CameraResults, Error, GroundTruth, camera_mount, pinhole_view};
-use etendue_core::CameraPose;
+use etendue::{CameraResults, Error, GroundTruth, WorldObject, camera_mount, pinhole_view};
+use etendue_core::quantity::Display;
+use etendue_core::{CameraPose, Plane};
 use glam::DQuat;
 use std::collections::BTreeMap;
 
@@ -17,6 +18,8 @@ pub(crate) struct Picture<'a> {
     /// The file's bytes.
     pub(crate) bytes: Vec<u8>,
     pub(crate) truth: &'a GroundTruth,
+    /// As a display shows it.
+    pub(crate) display: &'a Plane<Display>,
     results: &'a CameraResults,
     /// Made when it is first asked for: it is that of all frames of the results.
     cryptomatte: &'a OnceCell<Vec<u8>>,
@@ -30,6 +33,11 @@ impl Picture<'_> {
         }
         let made = self.results.cryptomatte()?;
         Ok(self.cryptomatte.get_or_init(|| made))
+    }
+
+    /// All objects of the world at the picture's time.
+    pub(crate) fn world_objects(&self) -> Vec<WorldObject> {
+        self.results.world_objects(self.record.frame)
     }
 
     /// The pixels that would show each object were it alone.
@@ -56,8 +64,8 @@ pub(crate) fn each(
     let view = pinhole_view(results.camera()).ok();
     for (frame, taken) in results.frame_numbers().zip(results.frames()) {
         let file = results.picture_file(&taken).ok_or_else(|| no_picture(camera))?;
-        let size = taken.picture.as_ref().map(|picture| (picture.display.width(), picture.display.height()));
-        if size != Some((width_px, height_px)) {
+        let display = &taken.picture.as_ref().ok_or_else(|| no_picture(camera))?.display;
+        if (display.width(), display.height()) != (width_px, height_px) {
             let problem =
                 "its pictures are a region, or of binned or skipped pixels, and its ground truth is of all pixels";
             return Err(Error::input(format!("camera {camera}: {problem}; take these keys out")));
@@ -80,7 +88,7 @@ pub(crate) fn each(
             mount: camera_mount(results.camera()).as_ref().map(pose_record),
             objects: objects.clone(),
         };
-        take(&Picture { sample, record, bytes, truth: &truth, results, cryptomatte: &cryptomatte })?;
+        take(&Picture { sample, record, bytes, truth: &truth, display, results, cryptomatte: &cryptomatte })?;
     }
     Ok(())
 }

@@ -131,6 +131,7 @@ pub(crate) fn name(format: SetFormat) -> &'static str {
         SetFormat::Cryptomatte => "cryptomatte",
         SetFormat::Mcap => "mcap",
         SetFormat::OpenLabel => "openlabel",
+        SetFormat::Osi => "osi",
     }
 }
 

@@ -1,11 +1,13 @@
 """Data sets for compositing, robots and annotation tools, read by the formats' own readers."""
 
+import io
 import json
 import struct
 
 import numpy as np
 import pytest
 from conftest import ROOT
+from PIL import Image
 
 import etendue
 
@@ -30,7 +32,7 @@ def drive(tmp_path_factory):
     folder = tmp_path_factory.mktemp("drive") / "set"
     changes = {"cameras.right": None, "cameras.rear": None, "cameras.left.output": None}
     sizes = {f"cameras.left.sensor.{key}": value for key, value in {"width_px": 96, "height_px": 60, "pixel_pitch_um": 60}.items()}
-    etendue.dataset(ROOT / "scenes/drive/drive.toml", output=folder, frames=range(0, 2), spp=1, integrator="flat", set={**changes, **sizes}, format=["mcap", "openlabel"])
+    etendue.dataset(ROOT / "scenes/drive/drive.toml", output=folder, frames=range(0, 2), spp=1, integrator="flat", set={**changes, **sizes}, format=["mcap", "openlabel", "osi"])
     return folder
 
 
@@ -108,7 +110,7 @@ def messages(name):
 def test_mcap_has_our_pictures_depth_cameras_and_poses(drive):
     (name,) = (drive / "mcap/train").glob("*.mcap")
     found = messages(name)
-    assert set(found) == {"/left/image/compressed", "/left/depth", "/left/camera_info", "/tf"} and all(len(of) == 2 for of in found.values())
+    assert set(found) == {"/left/image/compressed", "/left/depth", "/left/points", "/left/camera_info", "/tf"} and all(len(of) == 2 for of in found.values())
     for place, (_, picture) in enumerate(pictures(drive)):
         fx, skew, cx, fy, cy = picture["camera_matrix_px"]
         for topic, of in found.items():
@@ -121,6 +123,20 @@ def test_mcap_has_our_pictures_depth_cameras_and_poses(drive):
         metres = np.frombuffer(bytes(depth.data), "<f4").reshape(60, 96)
         assert np.isinf(metres).any() and 1 < metres[-1, 48] < 20, "the sky, and the road before the car"
         assert info.distortion_model == "plumb_bob" and list(info.k) == [fx, skew, cx - 0.5, 0, fy, cy - 0.5, 0, 0, 1] and list(info.d) == [0] * 5
+        cloud = found["/left/points"][place][1]
+        assert [(field.name, field.offset, field.datatype, field.count) for field in cloud.fields] == [("x", 0, 7, 1), ("y", 4, 7, 1), ("z", 8, 7, 1), ("rgb", 12, 7, 1)]
+        assert (cloud.width, cloud.height, cloud.point_step, cloud.row_step, cloud.is_dense, cloud.header.frame_id) == (96, 60, 16, 16 * 96, False, "left")
+        points = np.frombuffer(bytes(cloud.data), [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("rgb", "<u4")]).reshape(60, 96)
+        solid = np.isfinite(metres)
+        assert (points["z"][solid] == metres[solid]).all() and np.isnan(points["x"][~solid]).all() and np.isnan(points["z"][~solid]).all()
+        # By the message of the camera beside it, whose pixel centres are whole numbers.
+        matrix = np.array(info.k).reshape(3, 3)
+        rows, columns = np.nonzero(solid)
+        projected = matrix @ np.stack([points[axis][solid].astype(float) for axis in "xyz"])
+        assert np.allclose(projected[:2] / projected[2], [columns, rows], atol=1e-4)
+        shown = np.asarray(Image.open(io.BytesIO(bytes(image.data))).convert("RGB")).astype(int)
+        packed = np.stack([points["rgb"] >> shift & 255 for shift in (16, 8, 0)], axis=-1).astype(int)
+        assert np.abs(packed - shown).max() <= 1, "the colours of the picture, to the last digit of its rounding"
         transform = found["/tf"][place][1].transforms[0]
         assert (transform.header.frame_id, transform.child_frame_id) == ("world", "left")
         at, turned = transform.transform.translation, transform.transform.rotation
@@ -147,3 +163,61 @@ def test_openlabel_is_valid_by_the_standard_s_schema_and_has_our_boxes(drive, bo
             assert content["objects"][name]["type"] == entry["class"]
         pose = np.array(frame["frame_properties"]["transforms"]["left_to_world"]["transform_src_to_dst"]["matrix4x4"]).reshape(4, 4)
         assert np.allclose(pose[:3, 3], picture["pose"]["position_m"]) and np.allclose(pose[:3, :3] @ pose[:3, :3].T, np.eye(3))
+
+
+def turned(yaw, pitch, roll):
+    """A rotation about z, then the new y, then the new x (ISO 8855)."""
+    about = lambda angle, i, j: np.eye(3) + (np.cos(angle) - 1) * (np.outer(np.eye(3)[i], np.eye(3)[i]) + np.outer(np.eye(3)[j], np.eye(3)[j])) + np.sin(angle) * (np.outer(np.eye(3)[j], np.eye(3)[i]) - np.outer(np.eye(3)[i], np.eye(3)[j]))
+    return about(yaw, 0, 1) @ about(pitch, 2, 0) @ about(roll, 1, 2)
+
+
+def of_quaternion(w, x, y, z):
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)], [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def test_osi_s_ground_truth_is_our_objects(drive):
+    osi = pytest.importorskip("osi3trace.osi_trace")
+    from osi3.osi_object_pb2 import MovingObject, StationaryObject
+
+    (name,) = (drive / "osi/train").glob("*.osi")
+    assert name.name == "000000_gt_380_2.osi"
+    trace = osi.OSITrace(str(name), "GroundTruth")
+    frames = list(trace)
+    trace.close()
+    assert len(frames) == 2 and all(frame.IsInitialized() and not frame.UnknownFields() if hasattr(frame, "UnknownFields") else frame.IsInitialized() for frame in frames)
+    vehicles = {}
+    for frame, (_, picture) in zip(frames, pictures(drive)):
+        assert (frame.version.version_major, frame.version.version_minor, frame.version.version_patch) == (3, 8, 0)
+        assert frame.timestamp.seconds + frame.timestamp.nanos / 1e9 == pytest.approx(picture["time_s"], abs=1e-9)
+        objects = {of.id.value: of for of in [*frame.moving_object, *frame.stationary_object]}
+        assert len(objects) == len(frame.moving_object) + len(frame.stationary_object), "identities are of one object each"
+        seen = [entry for entry in picture["objects"] if entry["class"] and entry["class"] not in ("road", "sidewalk", "terrain", "parking", "marking")]
+        assert len(seen) > 20 and {entry["id"] for entry in seen} <= set(objects) and len(objects) > len(seen), "also those that the camera does not see"
+        assert not {entry["id"] for entry in picture["objects"] if entry["class"] == "road"} & set(objects)
+        for entry in seen:
+            of, stands = objects[entry["id"]], entry["box_3d"]["world"]
+            base = of.base
+            assert list(of.source_reference[0].identifier) == [entry["name"]]
+            assert [base.dimension.length, base.dimension.width, base.dimension.height] == pytest.approx(entry["box_3d"]["size_m"])
+            assert [base.position.x, base.position.y, base.position.z] == pytest.approx(stands["centre_m"])
+            ours = of_quaternion(*stands["rotation_wxyz"])
+            assert np.allclose(turned(base.orientation.yaw, base.orientation.pitch, base.orientation.roll), ours, atol=1e-9)
+            # Corners by either rotation, so that swapped sizes or axes show.
+            corner = np.array(entry["box_3d"]["size_m"]) / 2
+            theirs = np.array([base.position.x, base.position.y, base.position.z]) + turned(base.orientation.yaw, base.orientation.pitch, base.orientation.roll) @ (np.array([base.dimension.length, base.dimension.width, base.dimension.height]) / 2)
+            assert np.allclose(theirs, np.array(stands["centre_m"]) + ours @ corner, atol=1e-9)
+            if entry["class"] == "car":
+                assert of.type == MovingObject.TYPE_VEHICLE and of.vehicle_classification.type == MovingObject.VehicleClassification.TYPE_MEDIUM_CAR
+            if entry["class"] == "building":
+                assert of.classification.type == StationaryObject.Classification.TYPE_BUILDING
+        for of in frame.moving_object:
+            vehicles.setdefault(of.id.value, []).append(of.base)
+    # Velocities against differences of places: over 50 ms a car on a smooth path keeps its velocity to a few per cent.
+    span_s = frames[1].timestamp.nanos / 1e9 - frames[0].timestamp.nanos / 1e9
+    moved = 0
+    for before, after in vehicles.values():
+        way = np.array([getattr(after.position, axis) - getattr(before.position, axis) for axis in "xyz"])
+        mean = sum(np.array([getattr(base.velocity, axis) for axis in "xyz"]) for base in (before, after)) / 2
+        assert np.allclose(way / span_s, mean, atol=0.02 + 0.02 * np.linalg.norm(mean))
+        moved += np.linalg.norm(mean) > 1
+    assert moved >= 1, "something drives"

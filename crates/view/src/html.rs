@@ -1,21 +1,6 @@
-//! Text within HTML, and data within its scripts.
+//! Data within the scripts of a page.
 
-use etendue::escaped;
 use serde_json::Value;
-
-/// A page: its head, and what stands in the body. Nothing of `style` and `body` is escaped.
-pub(crate) fn document(title: &str, style: &str, body: &str) -> String {
-    let version = env!("CARGO_PKG_VERSION");
-    format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n{GENERATOR}{version}\">\n<title>{}</title>\n\
-         <style>\n{style}</style>\n</head>\n<body>\n{body}</body>\n</html>\n",
-        escaped(title)
-    )
-}
-
-/// What a page of this program has near its beginning.
-pub(crate) const GENERATOR: &str = "<meta name=\"generator\" content=\"etendue ";
 
 /// JSON as a script may contain it, whatever names it holds.
 pub(crate) fn in_script(value: &Value) -> String {
@@ -33,7 +18,5 @@ mod tests {
         let told = in_script(&hostile);
         assert_eq!(told, "{\"name\":\"\\u003c/script>\\u003cb>\\u2028\"}");
         assert_eq!(serde_json::from_str::<Value>(&told).expect("JSON"), hostile);
-        assert_eq!(escaped("a < \"b\" & c"), "a &lt; &quot;b&quot; &amp; c");
-        assert!(document("<x>", "", "").contains("<title>&lt;x&gt;</title>"));
     }
 }

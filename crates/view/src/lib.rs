@@ -1,4 +1,4 @@
-//! Pages for looking: every layer of a result, and the report of a measurement, as HTML that a browser opens from the file system.
+//! A page for looking: every layer of a result, as HTML that a browser opens from the file system.
 //!
 //! ```no_run
 //! use etendue::{Existing, Unobserved};
@@ -33,10 +33,8 @@ mod page;
 mod page_tests;
 mod pairs;
 mod read;
-mod report_page;
 mod request;
 mod view;
 
-pub use report_page::report_page;
 pub use request::ViewRequest;
 pub use view::view;

@@ -1,6 +1,7 @@
 //! Where the page goes: a folder of `index.html` and `data`, or one file.
 
-use crate::html::{GENERATOR, document, in_script};
+use crate::html::in_script;
+use etendue::page::{PAGE_GENERATOR, html_page};
 use etendue::{Error, Existing, OutputFolder, write_file};
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -8,7 +9,7 @@ use std::fs;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-const STYLE: [&str; 2] = [include_str!("../page/style.css"), include_str!("../page/view.css")];
+const STYLE: &str = include_str!("../page/view.css");
 const BODY: &str = include_str!("../page/view.html");
 const SCRIPTS: [&str; 7] = [
     include_str!("../page/chunks.js"),
@@ -88,7 +89,7 @@ impl Page {
 pub(crate) fn is_ours(folder: &Path) -> bool {
     let mut head = Vec::new();
     let read = fs::File::open(folder.join(INDEX)).and_then(|file| file.take(1024).read_to_end(&mut head));
-    read.is_ok() && String::from_utf8_lossy(&head).contains(GENERATOR)
+    read.is_ok() && String::from_utf8_lossy(&head).contains(PAGE_GENERATOR)
 }
 
 /// Chunks of an earlier page of the folder that this one has not.
@@ -108,5 +109,5 @@ fn html(title: &str, facts: &Value, chunks: &str) -> String {
     let body = format!(
         "{BODY}{chunks}<script>\n\"use strict\";\n(() => {{\nconst PAGE = {facts};\n{script}{START}}})();\n</script>\n"
     );
-    document(title, &STYLE.concat(), &body)
+    html_page(title, STYLE, &body)
 }

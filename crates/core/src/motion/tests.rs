@@ -210,8 +210,7 @@ fn velocities_are_those_of_the_places() {
         let point = random.cube();
         let place = |t: f64| motion.at(t).transform_point3(point);
         let steep = (place(time_s + h) - place(time_s - h)) * 8.0 - (place(time_s + 2.0 * h) - place(time_s - 2.0 * h));
-        let moving = motion.moving_at(time_s, time_s);
-        let velocity = moving.turning * point + moving.velocity;
+        let velocity = motion.velocity_at(time_s, point);
         let expected = steep / (12.0 * h);
         assert!(
             (velocity - expected).length() <= 1e-6 * (1.0 + velocity.length() + place(time_s).length()),

@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | `/CAMERA/image/compressed` | `sensor_msgs/msg/CompressedImage` | the picture, as it is encoded |
 //! | `/CAMERA/depth` | `sensor_msgs/msg/Image`, 32FC1 | depth along the axis, m; +∞ and NaN as REP 118 has them |
+//! | `/CAMERA/points` | `sensor_msgs/msg/PointCloud2` | the same as points in the camera's frame (x right, y down, z forward), m, with the picture's colours; 16 bytes a pixel; no number where nothing is |
 //! | `/CAMERA/camera_info` | `sensor_msgs/msg/CameraInfo` | camera matrix; pixel centres are whole numbers |
 //! | `/tf` | `tf2_msgs/msg/TFMessage` | `world` to the camera, whose frame has its name (x right, y down, z forward) |
 //!
@@ -50,6 +51,7 @@ impl Writer for Mcap {
                 ros::compressed_image(at, &record.extension, &picture.bytes),
             ),
             (topic("depth"), ros::IMAGE, ros::depth_image(at, &picture.truth.depth)),
+            (topic("points"), ros::POINT_CLOUD, ros::point_cloud(at, (&picture.truth.depth, picture.display), matrix)),
             (topic("camera_info"), ros::CAMERA_INFO, ros::camera_info(at, size, matrix)),
             ("/tf".to_owned(), ros::TF_MESSAGE, ros::transform(at, &record.pose)),
         ];

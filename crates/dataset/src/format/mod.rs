@@ -8,6 +8,7 @@ mod kitti;
 mod mcap;
 mod nuscenes;
 mod openlabel;
+mod osi;
 mod ros;
 mod webdataset;
 mod writer;
@@ -36,5 +37,6 @@ fn writer(format: SetFormat, set: &Set) -> Result<Box<dyn Writer>, Error> {
         SetFormat::Cryptomatte => Box::new(cryptomatte::Cryptomatte),
         SetFormat::Mcap => Box::new(mcap::Mcap::default()),
         SetFormat::OpenLabel => Box::new(openlabel::OpenLabel),
+        SetFormat::Osi => Box::new(osi::Osi::default()),
     })
 }

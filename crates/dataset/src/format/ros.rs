@@ -4,10 +4,11 @@
 
 use crate::record::Pose;
 use etendue_core::Plane;
-use etendue_core::quantity::Length;
+use etendue_core::quantity::{Display, Length};
 
 pub(super) const COMPRESSED_IMAGE: &str = "sensor_msgs/msg/CompressedImage";
 pub(super) const IMAGE: &str = "sensor_msgs/msg/Image";
+pub(super) const POINT_CLOUD: &str = "sensor_msgs/msg/PointCloud2";
 pub(super) const CAMERA_INFO: &str = "sensor_msgs/msg/CameraInfo";
 pub(super) const TF_MESSAGE: &str = "tf2_msgs/msg/TFMessage";
 
@@ -23,12 +24,18 @@ pub(crate) fn topic_name(camera: &str) -> String {
 type At<'a> = (u64, &'a str);
 
 /// The fields of the messages, and of those that these are made of.
-const DEFINITIONS: [(&str, &str, &[&str]); 11] = [
+const DEFINITIONS: [(&str, &str, &[&str]); 13] = [
     (COMPRESSED_IMAGE, "std_msgs/Header header\nstring format\nuint8[] data\n", &[HEADER, TIME]),
     (
         IMAGE,
         "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 step\nuint8[] data\n",
         &[HEADER, TIME],
+    ),
+    (
+        POINT_CLOUD,
+        "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\nuint32 point_step\n\
+         uint32 row_step\nuint8[] data\nbool is_dense\n",
+        &[HEADER, TIME, POINT_FIELD],
     ),
     (
         CAMERA_INFO,
@@ -43,6 +50,7 @@ const DEFINITIONS: [(&str, &str, &[&str]); 11] = [
     ),
     (HEADER, "builtin_interfaces/Time stamp\nstring frame_id\n", &[]),
     (TIME, "int32 sec\nuint32 nanosec\n", &[]),
+    (POINT_FIELD, "string name\nuint32 offset\nuint8 datatype\nuint32 count\n", &[]),
     (ROI, "uint32 x_offset\nuint32 y_offset\nuint32 height\nuint32 width\nbool do_rectify\n", &[]),
     (STAMPED, "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n", &[]),
     (TRANSFORM, "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n", &[]),
@@ -51,6 +59,7 @@ const DEFINITIONS: [(&str, &str, &[&str]); 11] = [
 ];
 const HEADER: &str = "std_msgs/Header";
 const TIME: &str = "builtin_interfaces/Time";
+const POINT_FIELD: &str = "sensor_msgs/PointField";
 const ROI: &str = "sensor_msgs/RegionOfInterest";
 const STAMPED: &str = "geometry_msgs/TransformStamped";
 const TRANSFORM: &str = "geometry_msgs/Transform";
@@ -132,6 +141,48 @@ pub(super) fn depth_image(at: At<'_>, depth: &Plane<Length>) -> Vec<u8> {
     cdr.u32(4 * width);
     let numbers: Vec<u8> = depth.samples().iter().flat_map(|depth| depth.to_le_bytes()).collect();
     cdr.bytes(&numbers);
+    cdr.0
+}
+
+/// Bytes of a point: three coordinates and a colour.
+const POINT_BYTES: usize = 16;
+/// The number of 32-bit floats among the types of fields.
+const FLOAT32: u8 = 7;
+
+/// The points that a camera without distortion (fx, skew, cx, fy, cy in raster coordinates) sees through the middles of its pixels, in its frame, m, row by row with their
+/// colours (red, green, blue from 0 to 1, as a display shows them); where there is no depth, no number.
+pub(super) fn point_cloud(
+    at: At<'_>,
+    (depth, colours): (&Plane<Length>, &Plane<Display>),
+    [fx, skew, cx, fy, cy]: [f64; 5],
+) -> Vec<u8> {
+    let (width, height) = (depth.width(), depth.height());
+    let mut cdr = Cdr::with_header(at);
+    cdr.u32(height as u32);
+    cdr.u32(width as u32);
+    cdr.u32(4);
+    for (number, name) in ["x", "y", "z", "rgb"].iter().enumerate() {
+        cdr.text(name);
+        cdr.u32(4 * number as u32);
+        cdr.0.push(FLOAT32);
+        cdr.u32(1);
+    }
+    cdr.0.push(0);
+    cdr.u32(POINT_BYTES as u32);
+    cdr.u32((POINT_BYTES * width) as u32);
+    let mut points = Vec::with_capacity(POINT_BYTES * width * height);
+    for (i, (z, colour)) in depth.samples().iter().zip(colours.samples()).enumerate() {
+        let (u, v) = ((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);
+        let y = (v - cy) / fy;
+        let x = (u - cx - skew * y) / fx;
+        let point = if z.is_finite() { [x, y, 1.0].map(|n| (n * f64::from(*z)) as f32) } else { [f32::NAN; 3] };
+        point.iter().for_each(|n| points.extend_from_slice(&n.to_le_bytes()));
+        // As the Point Cloud Library packs it: blue in the lowest byte.
+        let [red, green, blue] = colour.map(|c| (255.0 * c.clamp(0.0, 1.0)).round() as u8);
+        points.extend_from_slice(&[blue, green, red, 0]);
+    }
+    cdr.bytes(&points);
+    cdr.0.push(0);
     cdr.0
 }
 

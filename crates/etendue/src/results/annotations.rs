@@ -11,7 +11,7 @@ use etendue_core::quantity::{Disparity, Identity};
 use etendue_io::Provenance;
 use etendue_io::correspondence::{encode_flo, encode_kitti_disparity, encode_kitti_flow, encode_pfm};
 use etendue_io::exr::{self, ExrImage, encode_disparity, encode_motion};
-use etendue_pipeline::boxes::{ObjectBoxes, object_boxes, silhouettes};
+use etendue_pipeline::boxes::{ObjectBoxes, WorldObject, object_boxes, silhouettes, world_objects};
 use etendue_pipeline::frame_view::FrameView;
 use etendue_pipeline::identity_coverage::{IdentityCoverage, identity_coverage};
 use etendue_pipeline::motion::{MotionTruth, NeighbourTruth, disparity, motion_truth};
@@ -66,6 +66,12 @@ impl CameraResults {
     #[must_use]
     pub fn silhouettes(&self, instances: &Plane<Identity>) -> BTreeMap<u32, Vec<usize>> {
         silhouettes(&self.plan, &self.frame_view(), instances, self.simd)
+    }
+
+    /// All objects of the world half-way through a frame's first exposure, whether the camera sees them or not.
+    #[must_use]
+    pub fn world_objects(&self, frame: u32) -> Vec<WorldObject> {
+        world_objects(&self.plan, self.pose(frame).1)
     }
 
     fn frame_view(&self) -> FrameView<'_> {

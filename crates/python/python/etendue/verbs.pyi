@@ -151,7 +151,7 @@ def dataset(
     variations: _Path | None = None,
     samples: range | tuple[int, int] | None = None,
     frames: range | tuple[int, int] | None = None,
-    format: Literal["coco", "kitti", "cityscapes", "yolo", "bop", "webdataset", "nuscenes", "cryptomatte", "mcap", "openlabel"] | Sequence[Literal["coco", "kitti", "cityscapes", "yolo", "bop", "webdataset", "nuscenes", "cryptomatte", "mcap", "openlabel"]] | None = None,
+    format: Literal["coco", "kitti", "cityscapes", "yolo", "bop", "webdataset", "nuscenes", "cryptomatte", "mcap", "openlabel", "osi"] | Sequence[Literal["coco", "kitti", "cityscapes", "yolo", "bop", "webdataset", "nuscenes", "cryptomatte", "mcap", "openlabel", "osi"]] | None = None,
     resume: bool = False,
     threads: int | None = None,
     progress: _Progress | None = None,
@@ -177,7 +177,7 @@ def dataset(
     variations: The variations file (TOML): keys of the job, its scene and its cameras with how their values are drawn [default: nothing varies but noise].
     samples: Samples to make, first to last (the last excluded); each is the same alone or among all. Default: 0..1.
     frames: Frames of each sample, first to last (the last excluded). Default: 0..1.
-    format: Formats to write, with commas between them [default: those of the variations file, or coco]. One of coco, kitti, cityscapes, yolo, bop, webdataset, nuscenes, cryptomatte, mcap, openlabel. One, or a sequence of them.
+    format: Formats to write, with commas between them [default: those of the variations file, or coco]. One of coco, kitti, cityscapes, yolo, bop, webdataset, nuscenes, cryptomatte, mcap, openlabel, osi. One, or a sequence of them.
     resume: Go on with the data set that is in the folder: samples that are whole are kept, and more may be added.
     threads: Worker threads [default: one a processor]. The result does not depend on it.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.

@@ -57,10 +57,12 @@ choice! {
         "nuscenes" => NuScenes,
         /// Cryptomatte: EXR files of objects and materials with their coverage.
         "cryptomatte" => Cryptomatte,
-        /// MCAP: messages of ROS 2, pictures, depth, calibrations and poses.
+        /// MCAP: messages of ROS 2, pictures, depth, point clouds, calibrations and poses.
         "mcap" => Mcap,
         /// ASAM OpenLABEL: boxes in pictures and in space, JSON.
         "openlabel" => OpenLabel,
+        /// ASAM OSI: ground truth of the world's objects, a trace of protocol buffers.
+        "osi" => Osi,
     }
 }
 

@@ -3,9 +3,9 @@
 use crate::args::file_name::{html, svg, toml};
 use crate::console::Console;
 use clap::Args;
+use etendue::page::report_page;
 use etendue::report::Report;
 use etendue::{Error, Existing, write_file};
-use etendue_view::report_page;
 use std::path::PathBuf;
 
 /// How results are printed.
@@ -29,7 +29,7 @@ impl ReportArgs {
             write_file(file, report.svg()?.as_bytes(), Existing::Replace)?;
         }
         if let Some(file) = &self.html {
-            write_file(file, report_page(report)?.as_bytes(), Existing::Replace)?;
+            write_file(file, report_page(report).as_bytes(), Existing::Replace)?;
         }
         console.print(&if self.json { format!("{:#}\n", report.json()) } else { report.to_string() });
         Ok(())

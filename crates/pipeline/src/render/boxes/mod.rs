@@ -18,9 +18,11 @@ mod pixel_box;
 mod solid;
 #[cfg(test)]
 mod tests;
+mod world;
 
 pub use pixel_box::PixelBox;
 pub use solid::{SolidBox, Stance};
+pub use world::{WorldObject, world_objects};
 
 use crate::plan::Plan;
 use crate::render::frame_view::FrameView;

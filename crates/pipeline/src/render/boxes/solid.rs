@@ -29,6 +29,18 @@ impl SolidBox {
     /// The box of an instance's shape in its own frame at a time. A frame that is scaled unevenly after it was turned has sheared axes: the
     /// box then stands along the first of them and about all of it.
     pub(super) fn of(plan: &Plan, instance: &Instance, time_s: f64, pose: &CameraPose) -> Self {
+        let (size_m, world) = Self::in_world(plan, instance, time_s);
+        let axes = upright(&instance.to_world.at(time_s).matrix3);
+        let to_camera = DAffine3::from_mat3_translation(pose.rotation, pose.position_m).inverse();
+        let camera = Stance {
+            centre_m: to_camera.transform_point3(world.centre_m),
+            rotation: quaternion(to_camera.matrix3 * axes),
+        };
+        Self { size_m, world, camera }
+    }
+
+    /// Size, m, and place in the world.
+    pub(super) fn in_world(plan: &Plan, instance: &Instance, time_s: f64) -> (DVec3, Stance) {
         let to_world = instance.to_world.at(time_s);
         let axes = upright(&to_world.matrix3);
         let corners =
@@ -36,15 +48,7 @@ impl SolidBox {
         let low = corners.iter().copied().reduce(DVec3::min).unwrap_or_default();
         let high = corners.iter().copied().reduce(DVec3::max).unwrap_or_default();
         let centre_m = to_world.translation + axes * ((low + high) * 0.5);
-        let to_camera = DAffine3::from_mat3_translation(pose.rotation, pose.position_m).inverse();
-        Self {
-            size_m: high - low,
-            world: Stance { centre_m, rotation: quaternion(axes) },
-            camera: Stance {
-                centre_m: to_camera.transform_point3(centre_m),
-                rotation: quaternion(to_camera.matrix3 * axes),
-            },
-        }
+        (high - low, Stance { centre_m, rotation: quaternion(axes) })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Boxes against closed forms: 60 px of focal length, the optical axis at (16, 12) px.
 
-use super::{ObjectBoxes, object_boxes};
+use super::{ObjectBoxes, object_boxes, world_objects};
 use crate::Plan;
 use crate::render::frame_view::FrameView;
 use crate::render::test_scenes::{
@@ -149,4 +149,20 @@ fn a_windscreen_shifts_boxes_and_a_mirror_has_those_of_pixels() {
     // Pixels are whole: their box and that of the corners differ by less than a pixel on every side.
     let differences = amodal.edges_px().into_iter().zip(visible.edges_px()).map(|(a, b)| (a - b).abs());
     assert!(differences.fold(0.0, f64::max) < 1.0 && !found[0].is_cut, "{amodal:?} {visible:?}");
+}
+
+#[test]
+fn the_world_has_objects_that_no_camera_sees_with_their_velocities() {
+    // Behind the camera, which looks along +x.
+    let behind =
+        object("behind", "type = \"box\", size_m = [4, 2, 1]", "position_m = [-9, 1, 0.5]\nrotation_deg = [30, 0, 0]");
+    let moving = with_motion(plan(PINHOLE, &format!("{BOARD}{behind}")), 1, &shifting(DVec3::new(3.0, -4.0, 0.0)));
+    let time_s = 0.25;
+    let [board, behind] = &world_objects(&moving, time_s)[..] else { panic!("two objects") };
+    assert_eq!((board.moves, board.velocity_m_s, behind.moves), (false, DVec3::ZERO, true));
+    assert_eq!((board.id, behind.id, behind.name.as_str()), (1, 2, "behind"));
+    assert!((behind.size_m - DVec3::new(4.0, 2.0, 1.0)).length() < 1e-6);
+    assert!((behind.velocity_m_s - DVec3::new(3.0, -4.0, 0.0)).length() < 1e-9, "{behind:?}");
+    let place = DVec3::new(-9.0, 1.0, 0.5) + time_s * DVec3::new(3.0, -4.0, 0.0);
+    assert!((behind.stance.centre_m - place).length() < 1e-6, "{behind:?}");
 }

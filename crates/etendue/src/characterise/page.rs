@@ -5,31 +5,24 @@ use super::folder::Laboratory;
 use super::kind::Kind;
 use super::parameter::{Findings, Parameter, Part};
 use crate::markup::escaped;
-use crate::plot::{Plot, svg};
+use crate::page::{REPORT_STYLE, curves, details, html_page, notes};
 use crate::report::{Estimate, with_uncertainty};
 use std::fmt::Write as _;
 
-/// The look of reports.
-const STYLE: &str = include_str!("style.css");
-
 pub(super) fn page(laboratory: &Laboratory, findings: &Findings, camera: &CameraFile) -> String {
     let name = laboratory.camera.name.clone().unwrap_or_else(|| "Camera".to_owned());
-    let mut html = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
-         <title>{0} – characterisation</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n",
-        escaped(&name)
-    );
-    html += &head(laboratory);
-    html += &navigation(findings);
-    html += &parameters(findings);
-    html += &not_known(findings, camera);
-    findings.parts.iter().enumerate().for_each(|(i, part)| html += &measurement(i, part));
-    let _ = write!(
-        html,
-        "<section id=\"file\"><h2>Camera file</h2><pre>{}</pre></section>\n</main>\n</body>\n</html>\n",
+    let mut body = format!("<div class=\"report\">\n<h1>{}</h1>\n", escaped(&name));
+    body += &head(laboratory);
+    body += &navigation(findings);
+    body += &parameters(findings);
+    body += &not_known(findings, camera);
+    findings.parts.iter().enumerate().for_each(|(i, part)| body += &measurement(i, part));
+    let _ = writeln!(
+        body,
+        "<section id=\"file\"><h2>Camera file</h2><pre>{}</pre></section>\n</div>",
         escaped(&camera.text)
     );
-    html
+    html_page(&format!("{name} – characterisation"), REPORT_STYLE, &body)
 }
 
 /// What was looked at.
@@ -39,7 +32,7 @@ fn head(laboratory: &Laboratory) -> String {
     let kinds = Kind::ALL.iter().filter(|kind| count(kind) > 0);
     let used = kinds.map(|kind| format!("{} × {}/", count(kind), kind.folder())).collect::<Vec<_>>().join(", ");
     let filters = laboratory.camera.cfa.clone().unwrap_or_else(|| "unknown filters".to_owned());
-    format!("<p class=\"about\">{width} × {height} px, {}. Measured by: {used}.</p>\n", escaped(&filters))
+    format!("<p class=\"quiet\">{width} × {height} px, {}. Measured by: {used}.</p>\n", escaped(&filters))
 }
 
 fn navigation(findings: &Findings) -> String {
@@ -122,27 +115,8 @@ fn measurement(index: usize, part: &Part) -> String {
         part.from.folder(),
         escaped(report.method())
     );
-    let figure = |plot: &Plot| format!("<figure>{}</figure>\n", svg(std::slice::from_ref(plot)));
-    let figures: String = report.plots().iter().map(figure).collect();
-    let _ = writeln!(html, "<div class=\"plots\">\n{figures}</div>");
-    let notes: String = report.notes().iter().map(|note| format!("<li>{}</li>", escaped(note))).collect();
-    if !notes.is_empty() {
-        let _ = writeln!(html, "<ul>{notes}</ul>");
-    }
-    let _ = writeln!(
-        html,
-        "<details><summary>All figures</summary><pre>{}</pre></details></section>",
-        escaped(&report.to_string())
-    );
+    html += &curves(report);
+    html += &notes(report);
+    let _ = writeln!(html, "<details><summary>All figures</summary>\n{}</details></section>", details(report));
     html
-}
-
-#[cfg(test)]
-mod tests {
-    use super::escaped;
-
-    #[test]
-    fn texts_cannot_become_markup() {
-        assert_eq!(escaped("<b> & \"c\""), "&lt;b&gt; &amp; &quot;c&quot;");
-    }
 }

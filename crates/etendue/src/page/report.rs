@@ -1,44 +1,62 @@
 //! The report of a measurement as one page: what was found, tables, plots, notes.
 
-use crate::html::document;
-use etendue::Error;
-use etendue::escaped;
-use etendue::report::{Cell, Report, Table};
+use super::html_page;
+use crate::markup::escaped;
+use crate::plot::svg;
+use crate::report::{Cell, Report, Table};
 use serde_json::Value;
 use std::fmt::Write as _;
 
-const STYLE: [&str; 2] = [include_str!("../page/style.css"), include_str!("../page/report.css")];
+/// The look of reports.
+pub(crate) const REPORT_STYLE: &str = include_str!("report.css");
 /// Rows of a table on the page; JSON has all of them.
 const MAX_ROWS: usize = 500;
 
 /// The page of a report, in the look of the pages of results.
-///
-/// # Errors
-/// Where a plot cannot be drawn.
-pub fn report_page(report: &Report) -> Result<String, Error> {
+#[must_use]
+pub fn report_page(report: &Report) -> String {
+    let section = |title: &str, inside: String| match inside.as_str() {
+        "" => inside,
+        _ => format!("<section>\n<h2>{title}</h2>\n{inside}</section>\n"),
+    };
     let mut body = format!(
         "<div class=\"report\">\n<h1>{}</h1>\n<p class=\"quiet\">{}</p>\n",
         escaped(report.kind()),
         escaped(report.method())
     );
-    settings(&mut body, report);
-    figures(&mut body, report);
-    if report.has_plots() {
-        let _ = writeln!(body, "<section>\n<h2>Curves</h2>\n{}</section>", report.svg()?);
-    }
-    for table in report.tables() {
-        self::table(&mut body, table);
-    }
-    if !report.notes().is_empty() {
-        let notes: String = report.notes().iter().map(|note| format!("<li>{}</li>\n", escaped(note))).collect();
-        let _ = writeln!(body, "<section>\n<h2>Notes</h2>\n<ul>\n{notes}</ul>\n</section>");
-    }
-    body += "</div>\n";
-    Ok(document(report.kind(), &STYLE.concat(), &body))
+    body += &section("Settings", settings(report));
+    body += &section("Figures", figures(report));
+    body += &section("Curves", curves(report));
+    report.tables().for_each(|t| body += &section(&escaped(&heading(t)), table(t)));
+    body += &section("Notes", notes(report));
+    html_page(report.kind(), REPORT_STYLE, &format!("{body}</div>\n"))
+}
+
+/// Settings, figures and tables of a report that is part of a page.
+pub(crate) fn details(report: &Report) -> String {
+    let tables: String = report.tables().map(|t| format!("<h3>{}</h3>\n{}", escaped(&heading(t)), table(t))).collect();
+    format!("{}{}{tables}", settings(report), figures(report))
+}
+
+/// Every plot of a report; empty where there is none.
+pub(crate) fn curves(report: &Report) -> String {
+    let figures: String =
+        report.plots().iter().map(|plot| format!("<figure>{}</figure>\n", svg(std::slice::from_ref(plot)))).collect();
+    if figures.is_empty() { figures } else { format!("<div class=\"plots\">\n{figures}</div>\n") }
+}
+
+/// The notes of a report as a list; empty where there is none.
+pub(crate) fn notes(report: &Report) -> String {
+    let notes: String = report.notes().iter().map(|note| format!("<li>{}</li>\n", escaped(note))).collect();
+    if notes.is_empty() { notes } else { format!("<ul>\n{notes}</ul>\n") }
+}
+
+fn heading(table: &Table) -> String {
+    table.key.replace('_', " ")
 }
 
 /// What was chosen, and how light was found from the numbers of the pictures.
-fn settings(body: &mut String, report: &Report) {
+fn settings(report: &Report) -> String {
     let told = report.json();
     let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
     let chosen =
@@ -50,16 +68,15 @@ fn settings(body: &mut String, report: &Report) {
         .chain(encodings)
         .map(|(key, value)| format!("<tr><th>{}</th><td>{}</td></tr>\n", escaped(&key), escaped(&value)))
         .collect();
-    if !rows.is_empty() {
-        let _ = writeln!(body, "<section>\n<h2>Settings</h2>\n<table>\n<tbody>\n{rows}</tbody>\n</table>\n</section>");
-    }
+    if rows.is_empty() { rows } else { format!("<table>\n<tbody>\n{rows}</tbody>\n</table>\n") }
 }
 
-fn figures(body: &mut String, report: &Report) {
+fn figures(report: &Report) -> String {
     if report.figures().is_empty() {
-        return;
+        return String::new();
     }
-    *body += "<section>\n<h2>Figures</h2>\n<table>\n<thead><tr><th>figure</th><th class=\"number\">value ± standard uncertainty</th><th>unit</th></tr></thead>\n<tbody>\n";
+    let mut body = "<table>\n<thead><tr><th>figure</th><th class=\"number\">value ± standard uncertainty</th><th>unit</th></tr></thead>\n<tbody>\n"
+        .to_owned();
     for figure in report.figures() {
         let value = Cell::Estimate(figure.value).text();
         let _ = writeln!(
@@ -70,28 +87,24 @@ fn figures(body: &mut String, report: &Report) {
             escaped(figure.unit)
         );
     }
-    *body += "</tbody>\n</table>\n</section>\n";
+    body + "</tbody>\n</table>\n"
 }
 
-fn table(body: &mut String, table: &Table) {
+fn table(table: &Table) -> String {
     let class = |column: usize| table.rows.first().and_then(|row| row.get(column)).map_or("", class);
     let heading =
         |(column, (_, heading)): (usize, &(&str, &str))| format!("<th{}>{}</th>", class(column), escaped(heading));
     let heads: String = table.columns.iter().enumerate().map(heading).collect();
-    let _ = writeln!(
-        body,
-        "<section>\n<h2>{}</h2>\n<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>",
-        escaped(&table.key.replace('_', " "))
-    );
+    let mut body = format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n");
     for row in table.rows.iter().take(MAX_ROWS) {
         let cells: String = row.iter().map(cell).collect();
         let _ = writeln!(body, "<tr>{cells}</tr>");
     }
-    *body += "</tbody>\n</table>\n";
+    body += "</tbody>\n</table>\n";
     if let Some(more) = table.rows.len().checked_sub(MAX_ROWS).filter(|more| *more > 0) {
         let _ = writeln!(body, "<p class=\"quiet\">and {more} rows more, which --json has</p>");
     }
-    *body += "</section>\n";
+    body
 }
 
 fn cell(cell: &Cell) -> String {
