@@ -11,7 +11,7 @@ use etendue::{Error, Existing};
 use etendue_dataset::{DatasetRequest, SetFormat, dataset};
 use std::path::PathBuf;
 
-const FORMATS: [Word<SetFormat>; 10] = [
+const FORMATS: [Word<SetFormat>; 11] = [
     (SetFormat::Coco, "coco", "Pictures, and one JSON file with boxes and masks"),
     (SetFormat::Kitti, "kitti", "Pictures, calibrations and labels of objects"),
     (SetFormat::Cityscapes, "cityscapes", "Pictures of label and instance ids"),
@@ -20,8 +20,9 @@ const FORMATS: [Word<SetFormat>; 10] = [
     (SetFormat::WebDataset, "webdataset", "Shards (tar) of pictures with their truth"),
     (SetFormat::NuScenes, "nuscenes", "JSON tables of scenes, poses and boxes in space"),
     (SetFormat::Cryptomatte, "cryptomatte", "EXR files of objects and materials with their coverage"),
-    (SetFormat::Mcap, "mcap", "Messages of ROS 2: pictures, depth, calibrations and poses"),
+    (SetFormat::Mcap, "mcap", "Messages of ROS 2: pictures, depth, point clouds, calibrations and poses"),
     (SetFormat::OpenLabel, "openlabel", "ASAM OpenLABEL: boxes in pictures and in space, JSON"),
+    (SetFormat::Osi, "osi", "ASAM OSI: ground truth of the world's objects, traces of protocol buffers"),
 ];
 
 /// `etendue dataset`
