@@ -1,6 +1,6 @@
 //! A calibration's numbers, in the words of `[lens] projection`: what the side-car says can be put into a camera file.
 
-use etendue_projection::model::{FTheta, FThetaSense, Ideal, Ocam, Panorama, Perspective, ThinPrismFisheye};
+use etendue_projection::model::{FTheta, FThetaSense, Ideal, Ocam, Panorama, Perspective, Tabulated, ThinPrismFisheye};
 use etendue_projection::plane::{Affine, DistortionTerms};
 use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Sense};
 use etendue_scene::Placed;
@@ -48,6 +48,7 @@ pub(crate) fn projection(calibration: &Calibration) -> Projection {
         Model::DoubleSphere(m) => Projection::DoubleSphere(record::DoubleSphere::new(matrix, m.xi(), m.alpha())),
         Model::Ocam(m) => Projection::Ocam(ocam(m, centre)),
         Model::FTheta(m) => Projection::FTheta(f_theta(m, centre)),
+        Model::Tabulated(m) => Projection::Table(table(m, centre)),
         Model::Ideal(m) => ideal(*m, record::Scaled::new(matrix)),
         Model::Panorama(Panorama::Cylindrical) => Projection::Cylindrical(record::Scaled::new(matrix)),
         Model::Panorama(Panorama::Equirectangular) => Projection::Equirectangular(record::Scaled::new(matrix)),
@@ -109,6 +110,13 @@ fn f_theta(m: &FTheta, centre: record::Centre) -> record::FTheta {
     };
     let polynomial = list(m.coefficients()[1..].iter().copied());
     record::FTheta::new(centre, polynomial, maps, m.greatest_angle_rad().to_degrees(), stretch(m.affine()))
+}
+
+/// Its radii are in mm, as all tables come from camera files.
+fn table(m: &Tabulated, centre: record::Centre) -> record::Table {
+    let angles = list(m.points().map(|(angle, _)| angle.to_degrees()));
+    let radii = list(m.points().map(|(_, radius)| radius));
+    record::Table { radius_mm: Some(radii), ..record::Table::new(centre, record::TableSource::Angles(angles)) }
 }
 
 fn ideal(m: Ideal, scaled: record::Scaled) -> Projection {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset, TexelStore};
 
 use crate::calibration::{ImportedCamera, read_calibration};
-use crate::field_table::read_field_table;
+use crate::lens_table::read_lens_table;
 use crate::mesh::{read_mesh_frame, read_mesh_in};
 use crate::photometry::read_photometry_in;
 use crate::picture::{PictureHead, head, large_picture, read_picture};
@@ -110,8 +110,8 @@ fn load(assets: &mut Assets, request: &AssetRequest, sandbox: &Sandbox) -> Resul
         AssetKind::Prescription => drop(assets.prescriptions.insert(key, read_prescription(path)?)),
         AssetKind::RayTransfer => drop(assets.ray_transfers.insert(key, read_ray_transfer(path)?)),
         AssetKind::Trajectory => drop(assets.trajectories.insert(key, read_trajectory(path)?)),
-        AssetKind::FieldTable(quantity) => {
-            drop(assets.field_tables.insert((key, *quantity), read_field_table(path, *quantity)?));
+        AssetKind::LensTable(quantity) => {
+            drop(assets.lens_tables.insert((key, *quantity), read_lens_table(path, *quantity)?));
         }
         AssetKind::Calibration(choice) => {
             let camera = read_calibration(path, choice.format, choice.camera.as_deref())?;

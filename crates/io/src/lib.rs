@@ -10,7 +10,7 @@
 //! | in | EXIF data of pictures | [`exif`] |
 //! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |
 //! | in | lens prescriptions: Zemax, CODE V | [`prescription`] |
-//! | in | tables over a lens's field: Zemax | [`field_table`] |
+//! | in | tables over a lens's field: Zemax | [`lens_table`] |
 //! | in | ray-transfer functions of lenses: ISET | [`ray_transfer`] |
 //! | in | calibrated cameras: OpenCV, ROS, Kalibr, COLMAP, OCamCalib | [`calibration`] |
 //! | in | spectra, refractive indices, coefficients of retro-reflection | [`spectrum`], [`mod@table`] |
@@ -38,12 +38,12 @@ pub mod emva_descriptor;
 pub mod error;
 pub mod exif;
 pub mod exr;
-pub mod field_table;
 mod folder_lock;
 mod guard;
 pub mod hash;
 pub mod inspect;
 pub mod jpeg;
+pub mod lens_table;
 mod made_folders;
 pub mod mesh;
 pub mod mitsuba;

@@ -2,7 +2,7 @@
 
 use super::seeds::{repository, stored, write};
 use super::target::{NUMBERS as PER_NUMBER, RECORDS, SCANNED, TREE, Target, told};
-use etendue_io::field_table::read_field_table;
+use etendue_io::lens_table::read_lens_table;
 use etendue_io::mesh::{read_mesh, read_mesh_frame};
 use etendue_io::photometry::read_photometry;
 use etendue_io::prescription::read_prescription;
@@ -10,7 +10,7 @@ use etendue_io::ray_transfer::read_ray_transfer;
 use etendue_io::spectrum::read_spectrum;
 use etendue_io::table::{read_complex_index, read_numbers, read_retro_table};
 use etendue_io::trajectory::read_trajectory;
-use etendue_scene::asset::FieldQuantity;
+use etendue_scene::asset::LensQuantity;
 use std::path::Path;
 
 const CONSTANT: u64 = 16 << 20;
@@ -266,7 +266,10 @@ pub(super) const FIELD_TABLE: Target = Target {
         "field-table",
         "a.txt",
         |_| stored("field-table"),
-        |file| told(read_field_table(file, FieldQuantity::RelativeIllumination)),
+        |file| {
+            let quantities = [LensQuantity::RelativeIllumination, LensQuantity::Distortion, LensQuantity::Modulation];
+            quantities.map(|quantity| told(read_lens_table(file, quantity))).join("; ")
+        },
         &[
             "Relative Illumination",
             "Rel. Ill.",
@@ -278,6 +281,10 @@ pub(super) const FIELD_TABLE: Target = Target {
             "1e308 1e-308",
             "0 0",
             "%",
+            "F-Theta distortion",
+            "Distortion focal length = 1e-300",
+            "MTF, cycles per mm",
+            "diffraction limit",
         ],
     )
 };

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// A uniform surround of 1 W/(m²·sr·nm), and what is put before it, before a camera that looks along +x.
-fn job(objects: &str, sensor: &str, lens: &str, spp: u32) -> String {
+pub(crate) fn job(objects: &str, sensor: &str, lens: &str, spp: u32) -> String {
     format!(
         "format = 1\n[scene]\nenvironment = {{ type = \"uniform\", radiance_w_m2_sr_nm = 1 }}\n{objects}[[cameras]]\nname = \"eye\"\n\
          position_m = [0, 0, 0]\nlook_at_m = [1, 0, 0]\nsensor = {{ {sensor} }}\n[cameras.lens]\n{lens}\n[render]\nspp = {spp}\nreplicates = 2\n\
@@ -15,7 +15,7 @@ fn job(objects: &str, sensor: &str, lens: &str, spp: u32) -> String {
 }
 
 /// The irradiance of each pixel, W/(m²·nm).
-fn irradiance(folder: &Path, job: &str) -> Vec<f64> {
+pub(crate) fn irradiance(folder: &Path, job: &str) -> Vec<f64> {
     std::fs::write(folder.join("job.toml"), job).expect("written");
     let out = folder.join("out");
     etendue(["render", &text(&folder.join("job.toml")), "-o", &text(&out), "--overwrite"]).ok();
@@ -25,7 +25,7 @@ fn irradiance(folder: &Path, job: &str) -> Vec<f64> {
     samples.iter().map(|v| f64::from(*v)).collect()
 }
 
-fn plan(folder: &Path, job: &str) -> crate::support::Ran {
+pub(crate) fn plan(folder: &Path, job: &str) -> crate::support::Ran {
     std::fs::write(folder.join("job.toml"), job).expect("written");
     etendue(["plan", &text(&folder.join("job.toml"))])
 }

@@ -43,6 +43,7 @@ mod import;
 mod interrupted;
 mod kenney;
 mod killed;
+mod lens_tables;
 mod lenses;
 mod limits;
 mod measures;

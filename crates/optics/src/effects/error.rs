@@ -97,6 +97,17 @@ pub enum EffectsError {
         /// How far it may.
         most_px: usize,
     },
+    /// A table of modulation that is no lens's.
+    #[error(
+        "the modulation is no sum of Gaussians: the nearest is off by {deviation:.3}, and {most} is the most; expected modulations that fall from 1 \
+         with the frequency"
+    )]
+    Modulation {
+        /// By how much the nearest is off.
+        deviation: f64,
+        /// By how much it may be.
+        most: f64,
+    },
     /// A margin that is no share.
     #[error("a margin of {margin} is not within 0 to 1 of the picture's size")]
     Margin {

@@ -41,6 +41,8 @@ pub struct SpreadImageParameters {
     pub pitch_um: f64,
     /// Where that is the distance, nm; elsewhere it is in proportion to the wavelength. `None` for the same everywhere.
     pub wavelength_nm: Option<f64>,
+    /// Of samples that were made from a table of modulation: by how much theirs is off at worst. `None` for a picture.
+    pub deviation: Option<f64>,
 }
 
 impl fmt::Debug for SpreadImageParameters {
@@ -109,7 +111,13 @@ impl SpreadImage {
             format!("at {nm} nm, in proportion to the wavelength elsewhere")
         });
         let size = format!("{} × {} samples, {} µm apart", p.width, p.height(), p.pitch_um);
-        EffectStatus::Modelled(format!("a picture of {size}, {scale}"))
+        let off = |off: f64| {
+            format!(
+                "a table of modulation as a round sum of Gaussians, {size}, {scale} and over the picture; modulation off by {off:.3} at most"
+            )
+        };
+        let picture = || format!("a picture of {size}, {scale}");
+        EffectStatus::Modelled(p.deviation.map_or_else(picture, off))
     }
 
     /// Columns and rows that light is spread over.

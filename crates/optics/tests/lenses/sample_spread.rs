@@ -41,7 +41,8 @@ fn gaussian(sigma_px: f64) -> PointSpread {
         exp(-0.5 * at.length_squared() / (sigma_px * sigma_px)) as f32
     };
     let light = (0..SIDE * SIDE).map(light).collect();
-    let parameters = SpreadImageParameters { width: SIDE, light, pitch_um: PITCH_UM * step, wavelength_nm: None };
+    let parameters =
+        SpreadImageParameters { width: SIDE, light, pitch_um: PITCH_UM * step, wavelength_nm: None, deviation: None };
     PointSpread::Image(SpreadImage::new(parameters, &raster()).expect("a picture"))
 }
 

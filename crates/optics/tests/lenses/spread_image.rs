@@ -15,7 +15,7 @@ fn raster() -> Raster {
 }
 
 fn image(width: usize, light: &[f32], pitch_um: f64, wavelength_nm: Option<f64>) -> SpreadImageParameters {
-    SpreadImageParameters { width, light: light.to_vec(), pitch_um, wavelength_nm }
+    SpreadImageParameters { width, light: light.to_vec(), pitch_um, wavelength_nm, deviation: None }
 }
 
 fn spread(

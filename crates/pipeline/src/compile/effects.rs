@@ -4,18 +4,20 @@ use super::context::Context;
 use super::picture::grey;
 use crate::plan::Route;
 use etendue_optics::effects::{
-    Glare, GlareParameters, PointSpread, Psf, PsfParameters, SpreadImage, SpreadImageParameters,
+    Glare, GlareParameters, PointSpread, Psf, PsfParameters, SpreadImage, SpreadImageParameters, spread_of_modulation,
 };
 use etendue_optics::effects::{MARGIN_CAP, SpreadBy, Zernike, ZernikeTerm};
 use etendue_optics::ghosts::GhostSettings;
 use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens};
 use etendue_projection::Raster;
 use etendue_scene::Placed;
-use etendue_scene::record::effects::{TermSize, ZernikeIndex};
+use etendue_scene::asset::LensQuantity;
+use etendue_scene::record::effects::{ModulationSource, TermSize, ZernikeIndex};
 use etendue_scene::record::{self, effects as description};
 use std::path::PathBuf;
 
 const NM_PER_UM: f64 = 1000.0;
+const UM_PER_MM: f64 = 1000.0;
 
 /// The effects behind a picture; none where the record is silent.
 pub(super) fn effects(
@@ -101,6 +103,9 @@ fn point_spread(
     picture: &Raster,
     context: &mut Context<'_>,
 ) -> Option<PointSpread> {
+    if let Some(table) = &record.mtf {
+        return modulation(table, picture, context).map(PointSpread::Image);
+    }
     match (&record.image, &record.image_pitch_um) {
         (Some(file), Some(pitch)) => {
             let wavelength = record.image_wavelength_nm.as_ref();
@@ -120,9 +125,33 @@ fn image(
 ) -> Option<SpreadImage> {
     let (width, light) = grey(file, context)?;
     let (pitch_um, wavelength_nm) = (pitch.value, wavelength.map(|nm| nm.value));
-    let image = SpreadImage::new(SpreadImageParameters { width, light, pitch_um, wavelength_nm }, picture);
+    let image =
+        SpreadImage::new(SpreadImageParameters { width, light, pitch_um, wavelength_nm, deviation: None }, picture);
     let of_pitch = matches!(image, Err(EffectsError::Coarse { .. }));
     context.accept(if of_pitch { &pitch.place } else { &file.place }, image)
+}
+
+/// A function from a table of modulation, of a file with what was made of it remarked.
+fn modulation(
+    table: &description::ModulationTable,
+    picture: &Raster,
+    context: &mut Context<'_>,
+) -> Option<SpreadImage> {
+    let (place, points) = match &table.source {
+        ModulationSource::Frequencies(frequencies) => {
+            let points = frequencies.iter().zip(table.modulation.iter().flatten());
+            (&table.place, points.map(|(f, m)| (f.value, m.value)).collect())
+        }
+        ModulationSource::File(file) => {
+            let assets = context.assets;
+            let asset = assets.lens_tables.get(&(file.value.clone(), LensQuantity::Modulation))?;
+            asset.notes.iter().for_each(|note| context.remark_on(file.value.display(), note));
+            (&file.place, asset.points.clone())
+        }
+    };
+    let pixel_um = picture.pitch_mm().min_element() * UM_PER_MM;
+    let made = spread_of_modulation(&points, pixel_um).and_then(|samples| SpreadImage::new(samples, picture));
+    context.accept(place, made)
 }
 
 fn psf(record: &description::Psf, lens: &Lens, picture: &Raster) -> Result<Psf, EffectsError> {

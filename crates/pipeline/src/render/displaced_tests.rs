@@ -66,7 +66,7 @@ fn gaussian(sigma_px: f64) -> PointSpread {
     let light = |i: usize| exp(-0.5 * at(i).length_squared() / (sigma_px * sigma_px)) as f32;
     let light = (0..WIDE * WIDE).map(light).collect();
     let pitch_um = 1e3 * PITCH_MM / 12.0;
-    let image = SpreadImageParameters { width: WIDE, light, pitch_um, wavelength_nm: None };
+    let image = SpreadImageParameters { width: WIDE, light, pitch_um, wavelength_nm: None, deviation: None };
     PointSpread::Image(SpreadImage::new(image, &raster()).expect("a picture"))
 }
 

@@ -16,6 +16,7 @@
 //! | [`DoubleSphere`] | sin θ/(α d + (1 − α)(ξ + cos θ)) | by ξ, α |
 //! | [`Ocam`] | tan θ = −r/f(r), then an affine map | by f |
 //! | [`FTheta`] | a polynomial r(θ) or θ(r), then an affine map | as stated |
+//! | [`Tabulated`] | θ q(θ), q a spline through a table | as far as the table |
 //! | [`Ideal`] | equidistant, equisolid, stereographic, orthographic, rectilinear | 180° or 90° |
 //! | [`Panorama`] | cylindrical, equirectangular | the sphere |
 //!
@@ -40,6 +41,7 @@ mod perspective;
 mod profile;
 mod radial_polynomial;
 mod staged;
+mod tabulated;
 mod thin_prism_fisheye;
 mod unified;
 
@@ -61,6 +63,7 @@ pub use perspective::Perspective;
 use profile::Projection;
 pub(crate) use profile::field_angle;
 pub use profile::{Edge, Sight};
+pub use tabulated::Tabulated;
 pub use thin_prism_fisheye::ThinPrismFisheye;
 pub use unified::Unified;
 
@@ -89,6 +92,8 @@ pub enum Model {
     Ocam(Ocam),
     /// F-theta polynomial.
     FTheta(FTheta),
+    /// A table.
+    Tabulated(Tabulated),
     /// An ideal projection about the axis.
     Ideal(Ideal),
     /// A panorama.
@@ -139,6 +144,7 @@ impl Model {
             Self::DoubleSphere(m) => m,
             Self::Ocam(m) => m.projection(),
             Self::FTheta(m) => m.projection(),
+            Self::Tabulated(m) => m,
             Self::Ideal(m) => m,
             Self::Panorama(m) => m,
         }

@@ -1,9 +1,9 @@
 //! Contents of the files that a description names: inert data, filled by whoever reads files.
 
 mod calibration;
-mod field_table;
 pub(crate) mod file_list;
 mod large_image;
+mod lens_table;
 mod mesh;
 mod mesh_frame;
 mod mtl;
@@ -18,8 +18,8 @@ mod table;
 mod trajectory;
 
 pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
-pub use field_table::{FieldQuantity, FieldTableAsset, FieldUnit};
 pub use large_image::{LargeImage, PixelFormat, PixelRows, TakeRows, TexelStore};
+pub use lens_table::{LensNumbers, LensQuantity, LensTableAsset, Undistorted};
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mesh_frame::{MeshFrameAsset, MeshFramePart};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};

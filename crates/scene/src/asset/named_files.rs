@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::field_table::FieldQuantity;
 use super::file_list::{FileList, NamesFiles as _};
+use super::lens_table::LensQuantity;
 use super::request::{AssetKind, AssetRequest, Covered, Values};
 use crate::load::Unused;
+use crate::record::effects::ModulationSource;
 use crate::record::front::mirror::{Finish, MirrorShape};
 use crate::record::lens::calibrated::{IlluminationSource, View};
 use crate::record::lens::prescription::{IrCutCurve, Source};
@@ -126,9 +127,12 @@ fn lens(lens: &Lens, files: &mut FileList) {
             if let View::Calibration(calibration) = &lens.view {
                 files.add(AssetKind::Calibration(calibration.camera_in_file()), &calibration.file);
             }
+            if let Some(file) = lens.view.projection_file() {
+                files.add(AssetKind::LensTable(LensQuantity::Distortion), file);
+            }
             if let Some(IlluminationSource::File(file)) = lens.relative_illumination.as_ref().map(|table| &table.source)
             {
-                files.add(AssetKind::FieldTable(FieldQuantity::RelativeIllumination), file);
+                files.add(AssetKind::LensTable(LensQuantity::RelativeIllumination), file);
             }
         }
     }
@@ -157,6 +161,9 @@ fn camera(camera: &Camera, files: &mut FileList) {
     camera.external_optics.iter().for_each(|f| front(f, files));
     let psf = camera.effects.as_ref().and_then(|effects| effects.psf.as_ref());
     psf.and_then(|psf| psf.image.as_ref()).into_iter().for_each(|image| files.add(AssetKind::Image, image));
+    if let Some(ModulationSource::File(file)) = psf.and_then(|psf| psf.mtf.as_ref()).map(|table| &table.source) {
+        files.add(AssetKind::LensTable(LensQuantity::Modulation), file);
+    }
     camera.isp.iter().flat_map(Processing::files).for_each(|file| files.add(AssetKind::Numbers, file));
     match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
         Some(QuantumEfficiency::Same(curve)) => curve.name_file(Values::Share, files),

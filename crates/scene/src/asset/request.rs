@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use super::calibration::CalibrationChoice;
-use super::field_table::FieldQuantity;
+use super::lens_table::LensQuantity;
 use crate::place::Place;
 
 /// A file to be read, and where it is named.
@@ -77,8 +77,8 @@ pub enum AssetKind {
     RayTransfer,
     /// [`super::TrajectoryAsset`].
     Trajectory,
-    /// [`super::FieldTableAsset`] of this quantity.
-    FieldTable(FieldQuantity),
+    /// [`super::LensTableAsset`] of this quantity.
+    LensTable(LensQuantity),
     /// [`super::CalibrationAsset`] of this camera.
     Calibration(CalibrationChoice),
 }

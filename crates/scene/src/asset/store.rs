@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::mtl::SlotMaterial;
 use super::{
-    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, FieldQuantity,
-    FieldTableAsset, ImageAsset, LargeImage, MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset,
-    PrescriptionAsset, RayTransferAsset, RetroTableAsset, SpectrumAsset, TexelStore, TrajectoryAsset,
+    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, ImageAsset, LargeImage,
+    LensQuantity, LensTableAsset, MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PrescriptionAsset,
+    RayTransferAsset, RetroTableAsset, SpectrumAsset, TexelStore, TrajectoryAsset,
 };
 use crate::place::Place;
 use crate::record::is_numbered;
@@ -44,7 +44,7 @@ pub struct Assets {
     /// Places over time by path.
     pub trajectories: BTreeMap<PathBuf, TrajectoryAsset>,
     /// Tables over the field by path and by what they tell.
-    pub field_tables: BTreeMap<(PathBuf, FieldQuantity), FieldTableAsset>,
+    pub lens_tables: BTreeMap<(PathBuf, LensQuantity), LensTableAsset>,
     /// Calibrated cameras by path and by which of the file's they are.
     pub calibrations: BTreeMap<(PathBuf, CalibrationChoice), CalibrationAsset>,
 }
@@ -79,7 +79,7 @@ impl Assets {
             prescriptions,
             ray_transfers,
             trajectories,
-            field_tables,
+            lens_tables,
             calibrations,
         } = self;
         let is_it = |file: &Path| file == path || is_numbered(path, file);
@@ -99,7 +99,7 @@ impl Assets {
         hashes.extend(prescriptions.get(path).map(|asset| asset.hash));
         hashes.extend(ray_transfers.get(path).map(|asset| asset.hash));
         hashes.extend(trajectories.get(path).map(|asset| asset.hash));
-        hashes.extend(field_tables.iter().filter(|((file, _), _)| file == path).map(|(_, asset)| asset.hash));
+        hashes.extend(lens_tables.iter().filter(|((file, _), _)| file == path).map(|(_, asset)| asset.hash));
         hashes.extend(calibrations.iter().filter(|((file, _), _)| file == path).map(|(_, asset)| asset.hash));
         hashes.concat()
     }
@@ -118,7 +118,7 @@ impl Assets {
             AssetKind::Prescription => self.prescriptions.contains_key(path),
             AssetKind::RayTransfer => self.ray_transfers.contains_key(path),
             AssetKind::Trajectory => self.trajectories.contains_key(path),
-            AssetKind::FieldTable(quantity) => self.field_tables.contains_key(&(path.to_owned(), *quantity)),
+            AssetKind::LensTable(quantity) => self.lens_tables.contains_key(&(path.to_owned(), *quantity)),
             AssetKind::Calibration(choice) => self.calibrations.contains_key(&(path.to_owned(), choice.clone())),
         }
     }
@@ -147,7 +147,7 @@ fn picture(slot: &SlotMaterial) -> Option<&Path> {
 #[cfg(test)]
 mod tests {
     use super::super::photometry::{Opening, OpeningShape, PhotometryAxes, Tilt};
-    use super::super::{CalibrationFormat, FieldUnit, ImagePixels, SlotReflectance, SlotSurface, Values};
+    use super::super::{CalibrationFormat, ImagePixels, LensNumbers, SlotReflectance, SlotSurface, Values};
     use super::*;
     use etendue_projection::model::Perspective;
     use etendue_projection::{Calibration, CameraMatrix, Model};
@@ -177,7 +177,7 @@ mod tests {
             AssetKind::Trajectory => {
                 drop(assets.trajectories.insert(file, TrajectoryAsset { hash, ..Default::default() }));
             }
-            AssetKind::FieldTable(quantity) => drop(assets.field_tables.insert((file, *quantity), table(hash))),
+            AssetKind::LensTable(quantity) => drop(assets.lens_tables.insert((file, *quantity), table(hash))),
             AssetKind::Calibration(choice) => {
                 drop(assets.calibrations.insert((file, choice.clone()), camera(hash)));
             }
@@ -226,8 +226,8 @@ mod tests {
         }
     }
 
-    fn table(hash: [u8; 32]) -> FieldTableAsset {
-        FieldTableAsset { unit: FieldUnit::Degrees, points: Vec::new(), notes: Vec::new(), hash }
+    fn table(hash: [u8; 32]) -> LensTableAsset {
+        LensTableAsset { numbers: LensNumbers::Modulation, points: Vec::new(), notes: Vec::new(), hash }
     }
 
     fn camera(hash: [u8; 32]) -> CalibrationAsset {
@@ -253,7 +253,7 @@ mod tests {
             AssetKind::Prescription,
             AssetKind::RayTransfer,
             AssetKind::Trajectory,
-            AssetKind::FieldTable(FieldQuantity::RelativeIllumination),
+            AssetKind::LensTable(LensQuantity::RelativeIllumination),
             AssetKind::Calibration(choice),
         ];
         for kind in kinds {

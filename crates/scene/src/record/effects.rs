@@ -56,11 +56,57 @@ record! {
         /// With "image": the wavelength of "image_pitch_um", nm, 300 … 1 100; at others the picture is larger in proportion to the
         /// wavelength, as diffraction is. Default: the same at all wavelengths.
         optional image_wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
+        /// A table of the lens's modulation, in place of the aperture's function and all of its keys: a round function, the same at all wavelengths and over the
+        /// picture, as a sum of Gaussians. Default: the aperture.
+        optional mtf: ModulationTable = record();
         /// By what light is spread: "film" by the film's pixels, without noise, but where the function is about as narrow as a pixel contrast is lost;
         /// "samples" by displacing each sample's place on the sensor, exact however narrow, with some more noise (the film spreads what falls beyond 2.5 px).
         /// Default: "samples" where samples come through the lens, four fifths of the light fall near, and the film's contrast would be wrong by more than 0.01
         /// ("image" of one width at all wavelengths, where samples add no noise) or 0.065 (else); the plan tells by how much it is.
         optional spread_by: Placed<SpreadBy> = choice();
+    }
+}
+
+record! {
+    /// Modulation of the lens by the spatial frequency in the picture.
+    pub struct ModulationTable check(check_modulation) {
+        /// Where its points are.
+        inside source: ModulationSource;
+        /// With "cycles_per_mm": the modulation at each frequency, 0 … 1; at 0 it is 1 and need not be given.
+        optional modulation: Vec<Placed<f64>> = list(number("").at_least(0.0).at_most(1.0), 2);
+    }
+}
+
+keyed! {
+    /// Where a table of modulation is.
+    pub enum ModulationSource {
+        /// Zemax's "FFT MTF" exported as text, or any table of frequency and modulation whose head says "MTF" and "cycles per mm".
+        file => File(Placed<PathBuf>) = path(&["txt"]);
+        /// Spatial frequencies, cycles/mm, rising from above 0.
+        cycles_per_mm => Frequencies(Vec<Placed<f64>>) = list(number("cycles/mm").above(0.0), 2);
+    }
+}
+
+fn check_modulation(table: &ModulationTable, faults: &mut Faults) {
+    match (&table.source, &table.modulation) {
+        (ModulationSource::File(_), None) => {}
+        (ModulationSource::File(_), Some(list)) => {
+            let place = list.first().map_or(&table.place, |first| &first.place);
+            faults.add(place, "\"modulation\" has no effect here, it belongs to \"cycles_per_mm\"", "remove it");
+        }
+        (ModulationSource::Frequencies(_), None) => {
+            faults.add(&table.place, "the key \"modulation\" is missing", "add \"modulation\", one for each frequency");
+        }
+        (ModulationSource::Frequencies(frequencies), Some(list)) if frequencies.len() != list.len() => {
+            let problem = format!("{} frequencies and {} modulations", frequencies.len(), list.len());
+            faults.add(&table.place, problem, "give as many of one as of the other");
+        }
+        (ModulationSource::Frequencies(frequencies), Some(_)) => {
+            if let Some(pair) = frequencies.windows(2).find(|pair| pair[1].value <= pair[0].value) {
+                let problem = format!("{} does not lie beyond {}", pair[1].value, pair[0].value);
+                faults.add(&pair[1].place, problem, "give rising frequencies");
+            }
+        }
     }
 }
 
@@ -116,9 +162,14 @@ fn sizes(unit: &'static str) -> impl Rule<Out = Vec<Placed<f64>>> {
 
 fn check_psf(psf: &Psf, faults: &mut Faults) {
     check_blades(psf, faults);
-    match &psf.image {
-        None => check_without_image(psf, faults),
-        Some(image) => check_image(psf, &image.place, faults),
+    match (&psf.image, &psf.mtf) {
+        (None, None) => check_without_image(psf, faults),
+        (Some(image), None) => check_image(psf, &image.place, faults),
+        (None, Some(_)) => {
+            check_without_image(psf, faults);
+            check_alone(psf, "mtf", faults);
+        }
+        (Some(image), Some(_)) => faults.add(&image.place, "\"image\" contradicts \"mtf\"", "remove one of them"),
     }
 }
 
@@ -134,8 +185,13 @@ fn check_image(psf: &Psf, image: &Place, faults: &mut Faults) {
         let problem = "\"image\" does not say how far its pixels are apart on the sensor";
         faults.add(image, problem, "add \"image_pitch_um\"");
     }
+    check_alone(psf, "image", faults);
+}
+
+/// Refuses keys of the aperture beside a function that is whole by itself.
+fn check_alone(psf: &Psf, whole: &str, faults: &mut Faults) {
     for (place, name) in of_aperture(psf) {
-        let problem = format!("\"{name}\" contradicts \"image\", which is the whole point-spread function");
+        let problem = format!("\"{name}\" contradicts \"{whole}\", which is the whole point-spread function");
         faults.add(place, problem, "remove one of them");
     }
 }

@@ -5,7 +5,7 @@ use super::{focus_m, projection, transmittance};
 use etendue_optics::{CalibratedParameters, Falloff, FalloffBy, Lens, OpticsError, PupilStance};
 use etendue_projection::{Calibration, Raster};
 use etendue_scene::Place;
-use etendue_scene::asset::{FieldQuantity, FieldUnit};
+use etendue_scene::asset::{LensNumbers, LensQuantity};
 use etendue_scene::record::Sensor;
 use etendue_scene::record::lens::calibrated::{Calibrated, IlluminationSource, Pupil, RelativeIllumination, View};
 use etendue_scene::record::lens::projection::CalibrationFile;
@@ -75,14 +75,12 @@ fn falloff(table: &RelativeIllumination, context: &mut Context<'_>) -> Option<Fa
             (&table.place, Falloff::new(points.map(|(radius, ratio)| (radius.value, ratio.value)).collect()))
         }
         IlluminationSource::File(file) => {
-            let key = (file.value.clone(), FieldQuantity::RelativeIllumination);
+            let key = (file.value.clone(), LensQuantity::RelativeIllumination);
             let assets = context.assets;
-            let asset = assets.field_tables.get(&key)?;
+            let asset = assets.lens_tables.get(&key)?;
             asset.notes.iter().for_each(|note| context.remark_on(file.value.display(), note));
-            let by = match asset.unit {
-                FieldUnit::Degrees => FalloffBy::Angle,
-                FieldUnit::Millimetres => FalloffBy::Radius,
-            };
+            let by_angle = asset.numbers == LensNumbers::IlluminationByAngle;
+            let by = if by_angle { FalloffBy::Angle } else { FalloffBy::Radius };
             (&file.place, Falloff::over(by, asset.points.clone()))
         }
     };

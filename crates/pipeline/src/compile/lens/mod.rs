@@ -6,6 +6,7 @@ mod file_surface;
 mod lens_file;
 mod prescription;
 mod projection;
+mod projection_table;
 mod ray_transfer;
 mod stated;
 #[cfg(test)]

@@ -1,9 +1,10 @@
 //! From a projection's numbers to a calibration.
 
 use super::super::context::Context;
+use super::projection_table;
 use etendue_projection::model::{
     Division, DoubleSphere, ExtendedUnified, FTheta, FThetaSense, FieldOfView, Ideal, KannalaBrandt, ModelError, Ocam,
-    Panorama, Perspective, ThinPrismFisheye, Unified,
+    Panorama, Perspective, Tabulated, ThinPrismFisheye, Unified,
 };
 use etendue_projection::plane::{Affine, DistortionTerms};
 use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Raster, Sense};
@@ -19,10 +20,15 @@ pub(super) fn calibration(
     raster: &Raster,
     context: &mut Context<'_>,
 ) -> Option<Calibration> {
-    let model = context.accept(place, model(record))?;
+    let points = match record {
+        Projection::Table(table) => projection_table::points(table, context)?,
+        _ => Vec::new(),
+    };
+    let model = context.accept(place, model(record, &points))?;
     let matrix = match scale(record) {
         Scaling::Matrix(matrix) => camera_matrix(matrix, &model, raster, context)?,
-        Scaling::Pixels(centre) => in_pixels(centre, raster),
+        Scaling::Pixels(centre) => in_units(centre, DVec2::ONE, raster),
+        Scaling::Millimetres(centre) => in_units(centre, raster.pitch_mm(), raster),
     };
     context.accept(place, Calibration::new(model, matrix, [raster.width(), raster.height()]))
 }
@@ -31,21 +37,23 @@ pub(super) fn calibration(
 pub(super) fn stated_centre(record: &Projection) -> Option<&Place> {
     let centre = match scale(record) {
         Scaling::Matrix(matrix) => &matrix.centre,
-        Scaling::Pixels(centre) => centre,
+        Scaling::Pixels(centre) | Scaling::Millimetres(centre) => centre,
     };
     centre.cx_px.as_ref().or(centre.cy_px.as_ref()).map(|c| &c.place)
 }
 
-/// Whether a projection's plane is in units of a camera matrix or in pixels.
+/// Whether a projection's plane is in units of a camera matrix, in pixels or in mm.
 enum Scaling<'a> {
     Matrix(&'a Matrix),
     Pixels(&'a Centre),
+    Millimetres(&'a Centre),
 }
 
 fn scale(record: &Projection) -> Scaling<'_> {
     Scaling::Matrix(match record {
         Projection::Ocam(r) => return Scaling::Pixels(&r.centre),
         Projection::FTheta(r) => return Scaling::Pixels(&r.centre),
+        Projection::Table(r) => return Scaling::Millimetres(&r.centre),
         Projection::OpenCv(r) => &r.matrix,
         Projection::Radial(r) => &r.matrix,
         Projection::Division(r) => &r.matrix,
@@ -65,7 +73,8 @@ fn scale(record: &Projection) -> Scaling<'_> {
     })
 }
 
-fn model(record: &Projection) -> Result<Model, ModelError> {
+/// `points` are those of a table.
+fn model(record: &Projection, points: &[(f64, f64)]) -> Result<Model, ModelError> {
     Ok(match record {
         Projection::OpenCv(r) => Model::Perspective(Perspective::from_opencv(&numbers(r.distortion.iter().flatten()))?),
         Projection::Radial(r) => Model::Radial(radial(r)?),
@@ -78,6 +87,7 @@ fn model(record: &Projection) -> Result<Model, ModelError> {
         Projection::DoubleSphere(r) => Model::DoubleSphere(DoubleSphere::new(r.xi.value, r.alpha.value)?),
         Projection::Ocam(r) => Model::Ocam(Ocam::new(numbers(&r.polynomial), affine(&r.stretch))?),
         Projection::FTheta(r) => Model::FTheta(f_theta(r)?),
+        Projection::Table(_) => Model::Tabulated(Tabulated::new(points)?),
         Projection::Equidistant(_) => Model::Ideal(Ideal::Equidistant),
         Projection::Equisolid(_) => Model::Ideal(Ideal::Equisolid),
         Projection::Stereographic(_) => Model::Ideal(Ideal::Stereographic),
@@ -147,9 +157,10 @@ fn centre(record: &Centre, raster: &Raster) -> DVec2 {
     DVec2::new(or(&record.cx_px, default.x), or(&record.cy_px, default.y))
 }
 
-fn in_pixels(record: &Centre, raster: &Raster) -> CameraMatrix {
+/// Of a plane whose unit a pixel is so large in.
+fn in_units(record: &Centre, pixel: DVec2, raster: &Raster) -> CameraMatrix {
     let at = centre(record, raster);
-    CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx: at.x, cy: at.y }
+    CameraMatrix { fx: 1.0 / pixel.x, fy: 1.0 / pixel.y, skew: 0.0, cx: at.x, cy: at.y }
 }
 
 fn camera_matrix(record: &Matrix, model: &Model, raster: &Raster, context: &mut Context<'_>) -> Option<CameraMatrix> {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::focus::{FocusDistance, focus_distance};
 use super::lateral_colour::LateralColour;
 use super::numbers::{f_number, share};
-use super::projection::{CalibrationFile, Projection};
+use super::projection::{CalibrationFile, Projection, TableSource};
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, path, record};
@@ -41,6 +41,23 @@ keyed! {
         projection => Projection(Box<Projection>) = record();
         /// A calibration of another program; its picture must have the sensor's size.
         calibration => Calibration(Box<CalibrationFile>) = record();
+    }
+}
+
+impl View {
+    /// The file that a projection has its table from.
+    #[must_use]
+    pub fn projection_file(&self) -> Option<&Placed<PathBuf>> {
+        match self {
+            Self::Projection(projection) => match &**projection {
+                Projection::Table(table) => match &table.source {
+                    TableSource::File(file) => Some(file),
+                    TableSource::Angles(_) => None,
+                },
+                _ => None,
+            },
+            Self::Calibration(_) => None,
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::distortion::Direction;
 use crate::asset::{CalibrationChoice, CalibrationFormat};
+use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{choice, exactly, keyed, list, number, path, record, text, variants};
 
@@ -53,6 +54,8 @@ variants! {
         "ocam" => Ocam(Ocam),
         /// A polynomial between field angle (rad) and radius, in pixels.
         "f_theta" => FTheta(FTheta),
+        /// A table of radii over field angles, by hand or from Zemax's "Field Curvature/Distortion".
+        "table" => Table(Table),
         /// r = θ: to 360°.
         "equidistant" => Equidistant(Scaled),
         /// r = 2 sin(θ/2): to 360°.
@@ -271,5 +274,50 @@ choice! {
         "angle_to_radius" => AngleToRadius,
         /// From the radius, px, to the field angle, rad.
         "radius_to_angle" => RadiusToAngle,
+    }
+}
+
+record! {
+    /// A projection by a table, symmetrical about the axis: a smooth curve through its points; beyond them nothing is seen.
+    pub struct Table check(check_table) {
+        /// Principal point.
+        inside centre: Centre;
+        /// Where its points are.
+        inside source: TableSource;
+        /// With "angle_deg": the radius on the sensor at each angle, mm, rising from above 0.
+        optional radius_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 2);
+        /// With "file": the focal length that its distortion is stated for, mm, above 0. Default: what the file says.
+        optional focal_length_mm: Placed<f64> = number("mm").above(0.0);
+    }
+}
+
+keyed! {
+    /// Where a table of a projection is.
+    pub enum TableSource {
+        /// Zemax's "Field Curvature/Distortion" exported as text, its fields in degrees.
+        file => File(Placed<PathBuf>) = path(&["txt"]);
+        /// Field angles, degrees, rising from above 0; the axis is not among them.
+        angle_deg => Angles(Vec<Placed<f64>>) = list(number("degrees").above(0.0).at_most(180.0), 2);
+    }
+}
+
+fn check_table(table: &Table, faults: &mut Faults) {
+    match (&table.source, &table.radius_mm, &table.focal_length_mm) {
+        (TableSource::File(_), Some(radii), _) => {
+            let place = radii.first().map_or(&table.place, |first| &first.place);
+            faults.add(place, "\"radius_mm\" has no effect here, it belongs to \"angle_deg\"", "remove it");
+        }
+        (TableSource::Angles(_), None, _) => {
+            faults.add(&table.place, "the key \"radius_mm\" is missing", "add \"radius_mm\", one for each angle");
+        }
+        (TableSource::Angles(_), _, Some(focal_length)) => {
+            let problem = "\"focal_length_mm\" has no effect here, it belongs to \"file\"";
+            faults.add(&focal_length.place, problem, "remove it");
+        }
+        (TableSource::Angles(angles), Some(radii), None) if angles.len() != radii.len() => {
+            let problem = format!("{} angles and {} radii", angles.len(), radii.len());
+            faults.add(&table.place, problem, "give as many of one as of the other");
+        }
+        _ => {}
     }
 }

@@ -1,11 +1,11 @@
 //! Zemax's "Relative Illumination".
 
-use etendue_scene::asset::FieldTableAsset;
+use etendue_scene::asset::{LensNumbers, LensTableAsset};
 
-use super::listing::{Listing, Table, wavelength_nm};
+use super::listing::{FieldUnit, Listing, Table, wavelength_nm};
 use crate::Error;
 
-pub(super) fn read(listing: &Listing<'_>) -> Result<FieldTableAsset, Error> {
+pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
     if !["relative illumination", "rel. ill"].iter().any(|words| listing.speaks_of(words)) {
         return Err(listing.fault(0, "is no export of relative illumination: its head does not speak of it"));
     }
@@ -13,7 +13,10 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<FieldTableAsset, Error> {
         let second = listing.tables[1].rows[0].line;
         return Err(listing.fault(second, "a second table; export one wavelength and one direction from the axis"));
     };
-    let unit = listing.unit()?;
+    let numbers = match listing.unit_of(table)? {
+        FieldUnit::Degrees => LensNumbers::IlluminationByAngle,
+        FieldUnit::Millimetres => LensNumbers::IlluminationByRadius,
+    };
     let mut points = points(listing, table)?;
     let on_axis = points[0].1;
     points.iter_mut().for_each(|point| point.1 /= on_axis);
@@ -28,7 +31,7 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<FieldTableAsset, Error> {
     if table.rows[0].numbers.len() > 2 {
         notes.push("its effective f-numbers are not used".to_owned());
     }
-    Ok(FieldTableAsset { unit, points, notes, hash: [0; 32] })
+    Ok(LensTableAsset { numbers, points, notes, hash: [0; 32] })
 }
 
 /// Field without its sign, and ratio.

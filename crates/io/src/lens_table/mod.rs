@@ -1,33 +1,39 @@
-//! Tables over the field that Zemax OpticStudio writes as text (UTF-8, UTF-16 or Latin-1).
+//! Tables of a lens that Zemax OpticStudio writes as text (UTF-8, UTF-16 or Latin-1).
 //!
 //! | export | columns that are read | fields |
 //! | --- | --- | --- |
 //! | Relative Illumination | field, `Rel. Ill.` | degrees, or mm of the picture |
+//! | Field Curvature/Distortion | field, `Ref. Height`, distortion | degrees |
+//! | FFT, Huygens and Geometric MTF | spatial frequency, tangential, sagittal | the first |
 //!
 //! The unit of the fields is what the line of the head that begins with "Field" or the title of the first column says. A table of one direction from
 //! the axis is read, to either side of it. What else the file says (its lens, its date, further columns) is passed over.
 
+mod distortion;
 mod illumination;
 mod listing;
+mod modulation;
 
 use std::path::Path;
 
-use etendue_scene::asset::{FieldQuantity, FieldTableAsset};
+use etendue_scene::asset::{LensQuantity, LensTableAsset};
 
 use crate::source::{decode_lens_text, read_description_bytes};
 use crate::{Error, hash};
 use listing::Listing;
 
-/// Reads a table over the field.
+/// Reads a table of a lens.
 ///
 /// # Errors
 /// The first fault of the file, with its line.
-pub fn read_field_table(file: &Path, quantity: FieldQuantity) -> Result<FieldTableAsset, Error> {
+pub fn read_lens_table(file: &Path, quantity: LensQuantity) -> Result<LensTableAsset, Error> {
     let bytes = read_description_bytes(file, "lens table")?;
     let text = decode_lens_text(file, &bytes)?;
     let listing = Listing::read(file, &text)?;
     let mut table = match quantity {
-        FieldQuantity::RelativeIllumination => illumination::read(&listing)?,
+        LensQuantity::RelativeIllumination => illumination::read(&listing)?,
+        LensQuantity::Distortion => distortion::read(&listing)?,
+        LensQuantity::Modulation => modulation::read(&listing)?,
     };
     table.hash = hash::of_bytes(&bytes);
     Ok(table)

@@ -2,9 +2,16 @@
 
 use std::path::Path;
 
-use etendue_scene::asset::FieldUnit;
-
 use crate::Error;
+
+/// In what fields are counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FieldUnit {
+    /// Angles from the axis in front of the lens.
+    Degrees,
+    /// Distances from the axis in the picture.
+    Millimetres,
+}
 
 /// A file's text, taken apart.
 pub(super) struct Listing<'a> {
@@ -76,9 +83,19 @@ impl<'a> Listing<'a> {
         self.head.iter().any(|(_, line)| line.to_lowercase().contains(word))
     }
 
-    /// In what the fields are counted.
-    pub(super) fn unit(&self) -> Result<FieldUnit, Error> {
-        let titles = self.head.last().copied();
+    /// The number of a line of the head that has these words, in small letters, before a colon or an equals sign.
+    pub(super) fn stated(&self, words: &str) -> Option<f64> {
+        let value = |line: &str| {
+            let (name, value) = line.split_once([':', '='])?;
+            let number = value.split_whitespace().next().filter(|_| name.to_lowercase().contains(words))?;
+            number.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0)
+        };
+        self.head.iter().find_map(|(_, line)| value(line))
+    }
+
+    /// In what the fields of a table are counted, whose titles stand right above it.
+    pub(super) fn unit_of(&self, table: &Table<'_>) -> Result<FieldUnit, Error> {
+        let titles = table.above.last().copied();
         let stated = self.head.iter().copied().filter(|(_, line)| line.to_lowercase().starts_with("field"));
         for (number, line) in stated.chain(titles) {
             let line = line.to_lowercase();

@@ -1,0 +1,86 @@
+//! Zemax's "Field Curvature/Distortion".
+//!
+//! Distortion is (real height − reference height)/reference height; the reference is f tan θ, or f θ where the head speaks of F-Theta, f as the head says it ("Distortion focal length")
+//! or as the reference heights have it. Of several wavelengths the table nearest to 550 nm is read.
+
+use etendue_core::maths::f64::tan;
+use etendue_scene::asset::{LensNumbers, LensTableAsset, Undistorted};
+
+use super::listing::{FieldUnit, Listing, Table, wavelength_nm};
+use crate::Error;
+
+/// Where the eye and most sensors see best: the table that is taken.
+const GREEN_NM: f64 = 550.0;
+/// Columns of a whole row: field, two shifts of the focus, real and reference height, distortion.
+const WHOLE: usize = 6;
+/// The field angle up to which an image by the tangent is told apart from infinity.
+const WIDEST_DEG: f64 = 89.0;
+
+pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
+    if !listing.speaks_of("distortion") {
+        return Err(listing.fault(0, "is no export of distortion: its head does not speak of it"));
+    }
+    if listing.unit_of(&listing.tables[0])? != FieldUnit::Degrees {
+        let told = "the fields are no angles; export with fields in degrees";
+        return Err(listing.fault(listing.tables[0].rows[0].line, told));
+    }
+    let beside = if ["f-theta", "f*theta", "f theta"].iter().any(|words| listing.speaks_of(words)) {
+        Undistorted::Angle
+    } else {
+        Undistorted::Tangent
+    };
+    let distance = |table: &Table<'_>| wavelength_nm(&table.above).map_or(f64::INFINITY, |nm| (nm - GREEN_NM).abs());
+    let table = listing.tables.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let table = table.expect("a listing has a table");
+    let points = points(listing, table, beside)?;
+    let focal_length_mm = listing.stated("focal length").or_else(|| by_heights(table, beside));
+    let mut notes = vec![match wavelength_nm(&table.above).or_else(|| wavelength_nm(&listing.head)) {
+        Some(nm) => format!("distortion computed for {nm} nm, taken for all wavelengths"),
+        None => "distortion taken for all wavelengths".to_owned(),
+    }];
+    if listing.tables.len() > 1 {
+        notes.push(format!("its tables of {} other wavelengths are not used", listing.tables.len() - 1));
+    }
+    if table.rows[0].numbers.len() >= WHOLE {
+        notes.push("its field curvature is not used".to_owned());
+    }
+    let numbers = LensNumbers::Distortion { beside, focal_length_mm };
+    Ok(LensTableAsset { numbers, points, notes, hash: [0; 32] })
+}
+
+/// Field without its sign, degrees, and real over reference height; the axis first, where there is no distortion.
+fn points(listing: &Listing<'_>, table: &Table<'_>, kind: Undistorted) -> Result<Vec<(f64, f64)>, Error> {
+    const PERCENT: f64 = 0.01;
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    let side = table.rows.iter().map(|row| row.numbers[0]).find(|field| *field != 0.0).map_or(1.0, f64::signum);
+    let widest = if kind == Undistorted::Tangent { WIDEST_DEG } else { 180.0 };
+    for row in &table.rows {
+        let (field, percent) = (row.numbers[0] * side, row.numbers[row.numbers.len() - 1]);
+        let wrong = match points.last() {
+            None if field != 0.0 => Some(format!("the first field is {field}; expected 0, the axis")),
+            Some((before, _)) if field <= *before => {
+                Some(format!("the field {field} does not lie beyond {before}; expected rising distances from the axis"))
+            }
+            _ if field > widest => Some(format!("the field {field} lies beyond {widest}°")),
+            _ if percent <= -100.0 => Some(format!("found the distortion {percent} %; expected more than −100")),
+            _ => None,
+        };
+        if let Some(wrong) = wrong {
+            return Err(listing.fault(row.line, wrong));
+        }
+        points.push((field, 1.0 + PERCENT * percent));
+    }
+    if points.len() < 3 {
+        return Err(listing.fault(table.rows[0].line, "has fewer than two fields beyond the axis"));
+    }
+    Ok(points)
+}
+
+/// The focal length that the last reference height has.
+fn by_heights(table: &Table<'_>, kind: Undistorted) -> Option<f64> {
+    let numbers = &table.rows.last()?.numbers;
+    let height = *numbers.get(WHOLE - 2).filter(|_| numbers.len() >= WHOLE)?;
+    let angle = numbers[0].to_radians();
+    let f = height / if kind == Undistorted::Tangent { tan(angle) } else { angle };
+    Some(f.abs()).filter(|f| f.is_finite() && *f > 0.0)
+}
