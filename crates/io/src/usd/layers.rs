@@ -1,5 +1,6 @@
 //! Layers and packages as `openusd` asks for them: read within limits, and looked at before they are parsed.
 
+use super::arcs::Arcs;
 use super::crate_bounds::check_crate;
 use super::package::{Package, packed};
 use super::text_bounds::check_text;
@@ -10,6 +11,7 @@ use etendue_scene::limits;
 use openusd::ar::{
     Asset, DefaultResolver, ResolvedPath, Resolver, is_package_relative_path, split_package_relative_path_outer,
 };
+use openusd::usdc::CrateData;
 use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, HashSet};
 use std::io;
@@ -30,6 +32,7 @@ struct Shared {
     /// Layers that were looked at, by what they are called.
     seen: RefCell<HashSet<String>>,
     bytes: Cell<u64>,
+    arcs: RefCell<Arcs>,
     /// The first file that is refused: `openusd` goes on without it.
     fault: RefCell<Option<Error>>,
 }
@@ -42,6 +45,7 @@ impl Layers {
             packages: RefCell::default(),
             seen: RefCell::default(),
             bytes: Cell::new(0),
+            arcs: RefCell::default(),
             fault: RefCell::default(),
         }))
     }
@@ -99,9 +103,28 @@ impl Layers {
         self.0.bytes.set(self.0.bytes.get() + bytes.len() as u64);
         limits::MESH.check_unpacked(self.0.bytes.get()).map_err(|told| Error::new(&file, told))?;
         let checked = if bytes.starts_with(CRATE) { check_crate(&bytes) } else { check_text(&bytes) };
+        let checked = checked.and_then(|()| self.check_arcs(&bytes));
         checked.map_err(|told| Error::new(&file, format!("damaged, or no scene that is read: {told}")))?;
         self.0.seen.borrow_mut().insert(resolved.to_owned());
         Ok(bytes)
+    }
+}
+
+impl Layers {
+    /// Parses a layer that has classes once more, for its circles; what cannot be parsed is told by whoever composes it.
+    fn check_arcs(&self, bytes: &[u8]) -> Result<(), String> {
+        let is_crate = bytes.starts_with(CRATE);
+        let has = |word: &[u8]| bytes.windows(word.len()).any(|found| found == word);
+        // Names of a crate's fields are packed.
+        if !is_crate && !has(b"inherit") && !has(b"specializes") {
+            return Ok(());
+        }
+        let mut arcs = self.0.arcs.borrow_mut();
+        if is_crate {
+            return CrateData::open(io::Cursor::new(bytes), true).map_or(Ok(()), |layer| arcs.add(&layer));
+        }
+        let Ok(text) = std::str::from_utf8(bytes) else { return Ok(()) };
+        openusd::usda::parse(text).map_or(Ok(()), |layer| arcs.add(&layer))
     }
 }
 

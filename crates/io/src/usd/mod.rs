@@ -8,9 +8,11 @@
 //! overs without a definition, and what is inactive are no prims of the tree.
 //!
 //! Limits, as a file may lie about its sizes and `openusd` believes it: crates are walked before they are parsed ([`crate_bounds`]), texts are measured
-//! ([`text_bounds`]), packages are told apart here and must not be compressed, as their specification has it ([`package`]). What layers, and values of the
-//! tree, unpack to is limited by `mesh-mib`; prims are at most 250 000, 64 deep. Where `openusd` panics over what is damaged, the file is refused.
+//! ([`text_bounds`]), packages are told apart here and must not be compressed, as their specification has it ([`package`]), and classes
+//! must not inherit from one another in a circle ([`arcs`]). What layers, and values of the
+//! tree, unpack to is limited by `mesh-mib`; prims are at most 100 000, 64 deep. Where `openusd` panics over what is damaged, the file is refused.
 
+mod arcs;
 mod bytes;
 mod crate_bounds;
 mod crate_values;

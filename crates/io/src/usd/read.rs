@@ -13,11 +13,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Prims of a stage, instances counted each: `openusd` keeps some kilobytes for each.
-const MAX_PRIMS: usize = 250_000;
+const MAX_PRIMS: usize = 100_000;
 /// Prims within one another.
 const MAX_DEPTH: usize = 64;
 /// What could not be composed is told so often.
 const MAX_NOTES: usize = 50;
+/// What a composed prim takes, and each layer and arc that says something of it, bytes.
+const PRIM: u64 = 4096;
+const NODE: u64 = 2048;
 /// What an attribute takes beside its value, bytes.
 const OVERHEAD: u64 = 256;
 
@@ -119,9 +122,10 @@ impl Reading<'_> {
         }
         let kind = prim.type_name().map_err(words)?.map(|kind| kind.as_str().to_owned()).unwrap_or_default();
         let schemas = prim.api_schemas().map_err(words)?.iter().map(|schema| schema.as_str().to_owned()).collect();
+        self.spend(PRIM + NODE * prim.prim_stack().map_err(words)?.len() as u64)?;
         let mut relations = BTreeMap::new();
         for relation in prim.relationships().map_err(words)? {
-            let targets = relation.forwarded_targets().map_err(words)?;
+            let targets = relation.targets().map_err(words)?;
             let name = last(relation.path().as_str()).to_owned();
             relations.insert(name, targets.iter().map(|target| target.as_str().to_owned()).collect());
         }
@@ -129,12 +133,17 @@ impl Reading<'_> {
         for attribute in prim.attributes().map_err(words)? {
             let name = last(attribute.path().as_str()).to_owned();
             let read = self.attribute(&attribute, &name)?;
-            self.bytes += OVERHEAD + name.len() as u64 + read.value.as_ref().map_or(0, bytes_of);
-            limits::MESH.check_unpacked(self.bytes)?;
+            self.spend(OVERHEAD + name.len() as u64 + read.value.as_ref().map_or(0, bytes_of))?;
             attributes.insert(name, read);
         }
         let path = prim.path().as_str().to_owned();
         Ok(Some(UsdPrim { path, kind, schemas, attributes, relations, children: Vec::new() }))
+    }
+
+    /// Counts what a part of the tree takes, with what `openusd` keeps of it.
+    fn spend(&mut self, bytes: u64) -> Result<(), String> {
+        self.bytes += bytes;
+        limits::MESH.check_unpacked(self.bytes)
     }
 
     fn attribute(&self, attribute: &Attribute, name: &str) -> Result<UsdAttribute, String> {

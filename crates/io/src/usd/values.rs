@@ -5,6 +5,11 @@ use super::tree::{UsdAsset, UsdValue};
 use openusd::gf::f16;
 use openusd::sdf::{AssetPath, Value};
 
+/// The number that is meant by one of 32 bits: the shortest decimal that reads as it.
+fn short(v: f32) -> f64 {
+    v.to_string().parse().unwrap_or_else(|_| v.into())
+}
+
 /// A tuple.
 fn one<T, const N: usize>(value: impl Into<[T; N]>, number: impl Fn(T) -> f64) -> UsdValue {
     UsdValue::Tuple(value.into().map(number).to_vec())
@@ -54,7 +59,7 @@ pub(super) fn plain(value: Value, layers: &Layers) -> Option<UsdValue> {
         Value::Uint64Vec(v) => numbers(&v, |v| v as f64),
         Value::Half(v) => UsdValue::Number(half(v)),
         Value::HalfVec(v) => numbers(&v, half),
-        Value::Float(v) => UsdValue::Number(v.into()),
+        Value::Float(v) => UsdValue::Number(short(v)),
         Value::FloatVec(v) => numbers(&v, f64::from),
         Value::Double(v) => UsdValue::Number(v),
         Value::DoubleVec(v) => UsdValue::Numbers(v),
@@ -70,19 +75,19 @@ pub(super) fn plain(value: Value, layers: &Layers) -> Option<UsdValue> {
 fn tuple(value: Value) -> UsdValue {
     match value {
         Value::Vec2h(v) => one(v, half),
-        Value::Vec2f(v) => one(v, |v: f32| v.into()),
+        Value::Vec2f(v) => one(v, short),
         Value::Vec2d(v) => one(v, |v: f64| v),
         Value::Vec2i(v) => one(v, |v: i32| v.into()),
         Value::Vec3h(v) => one(v, half),
-        Value::Vec3f(v) => one(v, |v: f32| v.into()),
+        Value::Vec3f(v) => one(v, short),
         Value::Vec3d(v) => one(v, |v: f64| v),
         Value::Vec3i(v) => one(v, |v: i32| v.into()),
         Value::Vec4h(v) => one(v, half),
-        Value::Vec4f(v) => one(v, |v: f32| v.into()),
+        Value::Vec4f(v) => one(v, short),
         Value::Vec4d(v) => one(v, |v: f64| v),
         Value::Vec4i(v) => one(v, |v: i32| v.into()),
         Value::Quath(v) => one(v, half),
-        Value::Quatf(v) => one(v, |v: f32| v.into()),
+        Value::Quatf(v) => one(v, short),
         Value::Quatd(v) => one(v, |v: f64| v),
         Value::Matrix2d(v) => UsdValue::Tuple(v.0.to_vec()),
         Value::Matrix3d(v) => UsdValue::Tuple(v.0.to_vec()),

@@ -135,6 +135,7 @@ impl<'a> Importer<'a> {
             "Camera" => self.camera(prim, &state)?,
             "" | "Xform" | "Scope" | "SkelRoot" => {}
             _ if !state.is_drawn() => {
+                super::access::leave(prim);
                 let told = "what is invisible, or for purposes other than rendering (guide, proxy), is left out";
                 self.scenery.report.note(told);
             }
@@ -169,6 +170,7 @@ impl<'a> Importer<'a> {
     /// Notes what changes over time, and what nobody has asked for.
     pub(super) fn note_unused(&mut self, prim: &UsdPrim) {
         let time = self.stage.start_time;
+        self.scenery.report.at(prim.path.clone());
         for (name, attribute) in prim.attributes.iter().filter(|(_, attribute)| attribute.value.is_some()) {
             let kind = if prim.kind.is_empty() { "prim" } else { &prim.kind };
             if !attribute.used.get() {
