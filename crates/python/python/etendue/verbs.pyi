@@ -315,7 +315,7 @@ def import_(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Write a scene of another program (glTF, pbrt, Mitsuba) as a scene and a job of the format, and what became of what.
+    """Write a scene of another program (glTF, pbrt, Mitsuba, USD) as a scene and a job of the format, and what became of what.
 
     scene: The scene: glTF 2.0 (.glb, .gltf), pbrt-v4 (.pbrt), Mitsuba 3 (.xml), USD (.usd, .usda, .usdc, .usdz) where it is built in.
     output: Folder for the results; made where missing.

@@ -106,7 +106,7 @@ impl<'a> Importer<'a> {
     /// What a sphere of this luminance gives from afar, cd.
     fn candela(&self, prim: &UsdPrim, state: &State<'a>, luminance: f64) -> f64 {
         let radius = number(prim, "inputs:radius", 0.5);
-        let scale = self.scales(state).iter().product::<f64>().cbrt() * self.stage.metres_per_unit;
+        let scale = maths::cbrt(self.scales(state).iter().product::<f64>()) * self.stage.metres_per_unit;
         luminance * PI * (radius * scale) * (radius * scale)
     }
 
@@ -165,7 +165,7 @@ fn area_of(prim: &UsdPrim, [x, y, z]: [f64; 3]) -> f64 {
         "RectLight" => number(prim, "inputs:width", 1.0) * x * number(prim, "inputs:height", 1.0) * y,
         "DiskLight" => PI * radius * radius * x * y,
         "CylinderLight" => 2.0 * PI * radius * (y * z).sqrt() * number(prim, "inputs:length", 1.0) * x,
-        _ => 4.0 * PI * radius * radius * (x * y * z).cbrt() * (x * y * z).cbrt(),
+        _ => 4.0 * PI * radius * radius * maths::cbrt(x * y * z) * maths::cbrt(x * y * z),
     }
 }
 

@@ -24,7 +24,7 @@ pub(super) fn transform_of(prim: &UsdPrim) -> Result<(DAffine3, bool), String> {
         if is_inverse && operation.matrix3.determinant() == 0.0 {
             return Err(format!("{}: \"{name}\" of a transform without an inverse", prim.path));
         }
-        made = made * if is_inverse { operation.inverse() } else { operation };
+        made *= if is_inverse { operation.inverse() } else { operation };
     }
     Ok((made, is_reset))
 }
