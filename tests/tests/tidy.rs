@@ -54,6 +54,8 @@ const KEEPERS: &[(&str, &[&str])] = &[
     ("tobj", &["io"]),
     ("gltf", &["io"]),
     ("roxmltree", &["io"]),
+    ("openusd", &["io"]),
+    ("lz4_flex", &["io"]),
     ("saphyr-parser", &["io"]),
     ("toml", &["scene"]),
     ("clap", &["cli"]),

@@ -5,6 +5,7 @@
 //! | in | Wavefront OBJ with its MTL, glTF 2.0, PLY | [`mesh`] |
 //! | in | scenes of pbrt-v4, directive by directive | [`pbrt`] |
 //! | in | scenes of Mitsuba 3, element by element | [`mitsuba`] |
+//! | in | scenes of Universal Scene Description, composed, with the feature `usd` | `usd` |
 //! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
 //! | in | PNG, JPEG, TIFF, OpenEXR and raw pictures to be measured | [`photograph`] |
 //! | in | EXIF data of pictures | [`exif`] |
@@ -70,6 +71,8 @@ pub mod tile_cache;
 pub mod trajectory;
 mod tree;
 mod unpacked;
+#[cfg(feature = "usd")]
+pub mod usd;
 pub mod y4m;
 
 pub use assets::{complete_assets, load_assets};

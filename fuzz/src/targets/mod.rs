@@ -27,6 +27,8 @@ pub const TARGETS: &[Target] = &[
     assets::PLY,
     scenes::PBRT,
     scenes::MITSUBA,
+    scenes::USD,
+    scenes::USDZ,
     scenes::GLTF_SCENE,
     assets::MTL,
     assets::MESH_FRAME,

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// `etendue import`
 #[derive(Debug, Args)]
 pub struct Import {
-    /// The scene: glTF 2.0 (.glb, .gltf), pbrt-v4 (.pbrt), Mitsuba 3 (.xml)
+    /// The scene: glTF 2.0 (.glb, .gltf), pbrt-v4 (.pbrt), Mitsuba 3 (.xml), USD (.usd, .usda, .usdc, .usdz) where it is built in
     #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
     #[command(flatten)]

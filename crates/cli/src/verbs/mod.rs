@@ -49,7 +49,7 @@ subcommands! {
     Flat(flat::Flat),
     /// Make a camera file of an EMVA 1288 data sheet; figures that contradict each other are refused
     Datasheet(datasheet::DataSheet),
-    /// Write a scene of another program (glTF, pbrt, Mitsuba) as a scene and a job of the format, and what became of what
+    /// Write a scene of another program (glTF, pbrt, Mitsuba, USD) as a scene and a job of the format, and what became of what
     Import(import::Import),
     /// Say what is in a file, with units; make a picture of it
     Inspect(inspect::Inspect),

@@ -3,23 +3,18 @@
 use super::lamps;
 use super::moving::{Moving, add_moving, part_of, to_world};
 use super::naming::{Names, path_between};
+use super::without::{even_sky, whole_view};
 use super::written::{ImportedCamera, View, Written, pose_of, size_of, written};
 use crate::error::Error;
-use etendue_core::maths::f64 as maths;
 use etendue_io::mesh::{
     GltfCamera, GltfLight, GltfLightKind, GltfMotion, GltfProjection, GltfStage, read_gltf_motion, read_gltf_stage,
     read_mesh,
 };
 use etendue_scene::asset::{MeshAsset, SlotSurface};
-use etendue_scene::record::{
-    Body, Emission, Environment, Level, Light, LightColour, Mesh, Object, Pose, Scene, Transform,
-};
+use etendue_scene::record::{Body, Light, LightColour, Mesh, Object, Pose, Scene, Transform};
 use etendue_spectra::colour::BT709;
 use glam::{DAffine3, DVec3};
 use std::path::Path;
-
-/// The sky of a scene without light, cd/m²: an overcast day's.
-const SKY_CD_M2: f64 = 2000.0;
 
 pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
     let stage = read_gltf_stage(file).map_err(Error::input)?;
@@ -58,10 +53,7 @@ pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
         scene.lights.extend(light_of(light, &held, &mut light_names, &mut report));
     }
     if scene.lights.is_empty() && !mesh.as_ref().is_some_and(glows) {
-        let level = Level::Luminance(SKY_CD_M2.into());
-        let emission = Emission { colour: Some(LightColour::Illuminant("D65".into())), ..Emission::new(level) };
-        scene.environment = Some(Environment::Uniform(emission));
-        report.push(format!("it has no light: an even sky of {SKY_CD_M2} cd/m² is ours"));
+        report.push(even_sky(&mut scene));
     }
     let cameras = cameras_of(&stage, &held, mesh.as_ref(), &mut report);
     let mut made = written(file, &scene, &cameras, report);
@@ -179,18 +171,9 @@ fn camera_of(camera: &GltfCamera, held: &Held<'_>, names: &mut Names, report: &m
 
 /// A view of the whole mesh, from the front and above.
 fn view_of(mesh: Option<&MeshAsset>) -> ImportedCamera {
-    const HALF_FIELD_RAD: f64 = 0.35;
     let places = || mesh.iter().flat_map(|m| m.positions.iter().map(|p| (m.origin, p)));
     let world =
         |(origin, p): ([f64; 3], &[f32; 3])| to_world(DVec3::from_array(origin) + DVec3::from_array(p.map(f64::from)));
     let bound = |pick: fn(DVec3, DVec3) -> DVec3| places().map(world).reduce(pick).unwrap_or(DVec3::ZERO);
-    let (low, high) = (bound(DVec3::min), bound(DVec3::max));
-    let (middle, radius) = (0.5 * (low + high), (0.5 * (high - low).length()).max(1e-3));
-    let from = middle + DVec3::new(0.8, 0.4, 0.45).normalize_or(DVec3::X) * radius / maths::sin(HALF_FIELD_RAD);
-    ImportedCamera {
-        name: "view".to_owned(),
-        pose: Pose::looking_at(from.to_array(), middle.to_array(), [0.0, 0.0, 1.0]),
-        view: View::Perspective { yfov_rad: 2.0 * HALF_FIELD_RAD },
-        size_px: size_of(4.0 / 3.0),
-    }
+    whole_view(bound(DVec3::min), bound(DVec3::max))
 }

@@ -10,6 +10,9 @@ mod moving;
 mod naming;
 mod pbrt;
 mod scenery;
+#[cfg(feature = "usd")]
+mod usd;
+mod without;
 mod written;
 
 use crate::error::Error;
@@ -19,7 +22,7 @@ use std::path::{Path, PathBuf};
 use written::Written;
 
 /// What is imported, by the endings of files.
-const KINDS: &str = ".glb, .gltf, .pbrt or .xml (Mitsuba)";
+const KINDS: &str = ".glb, .gltf, .pbrt, .xml (Mitsuba), .usd, .usda, .usdc or .usdz";
 
 /// Writes `scene.toml`, `job.toml` and what they need into a folder, of a scene of another program; answers with their paths. What was
 /// mapped to what and what was dropped stands at the head of the scene and goes to the observer.
@@ -36,6 +39,10 @@ pub fn import(
         Some("glb" | "gltf") => gltf::imported,
         Some("pbrt") => pbrt::imported,
         Some("xml") => mitsuba::imported,
+        #[cfg(feature = "usd")]
+        Some("usd" | "usda" | "usdc" | "usdz") => usd::imported,
+        #[cfg(not(feature = "usd"))]
+        Some("usd" | "usda" | "usdc" | "usdz") => return Err(without_usd(file)),
         _ => {
             let shown = file.display();
             return Err(Error::input(format!("{shown}: not a scene that is imported; expected a file of {KINDS}")));
@@ -51,4 +58,24 @@ pub fn import(
     }
     report.iter().for_each(|line| observer.message(Message::Note(line)));
     folder.commit().map_err(Error::run)
+}
+
+/// What is said of a scene whose reader is not built in.
+#[cfg(any(test, not(feature = "usd")))]
+fn without_usd(file: &Path) -> Error {
+    Error::input(format!(
+        "{}: this program was built without the reader of Universal Scene Description; build it with it (cargo build --release --features usd), or convert the scene to glTF",
+        file.display()
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_without_the_reader_says_how_to_build_it() {
+        let told = without_usd(Path::new("a.usdz")).to_string();
+        assert!(told.starts_with("a.usdz: ") && told.contains("--features usd"), "{told}");
+    }
 }

@@ -42,3 +42,4 @@ pub use gltf::{
 };
 pub(crate) use ply::is_ply;
 pub use ply::{PlacedTriangles, encode_obj, encode_ply};
+pub use polygon::polygon_triangles;

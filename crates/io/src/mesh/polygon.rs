@@ -41,6 +41,15 @@ pub(super) fn triangulate(corners: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, Polyg
     clip_ears(&flat).ok_or(PolygonFault::CrossesItself)
 }
 
+/// Triangles of a polygon of three corners or more, as indices into it, in its winding; `None` where it crosses itself.
+#[must_use]
+pub fn polygon_triangles(corners: &[[f64; 3]]) -> Option<Vec<[usize; 3]>> {
+    match corners.len() {
+        0..3 => Some(Vec::new()),
+        _ => triangulate(corners).ok(),
+    }
+}
+
 fn fan(count: usize) -> Vec<[usize; 3]> {
     (1..count - 1).map(|i| [0, i, i + 1]).collect()
 }

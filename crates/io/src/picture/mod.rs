@@ -35,7 +35,10 @@ pub fn read_picture(file: &Path) -> Result<ImageAsset, Error> {
 }
 
 /// Reads the bytes of `file`.
-pub(crate) fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
+///
+/// # Errors
+/// As [`read_picture`] has them.
+pub fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
     let (width, height, pixels) = if bytes.starts_with(&EXR_MAGIC) {
         floats::of_exr(file, decode_exr(file, bytes)?)?
     } else {

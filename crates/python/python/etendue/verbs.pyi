@@ -315,9 +315,9 @@ def import_(
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
-    """Write a scene of another program (glTF, pbrt, Mitsuba) as a scene and a job of the format, and what became of what.
+    """Write a scene of another program (glTF, pbrt, Mitsuba, USD) as a scene and a job of the format, and what became of what.
 
-    scene: The scene: glTF 2.0 (.glb, .gltf), pbrt-v4 (.pbrt), Mitsuba 3 (.xml).
+    scene: The scene: glTF 2.0 (.glb, .gltf), pbrt-v4 (.pbrt), Mitsuba 3 (.xml), USD (.usd, .usda, .usdc, .usdz) where it is built in.
     output: Folder for the results; made where missing.
     overwrite: Replace results that are already there.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.

@@ -4,6 +4,7 @@ mod area_light;
 mod axes;
 mod environment;
 mod known;
+mod light_picture;
 mod media;
 mod objects;
 mod report;
@@ -19,6 +20,7 @@ pub(super) use environment::linear_pixels;
 #[cfg(test)]
 pub(super) use environment::resampled;
 pub(super) use known::{Homogeneous, INTERFACE, KnownTexture};
+pub(super) use light_picture::LightPicture;
 pub(super) use objects::above_zero;
 pub(super) use report::Report;
 pub(super) use share::grey;

@@ -26,7 +26,8 @@ impl Scenery {
         }
         let placed = mesh.placed(self.placed(graphics), graphics.reverse_orientation);
         let count = placed.triangles.len();
-        let file = self.file_names.take("mesh", "mesh");
+        let wish = if graphics.name.is_empty() { "mesh" } else { &graphics.name };
+        let file = self.file_names.take(wish, "mesh");
         if self.is_seen(graphics) {
             let path = self.add_file(format!("meshes/{file}.ply"), encode_ply(&placed));
             let up_axis = Some(Axis::Z.into());
@@ -121,7 +122,8 @@ impl Scenery {
             None => material,
             Some(opacity) => self.thinned(&material, opacity.clone()),
         };
-        let name = self.names.take(kind, "object");
+        let wish = if graphics.name.is_empty() { kind } else { &graphics.name };
+        let name = self.names.take(wish, "object");
         let material = Some(material.as_str().into());
         self.scene.objects.push(Object { material, ..Object::new(name.as_str(), body, transform) });
     }

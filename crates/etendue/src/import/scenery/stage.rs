@@ -36,6 +36,7 @@ impl Graphics {
     pub(in crate::import) fn plain() -> Self {
         let none: Rc<str> = Rc::from("");
         Self {
+            name: none.clone(),
             to_world: DAffine3::IDENTITY,
             reverse_orientation: false,
             material: none.clone(),
@@ -99,6 +100,8 @@ impl Scenery {
 /// What holds for a shape.
 #[derive(Clone)]
 pub(in crate::import) struct Graphics {
+    /// What the shape is called; empty: by its kind.
+    pub(in crate::import) name: Rc<str>,
     /// From the space of what follows to the file's world.
     pub(in crate::import) to_world: DAffine3,
     pub(in crate::import) reverse_orientation: bool,

@@ -1,0 +1,37 @@
+//! Scenes of Universal Scene Description.
+//!
+//! Source: openusd.org, the schemas UsdGeom, UsdLux and UsdShade, and "UsdPreviewSurface Specification" 2.6; docs/import.md lists the rules.
+//!
+//! A stage is right-handed with y or z upwards: y becomes ours as glTF's does (+z is forward), z stays. Lengths are of the stage's unit. A luminance of 1 is
+//! 1 cd/m², as UsdLux has it. Values are those at the stage's start.
+
+mod access;
+mod camera;
+mod cone;
+mod dome;
+mod importer;
+mod instancer;
+mod light;
+mod light_unit;
+mod material;
+mod mesh;
+mod network;
+mod paths;
+mod primvar;
+mod shape;
+mod solids;
+mod texture;
+mod transform;
+
+use super::written::Written;
+use crate::error::Error;
+use etendue_io::Sandbox;
+use etendue_io::usd::read_usd;
+use importer::Importer;
+use std::path::Path;
+
+pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
+    let stage = read_usd(file, &Sandbox::NONE).map_err(Error::input)?;
+    let made = Importer::new(file, folder, &stage).finish(file);
+    made.map_err(|told| Error::input(format!("{}: {told}", file.display())))
+}

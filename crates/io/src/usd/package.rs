@@ -1,0 +1,157 @@
+//! Packages: ZIP archives whose files are stored as they are.
+//!
+//! Source: "Usdz File Format Specification" (openusd.org), which allows neither compression nor encryption, and PKWARE's APPNOTE 6.3.
+
+use super::bytes::Bytes;
+use std::fmt::Write as _;
+use std::rc::Rc;
+
+const END: [u8; 4] = *b"PK\x05\x06";
+const CENTRAL: u32 = 0x0201_4b50;
+const LOCAL: u32 = 0x0403_4b50;
+/// The shortest and the longest end record.
+const END_SIZES: [usize; 2] = [22, 22 + 65_535];
+
+/// A file of a package.
+pub(super) struct Entry {
+    pub(super) name: String,
+    crc: u32,
+    from: usize,
+    to: usize,
+}
+
+/// A package.
+pub(super) struct Package {
+    bytes: Vec<u8>,
+    entries: Vec<Entry>,
+}
+
+impl Package {
+    /// Tells a package apart.
+    pub(super) fn new(bytes: Vec<u8>) -> Result<Self, String> {
+        let entries = entries(&bytes).map_err(|told| format!("no package that can be read: {told}"))?;
+        Ok(Self { bytes, entries })
+    }
+
+    /// The bytes of a file in it.
+    pub(super) fn file(&self, name: &str) -> Option<&[u8]> {
+        let entry = self.entries.iter().find(|entry| entry.name == name)?;
+        Some(&self.bytes[entry.from..entry.to])
+    }
+
+    /// The files that are layers, in their order.
+    pub(super) fn layers(&self) -> impl Iterator<Item = &Entry> {
+        self.entries.iter().filter(|entry| is_layer(&entry.name))
+    }
+
+    /// A package of its layers alone, without anything that could be read in two ways.
+    pub(super) fn of_layers(&self) -> Vec<u8> {
+        let (mut made, mut central) = (Vec::new(), Vec::new());
+        let mut count = 0_u16;
+        for entry in self.layers().take(usize::from(u16::MAX)) {
+            let (at, data) = (made.len() as u32, &self.bytes[entry.from..entry.to]);
+            let common = |out: &mut Vec<u8>| {
+                // Version 2.0, stored, a date of 1980.
+                out.extend([20, 0, 0, 0, 0, 0, 0, 0, 0x21, 0]);
+                out.extend(entry.crc.to_le_bytes());
+                out.extend([(data.len() as u32).to_le_bytes(), (data.len() as u32).to_le_bytes()].concat());
+                out.extend((entry.name.len() as u16).to_le_bytes());
+                out.extend([0, 0]);
+            };
+            made.extend(LOCAL.to_le_bytes());
+            common(&mut made);
+            made.extend(entry.name.as_bytes());
+            made.extend(data);
+            central.extend(CENTRAL.to_le_bytes());
+            central.extend([20, 0]);
+            common(&mut central);
+            central.extend([0; 10]);
+            central.extend(at.to_le_bytes());
+            central.extend(entry.name.as_bytes());
+            count += 1;
+        }
+        let (at, size) = (made.len() as u32, central.len() as u32);
+        made.extend(central);
+        made.extend(END);
+        made.extend([0; 4]);
+        made.extend([count.to_le_bytes(), count.to_le_bytes()].concat());
+        made.extend([size.to_le_bytes(), at.to_le_bytes()].concat());
+        made.extend([0; 2]);
+        made
+    }
+
+    /// What is in it, for a message.
+    pub(super) fn shown(&self) -> String {
+        let mut shown = String::new();
+        for entry in self.entries.iter().take(5) {
+            write!(shown, "{}\"{}\"", if shown.is_empty() { "" } else { ", " }, entry.name).expect("a text grows");
+        }
+        if self.entries.len() > 5 { format!("{shown} and {} others", self.entries.len() - 5) } else { shown }
+    }
+}
+
+/// Whether a file of a package is a layer.
+fn is_layer(name: &str) -> bool {
+    [".usd", ".usda", ".usdc"].iter().any(|ending| name.ends_with(ending))
+}
+
+fn entries(bytes: &[u8]) -> Result<Vec<Entry>, String> {
+    // Offsets have 32 bits.
+    if u32::try_from(bytes.len()).is_err() {
+        return Err("it has 4 GiB or more".to_owned());
+    }
+    let from = bytes.len().saturating_sub(END_SIZES[1]);
+    let last = bytes.len().checked_sub(END_SIZES[0]).ok_or("it is no ZIP archive")?;
+    let end = (from..=last).rev().find(|at| bytes[*at..].starts_with(&END)).ok_or("it is no ZIP archive")?;
+    let mut reader = Bytes::new(bytes);
+    reader.go(end as u64 + 8)?;
+    let count = reader.u16()?;
+    reader.u16()?;
+    reader.u32()?;
+    let directory = reader.u32()?;
+    reader.go(directory.into())?;
+    let mut found: Vec<Entry> = Vec::new();
+    for _ in 0..count {
+        found.push(entry(bytes, &mut reader)?);
+    }
+    // Files that lie over one another would unpack to more than the package has.
+    match found.iter().map(|entry| (entry.to - entry.from) as u64).sum::<u64>() <= bytes.len() as u64 {
+        true => Ok(found),
+        false => Err("its files are larger than itself".to_owned()),
+    }
+}
+
+fn entry(bytes: &[u8], reader: &mut Bytes<'_>) -> Result<Entry, String> {
+    if reader.u32()? != CENTRAL {
+        return Err("its directory is damaged".to_owned());
+    }
+    reader.take(4)?;
+    let (flags, method) = (reader.u16()?, reader.u16()?);
+    reader.take(4)?;
+    let crc = reader.u32()?;
+    let (packed, size) = (reader.u32()?, reader.u32()?);
+    let [name, extra, comment] = [reader.u16()?, reader.u16()?, reader.u16()?];
+    reader.take(8)?;
+    let local = reader.u32()?;
+    let name = String::from_utf8_lossy(reader.take(name.into())?).into_owned();
+    reader.take(u64::from(extra) + u64::from(comment))?;
+    if flags & 1 != 0 || method != 0 || packed != size {
+        return Err(format!("\"{name}\" is compressed or encrypted, which packages are not; pack it anew with usdzip"));
+    }
+    let mut head = Bytes::new(bytes);
+    head.go(local.into())?;
+    if head.u32()? != LOCAL {
+        return Err(format!("\"{name}\" is not where its directory says"));
+    }
+    head.take(22)?;
+    let beside = u64::from(head.u16()?) + u64::from(head.u16()?);
+    head.take(beside)?;
+    let from = head.at;
+    head.take(size.into())?;
+    Ok(Entry { name, crc, from, to: head.at })
+}
+
+/// A file of a package as whoever takes it holds it.
+pub(super) fn packed(package: &Package, name: &str) -> Option<Rc<[u8]>> {
+    package.file(name).map(Rc::from)
+}
