@@ -1,8 +1,8 @@
 //! Shapes.
 
 use super::access::{indices, number, text};
+use super::bound::Bound;
 use super::importer::{Importer, State};
-use super::material::Bound;
 use super::mesh::PolygonMesh;
 use super::primvar::Primvar;
 use super::solids::{about, capsule, cube, cylinder, plane, plane_about};
@@ -82,7 +82,8 @@ impl<'a> Importer<'a> {
             if !colour.is_even() {
                 self.scenery.report.note("a displayColor that is not the same everywhere is its mean");
             }
-            graphics.material = self.display_material(colour.mean());
+            // Numbers of 32 bits have seven digits.
+            graphics.material = self.display_material(colour.mean().map(|v| (1e7 * v).round() / 1e7));
         }
         let opacity = super::access::numbers(prim, "primvars:displayOpacity");
         if let Some(first) = opacity.first().filter(|opacity| **opacity < 1.0) {
