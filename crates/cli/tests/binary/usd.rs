@@ -4,6 +4,7 @@
 //! three. Lengths there are metres, axes the stage's: its z is our x, its x our y, its y our z.
 
 use crate::support::{Ran, etendue, root, text};
+use etendue_core::maths::f64 as maths;
 use etendue_io::mesh::read_mesh;
 use serde_json::Value;
 use std::fs;
@@ -144,7 +145,7 @@ fn check_meshes(made: &Made, figures: &Value) {
 
 /// Forward and up of a camera that is turned about z, y and x, in the stage's axes.
 fn axes(rotation_deg: &[f64]) -> [Vec<f64>; 2] {
-    let [(sa, ca), (sb, cb), (sc, cc)] = [0, 1, 2].map(|i| rotation_deg[i].to_radians().sin_cos());
+    let [(sa, ca), (sb, cb), (sc, cc)] = [0, 1, 2].map(|i| maths::sin_cos(rotation_deg[i].to_radians()));
     let ahead = [ca * cb, sa * cb, -sb];
     let up = [ca * sb * cc + sa * sc, sa * sb * cc - ca * sc, cb * cc];
     [ahead, up].map(|[x, y, z]| vec![y, z, x])
@@ -168,7 +169,7 @@ fn check_cameras(made: &Made, figures: &Value) {
         let sensor = &camera["sensor"];
         let height_m = 1e-6 * number(&sensor["pixel_pitch_um"]) * number(&sensor["height_px"]);
         let image_m = 1.0 / (1.0 / focal_m - 1.0 / focus_m);
-        same(2.0 * (0.5 * height_m / image_m).atan().to_degrees(), stated("yfov_deg"), name);
+        same(2.0 * maths::atan2(0.5 * height_m, image_m).to_degrees(), stated("yfov_deg"), name);
         same(focal_m / stop, stated("focal_m") / stated("f_number"), name);
         same(focus_m, stated("focus_m"), name);
     }
@@ -210,13 +211,14 @@ fn check_lights(made: &Made, figures: &Value) {
 fn check_materials(made: &Made, figures: &Value) {
     let figures = &figures["materials"];
     let stated = |name: &str, key: &str| figures[name][key].as_f64().expect("a number");
+    let squared = |name: &str| stated(name, "roughness") * stated(name, "roughness");
     let plain = made.entry("materials", "Plain");
     assert!(near(&list(&plain["reflectance"]), &numbers(&figures["Plain"]["diffuseColor"]), 1e-6));
     same(number(&plain["index"]), stated("Plain", "ior"), "Plain");
-    same(number(&plain["alpha"]), stated("Plain", "roughness").powi(2), "Plain");
+    same(number(&plain["alpha"]), squared("Plain"), "Plain");
     let tin = made.entry("materials", "Tin");
     assert_eq!(tin["type"].as_str(), Some("conductor"));
-    same(number(&tin["alpha"]), stated("Tin", "roughness").powi(2), "Tin");
+    same(number(&tin["alpha"]), squared("Tin"), "Tin");
     let light: f64 =
         numbers(&figures["Tin"]["emissiveColor"]).iter().zip([0.2126, 0.7152, 0.0722]).map(|(v, w)| v * w).sum();
     same(number(&tin["emission"]["luminance_cd_m2"]), light, "Tin");
