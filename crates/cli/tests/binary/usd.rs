@@ -292,6 +292,7 @@ fn imported(body: &str) -> (tempfile::TempDir, Ran) {
     let place = tempfile::tempdir().expect("a temporary folder");
     let file = place.path().join("a.usda");
     fs::write(&file, format!("#usda 1.0\n{body}")).expect("written");
+    fs::copy(root().join("scenes/import/letter.png"), place.path().join("letter.png")).expect("copied");
     let ran = etendue(["import", &text(&file), "-o", &text(&place.path().join("made"))]);
     (place, ran)
 }
@@ -304,6 +305,11 @@ fn what_usd_does_not_say_is_ours_and_what_is_not_understood_is_said() {
          def Mesh \"Cage\" { int[] faceVertexCounts = [3] int[] faceVertexIndices = [0, 1, 2] point3f[] points = [(0,0,0), (1,0,0), (0,1,0)] }\n\
          def RectLight \"Dark\" { float inputs:intensity = 0 }\n\
          def Sphere \"Glass\" { double radius = 1 rel material:binding = </Clear> }\n\
+         def Mesh \"Bare\" { int[] faceVertexCounts = [3] int[] faceVertexIndices = [0, 1, 2] point3f[] points = [(0,0,0), (1,0,0), (0,1,0)]\n\
+           uniform token subdivisionScheme = \"none\" rel material:binding = </Pictured> }\n\
+         def Material \"Pictured\" { token outputs:surface.connect = </Pictured/S.outputs:surface>\n\
+           def Shader \"S\" { uniform token info:id = \"UsdPreviewSurface\" color3f inputs:diffuseColor.connect = </Pictured/T.outputs:rgb> token outputs:surface }\n\
+           def Shader \"T\" { uniform token info:id = \"UsdUVTexture\" asset inputs:file = @letter.png@ float3 outputs:rgb } }\n\
          def Material \"Clear\" { token outputs:surface.connect = </Clear/S.outputs:surface>\n\
            def Shader \"S\" { uniform token info:id = \"UsdPreviewSurface\" float inputs:opacity = 0.1 float inputs:clearcoat = 1 token outputs:surface } }\n",
     );
@@ -318,6 +324,7 @@ fn what_usd_does_not_say_is_ours_and_what_is_not_understood_is_said() {
         "it has no cameras: \"view\" is ours",
         "a second coat (clearcoat) is not used",
         "is a pane without thickness",
+        "a mesh without \"st\", by which its pictures lie: all of it has their corner",
     ] {
         assert!(told.contains(phrase), "{phrase} is not said: {told}");
     }

@@ -7,7 +7,7 @@ use std::rc::Rc;
 pub(super) struct Bound {
     /// Its name in ours; empty of one that is not understood.
     pub(super) name: Rc<str>,
-    /// The primvar by which its pictures lie; empty of one without.
+    /// The primvar by which its pictures lie; empty of one without pictures.
     pub(super) primvar: Rc<str>,
 }
 
@@ -15,5 +15,10 @@ impl Bound {
     /// The primvar by which pictures lie.
     pub(super) fn primvar(&self) -> &str {
         if self.primvar.is_empty() { "st" } else { &self.primvar }
+    }
+
+    /// Whether it has pictures.
+    pub(super) fn has_pictures(&self) -> bool {
+        !self.primvar.is_empty()
     }
 }

@@ -184,6 +184,7 @@ impl<'a> Importer<'a> {
         if luminance <= 0.0 {
             return Ok(None);
         }
+        self.scenery.report.at(shader.path.clone());
         self.scenery.report.note(format!("a surface shines to both sides, {luminance} cd/m²"));
         let colour = match grey(rgb) {
             Some(_) => LightColour::Illuminant("D65".into()),

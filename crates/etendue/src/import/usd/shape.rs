@@ -172,7 +172,13 @@ impl<'a> Importer<'a> {
             None => Bound::default(),
         };
         let mesh = PolygonMesh::read(prim, uv.primvar())?;
-        let (triangles, refused) = mesh.triangles(faces.into_iter());
+        let (mut triangles, refused) = mesh.triangles(faces.into_iter());
+        if uv.has_pictures() && triangles.uvs.is_empty() {
+            let told =
+                format!("a mesh without \"{}\", by which its pictures lie: all of it has their corner", uv.primvar());
+            self.scenery.report.note(told);
+            triangles.uvs = vec![[0.0; 2]; triangles.positions.len()];
+        }
         if refused > 0 {
             self.scenery.report.note(format!("{refused} polygons that cross themselves are left out"));
         }
