@@ -76,6 +76,6 @@ mod tests {
     #[test]
     fn a_program_without_the_reader_says_how_to_build_it() {
         let told = without_usd(Path::new("a.usdz")).to_string();
-        assert!(told.starts_with("a.usdz: ") && told.contains("--features usd"), "{told}");
+        assert!(told.contains("a.usdz: ") && told.contains("--features usd"), "{told}");
     }
 }

@@ -1,7 +1,7 @@
 //! Prims to a scene.
 
 use super::access::text;
-use super::material::Bound;
+use super::bound::Bound;
 use super::paths::Paths;
 use super::transform::transform_of;
 use crate::import::scenery::{KnownTexture, Scenery};

@@ -1,5 +1,6 @@
 //! UsdPreviewSurface as surfaces of ours.
 
+use super::bound::Bound;
 use super::importer::Importer;
 use super::network::Input;
 use super::texture::Picture;
@@ -12,23 +13,6 @@ use etendue_scene::record::material::{
 };
 use etendue_scene::record::{Emission, Level, LightColour, Reflectance, SurfaceEmission};
 use etendue_spectra::colour::BT709;
-use std::rc::Rc;
-
-/// A material of the stage.
-#[derive(Clone, Default)]
-pub(super) struct Bound {
-    /// Its name in ours; empty of one that is not understood.
-    pub(super) name: Rc<str>,
-    /// The primvar by which its pictures lie; empty of one without.
-    primvar: Rc<str>,
-}
-
-impl Bound {
-    /// The primvar by which pictures lie.
-    pub(super) fn primvar(&self) -> &str {
-        if self.primvar.is_empty() { "st" } else { &self.primvar }
-    }
-}
 
 /// The index that reflects a share of light at normal incidence.
 fn index_of(share: f64) -> f64 {
@@ -200,6 +184,7 @@ impl<'a> Importer<'a> {
         if luminance <= 0.0 {
             return Ok(None);
         }
+        self.scenery.report.at(shader.path.clone());
         self.scenery.report.note(format!("a surface shines to both sides, {luminance} cd/m²"));
         let colour = match grey(rgb) {
             Some(_) => LightColour::Illuminant("D65".into()),

@@ -6,6 +6,7 @@
 //! 1 cd/m², as UsdLux has it. Values are those at the stage's start.
 
 mod access;
+mod bound;
 mod camera;
 mod cone;
 mod dome;

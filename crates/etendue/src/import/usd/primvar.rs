@@ -40,6 +40,9 @@ impl<'a, const N: usize> Primvar<'a, N> {
         if values.is_empty() {
             return Ok(None);
         }
+        if values.iter().flatten().any(|v| !v.is_finite()) {
+            return Err(format!("\"{name}\" that is no finite number"));
+        }
         let stated = prim.attributes.get(name).map_or("", |attribute| attribute.interpolation.as_str());
         let (lies, count) = match if stated.is_empty() { usual } else { stated } {
             "constant" => (Lies::Whole, 1),

@@ -1,8 +1,8 @@
 //! Shapes.
 
 use super::access::{indices, number, text};
+use super::bound::Bound;
 use super::importer::{Importer, State};
-use super::material::Bound;
 use super::mesh::PolygonMesh;
 use super::primvar::Primvar;
 use super::solids::{about, capsule, cube, cylinder, plane, plane_about};
@@ -82,7 +82,8 @@ impl<'a> Importer<'a> {
             if !colour.is_even() {
                 self.scenery.report.note("a displayColor that is not the same everywhere is its mean");
             }
-            graphics.material = self.display_material(colour.mean());
+            // Numbers of 32 bits have seven digits.
+            graphics.material = self.display_material(colour.mean().map(|v| (1e7 * v).round() / 1e7));
         }
         let opacity = super::access::numbers(prim, "primvars:displayOpacity");
         if let Some(first) = opacity.first().filter(|opacity| **opacity < 1.0) {
@@ -171,7 +172,13 @@ impl<'a> Importer<'a> {
             None => Bound::default(),
         };
         let mesh = PolygonMesh::read(prim, uv.primvar())?;
-        let (triangles, refused) = mesh.triangles(faces.into_iter());
+        let (mut triangles, refused) = mesh.triangles(faces.into_iter());
+        if uv.has_pictures() && triangles.uvs.is_empty() {
+            let told =
+                format!("a mesh without \"{}\", by which its pictures lie: all of it has their corner", uv.primvar());
+            self.scenery.report.note(told);
+            triangles.uvs = vec![[0.0; 2]; triangles.positions.len()];
+        }
         if refused > 0 {
             self.scenery.report.note(format!("{refused} polygons that cross themselves are left out"));
         }

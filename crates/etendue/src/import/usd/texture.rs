@@ -57,11 +57,12 @@ impl PictureNode<'_> {
 }
 
 impl<'a> Importer<'a> {
-    /// The primvar by which pictures of a surface lie; empty where it has none.
+    /// The primvar by which pictures of a surface lie, "st" where none is named; empty where it has no pictures.
     pub(super) fn primvar_of(&mut self, shader: &'a UsdPrim) -> Rc<str> {
-        let mut found: Vec<&'a str> = Vec::new();
+        let (mut found, mut has_pictures) = (Vec::<&'a str>::new(), false);
         for name in shader.attributes.keys().filter(|name| name.starts_with("inputs:")) {
             let Some(Input::Shader(mut node, _)) = self.input(shader, name) else { continue };
+            has_pictures = true;
             for _ in 0..MAX_STEPS {
                 match self.plain_text(node, "info:id").unwrap_or_default() {
                     "UsdPrimvarReader_float2" => {
@@ -79,7 +80,8 @@ impl<'a> Importer<'a> {
         if found.len() > 1 {
             self.scenery.report.note(format!("of several texture coordinates of a surface \"{}\" are used", found[0]));
         }
-        found.first().copied().unwrap_or_default().into()
+        let usual = if has_pictures { "st" } else { "" };
+        found.first().copied().unwrap_or(usual).into()
     }
 
     /// What a node gives.
