@@ -184,7 +184,11 @@ def test_osi_s_ground_truth_is_our_objects(drive):
     trace = osi.OSITrace(str(name), "GroundTruth")
     frames = list(trace)
     trace.close()
-    assert len(frames) == 2 and all(frame.IsInitialized() and not frame.UnknownFields() if hasattr(frame, "UnknownFields") else frame.IsInitialized() for frame in frames)
+    assert len(frames) == 2 and all(frame.IsInitialized() for frame in frames)
+    sizes = [frame.ByteSize() for frame in frames]
+    for frame in frames:
+        frame.DiscardUnknownFields()
+    assert sizes == [frame.ByteSize() for frame in frames], "fields that the standard does not have"
     vehicles = {}
     for frame, (_, picture) in zip(frames, pictures(drive)):
         assert (frame.version.version_major, frame.version.version_minor, frame.version.version_patch) == (3, 8, 0)
@@ -211,13 +215,15 @@ def test_osi_s_ground_truth_is_our_objects(drive):
             if entry["class"] == "building":
                 assert of.classification.type == StationaryObject.Classification.TYPE_BUILDING
         for of in frame.moving_object:
-            vehicles.setdefault(of.id.value, []).append(of.base)
-    # Velocities against differences of places: over 50 ms a car on a smooth path keeps its velocity to a few per cent.
+            # People swing their limbs, and the middles of their boxes with them.
+            if of.type == MovingObject.TYPE_VEHICLE:
+                vehicles.setdefault(of.id.value, []).append(of.base)
+    # Velocities against differences of places: over 50 ms a car on a smooth path keeps its velocity to a hundredth.
     span_s = frames[1].timestamp.nanos / 1e9 - frames[0].timestamp.nanos / 1e9
     moved = 0
     for before, after in vehicles.values():
         way = np.array([getattr(after.position, axis) - getattr(before.position, axis) for axis in "xyz"])
         mean = sum(np.array([getattr(base.velocity, axis) for axis in "xyz"]) for base in (before, after)) / 2
-        assert np.allclose(way / span_s, mean, atol=0.02 + 0.02 * np.linalg.norm(mean))
+        assert np.allclose(way / span_s, mean, atol=0.001 + 0.01 * np.linalg.norm(mean))
         moved += np.linalg.norm(mean) > 1
-    assert moved >= 1, "something drives"
+    assert moved >= 2, "cars drive"

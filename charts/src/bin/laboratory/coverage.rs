@@ -40,8 +40,12 @@ impl Row {
         self.found.iter().filter(|[v, u]| (v - truth).abs() <= 2.0 * u).count()
     }
 
-    /// Whether the intervals hold the truth in less than 90 % of the seeds, as far as so many seeds tell (binomial, 2 σ).
-    pub(crate) fn broken(&self) -> Option<String> {
+    /// Whether the intervals hold the truth in less than 90 % of the seeds, as far as so many seeds tell (binomial, 2 σ). What less than half of the seeds tell is
+    /// told by chance (so many hot pixels in the picture that they have a share), and is no sample of what it is.
+    pub(crate) fn broken(&self, seeds: u64) -> Option<String> {
+        if 2 * (self.found.len() as u64) < seeds {
+            return None;
+        }
         let (count, held) = (self.found.len() as f64, self.held() as f64);
         let margin = 2.0 * (0.9 * 0.1 / count).sqrt();
         (held / count < 0.9 - margin).then(|| format!("{held} of {count}"))
@@ -58,6 +62,7 @@ Written by `just laboratory`: laboratory folders of the three reference cameras 
 photographed with SEEDS seeds, each with noise and a specimen of its own, and characterised. Held: in how many the stated 95 % interval (value ± 2 standard
 uncertainties) holds what the camera file declares; where it declares no number of this kind, the mean over the seeds (\"mean\"), which tells the
 scatter and no bias. Numbers that cannot be below 0 and whose truth is 0 are held more often than 95 %, as their intervals are one-sided there.
+What few seeds tell (\"of\") is told where by chance enough hot pixels lie in the picture, and then its share is not the mean one.
 ";
 
 pub(crate) fn table(name: &str, rows: &Rows) -> String {

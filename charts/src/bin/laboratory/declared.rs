@@ -8,7 +8,7 @@ use std::path::Path;
 
 const WAVELENGTH_NM: f64 = 550.0;
 /// What a measurement finds, the parameter that it is of, and the factor between them.
-const DECLARED: [(&str, &str, &str, f64); 16] = [
+const DECLARED: [(&str, &str, &str, f64); 17] = [
     ("ptc", "gain_dn_per_e", "sensor.gain_dn_per_e", 1.0),
     ("ptc", "dark_noise_e", "sensor.read_noise_e", 1.0),
     ("ptc", "dark_current_mean_e_per_s", "sensor.dark_current_e_s", 1.0),
@@ -19,6 +19,7 @@ const DECLARED: [(&str, &str, &str, f64); 16] = [
     ("ptc", "prnu_percent_pixel", "sensor.non_uniformity.prnu", 0.01),
     ("ptc", "prnu_percent_row", "sensor.non_uniformity.prnu_row", 0.01),
     ("ptc", "prnu_percent_column", "sensor.non_uniformity.prnu_column", 0.01),
+    ("calibrate", "fx_mm", "lens.principal_distance_mm", 1.0),
     ("calibrate", "fx_px", "lens.projection.fx_px", 1.0),
     ("calibrate", "fy_px", "lens.projection.fy_px", 1.0),
     ("calibrate", "cx_px", "lens.projection.cx_px", 1.0),

@@ -66,7 +66,8 @@ fn run(arguments: &[String]) -> Result<Vec<String>, Error> {
             eprintln!("{name}: seed {} of {seeds}", seed.seed);
         }
         page += &table(name, &rows);
-        broken.extend(rows.iter().filter_map(|(key, row)| row.broken().map(|why| format!("{name}: {key}: {why}"))));
+        broken
+            .extend(rows.iter().filter_map(|(key, row)| row.broken(seeds).map(|why| format!("{name}: {key}: {why}"))));
     }
     let file = folder.join("coverage.md");
     write_file(&file, page.as_bytes(), Existing::Replace)?;

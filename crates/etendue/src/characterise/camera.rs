@@ -221,7 +221,7 @@ impl Draft<'_> {
         self.measured(sensor, "sensor", "read_noise_e", f.dark_noise_e);
         self.or_stand_in(sensor, ("sensor", "dark_current_e_s"), electronics.dark_current_e_s, 0.0);
         self.measured(sensor, "sensor", "gain_dn_per_e", f.gain_dn_per_e);
-        self.measured(sensor, "sensor", "black_level_dn", f.dark_level_dn);
+        self.measured(sensor, "sensor", "black_level_dn", electronics.black_level_dn);
         match self.laboratory.camera.bits {
             Some(bits) => sensor.put("bits", bits),
             None if self.based => {}

@@ -25,6 +25,8 @@ const WHAT: &str = "gain, noise, dark current, capacity, DSNU, PRNU, defective p
 #[derive(Clone, Debug)]
 pub(super) struct Electronics {
     pub(super) figures: Figures,
+    /// With what of it is this specimen's.
+    pub(super) black_level_dn: Estimate,
     /// Of pixels that are not hot.
     pub(super) dark_current_e_s: Option<Estimate>,
     /// Whether light went as far as saturation.
@@ -66,8 +68,10 @@ pub(super) fn measure(
             .map(|e| (e, light.wavelength_nm.value)),
         None => None,
     };
+    let size = [groups[0].stack.width(), groups[0].stack.height()];
     let electronics = Electronics {
         figures: found.figures,
+        black_level_dn: black_level(&found.figures, patterns.as_ref(), size),
         dark_current_e_s: found
             .figures
             .dark_current_mean_e_per_s
@@ -150,6 +154,16 @@ fn cool(mean: Estimate, hot: Option<&Outliers>, pixels: usize) -> Estimate {
     Estimate::new(mean.value - hot.added_e_s, (u * u + specimen * specimen).sqrt())
 }
 
+/// The mean without light. Which pixels, rows and columns a specimen has, of all that are like it, is in the uncertainty.
+fn black_level(figures: &Figures, patterns: Option<&Nonuniformity>, [columns, rows]: [usize; 2]) -> Estimate {
+    let mean = figures.dark_level_dn;
+    let Some(Nonuniformity { dsnu_dn, .. }) = patterns else { return mean };
+    let part = |e: Estimate, count: usize| e.value * e.value / count as f64;
+    let specimen = part(dsnu_dn.pixel, columns * rows) + part(dsnu_dn.row, rows) + part(dsnu_dn.column, columns);
+    let u = mean.standard_uncertainty;
+    Estimate::new(mean.value, (u * u + specimen).sqrt())
+}
+
 /// Quantum efficiency of each channel: that of the measured one times how much brighter the channel is in the brightest frames that are not saturated.
 fn efficiency(selection: &Selection, flat: &[&Shot], found: &Found) -> Result<Vec<(&'static str, Estimate)>, Error> {
     let own = found.figures.quantum_efficiency;
@@ -182,7 +196,7 @@ impl Electronics {
         let from = Kind::Flat;
         findings.found(from, "sensor.gain_dn_per_e", "system gain K", "DN/e⁻", f.gain_dn_per_e);
         findings.found(Kind::Dark, "sensor.read_noise_e", "read noise", "e⁻", f.dark_noise_e);
-        findings.found(Kind::Dark, "sensor.black_level_dn", "black level", "DN", f.dark_level_dn);
+        findings.found(Kind::Dark, "sensor.black_level_dn", "black level", "DN", self.black_level_dn);
         match self.saturated {
             true => findings.found(from, "sensor.full_well_e", "saturation capacity", "e⁻", f.saturation_e),
             false => findings.unknown("saturation capacity", "the variance does not fall at the brightest level in flat/: saturation lies at or above it; expose longer"),

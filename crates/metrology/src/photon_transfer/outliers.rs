@@ -8,7 +8,7 @@
 //!
 //! Additional currents are taken to be exponential, as `hot` of a camera file is: m is the maximum of the likelihood where currents above C
 //! (saturated pixels) are known to be no less (censored, Deemer & Votaw 1955), and what lies below T is added by the same law. Uncertainty: of numbers n as
-//! √n, of m as m/√n_below. Fewer than five are counted and no share is told of them.
+//! √n, of m as m/√n_below. Pixels that touch in rows or columns, a saturated one among them, are one hot pixel whose charge ran over. Fewer than five are counted and no share is told of them.
 
 use super::Stack;
 use crate::Estimate;
@@ -56,10 +56,11 @@ pub fn hot_pixels(
     let spread_e_s = NORMAL * median(&mut off);
     let limit = middle + (6.0 * spread_e_s).max(10.0 * middle.max(0.0));
     let is_full = |i: usize| full_scale_dn.is_some_and(|full| long_dn[i] >= 0.98 * full);
-    let found: Vec<usize> = (0..currents.len()).filter(|i| currents[*i] > limit).collect();
+    let above: Vec<usize> = (0..currents.len()).filter(|i| currents[*i] > limit).collect();
+    let found = without_overflow(&above, long.width(), is_full);
     let below = found.iter().filter(|i| !is_full(**i)).count();
     let places = found.iter().map(|i| [i % long.width(), i / long.width()]).collect();
-    let added_e_s = found.iter().map(|i| currents[*i] - middle).sum::<f64>() / currents.len() as f64;
+    let added_e_s = above.iter().map(|i| currents[*i] - middle).sum::<f64>() / currents.len() as f64;
     let none = Outliers { places, share: None, mean_e_s: None, limit, added_e_s, spread_e_s };
     if below < FEWEST {
         return Some(none);
@@ -76,6 +77,40 @@ pub fn hot_pixels(
     let u_share = share * (1.0 / all + (limit * u_mean / (mean * mean)) * (limit * u_mean / (mean * mean))).sqrt();
     let (share, mean_e_s) = (Some(Estimate::new(share, u_share)), Some(Estimate::new(mean, u_mean)));
     Some(Outliers { share, mean_e_s, ..none })
+}
+
+/// Of pixels (rising places, row by row) that touch in rows or columns, where a saturated one is among them, that alone: what the others have ran over from it.
+fn without_overflow(above: &[usize], width: usize, is_full: impl Fn(usize) -> bool) -> Vec<usize> {
+    let mut found = Vec::new();
+    let mut seen = vec![false; above.len()];
+    for start in 0..above.len() {
+        if core::mem::replace(&mut seen[start], true) {
+            continue;
+        }
+        let (mut group, mut next) = (vec![start], 0);
+        while let Some(at) = group.get(next).map(|member| above[*member]) {
+            let column = at % width;
+            let beside = [
+                (column > 0).then(|| at - 1),
+                (column + 1 < width).then_some(at + 1),
+                at.checked_sub(width),
+                Some(at + width),
+            ];
+            for member in beside.into_iter().flatten().filter_map(|place| above.binary_search(&place).ok()) {
+                if !core::mem::replace(&mut seen[member], true) {
+                    group.push(member);
+                }
+            }
+            next += 1;
+        }
+        let places = group.into_iter().map(|member| above[member]);
+        match places.clone().find(|place| is_full(*place)) {
+            Some(source) => found.push(source),
+            None => found.extend(places),
+        }
+    }
+    found.sort_unstable();
+    found
 }
 
 /// Dead pixels, by the averages of stacks with light and without.
@@ -130,6 +165,20 @@ mod tests {
         // A hundredth of the pixels adds 20 e⁻/s; what saturates is cut.
         assert!((15.0..20.0).contains(&found.added_e_s) && found.spread_e_s < 0.2, "{found:?}");
         assert!((mean.value / 2000.0 - 1.0).abs() < 0.02 && mean.standard_uncertainty < 120.0, "{mean:?}");
+    }
+
+    #[test]
+    fn charge_that_ran_over_is_one_hot_pixel() {
+        let mut long = vec![65.0; 2000];
+        // Five lone ones, and one whose column it filled: two full pixels, two half full ones.
+        [5, 99, 430, 931, 1900].iter().for_each(|i| long[*i] = 800.0);
+        [(1010, 4095.0), (1030, 4095.0), (990, 1500.0), (1050, 2300.0)].iter().for_each(|(i, v)| long[*i] = *v);
+        let found = hot_pixels((&stack(&long, 20), 2.5), (&stack(&[64.0; 2000], 20), 0.5), 0.5, Some(4095.0));
+        let found = found.expect("two exposures");
+        assert_eq!(found.places, [[5, 0], [19, 4], [10, 21], [11, 46], [10, 50], [0, 95]]);
+        // The charge is there, wherever it was made.
+        let added = (5.0 * 735.0 + 2.0 * 4030.0 + 1435.0 + 2235.0) / 2000.0;
+        assert!((found.added_e_s - added).abs() < 1e-9, "{}", found.added_e_s);
     }
 
     #[test]
