@@ -1,7 +1,7 @@
 //! What a camera file declares of what is found.
 
 use etendue::measure::{CompareRequest, compare};
-use etendue::{Error, Existing, write_file};
+use etendue::{Error, Existing, open_camera, write_file};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -27,13 +27,6 @@ const DECLARED: [(&str, &str, &str, f64); 17] = [
     ("calibrate", "k1", "lens.projection.k1", 1.0),
     ("calibrate", "k2", "lens.projection.k2", 1.0),
 ];
-/// Numbers of the camera file that are parameters themselves, by their place in it.
-const WRITTEN: [(&[&str], &str); 4] = [
-    (&["sensor", "full_well_e"], "sensor.full_well_e"),
-    (&["sensor", "black_level_dn"], "sensor.black_level_dn"),
-    (&["sensor", "dark", "hot", "share"], "sensor.dark.hot.share"),
-    (&["sensor", "dark", "hot", "mean_e_s"], "sensor.dark.hot.mean_e_s"),
-];
 /// Of the reference cameras' files themselves: thin lenses without diffraction, and pixels that exchange nothing.
 const NOTHING: [&str; 4] = [
     "effects.psf.variance_horizontal_px2",
@@ -58,15 +51,19 @@ pub(crate) fn declared(place: &Path, measurements: &Value) -> Result<BTreeMap<St
     Ok(declared)
 }
 
+/// Numbers of the camera file that are parameters themselves.
 fn written(file: &Path) -> Result<BTreeMap<String, f64>, Error> {
-    let text = std::fs::read_to_string(file).map_err(Error::run)?;
-    let camera: toml::Table = toml::from_str(&text).map_err(Error::run)?;
-    let camera = toml::Value::Table(camera);
-    let number = |path: &[&str]| {
-        let value = path.iter().try_fold(&camera, |table, key| table.get(key))?;
-        value.as_float().or_else(|| value.as_integer().map(|n| n as f64))
-    };
-    Ok(WRITTEN.iter().filter_map(|(path, key)| Some(((*key).to_owned(), number(path)?))).collect())
+    let body = open_camera(file, &[])?;
+    let sensor = body.sensor.ok_or_else(|| Error::run("the reference cameras have sensors"))?;
+    let p = sensor.parameters();
+    let mut found = vec![
+        ("sensor.full_well_e", p.charge.full_well.capacity_e),
+        ("sensor.black_level_dn", p.read_out.black_level_dn),
+    ];
+    if let Some(hot) = p.charge.dark.hot {
+        found.extend([("sensor.dark.hot.share", hot.fraction), ("sensor.dark.hot.mean_e_s", hot.mean_e_s)]);
+    }
+    Ok(found.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
 }
 
 /// What the camera file declares of a measurement, by the measurement's names.
