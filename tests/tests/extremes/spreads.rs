@@ -22,8 +22,13 @@ fn behind_gaussian((side, margin): (usize, f64), sigma_px: f64, per_px: f64, spr
     let width = 2 * (6.0 * sigma_px * per_px) as usize + 1;
     let at = |i: usize| (DVec2::new((i % width) as f64, (i / width) as f64) - (width / 2) as f64) / per_px;
     let light = (0..width * width).map(|i| exp(-0.5 * at(i).length_squared() / (sigma_px * sigma_px)) as f32);
-    let image =
-        SpreadImageParameters { width, light: light.collect(), pitch_um: PITCH_UM / per_px, wavelength_nm: None };
+    let image = SpreadImageParameters {
+        width,
+        light: light.collect(),
+        pitch_um: PITCH_UM / per_px,
+        wavelength_nm: None,
+        deviation: None,
+    };
     let psf = PointSpread::Image(SpreadImage::new(image, &raster).expect("a picture"));
     let parameters =
         EffectsParameters { psf: Some(psf), spread_by: Some(spread_by), margin: Some(margin), ..Default::default() };

@@ -2,6 +2,7 @@
 
 use crate::black_boxes::{irradiance, job, plan};
 use crate::support::{etendue, text};
+use etendue_core::maths::f64::{atan2, exp, tan};
 use etendue_io::exr::{Samples, read_exr};
 use std::path::Path;
 
@@ -9,11 +10,11 @@ const FOCAL_MM: f64 = 6.0;
 
 /// What is modelled: a barrel of 0.08 tan² θ, or of 0.1 θ².
 fn distortion(theta: bool, angle: f64) -> f64 {
-    if theta { -0.1 * angle * angle } else { -0.08 * angle.tan() * angle.tan() }
+    if theta { -0.1 * angle * angle } else { -0.08 * tan(angle) * tan(angle) }
 }
 
 fn radius_mm(theta: bool, angle: f64) -> f64 {
-    FOCAL_MM * if theta { angle } else { angle.tan() } * (1.0 + distortion(theta, angle))
+    FOCAL_MM * if theta { angle } else { tan(angle) } * (1.0 + distortion(theta, angle))
 }
 
 /// An export of field curvature and distortion as OpticStudio writes it: two wavelengths, the other with none of it.
@@ -25,7 +26,7 @@ fn export(theta: bool, says_focal_length: bool) -> String {
         let row = |degrees: u32| {
             let degrees = f64::from(degrees);
             let angle = degrees.to_radians();
-            let reference = FOCAL_MM * if theta { angle } else { angle.tan() };
+            let reference = FOCAL_MM * if theta { angle } else { tan(angle) };
             let percent = 100.0 * share * distortion(theta, angle);
             let real = reference * (1.0 + 0.01 * percent);
             format!(" {degrees:.8}E+000  -1.0E-002  -2.0E-002  {real:.8}  {reference:.8}  {percent:.8} %\r\n")
@@ -60,7 +61,7 @@ fn angles(folder: &Path, job: &str) -> Vec<(f64, f64)> {
         samples[121..242].iter().map(|v| f64::from(*v)).collect::<Vec<_>>()
     };
     let [x, y, z] = ["direction.X", "direction.Y", "direction.Z"].map(axis);
-    (0..121).map(|i| ((x[i] * x[i] + y[i] * y[i]).sqrt().atan2(z[i]), (i as f64 - 60.0).abs() * 0.06)).collect()
+    (0..121).map(|i| (atan2((x[i] * x[i] + y[i] * y[i]).sqrt(), z[i]), (i as f64 - 60.0).abs() * 0.06)).collect()
 }
 
 #[test]
@@ -137,7 +138,8 @@ const EDGE_PX: f64 = 20.3;
 const SPREADS: [(f64, f64); 2] = [(0.7, 0.0055), (0.3, 0.012)];
 
 fn modulation(f: f64) -> f64 {
-    SPREADS.iter().map(|(share, sigma)| share * (-2.0 * (std::f64::consts::PI * sigma * f).powi(2)).exp()).sum()
+    let of = |sigma: f64| std::f64::consts::PI * sigma * f;
+    SPREADS.iter().map(|(share, sigma)| share * exp(-2.0 * of(*sigma) * of(*sigma))).sum()
 }
 
 /// An export of modulation: the diffraction limit, the axis with tangential and sagittal 0.02 apart, and another field.
@@ -188,7 +190,8 @@ fn edges_have_the_modulation_of_the_table() {
     let normal = |x: f64| {
         let steps = 4000;
         let step = (x + 8.0) / f64::from(steps);
-        let density = |i: i32| (-0.5 * (step.mul_add(f64::from(i) + 0.5, -8.0)).powi(2)).exp();
+        let at = |i: i32| step * (f64::from(i) + 0.5) - 8.0;
+        let density = |i: i32| exp(-0.5 * at(i) * at(i));
         (0..steps).map(density).sum::<f64>() * step / (2.0 * std::f64::consts::PI).sqrt()
     };
     let expected = |row: usize| {

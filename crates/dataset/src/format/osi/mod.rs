@@ -143,7 +143,7 @@ mod tests {
 
     #[test]
     fn angles_turn_back_to_the_rotation() {
-        let angles = [[0.3, -0.2, 0.1], [-3.0, 1.2, -2.0], [0.7, 0.0, 0.0], [0.4, 1.570_796_326_794_896_6, 0.0]];
+        let angles = [[0.3, -0.2, 0.1], [-3.0, 1.2, -2.0], [0.7, 0.0, 0.0], [0.4, core::f64::consts::FRAC_PI_2, 0.0]];
         for [yaw, pitch, roll] in angles {
             let turned = DMat3::from_rotation_z(yaw) * DMat3::from_rotation_y(pitch) * DMat3::from_rotation_x(roll);
             let [y, p, r] = yaw_pitch_roll(&turned);
