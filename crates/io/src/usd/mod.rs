@@ -7,9 +7,9 @@
 //! Composed are sublayers, references, payloads, inherits, specialises, variants (as selected in the files) and instances, which are copies here. Classes,
 //! overs without a definition, and what is inactive are no prims of the tree.
 //!
-//! Limits, as a file may lie about its sizes and `openusd` believes it: crates are walked before they are parsed ([`crate_bounds`]), texts are measured
-//! ([`text_bounds`]), packages are told apart here and must not be compressed, as their specification has it ([`package`]), and classes
-//! must not inherit from one another in a circle ([`arcs`]). What layers, and values of the
+//! Limits, as a file may lie about its sizes and `openusd` believes it: crates are walked before they are parsed (`crate_bounds`), texts are measured
+//! (`text_bounds`), packages are told apart here and must not be compressed, as their specification has it (`package`), and classes
+//! must not inherit from one another in a circle (`arcs`). What layers, and values of the
 //! tree, unpack to is limited by `mesh-mib`; prims are at most 100 000, 64 deep. Where `openusd` panics over what is damaged, the file is refused.
 
 mod arcs;
