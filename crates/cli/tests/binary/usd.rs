@@ -357,6 +357,7 @@ fn damaged_scenes_of_usd_are_refused_and_nothing_is_written() {
             "or in a circle",
         ),
         (&deep, "more than 64 deep"),
+        ("def Sphere \"B}lb\" {}\n", "line 2: a prim whose name has braces"),
         (
             "class \"a\" (inherits = </b>) {}\nclass \"b\" (specializes = </a>) {}\ndef \"c\" (inherits = </a>) {}\n",
             "in a circle",

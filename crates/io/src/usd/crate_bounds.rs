@@ -6,7 +6,7 @@
 //! without end; all of that is done here first, on a budget.
 
 use super::bytes::Bytes;
-use super::text_bounds::check_expression;
+use super::text_bounds::{check_expression, is_balanced};
 use etendue_scene::limits;
 
 /// LZ4 packs at most so many bytes into one, as its specification has lengths.
@@ -22,6 +22,8 @@ pub(super) struct Crate<'a> {
     pub(super) version: [u8; 3],
     /// Lengths of tokens, bytes.
     pub(super) tokens: Vec<u64>,
+    /// Whether tokens can be parts of paths.
+    in_paths: Vec<bool>,
     /// Tokens of strings.
     pub(super) strings: Vec<u32>,
     /// Lengths of paths, bytes.
@@ -50,7 +52,15 @@ pub(super) fn check_crate(bytes: &[u8]) -> Result<(), String> {
         reader.u64()?;
     }
     let section = |name: &str| sections.iter().find(|(own, _)| *own == name.as_bytes()).map(|(_, start)| *start);
-    let mut own = Crate { bytes, version, tokens: Vec::new(), strings: Vec::new(), paths: Vec::new(), spent: 0 };
+    let mut own = Crate {
+        bytes,
+        version,
+        tokens: Vec::new(),
+        in_paths: Vec::new(),
+        strings: Vec::new(),
+        paths: Vec::new(),
+        spent: 0,
+    };
     if let Some(start) = section("TOKENS") {
         own.read_tokens(start)?;
     }
@@ -141,6 +151,7 @@ impl<'a> Crate<'a> {
         let texts = self.unpacked(&mut reader, size)?;
         for token in texts.strip_suffix(&[0]).unwrap_or(&texts).split(|byte| *byte == 0) {
             check_expression(token)?;
+            self.in_paths.push(is_balanced(token));
             self.tokens.push(token.len() as u64);
         }
         Ok(())
@@ -185,6 +196,10 @@ impl<'a> Crate<'a> {
                     None => 1,
                     Some(parent) => {
                         let token = elements[at].unsigned_abs() as usize;
+                        // Braces that are no variant's lead `openusd` round.
+                        if self.in_paths.get(token) != Some(&true) {
+                            return Err(fault());
+                        }
                         parent + 1 + self.tokens.get(token).ok_or_else(fault)?
                     }
                 };
@@ -260,8 +275,9 @@ mod tests {
     fn paths_that_lead_round_are_refused() {
         let walked = |jumps: &[i32]| {
             let (indices, elements): (Vec<i32>, Vec<i32>) = (0..jumps.len() as i32).map(|i| (i, 0)).unzip();
-            let (tokens, paths) = (vec![1], vec![0; jumps.len()]);
-            let mut own = Crate { bytes: &[], version: [0, 8, 0], tokens, strings: Vec::new(), paths, spent: 0 };
+            let (tokens, paths, strings) = (vec![1], vec![0; jumps.len()], Vec::new());
+            let in_paths = vec![true];
+            let mut own = Crate { bytes: &[], version: [0, 8, 0], tokens, in_paths, strings, paths, spent: 0 };
             own.walk_paths([&indices, &elements, jumps]).map(|()| own.paths)
         };
         // The root, a child with a child of its own, its sibling.

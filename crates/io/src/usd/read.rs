@@ -18,9 +18,9 @@ const MAX_PRIMS: usize = 100_000;
 const MAX_DEPTH: usize = 64;
 /// What could not be composed is told so often.
 const MAX_NOTES: usize = 50;
-/// What a composed prim takes, and each layer and arc that says something of it, bytes.
+/// What a composed prim takes, and each arc by which something is said of it, bytes.
 const PRIM: u64 = 4096;
-const NODE: u64 = 2048;
+const NODE: u64 = 16_384;
 /// What an attribute takes beside its value, bytes.
 const OVERHEAD: u64 = 256;
 
@@ -122,7 +122,8 @@ impl Reading<'_> {
         }
         let kind = prim.type_name().map_err(words)?.map(|kind| kind.as_str().to_owned()).unwrap_or_default();
         let schemas = prim.api_schemas().map_err(words)?.iter().map(|schema| schema.as_str().to_owned()).collect();
-        self.spend(PRIM + NODE * prim.prim_stack().map_err(words)?.len() as u64)?;
+        let nodes = prim.prim_index().graph().map_err(words)?.all_nodes().count().saturating_sub(1);
+        self.spend(PRIM + NODE * nodes as u64)?;
         let mut relations = BTreeMap::new();
         for relation in prim.relationships().map_err(words)? {
             let targets = relation.targets().map_err(words)?;

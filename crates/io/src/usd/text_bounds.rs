@@ -1,35 +1,71 @@
-//! How deep a text layer is nested: `openusd` goes down with it on the stack.
+//! What a text layer may not have, as `openusd` does not come to an end with it: deep nesting, with which it goes down on the stack; lists in lists, which
+//! it tries over and over; braces in paths that are not a variant's.
 
-/// Brackets within one another, and those of an expression in a string.
+/// Braces within one another, and brackets of an expression in a string.
 const MAX_DEPTH: usize = 64;
+/// Lists, and tuples, within one another: matrices in an array have three.
+const MAX_LISTS: usize = 8;
 
-/// Refuses a text that is nested too deep.
+/// Refuses a text that is nested too deep, or has an impossible path.
 pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
-    let (mut depth, mut at) = (0_usize, 0);
+    // Of braces, parentheses, brackets.
+    let (mut depths, mut at) = ([0_usize; 3], 0);
+    let line = |at: usize| 1 + text[..at].iter().filter(|byte| **byte == b'\n').count();
     while at < text.len() {
-        match text[at] {
-            b'#' => at += text[at..].iter().position(|byte| *byte == b'\n').unwrap_or(text.len() - at),
-            quote @ (b'"' | b'\'' | b'@') => {
+        let opens = [b"{}", b"()", b"[]"].iter().position(|pair| pair.contains(&text[at]));
+        match (text[at], opens) {
+            (b'#', _) => at += text[at..].iter().position(|byte| *byte == b'\n').unwrap_or(text.len() - at),
+            (quote @ (b'"' | b'\'' | b'@'), _) => {
                 let (end, inner) = quoted(text, at, quote);
                 check_expression(inner)?;
+                if names_prim(&text[..at]) && !is_balanced(inner) {
+                    return Err(format!("line {}: a prim whose name has braces", line(at)));
+                }
                 at = end;
                 continue;
             }
-            b'{' | b'(' | b'[' => {
-                depth += 1;
-                if depth > MAX_DEPTH {
-                    let line = 1 + text[..at].iter().filter(|byte| **byte == b'\n').count();
-                    return Err(format!(
-                        "line {line}: prims and values stand more than {MAX_DEPTH} deep in one another"
-                    ));
+            (b'<', _) => {
+                let end =
+                    text[at..].iter().position(|byte| matches!(byte, b'>' | b'\n')).map_or(text.len(), |n| at + n);
+                if !is_balanced(&text[at..end]) {
+                    return Err(format!("line {}: a path whose braces are no variant's", line(at)));
+                }
+                at = end;
+            }
+            (b'{' | b'(' | b'[', Some(kind)) => {
+                depths[kind] += 1;
+                let most = if kind == 0 { MAX_DEPTH } else { MAX_LISTS };
+                if depths[kind] > most {
+                    let told = format!("prims and values stand more than {most} deep in one another");
+                    return Err(format!("line {}: {told}", line(at)));
                 }
             }
-            b'}' | b')' | b']' => depth = depth.saturating_sub(1),
+            (_, Some(kind)) => depths[kind] = depths[kind].saturating_sub(1),
             _ => {}
         }
         at += 1;
     }
     Ok(())
+}
+
+/// Whether every brace that is closed was opened, and every one that was opened is closed.
+pub(super) fn is_balanced(text: &[u8]) -> bool {
+    let mut depth = 0_usize;
+    for byte in text {
+        match byte {
+            b'{' => depth += 1,
+            b'}' if depth == 0 => return false,
+            b'}' => depth -= 1,
+            _ => {}
+        }
+    }
+    depth == 0
+}
+
+/// Whether what is quoted behind a text is the name of a prim: `def`, `over` or `class` is before it, and at most a type between.
+fn names_prim(before: &[u8]) -> bool {
+    let mut words = before.rsplit(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).take(2);
+    words.any(|word| [&b"def"[..], b"over", b"class"].iter().any(|known| word.ends_with(known)))
 }
 
 /// Where what is quoted from `at` on ends, and what stands within.
@@ -75,6 +111,13 @@ mod tests {
     #[test]
     fn brackets_count_where_they_are_no_text() {
         let nested = |open: &str, close: &str| format!("{}{}", open.repeat(65), close.repeat(65));
+        assert!(check_text("[".repeat(9).as_bytes()).is_err() && check_text("[]".repeat(9).as_bytes()).is_ok());
+        for path in ["def Sphere \"B}lb\"", "def \"{\"", "rel a = </a}b>", "over\n'}'"] {
+            assert!(check_text(path.as_bytes()).is_err(), "{path}");
+        }
+        for path in ["def \"a\" { string b = \"}\" }", "rel a = </a{v=x}b>", "string doc = \"a } b\""] {
+            assert!(check_text(path.as_bytes()).is_ok(), "{path}");
+        }
         assert!(check_text(nested("{", "}").as_bytes()).is_err());
         assert!(check_text(nested("{}", "").as_bytes()).is_ok());
         for plain in ["# \n", "\" \"", "'''\n'''", "@ @"] {
