@@ -51,7 +51,7 @@ oracles:
 validate *cameras:
     cargo run --release -q -p etendue-validation --bin validate -- {{cameras}}
 
-# How often the intervals of characterise hold the truth, over 50 seeds (hours): writes target/laboratory/coverage.md
+# How often the intervals of characterise hold the truth, over 50 seeds (an hour; --resume goes on): writes target/laboratory/coverage.md
 laboratory *arguments:
     cargo run --release -q -p etendue-validation --bin laboratory -- {{arguments}}
 
