@@ -48,7 +48,9 @@ fn what_was_found_is_mended() -> Result<(), Vec<String>> {
             count += 1;
         }
     }
+    // Findings of a reader that is not built in are not read.
     let stored = fs::read_dir(found::folder()).expect("found").flatten();
+    let stored = stored.filter(|folder| cfg!(feature = "usd") || folder.file_name() != "usd");
     let files = stored.flat_map(|folder| fs::read_dir(folder.path()).into_iter().flatten()).count();
     assert_eq!(count, files, "every folder of fuzz/found is that of a target");
     none(faults)

@@ -8,6 +8,8 @@ mod results;
 mod scenes;
 mod seeds;
 mod target;
+#[cfg(feature = "usd")]
+mod usd;
 
 pub use target::Target;
 
@@ -27,8 +29,10 @@ pub const TARGETS: &[Target] = &[
     assets::PLY,
     scenes::PBRT,
     scenes::MITSUBA,
-    scenes::USD,
-    scenes::USDZ,
+    #[cfg(feature = "usd")]
+    usd::USD,
+    #[cfg(feature = "usd")]
+    usd::USDZ,
     scenes::GLTF_SCENE,
     assets::MTL,
     assets::MESH_FRAME,

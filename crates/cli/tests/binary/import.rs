@@ -284,3 +284,15 @@ fn scenes_of_pbrt_are_those_of_our_own_words() {
         assert_eq!(ran.status, 1, "{name}: more light is found: {}", ran.out);
     }
 }
+
+/// What reads it brings a library that compresses PNGs otherwise, so that it is no part of what is tested by default (`just usd`).
+#[cfg(not(feature = "usd"))]
+#[test]
+fn stages_of_usd_need_a_program_that_is_built_for_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    etendue(["import", &text(&crate::support::root().join("scenes/import/table.usda")), "-o", &text(&out)])
+        .refused(&["table.usda", "--features usd"]);
+    assert!(!out.exists());
+    etendue_testkit::skip::skipped("usd", "the reader of USD is not built in; just usd runs its tests");
+}

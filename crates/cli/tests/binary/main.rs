@@ -65,6 +65,7 @@ mod support;
 mod textures;
 mod tradeoff;
 mod truths;
+#[cfg(feature = "usd")]
 mod usd;
 mod vertex_animation;
 mod view;
