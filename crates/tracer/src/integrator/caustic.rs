@@ -43,6 +43,11 @@ impl History {
         self.least
     }
 
+    /// Whether the path comes straight from the camera, or by mirrors alone.
+    pub(super) fn is_seen(self) -> bool {
+        self.least == f32::INFINITY
+    }
+
     /// Whether the path has been scattered by anything but smooth surfaces.
     pub(super) fn is_matt(self) -> bool {
         self.matt

@@ -244,8 +244,8 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         let transmits = E::SURFACES && vertex.bsdf.transmits();
         let normal = if transmits { Vec3::ZERO } else { vertex.frame.normal() };
         let gloss = if !E::SURFACES || transmits { None } else { self.gloss(vertex) };
-        let receiver =
-            LightSampleContext { position: vertex.point.position, normal, gloss, time_s: vertex.point.time_s };
+        let (position, time_s) = (vertex.point.position, vertex.point.time_s);
+        let receiver = LightSampleContext { position, normal, gloss, in_view: self.history.is_seen(), time_s };
         self.sample_direct(vertex, &receiver);
         match self.sample(vertex) {
             None => PathStep::Ends,

@@ -73,7 +73,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         let values = Spectral(phase.values(from, direction, self.wavelengths));
         self.scattered = None;
         if self.tracer.settings.level != Level::Flat && !self.is_spent() {
-            let receiver = LightSampleContext { position, normal: Vec3::ZERO, gloss: None, time_s: self.ray.time_s };
+            let receiver = LightSampleContext::in_medium(position, self.ray.time_s);
             self.beyond_particle = true;
             self.sample_direct_in_medium(&receiver, phase, false);
             self.scattered = Some(density);

@@ -56,7 +56,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             return;
         }
         let position = self.ray.at(t);
-        let receiver = LightSampleContext { position, normal: Vec3::ZERO, gloss: None, time_s: self.ray.time_s };
+        let receiver = LightSampleContext::in_medium(position, self.ray.time_s);
         let Some(light) = lights.of_lamp(&lamp, &receiver, (self.wavelengths, self.lit())) else { return };
         let mut way = self.ray;
         way.t_max = t;
@@ -80,7 +80,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// The same; `asked_along` as of [`Path::sample_direct_in_medium`].
     pub(super) fn scatter_by_phase(&mut self, position: Vec3, phase: &Phase, asked_along: bool) -> PathStep {
         let from = self.ray.direction;
-        let receiver = LightSampleContext { position, normal: Vec3::ZERO, gloss: None, time_s: self.ray.time_s };
+        let receiver = LightSampleContext::in_medium(position, self.ray.time_s);
         self.sample_direct_in_medium(&receiver, phase, asked_along);
         let stream = &self.asked.stream;
         let (choice, u) =

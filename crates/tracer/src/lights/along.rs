@@ -199,7 +199,7 @@ impl Lights {
     fn seen_from(&self, lamp: &Along, ray: &Ray, share: f32, seen: impl Fn(f32, Vec3) -> f32) -> f32 {
         let t = lamp.angles.place(share);
         let place = ray.at(t);
-        let receiver = LightSampleContext { position: place, normal: Vec3::ZERO, gloss: None, time_s: ray.time_s };
+        let receiver = LightSampleContext::in_medium(place, ray.time_s);
         let irradiance = match &self.lights[lamp.light] {
             Light::Lamp(lamp) => lamp.irradiance(&receiver).plain,
             Light::Carried(lamp) => lamp.irradiance(&receiver).plain,

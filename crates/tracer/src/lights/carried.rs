@@ -162,7 +162,7 @@ impl Carriage {
     /// A receiver's place and normal.
     fn place_of(&self, receiver: &LightSampleContext) -> LightSampleContext {
         let (position, normal) = (self.point_back(receiver.position), self.direction_back(receiver.normal));
-        LightSampleContext { position, normal, gloss: None, time_s: receiver.time_s }
+        LightSampleContext { position, normal, gloss: None, ..*receiver }
     }
 
     /// What of a surface point an opening looks at.

@@ -78,7 +78,8 @@ fn lights_drawn_without_regard_to_gloss_give_the_same() {
         let (gloss, irradiance) = (by(LightSampling::Gloss), by(LightSampling::Irradiance));
         agree(&irradiance, &gloss);
         let ratio = irradiance.standard_error() / gloss.standard_error();
-        assert!(ratio > 0.9, "{name}: {ratio}");
+        // Where all lamps are told apart both ways are exact to ten thousandths, whatever their ratio.
+        assert!(ratio > 0.9 || gloss.standard_error() < 1e-4 * gloss.mean, "{name}: {ratio}, {gloss:?}");
         noisier += u32::from(ratio > 2.0);
     }
     assert!(noisier >= 2, "{noisier} surfaces mirror lamps here");

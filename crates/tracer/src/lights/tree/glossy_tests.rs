@@ -43,7 +43,7 @@ fn receiver(surface: &Surface, position: Vec3, to_viewer: Vec3) -> Option<(Light
         let wi = frame.inward(towards);
         wi.map_or(0.0, |wi| of(&table, &|bsdf| bsdf.evaluate(frame.wo, wi).value_cos.mean()))
     };
-    Some((LightSampleContext { position, normal: Vec3::Z, gloss, time_s: 0.0 }, scattered))
+    Some((LightSampleContext { gloss, ..LightSampleContext::matt(position, Vec3::Z) }, scattered))
 }
 
 /// Directions of viewers: steep, slanting and grazing.

@@ -15,8 +15,8 @@
 //! and Egbert 2005) takes another half to nine tenths off the variance of direct light alone, but with bounces costs more
 //! time than it saves (0.141 → 0.194, 0.247, 0.340 variance × µs for two, three, four of 50 lamps): left out.
 //!
-//! A glossy receiver's lobes raise the estimates (`lights/gloss.rs`), and it chooses from a finer cut of the tree ([`cut`]);
-//! docs/decisions/light-choice.md has the figures.
+//! A glossy receiver's lobes raise the estimates (`lights/gloss.rs`), and it chooses from a finer cut of the tree, as does a matt one in view
+//! ([`cut`]); docs/decisions/light-choice.md has the figures.
 
 mod bounds;
 mod build;

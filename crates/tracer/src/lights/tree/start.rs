@@ -16,7 +16,7 @@ pub(in crate::lights) enum Start {
     Only,
     /// The root's children, by their weights.
     Root([f32; LANES]),
-    /// For a glossy receiver: lights and clusters of a cut.
+    /// For a glossy receiver, or one in view: lights and clusters of a cut.
     Cut(Cut),
 }
 
@@ -28,8 +28,9 @@ impl LightTree {
             return Start::Only;
         }
         match &question.receiver.gloss {
+            Some(gloss) => Start::Cut(self.glossy_cut(question, gloss)),
+            None if question.receiver.in_view => Start::Cut(self.matt_cut(question)),
             None => Start::Root(self.weights(0, question)),
-            Some(gloss) => Start::Cut(self.cut(question, gloss)),
         }
     }
 }
