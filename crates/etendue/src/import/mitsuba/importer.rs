@@ -5,7 +5,7 @@ use super::camera;
 use crate::import::scenery::{Graphics, KnownTexture, Scenery};
 use crate::import::written::{ImportedCamera, Written, written};
 use etendue_io::Error;
-use etendue_io::mitsuba::MitsubaElement;
+use etendue_io::mitsuba::{MitsubaElement, MitsubaScene};
 use etendue_scene::record::Transform;
 use etendue_scene::record::medium::{Everywhere, MediumShape};
 use std::collections::HashMap;
@@ -29,12 +29,13 @@ pub(super) struct Importer<'a> {
     /// Names of media, by the numbers of their elements; empty for what is not understood.
     pub(super) media: HashMap<usize, Rc<str>>,
     cameras: Vec<ImportedCamera>,
-    /// Where files are sought that are not beside the scene, those of later `<path>` first.
-    folders: Vec<PathBuf>,
+    /// Where files are sought, in this order.
+    folders: &'a [PathBuf],
 }
 
 impl<'a> Importer<'a> {
-    pub(super) fn new(file: &Path, folder: &Path, root: &'a MitsubaElement) -> Result<Self, Error> {
+    pub(super) fn new(file: &Path, folder: &Path, scene: &'a MitsubaScene) -> Result<Self, Error> {
+        let root = &scene.root;
         let mut importer = Self {
             scenery: Scenery::new(file, folder),
             ids: HashMap::new(),
@@ -43,9 +44,8 @@ impl<'a> Importer<'a> {
             pictured: HashMap::new(),
             media: HashMap::new(),
             cameras: Vec::new(),
-            folders: Vec::new(),
+            folders: &scene.folders,
         };
-        importer.take_folders(root)?;
         importer.collect(root)?;
         importer.aliases(root)?;
         importer.take_cameras(root)?;
@@ -59,15 +59,6 @@ impl<'a> Importer<'a> {
     pub(super) fn at(&mut self, element: &MitsubaElement) {
         let file = element.place.file.file_name().unwrap_or_default().to_string_lossy();
         self.scenery.report.at(format!("{file}:{}", element.place.line));
-    }
-
-    fn take_folders(&mut self, root: &'a MitsubaElement) -> Result<(), Error> {
-        for element in all(root, "path") {
-            let name = element.attribute("value").ok_or_else(|| element.fault("<path> without \"value\""))?;
-            let beside = element.place.file.parent().unwrap_or(Path::new(""));
-            self.folders.insert(0, beside.join(name));
-        }
-        Ok(())
     }
 
     fn collect(&mut self, element: &'a MitsubaElement) -> Result<(), Error> {
@@ -123,9 +114,8 @@ impl<'a> Importer<'a> {
 
     /// The path of a file that the scene file names.
     pub(super) fn file(&self, name: &str) -> PathBuf {
-        let beside = self.scenery.source_folder.join(name);
-        let mut others = self.folders.iter().map(|folder| folder.join(name));
-        if beside.is_file() { beside } else { others.find(|path| path.is_file()).unwrap_or(beside) }
+        let found = self.folders.iter().map(|folder| folder.join(name)).find(|path| path.is_file());
+        found.unwrap_or_else(|| self.scenery.source_folder.join(name))
     }
 
     /// The path of a file as the written scene names it.
@@ -195,7 +185,7 @@ impl<'a> Importer<'a> {
                 self.scenery.report.note(told);
             }
             // Cameras are read; what has an id stands here to be referred to.
-            "sensor" | "path" | "alias" | "bsdf" | "texture" | "spectrum" | "medium" | "volume" | "phase" | "film"
+            "sensor" | "alias" | "bsdf" | "texture" | "spectrum" | "medium" | "volume" | "phase" | "film"
             | "rfilter" | "rgb" => {}
             // Parameters, as <default> of other versions.
             tag => self.scenery.report.note(format!("<{tag}> of the scene itself is not used")),
