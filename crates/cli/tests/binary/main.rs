@@ -49,6 +49,7 @@ mod limits;
 mod measures;
 mod memory_that_fails;
 mod mitsuba;
+mod normal_maps;
 mod plan_json;
 mod plans;
 mod point_lists;

@@ -22,6 +22,8 @@ pub(super) struct Importer<'a> {
     ids: HashMap<&'a str, &'a MitsubaElement>,
     /// Names of ours of surfaces, by the numbers of their elements.
     pub(super) surfaces: HashMap<usize, Rc<str>>,
+    /// Names of ours of surfaces with a normal map, and of the same with its green down where there is one.
+    pub(super) bumpy: HashMap<Rc<str>, Option<Rc<str>>>,
     /// What textures became, by the numbers of their elements and whether they hold numbers that are no colours.
     pub(super) textures: HashMap<(usize, bool), KnownTexture>,
     /// Whether pictures lie on shapes and surfaces, by the numbers of their elements.
@@ -40,6 +42,7 @@ impl<'a> Importer<'a> {
             scenery: Scenery::new(file, folder),
             ids: HashMap::new(),
             surfaces: HashMap::new(),
+            bumpy: HashMap::new(),
             textures: HashMap::new(),
             pictured: HashMap::new(),
             media: HashMap::new(),

@@ -11,6 +11,7 @@ mod bsdf;
 mod camera;
 mod emitter;
 mod envmap;
+mod green;
 mod importer;
 mod medium;
 mod plastic;
