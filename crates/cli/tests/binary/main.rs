@@ -40,6 +40,7 @@ mod hostile;
 mod hostile_outputs;
 mod identity;
 mod import;
+mod import_opacity;
 mod interrupted;
 mod kenney;
 mod killed;

@@ -2,6 +2,7 @@
 
 use super::access::text;
 use super::importer::{Importer, MAX_DEPTH};
+use super::usage::Use;
 use crate::import::scenery::{INTERFACE, KnownTexture, grey, plain};
 use etendue_io::Error;
 use etendue_io::mitsuba::MitsubaElement;
@@ -160,7 +161,7 @@ impl<'a> Importer<'a> {
         let Some(texture) = found.first() else {
             return Err(element.fault("a \"normalmap\" without a <texture>"));
         };
-        let normal_map = match self.texture(texture, true)? {
+        let normal_map = match self.texture(texture, Use::Data)? {
             KnownTexture::Picture { name, .. } => Some(NormalMap::new(name.as_str())),
             KnownTexture::Even(_) => None,
         };

@@ -2,6 +2,7 @@
 
 use super::access::all;
 use super::camera;
+use super::usage::Use;
 use crate::import::scenery::{Graphics, KnownTexture, Scenery};
 use crate::import::written::{ImportedCamera, Written, written};
 use etendue_io::Error;
@@ -24,8 +25,8 @@ pub(super) struct Importer<'a> {
     pub(super) surfaces: HashMap<usize, Rc<str>>,
     /// Names of ours of surfaces with a normal map, and of the same with its green down where there is one.
     pub(super) bumpy: HashMap<Rc<str>, Option<Rc<str>>>,
-    /// What textures became, by the numbers of their elements and whether they hold numbers that are no colours.
-    pub(super) textures: HashMap<(usize, bool), KnownTexture>,
+    /// What textures became, by the numbers of their elements and what they are for.
+    pub(super) textures: HashMap<(usize, Use), KnownTexture>,
     /// Whether pictures lie on shapes and surfaces, by the numbers of their elements.
     pub(super) pictured: HashMap<usize, bool>,
     /// Names of media, by the numbers of their elements; empty for what is not understood.

@@ -20,6 +20,7 @@ mod shape;
 mod solids;
 mod texture;
 mod transform;
+mod usage;
 mod value;
 
 use super::written::Written;
