@@ -107,7 +107,7 @@ pub use expose::{ExposeRequest, expose};
 pub use fault::Fault;
 pub use film_memory::FilmMemory;
 pub use flat::{FlatRequest, FlatSource, flat};
-pub use import::import;
+pub use import::{ImportRequest, import};
 pub use integrator::Integrator;
 pub use job::{Job, JobRequest};
 pub use laboratory::{LaboratoryRequest, laboratory};

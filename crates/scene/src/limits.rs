@@ -49,10 +49,10 @@ pub static PICTURE: Limit = Limit::new(
 pub static CORNERS: Limit =
     Limit::new("mesh-corners", "corners of all faces of a mesh together", 1 << 28, u32::MAX as u64);
 
-/// What meshes unpack to whose nodes repeat them.
+/// What meshes unpack to whose nodes repeat them, and scenes that are imported.
 pub static MESH: Limit = Limit::new(
     "mesh-mib",
-    "MiB that a glTF file may unpack to on its way to a mesh: nodes may show a mesh many times, primitives share vertices, materials pictures; text of a pbrt scene with what it includes, and what is written of it",
+    "MiB that a glTF file may unpack to on its way to a mesh: nodes may show a mesh many times, primitives share vertices, materials pictures; that a layer of a USD stage may unpack to, and the tree of its values; text of a pbrt scene with what it includes; what is written of a scene of pbrt, Mitsuba or USD",
     4096,
     1 << 20,
 );

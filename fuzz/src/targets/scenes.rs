@@ -7,7 +7,8 @@ use std::path::Path;
 
 pub(super) fn imported(file: &Path) -> String {
     let made = file.with_file_name("made");
-    told(etendue::import(file, (&made, etendue::Existing::Replace), &etendue::Unobserved))
+    let request = etendue::ImportRequest { file: file.to_path_buf(), ..Default::default() };
+    told(etendue::import(&request, (&made, etendue::Existing::Replace), &etendue::Unobserved))
 }
 
 const PBRT_WORDS: &[&str] = &[

@@ -217,6 +217,29 @@ fn ray_transfer_files_that_cannot_be_used_are_told() {
     plan(folder.path(), &pupil).refused(&["route", "ray-transfer lens"]);
 }
 
+/// The published functions as those of two wavelengths.
+#[test]
+fn functions_of_several_wavelengths_are_read_in_any_order() {
+    let (folder, (file, _)) = (tempfile::tempdir().expect("a folder"), published());
+    let mut whole: Value = serde_json::from_str(&std::fs::read_to_string(file).expect("the file")).expect("JSON");
+    let published = whole["polynomials"].clone();
+    let published = if published.is_array() { published[0].clone() } else { published };
+    let [mut blue, mut red] = [published.clone(), published];
+    (blue["wavelength_nm"], red["wavelength_nm"]) = (450.into(), 650.into());
+    let sensor = "width_px = 9, height_px = 9, pixel_pitch_um = 900";
+    let mut told = |first: &Value, second: &Value| {
+        whole["polynomials"] = serde_json::json!([first, second]);
+        std::fs::write(folder.path().join("lens.json"), whole.to_string()).expect("written");
+        plan(folder.path(), &job("", sensor, &transferred("lens.json", 57.315), 2))
+    };
+    let orders = [told(&red, &blue).ok().out, told(&blue, &red).ok().out];
+    for said in orders {
+        let phrase = "fitted to 2 wavelengths from 450 to 650 nm, linear between them and held beyond";
+        assert!(said.contains(phrase), "no {phrase} in\n{said}");
+    }
+    told(&red, &red).refused(&["lens.json:", "the wavelength 650 nm is there twice"]);
+}
+
 /// The cameras that ship with such lenses. ISET has this lens's film for infinity at 57.315 mm.
 #[test]
 fn shipped_cameras_are_measured_as_their_files_say() {

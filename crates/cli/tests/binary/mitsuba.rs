@@ -4,6 +4,7 @@
 //! with their standard errors. A unit of Mitsuba's is 1 cd/m² here.
 
 use crate::support::{etendue, root, text};
+use etendue_io::mesh::read_mesh;
 use etendue_io::picture::read_picture;
 use etendue_scene::asset::ImagePixels;
 use serde_json::Value;
@@ -31,7 +32,7 @@ fn stored(name: &str) -> Boxes {
 }
 
 /// The pixels of a radiance file by its preview, linear sRGB in cd/m².
-fn pixels(file: &Path) -> (usize, Vec<[f64; 3]>) {
+pub(crate) fn pixels(file: &Path) -> (usize, Vec<[f64; 3]>) {
     let image = read_picture(file).expect("a picture");
     let ImagePixels::Rgb32F(pixels) = image.pixels else { panic!("linear colours are expected") };
     (image.width as usize, pixels.iter().map(|p| p.map(f64::from)).collect())
@@ -287,4 +288,37 @@ fn lights_without_a_surface_are_black_and_blends_of_blends_are_quick() {
     assert!(scene.contains("reflectance = 0\n") || scene.contains("reflectance = 0.0"), "{scene}");
     assert!(scene.contains("0.25"), "{scene}");
     etendue(["plan", &text(&place.path().join("made/job.toml"))]).ok();
+}
+
+/// As Mitsuba's own -D; and a mesh is sought where a `<path>` leads before it is sought beside the scene, as Mitsuba 3.9.1 does.
+#[test]
+fn parameters_take_values_of_the_command_line_and_paths_lead_to_meshes() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let (file, made) = (place.path().join("a.xml"), text(&place.path().join("made")));
+    fs::create_dir(place.path().join("store")).expect("made");
+    let mesh = |size: f64| format!("v 0 0 0\nv {size} 0 0\nv 0 {size} 0\nf 1 2 3\n");
+    fs::write(place.path().join("m.obj"), mesh(1.0)).expect("written");
+    fs::write(place.path().join("store/m.obj"), mesh(9.0)).expect("written");
+    let body = "<path value=\"store\"/><default name=\"r\" value=\"2\"/>\
+        <shape type=\"sphere\"><float name=\"radius\" value=\"$r\"/></shape>\
+        <shape type=\"obj\"><string name=\"filename\" value=\"m.obj\"/></shape>";
+    fs::write(&file, format!("<scene version=\"3.0.0\">\n{body}</scene>")).expect("written");
+    for (given, radius) in [(&[][..], "2"), (&["-Dr=5"][..], "5"), (&["-D", "r=7"], "7"), (&["--define", "r=3"], "3")] {
+        etendue(["import", &text(&file), "-o", &made, "--overwrite"].iter().chain(given)).ok();
+        let scene = fs::read_to_string(place.path().join("made/scene.toml")).expect("a scene");
+        assert!(scene.contains(&format!("radius_m = {radius}")), "{given:?}: {scene}");
+        let mesh = read_mesh(&place.path().join("made/meshes/mesh.ply")).expect("a mesh");
+        let size = mesh.positions.iter().flatten().fold(0.0_f32, |size, c| size.max(c.abs()));
+        assert_eq!(size, 9.0, "a <path> goes before what lies beside the scene");
+    }
+    fs::remove_dir_all(&made).expect("removed");
+    let refused = |file: &Path, given: &[&str], phrases: &[&str]| {
+        etendue(["import", &text(file), "-o", &made].iter().chain(given)).refused(phrases);
+        assert!(!place.path().join("made").exists(), "{given:?}: nothing is written");
+    };
+    refused(&file, &["-Dq=1"], &["a.xml: ", "\"q\", and no \"$q\" stands in the scene: it names $r"]);
+    refused(&file, &["-Dr=1", "-Dr=2"], &["a.xml: ", "two values"]);
+    refused(&file, &["-Dr=wide"], &["a.xml:2: ", "\"wide\" where a number is expected"]);
+    refused(&file, &["-Dr"], &["NAME=VALUE"]);
+    refused(&root().join("scenes/import/box.pbrt"), &["-Dr=1"], &["box.pbrt: ", "only scenes of Mitsuba"]);
 }

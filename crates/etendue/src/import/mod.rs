@@ -24,21 +24,45 @@ use written::Written;
 /// What is imported, by the endings of files.
 const KINDS: &str = ".glb, .gltf, .pbrt, .xml (Mitsuba), .usd, .usda, .usdc or .usdz";
 
+/// A scene of another program.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ImportRequest {
+    /// Its file.
+    pub file: PathBuf,
+    /// Values of parameters by their names, for scenes of Mitsuba: of each that the file names as `$name`, in place of its `<default>`.
+    pub parameters: Vec<(String, String)>,
+}
+
 /// Writes `scene.toml`, `job.toml` and what they need into a folder, of a scene of another program; answers with their paths. What was
 /// mapped to what and what was dropped stands at the head of the scene and goes to the observer.
 ///
 /// # Errors
-/// Where the file cannot be read or used, or the folder cannot be written.
+/// Where the file cannot be read or used, a parameter has no effect, or the folder cannot be written.
 pub fn import(
-    file: &Path,
+    request: &ImportRequest,
     (folder, existing): (&Path, Existing),
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
+    // The folder may be made by this: paths between files need it.
+    let from = std::path::absolute(folder).map_err(|cause| Error::input(format!("{}: {cause}", folder.display())))?;
+    let Written { files, report } = read(request, &from)?;
+    let mut folder = OutputFolder::open_beside(folder, existing).map_err(Error::input)?;
+    folder.claim(files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
+    for (name, bytes) in &files {
+        folder.write(name, bytes).map_err(Error::run)?;
+    }
+    report.iter().for_each(|line| observer.message(Message::Note(line)));
+    folder.commit().map_err(Error::run)
+}
+
+/// The files of a scene, whose paths lead from `folder`.
+fn read(request: &ImportRequest, folder: &Path) -> Result<Written, Error> {
+    let ImportRequest { file, parameters } = request;
     let ending = file.extension().unwrap_or_default().to_ascii_lowercase();
     let reader = match ending.to_str() {
+        Some("xml") => return mitsuba::imported(file, folder, parameters),
         Some("glb" | "gltf") => gltf::imported,
         Some("pbrt") => pbrt::imported,
-        Some("xml") => mitsuba::imported,
         #[cfg(feature = "usd")]
         Some("usd" | "usda" | "usdc" | "usdz") => usd::imported,
         #[cfg(not(feature = "usd"))]
@@ -48,16 +72,13 @@ pub fn import(
             return Err(Error::input(format!("{shown}: not a scene that is imported; expected a file of {KINDS}")));
         }
     };
-    // The folder may be made by this: paths between files need it.
-    let from = std::path::absolute(folder).map_err(|cause| Error::input(format!("{}: {cause}", folder.display())))?;
-    let Written { files, report } = reader(file, &from)?;
-    let mut folder = OutputFolder::open_beside(folder, existing).map_err(Error::input)?;
-    folder.claim(files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
-    for (name, bytes) in &files {
-        folder.write(name, bytes).map_err(Error::run)?;
+    match parameters.first() {
+        None => reader(file, folder),
+        Some((name, _)) => Err(Error::input(format!(
+            "{}: a value is given to the parameter \"{name}\", and only scenes of Mitsuba (.xml) have parameters: leave it out",
+            file.display()
+        ))),
     }
-    report.iter().for_each(|line| observer.message(Message::Note(line)));
-    folder.commit().map_err(Error::run)
 }
 
 /// What is said of a scene whose reader is not built in.

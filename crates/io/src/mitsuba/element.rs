@@ -1,7 +1,7 @@
 //! Elements and where they stand.
 
 use std::cell::Cell;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use crate::Error;
@@ -30,6 +30,15 @@ pub struct MitsubaElement {
     pub number: usize,
     /// Whether anyone has looked at it.
     pub used: Cell<bool>,
+}
+
+/// A scene file with all that it includes.
+#[derive(Clone, Debug)]
+pub struct MitsubaScene {
+    /// Its root, a `<scene>`.
+    pub root: MitsubaElement,
+    /// The folders in which files are sought that its elements name, in this order.
+    pub folders: Vec<PathBuf>,
 }
 
 impl MitsubaElement {

@@ -1,16 +1,17 @@
 //! XML to elements.
 
 use std::cell::Cell;
-use std::collections::{BTreeSet, HashMap};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::rc::Rc;
 
 use etendue_scene::limits;
 use roxmltree::{Document, Node};
 
-use super::element::{MitsubaElement, MitsubaPlace};
+use super::element::{MitsubaElement, MitsubaPlace, MitsubaScene};
+use super::folders::Folders;
 use super::lines::Lines;
 use super::names::{TAGS, modern, shortened};
+use super::parameters::Parameters;
 use crate::source::{decode_text, read_description_bytes};
 use crate::{Error, Sandbox};
 
@@ -18,22 +19,14 @@ use crate::{Error, Sandbox};
 const MAX_INCLUDES: usize = 16;
 /// Elements within one another.
 const MAX_DEPTH: usize = 64;
-/// Folders that `<path>` leads to: every file is sought in all of them.
-const MAX_FOLDERS: usize = 64;
-/// Bytes of a parameter's name.
-const MAX_NAME: usize = 64;
 
 /// What is known while files are read.
 pub(super) struct Reading<'a> {
-    /// Where included files are sought behind the folder of the file that includes them: that of the first file, then those of `<path>`.
-    folders: Vec<PathBuf>,
+    folders: Folders,
     sandbox: &'a Sandbox,
     /// Of all files so far.
     bytes: u64,
-    /// Parameters and their values.
-    defaults: HashMap<String, String>,
-    /// How long their names are.
-    lengths: BTreeSet<usize>,
+    parameters: Parameters,
     count: usize,
 }
 
@@ -54,19 +47,20 @@ impl OpenFile {
 }
 
 impl<'a> Reading<'a> {
-    pub(super) fn new(file: &Path, sandbox: &'a Sandbox) -> Self {
-        let folder = file.parent().unwrap_or(Path::new("")).to_owned();
-        let (defaults, lengths) = (HashMap::new(), BTreeSet::new());
-        Self { folders: vec![folder], sandbox, bytes: 0, defaults, lengths, count: 0 }
+    pub(super) fn new(file: &Path, given: &[(String, String)], sandbox: &'a Sandbox) -> Result<Self, String> {
+        let parameters = Parameters::given(given)?;
+        Ok(Self { folders: Folders::beside(file), sandbox, bytes: 0, parameters, count: 0 })
     }
 
-    /// The root of the first file.
-    pub(super) fn root(&mut self, file: &Path) -> Result<MitsubaElement, Error> {
+    /// The scene of the first file.
+    pub(super) fn scene(mut self, file: &Path) -> Result<MitsubaScene, Error> {
         let root = self.file(file, 0)?;
-        match root.tag {
-            "scene" => Ok(root),
-            tag => Err(root.fault(format!("<{tag}> where a whole scene is expected: a file whose root is <scene>"))),
+        if root.tag != "scene" {
+            let tag = root.tag;
+            return Err(root.fault(format!("<{tag}> where a whole scene is expected: a file whose root is <scene>")));
         }
+        self.parameters.check_used().map_err(|told| Error::new(file, told))?;
+        Ok(MitsubaScene { root, folders: self.folders.all() })
     }
 
     fn file(&mut self, file: &Path, includes: usize) -> Result<MitsubaElement, Error> {
@@ -108,7 +102,8 @@ impl<'a> Reading<'a> {
         let attributes = node
             .attributes()
             .map(|attribute| {
-                let value = self.with_parameters(attribute.value()).map_err(|told| file.fault(node, told))?;
+                let value = self.parameters.put_in(attribute.value(), &mut self.bytes);
+                let value = value.map_err(|told| file.fault(node, told))?;
                 let is_parameter = attribute.name() == "name" && !matches!(tag, "default" | "alias" | "include");
                 let value = if file.is_old && is_parameter { modern(&value) } else { value };
                 Ok((attribute.name().into(), value.into()))
@@ -148,15 +143,15 @@ impl<'a> Reading<'a> {
         match element.tag {
             "default" => {
                 let (name, value) = (needed("name")?, needed("value")?);
-                if name.is_empty() {
-                    return Err(element.fault("<default> without a name"));
-                }
-                if name.len() > MAX_NAME {
-                    let told = format!("<default> with a name of {} bytes; expected {MAX_NAME} at most", name.len());
-                    return Err(element.fault(told));
-                }
-                self.lengths.insert(name.len());
-                self.defaults.entry(name).or_insert(value);
+                self.parameters.default(name, value).map_err(|told| element.fault(told))?;
+            }
+            "path" if depth > 0 => {
+                return Err(element.fault("<path> within another element; expected it in the scene itself"));
+            }
+            "path" => {
+                let is_folder = |path: &Path| self.sandbox.check(path).map(|()| path.is_dir());
+                let added = self.folders.add(&needed("value")?, &file.path, is_folder);
+                added.map_err(|told| element.fault(told))?;
             }
             "include" => {
                 let included = self.included(&needed("filename")?, &element, file)?;
@@ -165,57 +160,23 @@ impl<'a> Reading<'a> {
                     _ => siblings.push(included),
                 }
             }
-            tag => {
-                if tag == "path" {
-                    if self.folders.len() > MAX_FOLDERS {
-                        return Err(element.fault(format!("more than {MAX_FOLDERS} <path>; expected fewer folders")));
-                    }
-                    self.folders.push(beside(&file.path).join(needed("value")?));
-                }
-                siblings.push(element);
-            }
+            _ => siblings.push(element),
         }
         Ok(())
     }
 
     fn included(&mut self, name: &str, at: &MitsubaElement, file: &OpenFile) -> Result<MitsubaElement, Error> {
-        let sought = || std::iter::once(beside(&file.path)).chain(self.folders.iter().map(PathBuf::as_path));
-        let path = sought().map(|folder| folder.join(name)).find(|path| path.is_file());
-        let path = path.unwrap_or_else(|| self.folders[0].join(name));
+        let mark = self.folders.begin(&file.path);
+        let path = self.folders.find(name);
         self.sandbox.check(&path).map_err(|why| at.fault(format!("<include filename=\"{name}\">: {why}")))?;
         if file.includes + 1 >= MAX_INCLUDES {
             let told = format!("files include one another more than {MAX_INCLUDES} deep; include less, or each once");
             return Err(at.fault(told));
         }
-        self.file(&path, file.includes + 1)
+        let included = self.file(&path, file.includes + 1);
+        self.folders.end(&mark);
+        included
     }
-
-    /// A value with the parameters that it names (`$spp`) in their places, the longest names first.
-    fn with_parameters(&mut self, value: &str) -> Result<String, String> {
-        let mut made = String::new();
-        let mut rest = value;
-        while let Some((before, after)) = rest.split_once('$') {
-            made.push_str(before);
-            let mut names = self.lengths.iter().rev().filter_map(|length| after.get(..*length));
-            let Some((name, value)) = names.find_map(|name| self.defaults.get_key_value(name)) else {
-                let word: String = after.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-                let word = shortened(&word);
-                return Err(format!("no <default name=\"{word}\" …> stands before \"${word}\": add it, with a value"));
-            };
-            made.push_str(value);
-            rest = &after[name.len()..];
-            // What parameters of parameters make counts as text that is read.
-            self.bytes += value.len().max(1) as u64;
-            limits::DESCRIPTION.check_unpacked(self.bytes)?;
-        }
-        made.push_str(rest);
-        Ok(made)
-    }
-}
-
-/// The folder of a file.
-fn beside(file: &Path) -> &Path {
-    file.parent().unwrap_or(Path::new(""))
 }
 
 /// What colours a `diffuse` of a version before 2, by its name of today.

@@ -17,6 +17,7 @@ mod prescription;
 mod psf;
 mod pupil_image;
 mod pupil_views;
+mod ray_transfer;
 mod sample_spread;
 mod spots;
 mod spread_image;

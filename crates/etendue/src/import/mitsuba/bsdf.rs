@@ -2,6 +2,7 @@
 
 use super::access::text;
 use super::importer::{Importer, MAX_DEPTH};
+use super::usage::Use;
 use crate::import::scenery::{INTERFACE, KnownTexture, grey, plain};
 use etendue_io::Error;
 use etendue_io::mitsuba::MitsubaElement;
@@ -39,6 +40,9 @@ impl<'a> Importer<'a> {
                 let wish = element.attribute("id").unwrap_or(element.kind());
                 let own = self.scenery.names.take(wish, "material");
                 let normal_map = normal_map.filter(|_| !matches!(surface, Surface::Mix(_)));
+                if normal_map.is_some() {
+                    self.normal_mapped.insert(own.as_str().into(), None);
+                }
                 self.scenery.scene.materials.push(Material {
                     opacity,
                     normal_map,
@@ -157,10 +161,7 @@ impl<'a> Importer<'a> {
         let Some(texture) = found.first() else {
             return Err(element.fault("a \"normalmap\" without a <texture>"));
         };
-        self.scenery.report.note(
-            "green of a \"normalmap\" points up in its picture here; in Mitsuba it follows v, and points down on a rectangle and a PLY file: set y = \"down\" there",
-        );
-        let normal_map = match self.texture(texture, true)? {
+        let normal_map = match self.texture(texture, Use::Data)? {
             KnownTexture::Picture { name, .. } => Some(NormalMap::new(name.as_str())),
             KnownTexture::Even(_) => None,
         };
@@ -199,6 +200,9 @@ impl<'a> Importer<'a> {
         let name = self.bsdf(element, depth + 1)?;
         let materials = &self.scenery.scene.materials;
         let Some(found) = materials.iter().find(|m| m.name.value == *name) else { return Ok(None) };
+        if found.normal_map.is_some() {
+            self.scenery.report.note("green of a \"normalmap\" within a blend points up in its picture; set y = \"down\" where the picture lies mirrored");
+        }
         if found.opacity.is_none() {
             return Ok(Some(name));
         }

@@ -2,10 +2,11 @@
 
 use super::access::all;
 use super::camera;
+use super::usage::Use;
 use crate::import::scenery::{Graphics, KnownTexture, Scenery};
 use crate::import::written::{ImportedCamera, Written, written};
 use etendue_io::Error;
-use etendue_io::mitsuba::MitsubaElement;
+use etendue_io::mitsuba::{MitsubaElement, MitsubaScene};
 use etendue_scene::record::Transform;
 use etendue_scene::record::medium::{Everywhere, MediumShape};
 use std::collections::HashMap;
@@ -22,30 +23,33 @@ pub(super) struct Importer<'a> {
     ids: HashMap<&'a str, &'a MitsubaElement>,
     /// Names of ours of surfaces, by the numbers of their elements.
     pub(super) surfaces: HashMap<usize, Rc<str>>,
-    /// What textures became, by the numbers of their elements and whether they hold numbers that are no colours.
-    pub(super) textures: HashMap<(usize, bool), KnownTexture>,
+    /// Names of ours of surfaces with a normal map, and of the same with its green down where there is one.
+    pub(super) normal_mapped: HashMap<Rc<str>, Option<Rc<str>>>,
+    /// What textures became, by the numbers of their elements and what they are for.
+    pub(super) textures: HashMap<(usize, Use), KnownTexture>,
     /// Whether pictures lie on shapes and surfaces, by the numbers of their elements.
     pub(super) pictured: HashMap<usize, bool>,
     /// Names of media, by the numbers of their elements; empty for what is not understood.
     pub(super) media: HashMap<usize, Rc<str>>,
     cameras: Vec<ImportedCamera>,
-    /// Where files are sought that are not beside the scene, those of later `<path>` first.
-    folders: Vec<PathBuf>,
+    /// Where files are sought, in this order.
+    folders: &'a [PathBuf],
 }
 
 impl<'a> Importer<'a> {
-    pub(super) fn new(file: &Path, folder: &Path, root: &'a MitsubaElement) -> Result<Self, Error> {
+    pub(super) fn new(file: &Path, folder: &Path, scene: &'a MitsubaScene) -> Result<Self, Error> {
+        let root = &scene.root;
         let mut importer = Self {
             scenery: Scenery::new(file, folder),
             ids: HashMap::new(),
             surfaces: HashMap::new(),
+            normal_mapped: HashMap::new(),
             textures: HashMap::new(),
             pictured: HashMap::new(),
             media: HashMap::new(),
             cameras: Vec::new(),
-            folders: Vec::new(),
+            folders: &scene.folders,
         };
-        importer.take_folders(root)?;
         importer.collect(root)?;
         importer.aliases(root)?;
         importer.take_cameras(root)?;
@@ -59,15 +63,6 @@ impl<'a> Importer<'a> {
     pub(super) fn at(&mut self, element: &MitsubaElement) {
         let file = element.place.file.file_name().unwrap_or_default().to_string_lossy();
         self.scenery.report.at(format!("{file}:{}", element.place.line));
-    }
-
-    fn take_folders(&mut self, root: &'a MitsubaElement) -> Result<(), Error> {
-        for element in all(root, "path") {
-            let name = element.attribute("value").ok_or_else(|| element.fault("<path> without \"value\""))?;
-            let beside = element.place.file.parent().unwrap_or(Path::new(""));
-            self.folders.insert(0, beside.join(name));
-        }
-        Ok(())
     }
 
     fn collect(&mut self, element: &'a MitsubaElement) -> Result<(), Error> {
@@ -123,9 +118,8 @@ impl<'a> Importer<'a> {
 
     /// The path of a file that the scene file names.
     pub(super) fn file(&self, name: &str) -> PathBuf {
-        let beside = self.scenery.source_folder.join(name);
-        let mut others = self.folders.iter().map(|folder| folder.join(name));
-        if beside.is_file() { beside } else { others.find(|path| path.is_file()).unwrap_or(beside) }
+        let found = self.folders.iter().map(|folder| folder.join(name)).find(|path| path.is_file());
+        found.unwrap_or_else(|| self.scenery.source_folder.join(name))
     }
 
     /// The path of a file as the written scene names it.
@@ -195,7 +189,7 @@ impl<'a> Importer<'a> {
                 self.scenery.report.note(told);
             }
             // Cameras are read; what has an id stands here to be referred to.
-            "sensor" | "path" | "alias" | "bsdf" | "texture" | "spectrum" | "medium" | "volume" | "phase" | "film"
+            "sensor" | "alias" | "bsdf" | "texture" | "spectrum" | "medium" | "volume" | "phase" | "film"
             | "rfilter" | "rgb" => {}
             // Parameters, as <default> of other versions.
             tag => self.scenery.report.note(format!("<{tag}> of the scene itself is not used")),

@@ -11,6 +11,7 @@ mod bsdf;
 mod camera;
 mod emitter;
 mod envmap;
+mod green;
 mod importer;
 mod medium;
 mod plastic;
@@ -19,6 +20,7 @@ mod shape;
 mod solids;
 mod texture;
 mod transform;
+mod usage;
 mod value;
 
 use super::written::Written;
@@ -28,7 +30,7 @@ use etendue_io::mitsuba::read_mitsuba;
 use importer::Importer;
 use std::path::Path;
 
-pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
-    let root = read_mitsuba(file, &Sandbox::NONE).map_err(Error::input)?;
-    Importer::new(file, folder, &root).and_then(|importer| importer.finish(file)).map_err(Error::input)
+pub(super) fn imported(file: &Path, folder: &Path, given: &[(String, String)]) -> Result<Written, Error> {
+    let scene = read_mitsuba(file, given, &Sandbox::NONE).map_err(Error::input)?;
+    Importer::new(file, folder, &scene).and_then(|importer| importer.finish(file)).map_err(Error::input)
 }

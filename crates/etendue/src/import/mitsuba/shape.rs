@@ -57,16 +57,16 @@ impl<'a> Importer<'a> {
         match kind {
             "obj" | "ply" => self.mesh_file(element, graphics)?,
             "rectangle" if has_picture || graphics.to_world.matrix3.determinant() < 0.0 => {
-                self.scenery.mesh(rectangle(), &graphics).map_err(told)?;
+                self.mesh(rectangle(), &graphics).map_err(told)?;
             }
             "rectangle" => self.scenery.quad([2.0; 2], &graphics),
-            "cube" => self.scenery.mesh(cube(), &graphics).map_err(told)?,
+            "cube" => self.mesh(cube(), &graphics).map_err(told)?,
             "cylinder" => {
                 let ends = [vector(element, "p0", DVec3::ZERO)?, vector(element, "p1", DVec3::Z)?];
                 let mesh = cylinder(ends, number(element, "radius", 1.0)?)
                     .ok_or_else(|| told("a cylinder without extent".to_owned()))?;
                 self.scenery.report.note("a cylinder is a mesh of 128 sides");
-                self.scenery.mesh(mesh, &graphics).map_err(told)?;
+                self.mesh(mesh, &graphics).map_err(told)?;
             }
             "sphere" => {
                 let (centre, radius) =
@@ -189,6 +189,6 @@ impl<'a> Importer<'a> {
         let is_turned = mesh.normals.is_empty() && graphics.to_world.matrix3.determinant() < 0.0;
         let reverse_orientation = graphics.reverse_orientation != is_turned;
         let graphics = Graphics { reverse_orientation, ..graphics };
-        self.scenery.mesh(mesh, &graphics).map_err(|told| element.fault(told))
+        self.mesh(mesh, &graphics).map_err(|told| element.fault(told))
     }
 }

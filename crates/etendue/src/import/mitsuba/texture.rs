@@ -3,16 +3,19 @@
 use super::access::{flag, stated, text};
 use super::importer::Importer;
 use super::transform::transform_of;
+use super::usage::Use;
 use super::value::Value;
 use crate::import::scenery::{KnownTexture, grey};
 use etendue_io::Error;
 use etendue_io::Provenance;
 use etendue_io::exr::{Layer, encode_layers};
 use etendue_io::mitsuba::MitsubaElement;
+use etendue_io::picture::read_picture;
 use etendue_scene::record::material::factor::FactorTexture;
 use etendue_scene::record::material::{Factor, Metal};
 use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_scene::record::{Colour, Reflectance, Texture};
+use etendue_spectra::colour::luma;
 use etendue_spectra::{Outside, Spectrum};
 
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
@@ -24,15 +27,15 @@ struct Laid {
 }
 
 impl<'a> Importer<'a> {
-    /// What a texture became; numbers that are no colours, as normals, where `is_data`.
-    pub(super) fn texture(&mut self, element: &'a MitsubaElement, is_data: bool) -> Result<KnownTexture, Error> {
-        if let Some(known) = self.textures.get(&(element.number, is_data)) {
+    /// What a texture became.
+    pub(super) fn texture(&mut self, element: &'a MitsubaElement, usage: Use) -> Result<KnownTexture, Error> {
+        if let Some(known) = self.textures.get(&(element.number, usage)) {
             return Ok(known.clone());
         }
         self.at(element);
         let kind = element.kind();
         let made = match kind {
-            "bitmap" => self.bitmap(element, is_data)?,
+            "bitmap" => self.bitmap(element, usage)?,
             "checkerboard" => self.checkerboard(element)?,
             _ => None,
         };
@@ -42,7 +45,7 @@ impl<'a> Importer<'a> {
             KnownTexture::Even([0.5; 3])
         });
         self.note_unused(element);
-        self.textures.insert((element.number, is_data), known.clone());
+        self.textures.insert((element.number, usage), known.clone());
         Ok(known)
     }
 
@@ -62,7 +65,7 @@ impl<'a> Importer<'a> {
         Ok(Some(Laid { scale: [su, sv], offset: [tu, 1.0 - sv - tv] }))
     }
 
-    fn bitmap(&mut self, element: &'a MitsubaElement, is_data: bool) -> Result<Option<KnownTexture>, Error> {
+    fn bitmap(&mut self, element: &'a MitsubaElement, usage: Use) -> Result<Option<KnownTexture>, Error> {
         let file = text(element, "filename")?.ok_or_else(|| element.fault("a bitmap without \"filename\""))?;
         let ending = file.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
         if !ENDINGS.contains(&ending.as_str()) {
@@ -71,10 +74,10 @@ impl<'a> Importer<'a> {
             return Ok(None);
         }
         let is_raw = flag(element, "raw", false)?;
-        let encoding = match (is_data, is_raw || matches!(ending.as_str(), "hdr" | "exr")) {
-            (true, _) => Encoding::Data,
-            (false, true) => Encoding::Linear,
-            (false, false) => Encoding::Srgb,
+        let encoding = match (usage, is_raw || matches!(ending.as_str(), "hdr" | "exr")) {
+            (Use::Data, _) => Encoding::Data,
+            (_, true) => Encoding::Linear,
+            (_, false) => Encoding::Srgb,
         };
         let wrap = match text(element, "wrap_mode")?.unwrap_or("repeat") {
             "repeat" => Wrap::Repeat,
@@ -90,6 +93,13 @@ impl<'a> Importer<'a> {
             self.scenery.report.note("a picture that is turned or mirrored by \"to_uv\" is not understood");
             return Ok(None);
         };
+        if (usage, encoding) == (Use::Numbers, Encoding::Srgb)
+            && let Ok(image) = read_picture(&self.file(file))
+        {
+            let path = self.scenery.numbers_file(&image, element.attribute("id").unwrap_or("texture"), luma);
+            let path = path.map_err(|told| element.fault(told))?;
+            return Ok(Some(self.picture(element, &path, Encoding::Data, wrap, &laid)));
+        }
         let path = self.path(file);
         Ok(Some(self.picture(element, &path, encoding, wrap, &laid)))
     }
@@ -150,7 +160,7 @@ impl<'a> Importer<'a> {
     ) -> Result<Reflectance, Error> {
         let value = self.value(element, name)?.unwrap_or(Value::Number(default));
         let texture = match value {
-            Value::Texture(texture) => self.texture(texture, false)?,
+            Value::Texture(texture) => self.texture(texture, Use::Colours)?,
             Value::Number(v) | Value::Even(v) => {
                 let share = self.scenery.cut(name, v);
                 return Ok(Reflectance::Plain(Colour::Grey(map(share).into())));
@@ -212,7 +222,7 @@ impl<'a> Importer<'a> {
                 self.scenery.report.note(format!("\"{name}\" of a colour is the mean of its numbers"));
                 rgb.iter().sum::<f64>() / 3.0
             }),
-            Some(Value::Texture(texture)) => match self.texture(texture, false)? {
+            Some(Value::Texture(texture)) => match self.texture(texture, Use::Numbers)? {
                 KnownTexture::Even(rgb) => rgb[0],
                 KnownTexture::Picture { name, .. } => return Ok(Factor::Texture(FactorTexture::new(name.as_str()))),
             },

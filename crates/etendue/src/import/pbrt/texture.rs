@@ -10,9 +10,20 @@ use etendue_scene::record::material::{Channel, Factor};
 use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_scene::record::{Colour, Reflectance, Texture};
 
-/// Whether a picture says how much of it is there.
+/// Whether a picture says how much of it is there: one that is there all over has no opacity, as in pbrt.
 fn has_opacity(image: &ImageAsset) -> bool {
-    matches!(image.pixels, ImagePixels::Rgba8(_) | ImagePixels::Rgba32F(_))
+    match &image.pixels {
+        ImagePixels::Rgba8(pixels) => pixels.iter().any(|pixel| pixel[3] != u8::MAX),
+        ImagePixels::Rgba32F(pixels) => pixels.iter().any(|pixel| pixel[3] != 1.0),
+        _ => false,
+    }
+}
+
+/// A texture's file as the written scene names it, and what its numbers are.
+struct PictureFile {
+    path: String,
+    encoding: Encoding,
+    has_alpha: bool,
 }
 
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
@@ -101,17 +112,31 @@ impl Scenery {
         }
         let scale = parameters.number("scale", 1.0)?;
         let own = self.names.take(name, "texture");
-        let path = self.path_of(file);
+        let PictureFile { path, encoding, has_alpha } = match is_colour {
+            true => PictureFile { path: self.path_of(file), encoding, has_alpha: false },
+            false => self.numbers_picture(name, file, encoding)?,
+        };
         self.scene.textures.push(Texture {
             wrap: Some(wrap.into()),
             uv_scale: Some(uv_scale.into()),
             uv_offset: Some(uv_offset.into()),
             ..Texture::new(own.as_str(), path.as_str(), encoding)
         });
-        // pbrt takes the opacity of a picture that has one as its number, as leaves are cut out. A picture that cannot be read is told by the plan.
-        let has_alpha =
-            !is_colour && read_picture(&self.source_folder.join(file)).is_ok_and(|image| has_opacity(&image));
         Ok(Some(KnownTexture::Picture { name: own, scale, has_alpha }))
+    }
+
+    /// A picture of numbers: its opacity where it has one, as leaves are cut out, else the mean of its colours, which are written anew where they are
+    /// encoded. A picture that cannot be read is told by the plan.
+    fn numbers_picture(&mut self, name: &str, file: &str, encoding: Encoding) -> Result<PictureFile, String> {
+        let image = read_picture(&self.source_folder.join(file)).ok();
+        let has_alpha = image.as_ref().is_some_and(has_opacity);
+        match image.filter(|_| encoding == Encoding::Srgb && !has_alpha) {
+            Some(image) => {
+                let path = self.numbers_file(&image, name, |rgb| rgb.iter().sum::<f32>() / 3.0)?;
+                Ok(PictureFile { path, encoding: Encoding::Data, has_alpha })
+            }
+            None => Ok(PictureFile { path: self.path_of(file), encoding, has_alpha }),
+        }
     }
 
     fn scaled(&self, is_colour: bool, parameters: Parameters<'_>) -> Result<Option<KnownTexture>, String> {

@@ -6,6 +6,7 @@ mod environment;
 mod known;
 mod light_picture;
 mod media;
+mod numbers;
 mod objects;
 mod report;
 mod share;
@@ -21,6 +22,8 @@ pub(super) use environment::linear_pixels;
 pub(super) use environment::resampled;
 pub(super) use known::{Homogeneous, INTERFACE, KnownTexture};
 pub(super) use light_picture::LightPicture;
+#[cfg(feature = "usd")]
+pub(super) use numbers::stored_pixels;
 pub(super) use objects::above_zero;
 pub(super) use report::Report;
 pub(super) use share::grey;

@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 use std::path::Path;
 
 /// Triangles as a file has them.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(in crate::import) struct Triangles {
     pub(in crate::import) positions: Vec<[f64; 3]>,
     pub(in crate::import) normals: Vec<[f64; 3]>,

@@ -2,12 +2,12 @@
 
 use super::importer::Importer;
 use super::network::Input;
-use crate::import::scenery::KnownTexture;
+use crate::import::scenery::{KnownTexture, stored_pixels};
 use etendue_io::Provenance;
 use etendue_io::exr::{Layer, encode_layers};
 use etendue_io::picture::{decode_picture, read_picture};
 use etendue_io::usd::{UsdAsset, UsdFile, UsdPrim, UsdValue};
-use etendue_scene::asset::{ImageAsset, ImagePixels};
+use etendue_scene::asset::ImageAsset;
 use etendue_scene::record::Texture;
 use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_spectra::colour;
@@ -299,13 +299,5 @@ fn values(image: &ImageAsset, node: &PictureNode<'_>, rule: &dyn Fn(f64) -> f64)
             None => [scaled[0], scaled[1], scaled[2]].map(|v| rule(v) as f32),
         }
     };
-    let byte = |b: u8| f32::from(b) / 255.0;
-    match &image.pixels {
-        ImagePixels::Gray8(p) => p.iter().map(|g| value([byte(*g), byte(*g), byte(*g), 1.0])).collect(),
-        ImagePixels::Gray16(p) => p.iter().map(|g| f32::from(*g) / 65_535.0).map(|g| value([g, g, g, 1.0])).collect(),
-        ImagePixels::Rgb8(p) => p.iter().map(|p| p.map(byte)).map(|[r, g, b]| value([r, g, b, 1.0])).collect(),
-        ImagePixels::Rgba8(p) => p.iter().map(|p| value(p.map(byte))).collect(),
-        ImagePixels::Rgb32F(p) => p.iter().map(|[r, g, b]| value([*r, *g, *b, 1.0])).collect(),
-        ImagePixels::Rgba32F(p) => p.iter().map(|p| value(*p)).collect(),
-    }
+    stored_pixels(image).into_iter().map(value).collect()
 }

@@ -1,0 +1,102 @@
+//! Parameters and their values: `<default>`, `$name`, and values that are given from outside.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use etendue_scene::limits;
+
+use super::names::shortened;
+
+/// Bytes of a parameter's name.
+const MAX_NAME: usize = 64;
+
+/// Names that a message tells.
+const MAX_TOLD: usize = 12;
+
+struct Value {
+    text: String,
+    is_given: bool,
+    is_used: bool,
+}
+
+pub(super) struct Parameters {
+    values: BTreeMap<String, Value>,
+    /// How long their names are.
+    lengths: BTreeSet<usize>,
+}
+
+impl Parameters {
+    /// With values that are given, before any file is read.
+    pub(super) fn given(given: &[(String, String)]) -> Result<Self, String> {
+        let mut made = Self { values: BTreeMap::new(), lengths: BTreeSet::new() };
+        for (name, text) in given {
+            check_name(name).map_err(|told| format!("a value is given to a parameter {told}"))?;
+            made.lengths.insert(name.len());
+            let value = Value { text: text.clone(), is_given: true, is_used: false };
+            if made.values.insert(name.clone(), value).is_some() {
+                return Err(format!("two values are given to the parameter \"{name}\"; give one"));
+            }
+        }
+        Ok(made)
+    }
+
+    /// A `<default>`: the first value of a name holds.
+    pub(super) fn default(&mut self, name: String, text: String) -> Result<(), String> {
+        check_name(&name).map_err(|told| format!("<default> {told}"))?;
+        self.lengths.insert(name.len());
+        self.values.entry(name).or_insert(Value { text, is_given: false, is_used: false });
+        Ok(())
+    }
+
+    /// A value with the parameters that it names (`$spp`) in their places, the longest names first. `bytes` counts what they make as text that is read.
+    pub(super) fn put_in(&mut self, value: &str, bytes: &mut u64) -> Result<String, String> {
+        let mut made = String::new();
+        let mut rest = value;
+        while let Some((before, after)) = rest.split_once('$') {
+            made.push_str(before);
+            let mut names = self.lengths.iter().rev().filter_map(|length| after.get(..*length));
+            let Some(name) = names.find(|name| self.values.contains_key(*name)) else {
+                return Err(unknown(after));
+            };
+            rest = &after[name.len()..];
+            if let Some(value) = self.values.get_mut(name) {
+                value.is_used = true;
+                made.push_str(&value.text);
+                *bytes += value.text.len().max(1) as u64;
+                limits::DESCRIPTION.check_unpacked(*bytes)?;
+            }
+        }
+        made.push_str(rest);
+        Ok(made)
+    }
+
+    /// Whether every value that was given is somewhere, when all files are read.
+    pub(super) fn check_used(&self) -> Result<(), String> {
+        let Some((name, _)) = self.values.iter().find(|(_, value)| value.is_given && !value.is_used) else {
+            return Ok(());
+        };
+        let used: Vec<String> = self.values.iter().filter(|(_, v)| v.is_used).map(|(n, _)| format!("${n}")).collect();
+        let known = match used.len() {
+            0 => "it names no parameter".to_owned(),
+            n if n > MAX_TOLD => format!("it names {}, …", used[..MAX_TOLD].join(", ")),
+            _ => format!("it names {}", used.join(", ")),
+        };
+        Err(format!("a value is given to the parameter \"{name}\", and no \"${name}\" stands in the scene: {known}"))
+    }
+}
+
+/// What is wrong with the name of a parameter.
+fn check_name(name: &str) -> Result<(), String> {
+    match name.len() {
+        0 => Err("without a name".to_owned()),
+        1..=MAX_NAME => Ok(()),
+        long => Err(format!("with a name of {long} bytes; expected {MAX_NAME} at most")),
+    }
+}
+
+fn unknown(after: &str) -> String {
+    let word: String = after.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+    let word = shortened(&word);
+    format!(
+        "no <default name=\"{word}\" …> stands before \"${word}\": add it, with a value, or give one by -D {word}=…"
+    )
+}
