@@ -49,7 +49,7 @@ const OF_RAW: [(&str, Fact); 4] = [
 
 fn mixed(shots: &[Shot]) -> Vec<String> {
     let all: Vec<&Shot> = shots.iter().collect();
-    let raw: Vec<&Shot> = shots.iter().filter(|shot| shot.is_raw() && shot.kind.wants_raw()).collect();
+    let raw: Vec<&Shot> = shots.iter().filter(|shot| shot.is_raw()).collect();
     let of = |shots: &[&Shot], facts: &[(&str, Fact)]| -> Vec<String> {
         facts.iter().flat_map(|(name, fact)| differing(shots, name, *fact)).collect()
     };

@@ -67,11 +67,11 @@ impl Laboratory {
         Ok(Self { root: root.to_path_buf(), stated, shots, camera })
     }
 
-    /// The pictures of a kind: raw ones where there are any and the kind wants them, else developed ones.
+    /// The pictures of a kind: raw ones where there are any, else developed ones.
     pub(super) fn shots(&self, kind: Kind) -> Vec<&Shot> {
         let all: Vec<&Shot> = self.shots.iter().filter(|shot| shot.kind == kind).collect();
-        let wanted: Vec<&Shot> = all.iter().copied().filter(|shot| shot.is_raw() == kind.wants_raw()).collect();
-        if wanted.is_empty() { all } else { wanted }
+        let raw: Vec<&Shot> = all.iter().copied().filter(|shot| shot.is_raw()).collect();
+        if raw.is_empty() { all } else { raw }
     }
 
     /// How many pictures there are.

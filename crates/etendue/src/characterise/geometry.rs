@@ -34,7 +34,6 @@ pub(super) fn measure(
             ChartOfPoints::Dots => Target::Dots,
         }),
         grid: stated.and_then(|chart| chart.grid.as_ref()).map(|grid| grid.value.map(|n| n as usize)),
-        channel: laboratory.camera.channel().filter(|_| mosaic),
         cfa: laboratory.camera.told_cfa.clone().filter(|_| mosaic),
         truth: TruthInput { truth: laboratory.truth(Kind::Chart).filter(|_| stated.is_none()), camera: None },
         ..ChartInput::default()

@@ -46,9 +46,4 @@ impl Kind {
             Self::Checker => "a ColorChecker",
         }
     }
-
-    /// Whether numbers in proportion to charge are wanted; points of a chart are found in pictures as well.
-    pub(super) fn wants_raw(self) -> bool {
-        self != Self::Chart
-    }
 }

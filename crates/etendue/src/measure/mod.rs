@@ -18,6 +18,7 @@ mod flicker;
 mod focal;
 mod frame_times;
 mod lens;
+mod mosaic_mean;
 mod noise;
 mod oecf;
 mod picture_input;

@@ -1,6 +1,7 @@
 //! Which readings of a picture file are measured.
 
 use super::encoding::{EncodingChoice, ToLight};
+use super::mosaic_mean::mosaic_mean;
 use crate::error::Error;
 use etendue_io::photograph::{FilterTile, Photograph, Stated};
 use etendue_metrology::Image;
@@ -104,6 +105,21 @@ fn shared_px(photograph: &Photograph) -> usize {
 }
 
 impl Readings {
+    /// A reading at every pixel of what is measured of a photograph.
+    fn of_every_pixel(image: Image, photograph: &Photograph, light: &ToLight) -> Self {
+        let facts = photograph.raw.as_ref();
+        Self {
+            full_scale: facts.map_or(light.full_scale(photograph), |f| Some(light.number(f.white_level_dn))),
+            black: facts.map(|f| light.number(f.black_level_dn)),
+            period: (1, 1),
+            first: (0, 0),
+            picture_px: (image.width(), image.height()),
+            stated: photograph.stated.clone(),
+            shared_px: shared_px(photograph),
+            image,
+        }
+    }
+
     /// Refuses readings with errors that more than `most` neighbours along a row share.
     pub(crate) fn independent(&self, file: &Path, most: usize) -> Result<(), Error> {
         if self.shared_px <= most {
@@ -135,8 +151,13 @@ impl Selection {
         self.of(file, &photograph)
     }
 
-    /// The readings of a photograph's channel; of a mosaic those of every place that the colour has in the tile, one by one.
+    /// The readings of a photograph's channel; of a mosaic those of every place that the colour has in the tile, one by one, or, where no colour is named and
+    /// its tile is two by two, the mean of its colours.
     pub(crate) fn planes(&self, file: &Path, photograph: &Photograph) -> Result<Vec<Readings>, Error> {
+        let tile = self.mosaic(photograph).filter(|_| self.channel.is_none());
+        if tile.is_some_and(|tile| tile.columns == 2 && tile.channels.len() == 4) {
+            return Ok(vec![self.mean_of_colours(file, photograph)?]);
+        }
         let named = |tile: FilterTile| {
             let name = self.channel.clone().unwrap_or_default();
             tile.channels.iter().filter(|c| is_colour(c, &name)).count()
@@ -221,23 +242,21 @@ impl Selection {
         light: &ToLight,
         nth: usize,
     ) -> Result<Readings, Error> {
-        let whole = Image::from_samples(photograph.width, photograph.height, samples);
         let area = self.area(photograph);
-        let image = cropped(file, whole.expect("a photograph's channels fill it"), area)?;
-        let picture_px = (image.width(), image.height());
-        let (image, period, first) = match self.mosaic(photograph) {
-            Some(tile) => {
-                let period = (tile.columns, tile.channels.len() / tile.columns);
-                let (sites, first) = self.sites(file, &image, &tile, area, nth)?;
-                (sites, period, first)
-            }
-            None => (image, (1, 1), (0, 0)),
-        };
-        let facts = photograph.raw.as_ref();
-        let full_scale = facts.map_or(light.full_scale(photograph), |f| Some(light.number(f.white_level_dn)));
-        let black = facts.map(|f| light.number(f.black_level_dn));
-        let (stated, shared_px) = (photograph.stated.clone(), shared_px(photograph));
-        Ok(Readings { image, full_scale, black, period, first, picture_px, stated, shared_px })
+        let every = Readings::of_every_pixel(cropped(file, whole(photograph, samples), area)?, photograph, light);
+        let Some(tile) = self.mosaic(photograph) else { return Ok(every) };
+        let period = (tile.columns, tile.channels.len() / tile.columns);
+        let (image, first) = self.sites(file, &every.image, &tile, area, nth)?;
+        Ok(Readings { image, period, first, ..every })
+    }
+
+    /// The mean of a mosaic's colours at each pixel.
+    fn mean_of_colours(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Error> {
+        self.check_cfa(file, photograph)?;
+        let light = ToLight::of(file, photograph)?;
+        let samples = light.of_channel(&photograph.channels[0]);
+        let mosaic = cropped(file, whole(photograph, samples), self.area(photograph))?;
+        Ok(Readings::of_every_pixel(mosaic_mean(&mosaic), photograph, &light))
     }
 
     /// Filters are told of pictures of one channel only.
@@ -298,6 +317,11 @@ impl Selection {
         let samples = rows.flat_map(|row| every(x, columns, image.width()).map(move |column| image.at(column, row)));
         Ok((Image::from_samples(width, height, samples.collect()).expect("counted"), (x, y)))
     }
+}
+
+/// One channel's numbers as a picture.
+fn whole(photograph: &Photograph, samples: Vec<f32>) -> Image {
+    Image::from_samples(photograph.width, photograph.height, samples).expect("a photograph's channels fill it")
 }
 
 /// Whether a filter has this name, or the other usual one of its colour.
