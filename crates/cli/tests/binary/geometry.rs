@@ -236,6 +236,13 @@ fn the_colours_of_a_mosaic_are_measured_where_their_pixels_are() {
         let (x, y) = (off("x_px", shift), off("y_px", 0.0));
         assert!(x.abs() < 0.02 && y.abs() < 0.02, "{channel}: {x} {y}");
     }
+    // Colours that are displaced against each other are off in their mean by what their weights are, and in waves.
+    let found = json(&["measure", "distortion", &file, "--cfa", "RGGB", "--channel", "mean"]);
+    let points = found["tables"]["points"].as_array().expect("points");
+    let x = |p: &Value| (p["x_px"].as_f64().expect("a number") - 0.05) / 20.3 + 0.25;
+    let off: Vec<f64> = points.iter().map(|p| 20.3 * (x(p) - x(p).round())).collect();
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    assert!(points.len() > 250 && mean.abs() < 0.02 && off.iter().all(|x| x.abs() < 0.15), "{mean}: {off:?}");
     etendue(["measure", "distortion", &file, "--cfa", "RGGB"]).refused(&["mosaic of the colours", "--channel"]);
     etendue(["measure", "distortion", &file, "--cfa", "RGGB", "--channel", "Y"]).refused(&["no channel 'Y'"]);
 }

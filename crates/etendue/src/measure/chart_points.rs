@@ -23,8 +23,8 @@ pub struct ChartInput {
     pub target: Option<Target>,
     /// Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found]
     pub grid: Option<[usize; 2]>,
-    /// The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic [default:
-    /// the luminance; of a raw mosaic the mean of its colours]
+    /// The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic,
+    /// or "mean" for the mean of its colours at each pixel [default: the luminance]
     pub channel: Option<String>,
     /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
     pub cfa: Option<String>,
@@ -104,7 +104,7 @@ impl ChartInput {
     }
 
     /// The chart in one channel. In the mosaic of a colour that has several places in the tile, each point is the mean of where
-    /// these show it: what each of them misses between its pixels the others see. Where no colour is named it is sought in the mean of all.
+    /// these show it: what each of them misses between its pixels the others see.
     pub(crate) fn seen_in(&self, file: &Path, photograph: &Photograph, channel: Option<&str>) -> Result<Seen, Error> {
         Ok(self.look_in(file, photograph, channel)?)
     }

@@ -8,6 +8,9 @@ use etendue_metrology::Image;
 use etendue_spectra::colour::BT709;
 use std::path::Path;
 
+/// In place of a colour's name: the mean of a mosaic's colours at each pixel.
+pub(crate) const MEAN: &str = "mean";
+
 /// Choice of a part of a picture.
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
@@ -151,10 +154,10 @@ impl Selection {
         self.of(file, &photograph)
     }
 
-    /// The readings of a photograph's channel; of a mosaic those of every place that the colour has in the tile, one by one, or, where no colour is named and
-    /// its tile is two by two, the mean of its colours.
+    /// The readings of a photograph's channel; of a mosaic those of every place that the colour has in the tile, one by one, or for [`MEAN`] the mean of the
+    /// colours of a tile of two by two.
     pub(crate) fn planes(&self, file: &Path, photograph: &Photograph) -> Result<Vec<Readings>, Error> {
-        let tile = self.mosaic(photograph).filter(|_| self.channel.is_none());
+        let tile = self.mosaic(photograph).filter(|_| self.channel.as_deref() == Some(MEAN));
         if tile.is_some_and(|tile| tile.columns == 2 && tile.channels.len() == 4) {
             return Ok(vec![self.mean_of_colours(file, photograph)?]);
         }
