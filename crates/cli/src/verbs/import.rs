@@ -13,7 +13,7 @@ pub struct Import {
     /// The scene: glTF 2.0 (.glb, .gltf), pbrt-v4 (.pbrt), Mitsuba 3 (.xml), USD (.usd, .usda, .usdc, .usdz) where it is built in
     #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
-    /// Give a value to a parameter of a Mitsuba scene ($name) in place of its <default>, e.g. -D radius=0.5
+    /// Give a value to a parameter of a Mitsuba scene ($name) in place of its default, e.g. -D radius=0.5
     #[arg(short = 'D', long, value_name = "NAME=VALUE", value_parser = parameter)]
     pub define: Vec<(String, String)>,
     #[command(flatten)]

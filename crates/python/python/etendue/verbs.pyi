@@ -319,7 +319,7 @@ def import_(
     """Write a scene of another program (glTF, pbrt, Mitsuba, USD) as a scene and a job of the format, and what became of what.
 
     scene: The scene: glTF 2.0 (.glb, .gltf), pbrt-v4 (.pbrt), Mitsuba 3 (.xml), USD (.usd, .usda, .usdc, .usdz) where it is built in.
-    define: Give a value to a parameter of a Mitsuba scene ($name) in place of its <default>, e.g. -D radius=0.5. One, or a sequence of them.
+    define: Give a value to a parameter of a Mitsuba scene ($name) in place of its default, e.g. -D radius=0.5. One, or a sequence of them.
     output: Folder for the results; made where missing.
     overwrite: Replace results that are already there.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
