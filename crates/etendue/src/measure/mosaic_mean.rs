@@ -2,8 +2,8 @@
 //!
 //! Weights 1, 2, 1 along rows and along columns, over 16, give each of the four places of a two by two tile a quarter, whatever place lies in the middle: every
 //! pixel is the same mean of the colours, of red, green and blue a quarter, a half and a quarter in a Bayer mosaic. Where colours are alike but for a factor, as on
-//! black and white charts, it is the picture blurred by a variance of half a pixel in both directions, not moved, and without the patterns that demosaicing
-//! draws along edges. Beyond its border the mosaic is taken as mirrored about the outermost pixels, which keeps colours in their places.
+//! black and white charts, it is the picture blurred by a variance of half a pixel in both directions, without the patterns that demosaicing
+//! draws along edges. Sharp edges move by some hundredths of a pixel with their place among the colours, the more the less alike the filters' responses are. Beyond its border the mosaic is taken as mirrored about the outermost pixels, which keeps colours in their places.
 
 use etendue_metrology::Image;
 
