@@ -20,9 +20,9 @@ fn radius_mm(theta: bool, angle: f64) -> f64 {
 /// An export of field curvature and distortion as OpticStudio writes it: two wavelengths, the other with none of it.
 fn export(theta: bool, says_focal_length: bool) -> String {
     let kind = if theta { "F-Theta" } else { "F-Tan(Theta)" };
-    let focal_length =
-        if says_focal_length { format!("Distortion focal length = {FOCAL_MM:.6}\r\n") } else { String::new() };
-    let table = |um: f64, share: f64| {
+    let table = |um: f64, share: f64, focal_mm: f64| {
+        let focal_length =
+            if says_focal_length { format!("Distortion focal length = {focal_mm:.6}\r\n") } else { String::new() };
         let row = |degrees: u32| {
             let degrees = f64::from(degrees);
             let angle = degrees.to_radians();
@@ -33,13 +33,13 @@ fn export(theta: bool, says_focal_length: bool) -> String {
         };
         let rows: String = (0..=40).map(row).collect();
         format!(
-            "Data for wavelength : {um:.6} µm.\r\n\r\n Y Angle (deg)   Tan Shift   Sag Shift   Real Height   Ref. Height   Distortion\r\n{rows}\r\n"
+            "Data for wavelength : {um:.6} µm.\r\n{focal_length}\r\n Y Angle (deg)   Tan Shift   Sag Shift   Real Height   Ref. Height   Distortion\r\n{rows}\r\n"
         )
     };
     format!(
-        "Field Curvature and {kind} Distortion Data\r\n\r\nFile : C:\\lenses\\made for a test.zmx\r\nDate : 1/1/2026\r\n\r\nMaximum field is 40.000 Degrees.\r\n{focal_length}\r\n{}{}",
-        table(0.6563, 0.0),
-        table(0.55, 1.0)
+        "Field Curvature and {kind} Distortion Data\r\n\r\nFile : C:\\lenses\\made for a test.zmx\r\nDate : 1/1/2026\r\n\r\nMaximum field is 40.000 Degrees.\r\n\r\n{}{}",
+        table(0.6563, 0.0, 1.01 * FOCAL_MM),
+        table(0.55, 1.0, FOCAL_MM)
     )
 }
 
@@ -102,8 +102,8 @@ fn exports_of_distortion_that_cannot_be_used_are_told_with_their_line() {
             &["d.txt", "no export of distortion"][..],
         ),
         (whole.replace("(deg)", "(mm)").replace("Degrees", "mm"), &["d.txt", "no angles"]),
-        (whole.replace(five, " 3.50000000E+000"), &["d.txt:62", "does not lie beyond 4"]),
-        (whole.replace(" 0.00000000E+000", " 0.50000000E+000"), &["d.txt:57", "expected 0, the axis"]),
+        (whole.replace(five, " 3.50000000E+000"), &["d.txt:63", "does not lie beyond 4"]),
+        (whole.replace(" 0.00000000E+000", " 0.50000000E+000"), &["d.txt:58", "expected 0, the axis"]),
     ] {
         std::fs::write(folder.path().join("d.txt"), &listing).expect("written");
         plan(folder.path(), &job("", SENSOR, &calibrated("file = \"d.txt\""), 2)).refused(phrases);

@@ -1,6 +1,6 @@
 //! Zemax's "Field Curvature/Distortion".
 //!
-//! Distortion is (real height − reference height)/reference height; the reference is f tan θ, or f θ where the head speaks of F-Theta, f as the head says it ("Distortion focal length")
+//! Distortion is (real height − reference height)/reference height; the reference is f tan θ, or f θ where the head speaks of F-Theta, f as the lines above the table or the head say it ("Distortion focal length")
 //! or as the reference heights have it. Of several wavelengths the table nearest to 550 nm is read.
 
 use etendue_core::maths::f64::tan;
@@ -33,7 +33,7 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
     let table = listing.tables.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let table = table.expect("a listing has a table");
     let points = points(listing, table, beside)?;
-    let focal_length_mm = listing.stated("focal length").or_else(|| by_heights(table, beside));
+    let focal_length_mm = listing.stated(table, "focal length").or_else(|| by_heights(table, beside));
     let mut notes = vec![match wavelength_nm(&table.above).or_else(|| wavelength_nm(&listing.head)) {
         Some(nm) => format!("distortion computed for {nm} nm, taken for all wavelengths"),
         None => "distortion taken for all wavelengths".to_owned(),

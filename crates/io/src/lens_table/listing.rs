@@ -83,14 +83,14 @@ impl<'a> Listing<'a> {
         self.head.iter().any(|(_, line)| line.to_lowercase().contains(word))
     }
 
-    /// The number of a line of the head that has these words, in small letters, before a colon or an equals sign.
-    pub(super) fn stated(&self, words: &str) -> Option<f64> {
+    /// The number of a line above a table, or else of the head, that has these words, in small letters, before a colon or an equals sign.
+    pub(super) fn stated(&self, table: &Table<'_>, words: &str) -> Option<f64> {
         let value = |line: &str| {
             let (name, value) = line.split_once([':', '='])?;
             let number = value.split_whitespace().next().filter(|_| name.to_lowercase().contains(words))?;
             number.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0)
         };
-        self.head.iter().find_map(|(_, line)| value(line))
+        table.above.iter().chain(&self.head).find_map(|(_, line)| value(line))
     }
 
     /// In what the fields of a table are counted, whose titles stand right above it.

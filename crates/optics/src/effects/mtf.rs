@@ -22,6 +22,8 @@ const WIDEST: f64 = 1.5;
 const SUM_WEIGHT: f64 = 1e3;
 /// Samples of a pixel.
 const SAMPLES_PX: f64 = 4.0;
+/// Cycles a sample up to which these are held against the table: one cycle a pixel, beyond which the pixel's own area lets less than a fifth pass.
+const JUDGED: f64 = 0.25;
 /// Where a Gaussian ends, in its widths.
 const REACH: f64 = 5.0;
 /// Widths beyond this, px, are told apart from a constant loss by no picture: they are cut.
@@ -33,7 +35,7 @@ const WORST: f64 = 0.06;
 /// of `pixel_um`.
 ///
 /// # Errors
-/// Where no sum of Gaussians is nearer than 0.06 to the table.
+/// Where no sum of Gaussians is nearer than 0.06 to the table, up to one cycle a pixel.
 pub fn spread_of_modulation(table: &[(f64, f64)], pixel_um: f64) -> Result<SpreadImageParameters, EffectsError> {
     const UM_PER_MM: f64 = 1e3;
     let gaussians = gaussians(table, WIDEST_PX * pixel_um / UM_PER_MM);
@@ -43,6 +45,7 @@ pub fn spread_of_modulation(table: &[(f64, f64)], pixel_um: f64) -> Result<Sprea
     let width = profiles.iter().map(|(_, profile)| profile.len()).max().unwrap_or(1);
     let deviation = table
         .iter()
+        .filter(|(f, _)| f * pitch_mm <= JUDGED)
         .map(|(f, modulation)| {
             let made: f64 = profiles.iter().map(|(weight, p)| weight * transform(p, f * pitch_mm)).sum();
             (made - modulation).abs()
@@ -69,7 +72,8 @@ pub fn spread_of_modulation(table: &[(f64, f64)], pixel_um: f64) -> Result<Sprea
 fn gaussians(table: &[(f64, f64)], widest_mm: f64) -> Vec<(f64, f64)> {
     let above = || table.iter().map(|(f, _)| *f).filter(|f| *f > 0.0);
     let (least, greatest) = (above().fold(f64::INFINITY, f64::min), above().fold(0.0, f64::max));
-    let (from, to) = (NARROWEST / greatest, (WIDEST / least).min(widest_mm).max(2.0 * NARROWEST / greatest));
+    let from = (NARROWEST / greatest).min(0.5 * widest_mm);
+    let to = (WIDEST / least).min(widest_mm).max(2.0 * from);
     let width = |i: u32| from * exp(f64::from(i) / f64::from(WIDTHS - 1) * ln(to / from));
     let sigmas: Vec<f64> = core::iter::once(0.0).chain((0..WIDTHS).map(width)).collect();
     let column = |sigma: &f64| {
@@ -213,6 +217,23 @@ mod tests {
             assert!(found.deviation.is_some_and(|off| off < bound), "{:?} {:?}", found.deviation, points.last());
             let sum: f64 = found.light.iter().map(|v| f64::from(*v)).sum();
             assert!((sum - 1.0).abs() < 1e-5 && found.light.iter().all(|v| *v >= 0.0), "{sum}");
+        }
+    }
+
+    /// A lens of f/2 without aberrations on large pixels, to its cut-off at 3.6 cycles a pixel.
+    #[test]
+    fn tables_that_reach_beyond_the_samples_are_taken() {
+        let arc = |x: f64| atan2((1.0 - x * x).sqrt(), x);
+        let perfect = |x: f64| 2.0 / PI * (arc(x) - x * (1.0 - x * x).sqrt());
+        let found = spread_of_modulation(&table(363.6, perfect), 10.0).expect("near enough");
+        assert!(found.deviation.is_some_and(|off| off < 0.03), "{:?}", found.deviation);
+    }
+
+    #[test]
+    fn low_frequencies_alone_make_no_wider_samples() {
+        for points in [[(0.0, 1.0), (0.005, 0.99), (0.01, 0.97)], [(0.0, 1.0), (0.0005, 0.99), (0.001, 0.97)]] {
+            let found = spread_of_modulation(&points, 5.0).expect("within 0.06 of one");
+            assert!(f64::from(found.width as u32) <= 2.0 * REACH * WIDEST_PX * SAMPLES_PX + 3.0, "{}", found.width);
         }
     }
 
