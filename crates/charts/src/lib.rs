@@ -15,6 +15,7 @@ mod camera_station;
 pub mod design;
 mod drawing;
 mod error;
+mod hand_held;
 mod ink;
 mod light;
 mod panel;

@@ -5,7 +5,7 @@
 //! | `flat/` | even light of 550 nm on the bare sensor: levels of equal steps to a little above saturation, two frames each, and a stack at half of it (EMVA 1288) |
 //! | `dark/` | the same without light, and three long exposures, in the longest of which the dark current is 200 e⁻ |
 //! | `field/` | an even white sheet through the lens |
-//! | `chart/` | views of a checkerboard, the first square to it, the others tilted |
+//! | `chart/` | views of a checkerboard by hand, the first about square to it, the others tilted |
 //! | `edges/` | slanted edges |
 //! | `checker/` | a ColorChecker, of cameras in colour |
 //!
@@ -239,7 +239,7 @@ impl Bench<'_> {
     fn photographed(&self, name: &str, chart: Chart, views: u32, seed: u64) -> Result<Vec<PathBuf>, Error> {
         let folder = self.folder.join(name);
         let camera = self.declared.display().to_string();
-        let request = ChartRequest { views, seed, ..ChartRequest::new(chart, camera) };
+        let request = ChartRequest { views, hand_held: views > 1, seed, ..ChartRequest::new(chart, camera) };
         let mut files = make(&request, (&folder, self.existing))?;
         let mut job = JobRequest::new(folder.join(JOB));
         job.set = vec![format!("render.spp={}", self.request.spp), "output.ground_truth=false".to_owned()];

@@ -4,7 +4,7 @@ use super::folder::Laboratory;
 use super::kind::Kind;
 use super::parameter::Findings;
 use crate::error::Error;
-use crate::measure::readings::MEAN;
+use crate::measure::readings::BALANCED;
 use crate::measure::views::{Found, TriedModel};
 use crate::measure::{CameraModel, ChartInput, Target, TruthInput, ViewsRequest};
 use crate::observer::Observer;
@@ -35,7 +35,7 @@ pub(super) fn measure(
             ChartOfPoints::Dots => Target::Dots,
         }),
         grid: stated.and_then(|chart| chart.grid.as_ref()).map(|grid| grid.value.map(|n| n as usize)),
-        channel: mosaic.then(|| MEAN.to_owned()),
+        channel: mosaic.then(|| BALANCED.to_owned()),
         cfa: laboratory.camera.told_cfa.clone().filter(|_| mosaic),
         truth: TruthInput { truth: laboratory.truth(Kind::Chart).filter(|_| stated.is_none()), camera: None },
         ..ChartInput::default()

@@ -3,6 +3,7 @@
 //! Each takes a request with typed arguments and answers with a [`Report`](crate::report::Report): numbers with unit and standard
 //! uncertainty, tables, plots and notes. Pictures are read from files.
 
+mod balanced_mosaic;
 mod calibrate;
 mod cdp;
 mod chart_points;
@@ -18,7 +19,6 @@ mod flicker;
 mod focal;
 mod frame_times;
 mod lens;
-mod mosaic_mean;
 mod noise;
 mod oecf;
 mod picture_input;

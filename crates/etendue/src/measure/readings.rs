@@ -1,15 +1,15 @@
 //! Which readings of a picture file are measured.
 
 use super::encoding::{EncodingChoice, ToLight};
-use super::mosaic_mean::mosaic_mean;
+use super::balanced_mosaic::balanced_mosaic;
 use crate::error::Error;
 use etendue_io::photograph::{FilterTile, Photograph, Stated};
 use etendue_metrology::Image;
 use etendue_spectra::colour::BT709;
 use std::path::Path;
 
-/// In place of a colour's name: the mean of a mosaic's colours at each pixel.
-pub(crate) const MEAN: &str = "mean";
+/// In place of a colour's name: a mosaic's colours balanced to one grey, a reading of each pixel.
+pub(crate) const BALANCED: &str = "balanced";
 
 /// Choice of a part of a picture.
 #[derive(Clone, Debug, Default)]
@@ -154,12 +154,12 @@ impl Selection {
         self.of(file, &photograph)
     }
 
-    /// The readings of a photograph's channel; of a mosaic those of every place that the colour has in the tile, one by one, or for [`MEAN`] the mean of the
-    /// colours of a tile of two by two.
+    /// The readings of a photograph's channel; of a mosaic those of every place that the colour has in the tile, one by one, or for [`BALANCED`] of all pixels,
+    /// with the colours of a tile of two by two balanced.
     pub(crate) fn planes(&self, file: &Path, photograph: &Photograph) -> Result<Vec<Readings>, Error> {
-        let tile = self.mosaic(photograph).filter(|_| self.channel.as_deref() == Some(MEAN));
+        let tile = self.mosaic(photograph).filter(|_| self.channel.as_deref() == Some(BALANCED));
         if tile.is_some_and(|tile| tile.columns == 2 && tile.channels.len() == 4) {
-            return Ok(vec![self.mean_of_colours(file, photograph)?]);
+            return Ok(vec![self.balanced(file, photograph)?]);
         }
         let named = |tile: FilterTile| {
             let name = self.channel.clone().unwrap_or_default();
@@ -253,13 +253,14 @@ impl Selection {
         Ok(Readings { image, period, first, ..every })
     }
 
-    /// The mean of a mosaic's colours at each pixel.
-    fn mean_of_colours(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Error> {
+    /// The readings of all of a mosaic's pixels, its colours balanced.
+    fn balanced(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Error> {
         self.check_cfa(file, photograph)?;
         let light = ToLight::of(file, photograph)?;
         let samples = light.of_channel(&photograph.channels[0]);
         let mosaic = cropped(file, whole(photograph, samples), self.area(photograph))?;
-        Ok(Readings::of_every_pixel(mosaic_mean(&mosaic), photograph, &light))
+        let readings = Readings::of_every_pixel(mosaic, photograph, &light);
+        Ok(Readings { image: balanced_mosaic(&readings.image, readings.full_scale), ..readings })
     }
 
     /// Filters are told of pictures of one channel only.

@@ -88,6 +88,16 @@ pub struct Views {
     /// Views of the chart: the first square to it, the others tilted by 25 degrees all round
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=200))]
     pub views: u32,
+    /// Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed
+    #[arg(long)]
+    pub hand_held: bool,
+}
+
+impl Views {
+    /// The request with these views.
+    pub fn of(&self, request: ChartRequest) -> ChartRequest {
+        ChartRequest { views: self.views, hand_held: self.hand_held, ..request }
+    }
 }
 
 /// How a slanted edge lies between light and dark.

@@ -22,7 +22,7 @@ pub struct ChartPointsArgs {
     #[arg(long, value_name = "NxM", value_parser = grid)]
     pub grid: Option<[usize; 2]>,
     /// The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic,
-    /// or "mean" for the mean of its colours at each pixel [default: the luminance]
+    /// or "balanced" for all its pixels with its colours balanced to one grey [default: the luminance]
     #[arg(long, value_name = "NAME")]
     pub channel: Option<String>,
     /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB

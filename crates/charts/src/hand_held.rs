@@ -1,0 +1,56 @@
+//! Views as a hand takes them: a little off the even steps of [`camera_stations`](crate::camera_stations).
+//!
+//! Views in even steps meet the pixels' raster, and the mosaic of a sensor in colour, in the same places every time. A measurement over several such series
+//! repeats what the raster does to it instead of averaging it.
+
+use crate::camera_station::CameraStation;
+use etendue_core::maths::f64::sin_cos;
+use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+use glam::{DQuat, DVec3};
+use rand::RngExt as _;
+
+/// The camera points beside its target by up to this share of the distance, across and up.
+const ASIDE: f64 = 0.005;
+/// It stands farther away by up to this share of the distance: what was in the picture stays in it.
+const FARTHER: f64 = 0.02;
+/// It is rolled about its axis by up to this much, either way, degrees.
+const ROLL_DEG: f64 = 1.5;
+
+impl CameraStation {
+    /// The `nth` station of a series off its place as by hand, drawn by the seed: pointed aside by up to 0.5 % of its distance, across and up, up to 2 %
+    /// farther away, rolled by up to 1.5 degrees.
+    #[must_use]
+    pub fn hand_held(self, seed: u64, nth: u32) -> Self {
+        let mut random = NoiseStream::new(seed, 0, 0, 0, Pixel { x: nth, y: 2 }, NoiseDraw::Shot);
+        let [across, upward, roll]: [f64; 3] = std::array::from_fn(|_| random.random_range(-1.0..1.0));
+        let away = 1.0 + FARTHER * random.random::<f64>();
+        let axis = self.target_m - self.position_m;
+        let (right, up) = (axis.cross(self.up).normalize_or_zero(), self.up.reject_from(axis).normalize_or_zero());
+        let aside = ASIDE * axis.length() * (across * right + upward * up);
+        let (sin, cos) = sin_cos(0.5 * (roll * ROLL_DEG).to_radians());
+        let about = axis.normalize_or(DVec3::X);
+        let turn = DQuat::from_vec4((about * sin).extend(cos));
+        Self { position_m: self.target_m - axis * away, target_m: self.target_m + aside, up: turn * self.up, ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::camera_stations;
+
+    #[test]
+    fn stations_stay_near_their_places_and_differ_by_seed() {
+        for (nth, station) in (0..).zip(camera_stations(2.0, 9, &[], false)) {
+            let held = station.clone().hand_held(7, nth);
+            let distance = (station.target_m - station.position_m).length();
+            let away = (held.position_m - station.target_m).length() / distance;
+            let aside = (held.target_m - station.target_m).length() / distance;
+            let turn = held.up.angle_between(station.up).to_degrees();
+            assert!((1.0..1.02).contains(&away) && aside > 0.0 && aside < 0.0071, "{away} {aside}");
+            // Up need not stand across the axis, so that it turns by as much at most.
+            assert!(turn > 0.0 && turn < 1.5, "{turn}");
+            assert_eq!(held, station.clone().hand_held(7, nth));
+            assert!(held != station.clone().hand_held(8, nth) && held != station.hand_held(7, nth + 1));
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! A grey picture of a raw mosaic, without demosaicing.
+//!
+//! The light of a black and white chart gives the pixels under two filters a v + b and a' v + b', with the same v where the same light falls: so each place of
+//! the tile is scaled and shifted until its pixels have the mean and the standard deviation that the four have on average. What is left is the picture that a
+//! sensor without filters would have taken: nothing is interpolated, and no edge moves with its place among the colours, as it does in a mean of unequal
+//! responses or along the patterns that demosaicing draws. Pixels of tiles in which a filter's pixel is saturated do not count.
+//!
+//! Left out: light whose colour varies over the picture (coloured surfaces, lateral chromatic aberration), which leaves a pattern of two pixels.
+
+use etendue_metrology::Image;
+
+/// Pixels from one place of a colour to the next, along rows and along columns.
+const PERIOD: usize = 2;
+const PLACES: usize = PERIOD * PERIOD;
+
+/// The picture of a mosaic whose tile is two by two with its colours balanced, in the mosaic's unit: of each pixel a reading. `saturated` is the reading of a
+/// saturated pixel, where one is known. A mosaic of a single row or column has no tiles, and comes back as it is.
+pub(super) fn balanced_mosaic(mosaic: &Image, saturated: Option<f64>) -> Image {
+    let (width, height) = (mosaic.width(), mosaic.height());
+    let balance = Balance::of(mosaic, saturated);
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let samples = places.map(|(x, y)| balance.applied(place(x, y), mosaic.at(x, y)));
+    Image::from_samples(width, height, samples.collect()).expect("as many as before")
+}
+
+fn place(x: usize, y: usize) -> usize {
+    x % PERIOD + PERIOD * (y % PERIOD)
+}
+
+/// Mean and standard deviation of the places of the tile.
+struct Balance {
+    mean: [f64; PLACES],
+    deviation: [f64; PLACES],
+}
+
+impl Balance {
+    fn of(mosaic: &Image, saturated: Option<f64>) -> Self {
+        let unsaturated = |tile: &[f64; PLACES]| saturated.is_none_or(|full| tile.iter().all(|v| *v < full));
+        let mean = mean(tiles(mosaic).filter(unsaturated));
+        let squares = |tile: [f64; PLACES]| std::array::from_fn(|p| (tile[p] - mean[p]) * (tile[p] - mean[p]));
+        let variance = self::mean(tiles(mosaic).filter(unsaturated).map(squares));
+        Self { mean, deviation: variance.map(f64::sqrt) }
+    }
+
+    fn applied(&self, place: usize, reading: f32) -> f32 {
+        let common = |of: &[f64; PLACES]| of.iter().sum::<f64>() / PLACES as f64;
+        let own = self.deviation[place];
+        let scale = if own > 0.0 { common(&self.deviation) / own } else { 1.0 };
+        (common(&self.mean) + (f64::from(reading) - self.mean[place]) * scale) as f32
+    }
+}
+
+/// The readings of the whole tiles, by place.
+fn tiles(mosaic: &Image) -> impl Iterator<Item = [f64; PLACES]> + '_ {
+    let (columns, rows) = (mosaic.width() / PERIOD, mosaic.height() / PERIOD);
+    let tile = move |x: usize, y: usize| {
+        std::array::from_fn(|p| f64::from(mosaic.at(PERIOD * x + p % PERIOD, PERIOD * y + p / PERIOD)))
+    };
+    (0..rows).flat_map(move |y| (0..columns).map(move |x| tile(x, y)))
+}
+
+/// By place; zero of no tiles.
+fn mean(tiles: impl Iterator<Item = [f64; PLACES]>) -> [f64; PLACES] {
+    let (mut sum, mut count) = ([0.0; PLACES], 0.0_f64);
+    for tile in tiles {
+        sum.iter_mut().zip(tile).for_each(|(sum, value)| *sum += value);
+        count += 1.0;
+    }
+    sum.map(|sum| sum / count.max(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_metrology::target::{Sought, Target, find};
+    use glam::DVec2;
+
+    const RESPONSE: [f32; PLACES] = [0.58, 1.0, 0.9, 0.85];
+    const BLACK: [f32; PLACES] = [0.06, 0.06, 0.07, 0.05];
+
+    fn picture(width: usize, height: usize, reading: impl Fn(usize, usize) -> f32) -> Image {
+        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        Image::from_samples(width, height, places.map(|(x, y)| reading(x, y)).collect()).expect("as many as places")
+    }
+
+    fn mosaic(light: &Image) -> Image {
+        let reading = |x, y| RESPONSE[place(x, y)] * light.at(x, y) + BLACK[place(x, y)];
+        picture(light.width(), light.height(), reading)
+    }
+
+    /// Squares of 14.5 px whose corners lie `shift` aside, sharp but for the area of the pixels, brighter towards the right.
+    fn checkerboard(shift: [f64; 2], turn: f64) -> Image {
+        const STEPS: usize = 10;
+        let square = |x: f64, y: f64| {
+            let (x, y) = (x - 66.0 - shift[0], y - 59.0 - shift[1]);
+            let (u, v) = ((x + turn * y) / 14.5, (y - turn * x) / 14.5);
+            let within = u.abs() < 4.0 && v.abs() < 3.0;
+            let white = (u.floor() + v.floor()).rem_euclid(2.0) == 0.0;
+            if within && white { 0.8 + 0.002 * x } else { 0.04 }
+        };
+        let at = |i: usize, k: usize| i as f64 + (k as f64 + 0.5) / STEPS as f64;
+        picture(132, 118, |x, y| {
+            let all = (0..STEPS * STEPS).map(|k| square(at(x, k % STEPS), at(y, k / STEPS))).sum::<f64>();
+            (all / (STEPS * STEPS) as f64) as f32
+        })
+    }
+
+    fn corners(image: &Image) -> Vec<DVec2> {
+        let grid = find(image, Sought { target: Some(Target::Checkerboard), size: None }).expect("a chart");
+        grid.nodes.iter().map(|node| node.at).collect()
+    }
+
+    /// The corners of a sharp chart are where a sensor without filters would see them, wherever they lie among the colours.
+    #[test]
+    fn corners_do_not_move_with_their_place_among_the_colours() {
+        let mut worst: f64 = 0.0;
+        for phase in 0..8 {
+            let shift = [0.25 * f64::from(phase), 0.25 * f64::from(5 * phase % 8)];
+            let light = checkerboard(shift, 0.03 * f64::from(phase % 3));
+            let (mono, found) = (corners(&light), corners(&balanced_mosaic(&mosaic(&light), None)));
+            assert_eq!((mono.len(), found.len()), (35, 35));
+            let distances = mono.iter().zip(&found).map(|(a, b)| a.distance(*b));
+            worst = distances.fold(worst, f64::max);
+        }
+        assert!(worst < 0.005, "{worst} px");
+    }
+
+    /// Light whose steps lie alike at all places comes back exactly, up to one scale and one shift.
+    #[test]
+    fn of_light_alike_at_all_places_nothing_of_the_filters_is_left() {
+        let light = picture(12, 8, |x, y| 0.1 + 0.2 * ((x / 2 + y / 2) % 3) as f32);
+        let grey = balanced_mosaic(&mosaic(&light), None);
+        let of = |i: usize| (f64::from(light.samples()[i]), f64::from(grey.samples()[i]));
+        let ((l0, g0), (l1, g1)) = (of(0), of(2));
+        for i in 0..96 {
+            let (l, g) = of(i);
+            assert!((g - (g0 + (l - l0) * (g1 - g0) / (l1 - l0))).abs() < 1e-6, "{i}: {g}");
+        }
+    }
+
+    #[test]
+    fn saturated_tiles_do_not_count() {
+        let light = picture(12, 8, |x, y| 0.1 + 0.2 * ((x / 2 + y / 2) % 3) as f32);
+        let clipped = |x: usize, y: usize| if y >= 6 { 1.0 } else { mosaic(&light).at(x, y) };
+        let with = balanced_mosaic(&picture(12, 8, clipped), Some(1.0));
+        let without = balanced_mosaic(&mosaic(&light).part(0, 0, 12, 6), None);
+        assert_eq!(with.samples()[..72], without.samples()[..]);
+    }
+
+    #[test]
+    fn flat_and_thin_pictures_keep_their_readings() {
+        let flat = balanced_mosaic(&picture(6, 4, |x, y| [1.0, 2.0, 4.0, 9.0][place(x, y)]), None);
+        assert!(flat.samples().iter().all(|v| *v == 4.0));
+        let row = picture(5, 1, |x, _| x as f32);
+        assert_eq!(balanced_mosaic(&row, None).samples(), row.samples());
+    }
+}
