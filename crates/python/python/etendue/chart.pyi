@@ -18,6 +18,7 @@ def dots(
     pitch_mm: float | None = None,
     dot_ratio: float | None = None,
     views: int | None = None,
+    hand_held: bool = False,
     camera: str | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
@@ -37,6 +38,7 @@ def dots(
     pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
     dot_ratio: Diameter of a dot over the distance between centres. Default: 0.5.
     views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
+    hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
@@ -58,6 +60,7 @@ def checkerboard(
     rows: int | None = None,
     pitch_mm: float | None = None,
     views: int | None = None,
+    hand_held: bool = False,
     camera: str | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
@@ -76,6 +79,7 @@ def checkerboard(
     rows: Rows [default: as many as the field takes].
     pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
     views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
+    hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
@@ -98,6 +102,7 @@ def circles(
     pitch_mm: float | None = None,
     asymmetric: bool = False,
     views: int | None = None,
+    hand_held: bool = False,
     camera: str | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
@@ -117,6 +122,7 @@ def circles(
     pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
     asymmetric: A staggered lattice: every other cell of each row holds a circle.
     views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
+    hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.

@@ -59,7 +59,7 @@ def distortion(
     file: A picture of a plane chart that fills the field: many dots, or a checkerboard; or a list of its points (CSV: column, row, x_px, y_px).
     target: The chart [default: whichever shows more points]. One of checkerboard, dots.
     grid: Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found].
-    channel: The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic, or "mean" for the mean of its colours at each pixel [default: the luminance].
+    channel: The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its pixels with its colours balanced to one grey [default: the luminance].
     cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
     encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
     region: Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture.
@@ -109,7 +109,7 @@ def focal(
     files: Pictures of the chart by one camera, or lists of its points (CSV: column, row, x_px, y_px): turned by 20° to 45° about different axes, filling the field together. One, or a sequence of them.
     target: The chart [default: whichever shows more points]. One of checkerboard, dots.
     grid: Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found].
-    channel: The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic, or "mean" for the mean of its colours at each pixel [default: the luminance].
+    channel: The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its pixels with its colours balanced to one grey [default: the luminance].
     cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
     encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
     region: Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture.
@@ -156,7 +156,7 @@ def chromatic(
     file: A picture in colour of a plane chart that fills the field.
     target: The chart [default: whichever shows more points]. One of checkerboard, dots.
     grid: Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found].
-    channel: The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic, or "mean" for the mean of its colours at each pixel [default: the luminance].
+    channel: The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic, or "balanced" for all its pixels with its colours balanced to one grey [default: the luminance].
     cfa: The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB.
     encoding: How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0 and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits].
     region: Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture.
