@@ -1,7 +1,7 @@
 //! Which readings of a picture file are measured.
 
-use super::encoding::{EncodingChoice, ToLight};
 use super::balanced_mosaic::balanced_mosaic;
+use super::encoding::{EncodingChoice, ToLight};
 use crate::error::Error;
 use etendue_io::photograph::{FilterTile, Photograph, Stated};
 use etendue_metrology::Image;
