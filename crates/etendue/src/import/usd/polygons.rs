@@ -1,0 +1,105 @@
+//! Meshes of polygons, a mesh of ours for each of their materials.
+
+use super::access::{flag, indices, text};
+use super::binding::is_bound;
+use super::importer::{Importer, State};
+use super::mesh::{PolygonMesh, Scheme};
+use crate::import::scenery::{AreaLight, Graphics};
+use etendue_io::usd::UsdPrim;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// A prim that is a mesh.
+struct MeshPrim<'p, 'a> {
+    prim: &'a UsdPrim,
+    state: &'p State<'a>,
+    mesh: &'p PolygonMesh<'a>,
+    light: Option<Rc<AreaLight>>,
+}
+
+impl<'a> Importer<'a> {
+    pub(super) fn polygons(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
+        let mesh = PolygonMesh::read(prim)?;
+        let (parts, rest) = self.parts(prim, state, mesh.faces())?;
+        self.scenery.report.at(prim.path.clone());
+        self.note_scheme(mesh.scheme);
+        let light = self.light_of_shape(prim).map(|light| self.spread(light, &mesh, prim, state));
+        let of = MeshPrim { prim, state, mesh: &mesh, light };
+        if !rest.is_empty() || parts.is_empty() {
+            self.part(&of, state.bindings.material(), rest)?;
+        }
+        parts.into_iter().try_for_each(|(path, faces)| self.part(&of, Some(path), faces))
+    }
+
+    /// Faces by the path of their material, and those of no subset, which are the mesh's own.
+    fn parts(
+        &mut self,
+        prim: &'a UsdPrim,
+        state: &State<'a>,
+        faces: usize,
+    ) -> Result<(BTreeMap<&'a str, Vec<usize>>, Vec<usize>), String> {
+        let mut parts: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        let mut taken = vec![false; faces];
+        for subset in prim.children.iter().filter(|child| child.kind == "GeomSubset") {
+            let bindings = self.bindings(subset, &state.bindings);
+            let Some(path) = bindings.material().filter(|_| is_bound(subset)) else { continue };
+            if !matches!(text(subset, "elementType"), "" | "face") {
+                self.scenery.report.note("a GeomSubset of other than faces is not used");
+                continue;
+            }
+            for face in indices(subset, "indices").ok_or_else(|| format!("{}: a face below 0", subset.path))? {
+                if taken.get(face) == Some(&false) {
+                    taken[face] = true;
+                    parts.entry(path).or_default().push(face);
+                }
+            }
+            self.note_unused(subset);
+        }
+        let rest = (0..taken.len()).filter(|face| !taken[*face]).collect();
+        Ok((parts, rest))
+    }
+
+    fn note_scheme(&mut self, scheme: Scheme) {
+        self.scenery.report.note(match scheme {
+            Scheme::None => return,
+            Scheme::Bilinear => "a bilinear subdivision surface is its control mesh, flat from edge to edge",
+            Scheme::Smooth => {
+                "a subdivision surface is its control mesh with smooth normals: subdivide it before, or set subdivisionScheme = \"none\""
+            }
+        });
+    }
+
+    /// Faces of a mesh that have one material.
+    fn part(&mut self, of: &MeshPrim<'_, 'a>, material: Option<&str>, faces: Vec<usize>) -> Result<(), String> {
+        let MeshPrim { prim, state, mesh, light } = of;
+        let (graphics, material) = self.graphics(prim, state, material)?;
+        let uvs = mesh.uvs(prim, material.primvar())?;
+        let (mut triangles, refused) = mesh.triangles(faces.into_iter(), uvs.as_ref());
+        if material.has_pictures() && triangles.uvs.is_empty() {
+            let name = material.primvar();
+            let told = format!("a mesh without \"{name}\", by which its pictures lie: all of it has their corner");
+            self.scenery.report.note(told);
+            triangles.uvs = vec![[0.0; 2]; triangles.positions.len()];
+        }
+        if material.shows_outside(&triangles.uvs) {
+            self.note_outside();
+        }
+        if refused > 0 {
+            self.scenery.report.note(format!("{refused} polygons that cross themselves are left out"));
+        }
+        // Normals say which side is the front, and those of a control mesh follow its winding.
+        let has_own = !triangles.normals.is_empty() && mesh.scheme == Scheme::None;
+        let reverse_orientation = mesh.is_left_handed && !has_own;
+        self.add(triangles, &Graphics { reverse_orientation, area_light: light.clone(), ..graphics })
+    }
+
+    /// The light of a mesh: where "normalize" holds, divided by the area of all its faces in the world of the stage.
+    fn spread(&self, light: Rc<AreaLight>, mesh: &PolygonMesh<'a>, prim: &UsdPrim, state: &State<'a>) -> Rc<AreaLight> {
+        if !flag(prim, "inputs:normalize", false) {
+            return light;
+        }
+        let metres = self.stage.metres_per_unit;
+        let area = mesh.area(state.to_world) / (metres * metres);
+        if area > 0.0 { Rc::new(AreaLight { luminance: light.luminance / area, ..(*light).clone() }) } else { light }
+    }
+}
