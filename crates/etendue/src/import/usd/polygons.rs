@@ -4,7 +4,8 @@ use super::access::{flag, indices, text};
 use super::binding::is_bound;
 use super::importer::{Importer, State};
 use super::mesh::{PolygonMesh, Scheme};
-use crate::import::scenery::{AreaLight, Graphics};
+use super::primvar::Primvar;
+use crate::import::scenery::{AreaLight, Graphics, Triangles};
 use etendue_io::usd::UsdPrim;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -13,8 +14,20 @@ use std::rc::Rc;
 struct MeshPrim<'p, 'a> {
     prim: &'a UsdPrim,
     state: &'p State<'a>,
-    mesh: &'p PolygonMesh<'a>,
+    mesh: PolygonMesh<'a>,
+    /// Texture coordinates that materials have asked for, by their names.
+    uvs: BTreeMap<String, Option<Primvar<'a, 2>>>,
     light: Option<Rc<AreaLight>>,
+}
+
+impl<'a> MeshPrim<'_, 'a> {
+    /// Triangles of some faces, and how many polygons had none.
+    fn triangles(&mut self, faces: Vec<usize>, uv: &str) -> Result<(Triangles, usize), String> {
+        if !self.uvs.contains_key(uv) {
+            self.uvs.insert(uv.to_owned(), self.mesh.uvs(self.prim, uv)?);
+        }
+        Ok(self.mesh.triangles(faces.into_iter(), self.uvs[uv].as_ref()))
+    }
 }
 
 impl<'a> Importer<'a> {
@@ -24,11 +37,11 @@ impl<'a> Importer<'a> {
         self.scenery.report.at(prim.path.clone());
         self.note_scheme(mesh.scheme);
         let light = self.light_of_shape(prim).map(|light| self.spread(light, &mesh, prim, state));
-        let of = MeshPrim { prim, state, mesh: &mesh, light };
+        let mut of = MeshPrim { prim, state, mesh, uvs: BTreeMap::new(), light };
         if !rest.is_empty() || parts.is_empty() {
-            self.part(&of, state.bindings.material(), rest)?;
+            self.part(&mut of, state.bindings.material(), rest)?;
         }
-        parts.into_iter().try_for_each(|(path, faces)| self.part(&of, Some(path), faces))
+        parts.into_iter().try_for_each(|(path, faces)| self.part(&mut of, Some(path), faces))
     }
 
     /// Faces by the path of their material, and those of no subset, which are the mesh's own.
@@ -70,11 +83,9 @@ impl<'a> Importer<'a> {
     }
 
     /// Faces of a mesh that have one material.
-    fn part(&mut self, of: &MeshPrim<'_, 'a>, material: Option<&str>, faces: Vec<usize>) -> Result<(), String> {
-        let MeshPrim { prim, state, mesh, light } = of;
-        let (graphics, material) = self.graphics(prim, state, material)?;
-        let uvs = mesh.uvs(prim, material.primvar())?;
-        let (mut triangles, refused) = mesh.triangles(faces.into_iter(), uvs.as_ref());
+    fn part(&mut self, of: &mut MeshPrim<'_, 'a>, material: Option<&str>, faces: Vec<usize>) -> Result<(), String> {
+        let (graphics, material) = self.graphics(of.prim, of.state, material)?;
+        let (mut triangles, refused) = of.triangles(faces, material.primvar())?;
         if material.has_pictures() && triangles.uvs.is_empty() {
             let name = material.primvar();
             let told = format!("a mesh without \"{name}\", by which its pictures lie: all of it has their corner");
@@ -88,9 +99,9 @@ impl<'a> Importer<'a> {
             self.scenery.report.note(format!("{refused} polygons that cross themselves are left out"));
         }
         // Normals say which side is the front, and those of a control mesh follow its winding.
-        let has_own = !triangles.normals.is_empty() && mesh.scheme == Scheme::None;
-        let reverse_orientation = mesh.is_left_handed && !has_own;
-        self.add(triangles, &Graphics { reverse_orientation, area_light: light.clone(), ..graphics })
+        let has_own = !triangles.normals.is_empty() && of.mesh.scheme == Scheme::None;
+        let reverse_orientation = of.mesh.is_left_handed && !has_own;
+        self.add(triangles, &Graphics { reverse_orientation, area_light: of.light.clone(), ..graphics })
     }
 
     /// The light of a mesh: where "normalize" holds, divided by the area of all its faces in the world of the stage.

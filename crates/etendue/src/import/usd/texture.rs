@@ -293,9 +293,12 @@ impl<'a> Importer<'a> {
 /// Whether a picture has colours that are encoded as sRGB's, by UsdUVTexture's rule for `auto`: three or four channels of 8 bits.
 fn has_encoded_colours(asset: &UsdAsset) -> bool {
     match &asset.file {
-        Some(UsdFile::Plain(path)) => File::open(path).is_ok_and(|f| has_colours_of_8_bits(path, BufReader::new(f))),
+        // A pipe would be waited for; reading it refuses it.
+        Some(UsdFile::Plain(path)) if path.is_file() => {
+            File::open(path).is_ok_and(|opened| has_colours_of_8_bits(path, BufReader::new(opened)))
+        }
         Some(UsdFile::Packed(name, bytes)) => has_colours_of_8_bits(Path::new(name), Cursor::new(bytes)),
-        None => false,
+        Some(UsdFile::Plain(_)) | None => false,
     }
 }
 

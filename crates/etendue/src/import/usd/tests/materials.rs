@@ -40,6 +40,8 @@ fn an_index_beyond_those_of_coats_is_the_nearest() {
         let told = format!("the refractive index {stated} of \"ior\" is taken as {expected}: expected 1.1 … 4");
         assert_eq!(made.says(&told), expected.to_string() != stated, "{}", made.told);
     }
+    let sheet = ball("float inputs:opacity = 0.1 float inputs:ior = 5");
+    assert!(sheet.says("the refractive index 5 of \"ior\" is taken as 4: expected 1 … 4"), "{}", sheet.told);
     // An index of 1 reflects nothing.
     let made = ball("float inputs:ior = 1");
     assert!(matches!(made.material("a").surface.0, Surface::Diffuse(_)) && !made.says("refractive"), "{}", made.told);
