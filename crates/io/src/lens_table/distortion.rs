@@ -53,7 +53,7 @@ fn points(listing: &Listing<'_>, table: &Table<'_>, kind: Undistorted) -> Result
     const PERCENT: f64 = 0.01;
     let mut points: Vec<(f64, f64)> = Vec::new();
     let widest = if kind == Undistorted::Tangent { WIDEST_DEG } else { 180.0 };
-    for (field, row) in listing.from_axis(table)? {
+    for (field, row) in listing.rows_from_axis(table)? {
         let percent = row.numbers[row.numbers.len() - 1];
         let wrong = match percent {
             _ if field > widest => Some(format!("the field {field} lies beyond {widest}°")),

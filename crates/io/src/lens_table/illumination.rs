@@ -37,7 +37,7 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
 /// Field without its sign, and ratio.
 fn points(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<(f64, f64)>, Error> {
     let mut points: Vec<(f64, f64)> = Vec::new();
-    for (field, row) in listing.from_axis(table)? {
+    for (field, row) in listing.rows_from_axis(table)? {
         let ratio = row.numbers[1];
         let wrong = match ratio {
             _ if ratio < 0.0 => Some(format!("found the relative illumination {ratio}; expected 0 or more")),

@@ -95,7 +95,7 @@ impl<'a> Listing<'a> {
 
     /// The rows of a table by their distances from the axis, without the sign of the side to which the fields go: the first is the axis, each lies beyond
     /// the one before it.
-    pub(super) fn from_axis<'t>(&self, table: &'t Table<'_>) -> Result<Vec<(f64, &'t Row)>, Error> {
+    pub(super) fn rows_from_axis<'t>(&self, table: &'t Table<'_>) -> Result<Vec<(f64, &'t Row)>, Error> {
         let side = table.rows.iter().map(|row| row.numbers[0]).find(|field| *field != 0.0).map_or(1.0, f64::signum);
         let mut made: Vec<(f64, &Row)> = Vec::new();
         for row in &table.rows {

@@ -10,6 +10,14 @@ use etendue_io::usd::UsdPrim;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+/// The faces of a mesh.
+struct Parts<'a> {
+    /// Those of subsets by the paths of their materials.
+    by_material: BTreeMap<&'a str, Vec<usize>>,
+    /// Those of no subset, which have the mesh's own.
+    rest: Vec<usize>,
+}
+
 /// A prim that is a mesh.
 struct MeshPrim<'p, 'a> {
     prim: &'a UsdPrim,
@@ -33,25 +41,19 @@ impl<'a> MeshPrim<'_, 'a> {
 impl<'a> Importer<'a> {
     pub(super) fn polygons(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
         let mesh = PolygonMesh::read(prim)?;
-        let (parts, rest) = self.parts(prim, state, mesh.faces())?;
+        let Parts { by_material, rest } = self.parts(prim, state, mesh.faces())?;
         self.scenery.report.at(prim.path.clone());
         self.note_scheme(mesh.scheme);
         let light = self.light_of_shape(prim).map(|light| self.spread(light, &mesh, prim, state));
         let mut of = MeshPrim { prim, state, mesh, uvs: BTreeMap::new(), light };
-        if !rest.is_empty() || parts.is_empty() {
+        if !rest.is_empty() || by_material.is_empty() {
             self.part(&mut of, state.bindings.material(), rest)?;
         }
-        parts.into_iter().try_for_each(|(path, faces)| self.part(&mut of, Some(path), faces))
+        by_material.into_iter().try_for_each(|(path, faces)| self.part(&mut of, Some(path), faces))
     }
 
-    /// Faces by the path of their material, and those of no subset, which are the mesh's own.
-    fn parts(
-        &mut self,
-        prim: &'a UsdPrim,
-        state: &State<'a>,
-        faces: usize,
-    ) -> Result<(BTreeMap<&'a str, Vec<usize>>, Vec<usize>), String> {
-        let mut parts: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    fn parts(&mut self, prim: &'a UsdPrim, state: &State<'a>, faces: usize) -> Result<Parts<'a>, String> {
+        let mut by_material: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         let mut taken = vec![false; faces];
         for subset in prim.children.iter().filter(|child| child.kind == "GeomSubset") {
             let bindings = self.bindings(subset, &state.bindings);
@@ -63,13 +65,13 @@ impl<'a> Importer<'a> {
             for face in indices(subset, "indices").ok_or_else(|| format!("{}: a face below 0", subset.path))? {
                 if taken.get(face) == Some(&false) {
                     taken[face] = true;
-                    parts.entry(path).or_default().push(face);
+                    by_material.entry(path).or_default().push(face);
                 }
             }
             self.note_unused(subset);
         }
         let rest = (0..taken.len()).filter(|face| !taken[*face]).collect();
-        Ok((parts, rest))
+        Ok(Parts { by_material, rest })
     }
 
     fn note_scheme(&mut self, scheme: Scheme) {
