@@ -180,7 +180,7 @@ def test_osi_s_ground_truth_is_our_objects(drive):
     from osi3.osi_object_pb2 import MovingObject, StationaryObject
 
     (name,) = (drive / "osi/train").glob("*.osi")
-    assert name.name == "000000_gt_380_2.osi"
+    assert name.name == "19700101T000000Z_gt_380_6302_2_000000.osi"
     trace = osi.OSITrace(str(name), "GroundTruth")
     frames = list(trace)
     trace.close()

@@ -339,6 +339,9 @@ fn damaged_scenes_of_usd_are_refused_and_nothing_is_written() {
     for (body, phrase) in [
         ("def Sphere \"a\" {\n double radius = = 2\n}\n", "a.usda:3: "),
         ("def Sphere \"a\" { double radius = -1 }\n", "/a: \"radius\" of -1"),
+        ("(\n metersPerUnit = 0\n)\n", "\"metersPerUnit\" of 0; expected a finite number above 0"),
+        ("(\n metersPerUnit = -1\n)\n", "\"metersPerUnit\" of -1"),
+        ("(\n metersPerUnit = inf\n)\n", "\"metersPerUnit\" of inf"),
         ("def Camera \"a\" { float focalLength = 0 }\n", "\"focalLength\" of 0"),
         (
             "def Mesh \"a\" { int[] faceVertexCounts = [3] int[] faceVertexIndices = [0, 1, 9] point3f[] points = [(0,0,0), (1,0,0)] }\n",

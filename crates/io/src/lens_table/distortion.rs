@@ -52,15 +52,10 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
 fn points(listing: &Listing<'_>, table: &Table<'_>, kind: Undistorted) -> Result<Vec<(f64, f64)>, Error> {
     const PERCENT: f64 = 0.01;
     let mut points: Vec<(f64, f64)> = Vec::new();
-    let side = table.rows.iter().map(|row| row.numbers[0]).find(|field| *field != 0.0).map_or(1.0, f64::signum);
     let widest = if kind == Undistorted::Tangent { WIDEST_DEG } else { 180.0 };
-    for row in &table.rows {
-        let (field, percent) = (row.numbers[0] * side, row.numbers[row.numbers.len() - 1]);
-        let wrong = match points.last() {
-            None if field != 0.0 => Some(format!("the first field is {field}; expected 0, the axis")),
-            Some((before, _)) if field <= *before => {
-                Some(format!("the field {field} does not lie beyond {before}; expected rising distances from the axis"))
-            }
+    for (field, row) in listing.rows_from_axis(table)? {
+        let percent = row.numbers[row.numbers.len() - 1];
+        let wrong = match percent {
             _ if field > widest => Some(format!("the field {field} lies beyond {widest}°")),
             _ if percent <= -100.0 => Some(format!("found the distortion {percent} %; expected more than −100")),
             _ => None,

@@ -37,16 +37,13 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<LensTableAsset, Error> {
 /// Field without its sign, and ratio.
 fn points(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<(f64, f64)>, Error> {
     let mut points: Vec<(f64, f64)> = Vec::new();
-    let side = table.rows.iter().map(|row| row.numbers[0]).find(|field| *field != 0.0).map_or(1.0, f64::signum);
-    for row in &table.rows {
-        let (field, ratio) = (row.numbers[0] * side, row.numbers[1]);
-        let wrong = match points.last() {
-            None if field != 0.0 => Some(format!("the first field is {field}; expected 0, the axis")),
-            Some((before, _)) if field <= *before => {
-                Some(format!("the field {field} does not lie beyond {before}; expected rising distances from the axis"))
-            }
+    for (field, row) in listing.rows_from_axis(table)? {
+        let ratio = row.numbers[1];
+        let wrong = match ratio {
             _ if ratio < 0.0 => Some(format!("found the relative illumination {ratio}; expected 0 or more")),
-            None if ratio == 0.0 => Some("the axis is dark: nothing can be compared with it".to_owned()),
+            _ if ratio == 0.0 && points.is_empty() => {
+                Some("the axis is dark: nothing can be compared with it".to_owned())
+            }
             _ => None,
         };
         if let Some(wrong) = wrong {

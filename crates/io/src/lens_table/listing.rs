@@ -93,6 +93,28 @@ impl<'a> Listing<'a> {
         table.above.iter().chain(&self.head).find_map(|(_, line)| value(line))
     }
 
+    /// The rows of a table by their distances from the axis, without the sign of the side to which the fields go: the first is the axis, each lies beyond
+    /// the one before it.
+    pub(super) fn rows_from_axis<'t>(&self, table: &'t Table<'_>) -> Result<Vec<(f64, &'t Row)>, Error> {
+        let side = table.rows.iter().map(|row| row.numbers[0]).find(|field| *field != 0.0).map_or(1.0, f64::signum);
+        let mut made: Vec<(f64, &Row)> = Vec::new();
+        for row in &table.rows {
+            let field = row.numbers[0] * side;
+            let wrong = match made.last() {
+                None if field != 0.0 => format!("the first field is {field}; expected 0, the axis"),
+                Some((before, _)) if field <= *before => {
+                    format!("the field {field} does not lie beyond {before}; expected rising distances from the axis")
+                }
+                _ => {
+                    made.push((field, row));
+                    continue;
+                }
+            };
+            return Err(self.fault(row.line, wrong));
+        }
+        Ok(made)
+    }
+
     /// In what the fields of a table are counted, whose titles stand right above it.
     pub(super) fn unit_of(&self, table: &Table<'_>) -> Result<FieldUnit, Error> {
         let titles = table.above.last().copied();

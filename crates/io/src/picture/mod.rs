@@ -11,6 +11,7 @@
 //! The kind is told by the first bytes, not by the name. What the numbers mean (sRGB-encoded or linear) is told by the
 //! description that names the file. Numbers that are not finite are refused with their pixel.
 
+mod channels;
 mod floats;
 mod large;
 mod raster;
@@ -19,6 +20,7 @@ use std::path::Path;
 
 use etendue_scene::asset::ImageAsset;
 
+pub use channels::has_colours_of_8_bits;
 pub(crate) use large::{PictureHead, head, large_picture};
 pub(crate) use raster::{Kept, decode_raster};
 

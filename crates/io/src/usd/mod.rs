@@ -24,4 +24,4 @@ mod tree;
 mod values;
 
 pub use read::read_usd;
-pub use tree::{UsdAsset, UsdAttribute, UsdAxis, UsdFile, UsdPrim, UsdStage, UsdValue};
+pub use tree::{UsdAsset, UsdAttribute, UsdAxis, UsdFile, UsdPrim, UsdRelation, UsdStage, UsdValue};

@@ -1,13 +1,13 @@
 //! A stage, prim by prim.
 
 use super::layers::Layers;
-use super::tree::{UsdAttribute, UsdAxis, UsdPrim, UsdStage};
+use super::tree::{UsdAttribute, UsdAxis, UsdPrim, UsdRelation, UsdStage};
 use super::values::{bytes_of, plain};
 use crate::guard::guarded;
 use crate::{Error, Sandbox};
 use etendue_scene::limits;
 use openusd::sdf::{Specifier, Value};
-use openusd::usd::{Attribute, Prim, Stage, TimeCode};
+use openusd::usd::{Attribute, Prim, Relationship, Stage, TimeCode};
 use openusd::usda::parser::Parser;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -59,6 +59,10 @@ impl Reading<'_> {
         })?;
         self.time = stage.start_time_code();
         let metres = number(&stage, "metersPerUnit");
+        if let Some(wrong) = metres.filter(|m| !(*m > 0.0 && m.is_finite())) {
+            let told = format!("\"metersPerUnit\" of {wrong}; expected a finite number above 0");
+            return Err(Error::new(self.file, told));
+        }
         let up = match stage.stage_metadata("upAxis") {
             Ok(Some(Value::Token(axis))) if axis.as_str() == "Z" => UsdAxis::Z,
             Ok(Some(Value::String(axis))) if axis == "Z" => UsdAxis::Z,
@@ -68,7 +72,7 @@ impl Reading<'_> {
         if let Some(fault) = self.layers.fault() {
             return Err(fault);
         }
-        let metres_per_unit = metres.filter(|m| *m > 0.0 && m.is_finite()).unwrap_or(0.01);
+        let metres_per_unit = metres.unwrap_or(0.01);
         let errors = stage.composition_errors();
         let mut notes: Vec<String> =
             errors.iter().take(MAX_NOTES).map(|error| format!("not composed: {error}")).collect();
@@ -126,9 +130,7 @@ impl Reading<'_> {
         self.spend(PRIM + NODE * nodes as u64)?;
         let mut relations = BTreeMap::new();
         for relation in prim.relationships().map_err(words)? {
-            let targets = relation.targets().map_err(words)?;
-            let name = last(relation.path().as_str()).to_owned();
-            relations.insert(name, targets.iter().map(|target| target.as_str().to_owned()).collect());
+            relations.insert(last(relation.path().as_str()).to_owned(), read_relation(&relation)?);
         }
         let mut attributes = BTreeMap::new();
         for attribute in prim.attributes().map_err(words)? {
@@ -138,7 +140,9 @@ impl Reading<'_> {
             attributes.insert(name, read);
         }
         let path = prim.path().as_str().to_owned();
-        Ok(Some(UsdPrim { path, kind, schemas, attributes, relations, children: Vec::new() }))
+        let inactive_ids = inactive_ids(prim)?;
+        self.spend(8 * inactive_ids.len() as u64)?;
+        Ok(Some(UsdPrim { path, kind, schemas, attributes, relations, inactive_ids, children: Vec::new() }))
     }
 
     /// Counts what a part of the tree takes, with what `openusd` keeps of it.
@@ -157,14 +161,45 @@ impl Reading<'_> {
                 attribute.connections().map_err(words)?.iter().map(|path| path.as_str().to_owned()).collect();
         }
         if name.starts_with("primvars:") || name == "normals" {
-            made.interpolation = match attribute.get_metadata::<Value>("interpolation").map_err(words)? {
-                Some(Value::Token(word)) => word.as_str().to_owned(),
-                Some(Value::String(word)) => word,
-                _ => String::new(),
-            };
+            made.interpolation = word(attribute.get_metadata::<Value>("interpolation").map_err(words)?);
         }
         Ok(made)
     }
+}
+
+/// A token, or a text; empty of anything else.
+fn word(value: Option<Value>) -> String {
+    match value {
+        Some(Value::Token(word)) => word.as_str().to_owned(),
+        Some(Value::String(word)) => word,
+        _ => String::new(),
+    }
+}
+
+/// What is said of a prim or a property beside its value.
+fn metadata(stage: &Stage, path: &openusd::sdf::Path, name: &str) -> Result<Option<Value>, String> {
+    // `openusd` asks by the handle of an attribute alone, whatever stands at the path.
+    stage.attribute(path.clone()).get_metadata(name).map_err(words)
+}
+
+/// The metadata `inactiveIds` of a prim, of all layers together.
+fn inactive_ids(prim: &Prim) -> Result<Vec<i64>, String> {
+    Ok(match metadata(prim.stage(), prim.path(), "inactiveIds")? {
+        Some(Value::Int64ListOp(list)) => list.iter().copied().collect(),
+        Some(Value::Int64Vec(list)) => list,
+        Some(Value::Int64(id)) => vec![id],
+        _ => Vec::new(),
+    })
+}
+
+fn read_relation(relation: &Relationship) -> Result<UsdRelation, String> {
+    let targets = relation.targets().map_err(words)?;
+    let strength = word(metadata(relation.stage(), relation.path(), "bindMaterialAs")?);
+    Ok(UsdRelation {
+        targets: targets.iter().map(|target| target.as_str().to_owned()).collect(),
+        is_stronger: strength == "strongerThanDescendants",
+        ..UsdRelation::default()
+    })
 }
 
 /// A cause with what caused it.

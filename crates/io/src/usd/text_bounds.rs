@@ -9,7 +9,7 @@ const MAX_LISTS: usize = 8;
 /// Refuses a text that is nested too deep, or has an impossible path.
 pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
     // Of braces, parentheses, brackets.
-    let (mut depths, mut at) = ([0_usize; 3], 0);
+    let (mut depths, mut at, mut words) = ([0_usize; 3], 0, LastWords::default());
     let line = |at: usize| 1 + text[..at].iter().filter(|byte| **byte == b'\n').count();
     while at < text.len() {
         let opens = [b"{}", b"()", b"[]"].iter().position(|pair| pair.contains(&text[at]));
@@ -18,7 +18,8 @@ pub(super) fn check_text(text: &[u8]) -> Result<(), String> {
             (quote @ (b'"' | b'\'' | b'@'), _) => {
                 let (end, inner) = quoted(text, at, quote);
                 check_expression(inner)?;
-                if names_prim(&text[..at]) && !is_balanced(inner) {
+                words.read_up_to(text, at);
+                if words.name_prim() && !is_balanced(inner) {
                     return Err(format!("line {}: a prim whose name has braces", line(at)));
                 }
                 at = end;
@@ -62,10 +63,35 @@ pub(super) fn is_balanced(text: &[u8]) -> bool {
     depth == 0
 }
 
-/// Whether what is quoted behind a text is the name of a prim: `def`, `over` or `class` is before it, and at most a type between.
-fn names_prim(before: &[u8]) -> bool {
-    let mut words = before.rsplit(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).take(2);
-    words.any(|word| [&b"def"[..], b"over", b"class"].iter().any(|known| word.ends_with(known)))
+/// The ends of the last two words of a text that is read once from its beginning.
+#[derive(Default)]
+struct LastWords {
+    /// As long as the longest word that is asked for.
+    ends: [[u8; 5]; 2],
+    is_within: bool,
+    read: usize,
+}
+
+impl LastWords {
+    fn read_up_to(&mut self, text: &[u8], at: usize) {
+        for byte in &text[self.read..at] {
+            if byte.is_ascii_whitespace() {
+                self.is_within = false;
+                continue;
+            }
+            if !std::mem::replace(&mut self.is_within, true) {
+                self.ends = [self.ends[1], [0; 5]];
+            }
+            self.ends[1].rotate_left(1);
+            self.ends[1][4] = *byte;
+        }
+        self.read = at;
+    }
+
+    /// Whether what is quoted behind them is the name of a prim: `def`, `over` or `class` is before it, and at most a type between.
+    fn name_prim(&self) -> bool {
+        self.ends.iter().any(|end| [&b"def"[..], b"over", b"class"].iter().any(|known| end.ends_with(known)))
+    }
 }
 
 /// Where what is quoted from `at` on ends, and what stands within.
@@ -108,6 +134,17 @@ pub(super) fn check_expression(text: &[u8]) -> Result<(), String> {
 mod tests {
     use super::*;
 
+    /// Quotes without a blank between them, and blanks without a word: a million bytes of either take no minutes.
+    #[test]
+    fn long_texts_are_read_once() {
+        let blanks = format!("{}{}", " ".repeat(1_000_000), "''".repeat(100_000));
+        let texts = ["\"a\"".repeat(400_000), format!("def{}", " \"\"".repeat(300_000)), blanks];
+        let (done, is_done) = std::sync::mpsc::channel();
+        std::thread::spawn(move || done.send(texts.map(|text| check_text(text.as_bytes()))));
+        let found = is_done.recv_timeout(std::time::Duration::from_secs(20)).expect("an end within 20 s");
+        assert!(found.iter().all(Result::is_ok), "{found:?}");
+    }
+
     #[test]
     fn brackets_count_where_they_are_no_text() {
         let nested = |open: &str, close: &str| format!("{}{}", open.repeat(65), close.repeat(65));
@@ -116,6 +153,12 @@ mod tests {
             assert!(check_text(path.as_bytes()).is_err(), "{path}");
         }
         for path in ["def \"a\" { string b = \"}\" }", "rel a = </a{v=x}b>", "string doc = \"a } b\""] {
+            assert!(check_text(path.as_bytes()).is_ok(), "{path}");
+        }
+        for path in ["x\n def  \t\nSphere\n \"{\"", "\"a\"def\"{\""] {
+            assert!(check_text(path.as_bytes()).is_err(), "{path}");
+        }
+        for path in ["def A B \"{\"", "define \"{\"", "de f \"{\"", "\"{\""] {
             assert!(check_text(path.as_bytes()).is_ok(), "{path}");
         }
         assert!(check_text(nested("{", "}").as_bytes()).is_err());

@@ -32,7 +32,7 @@ pub struct UsdStage {
 }
 
 /// A prim: defined, active, no class.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct UsdPrim {
     /// Its path, `/World/Chair`.
     pub path: String,
@@ -42,10 +42,23 @@ pub struct UsdPrim {
     pub schemas: Vec<String>,
     /// Its attributes by their names.
     pub attributes: BTreeMap<String, UsdAttribute>,
-    /// Targets of its relationships by their names: paths of prims and properties.
-    pub relations: BTreeMap<String, Vec<String>>,
+    /// Its relationships by their names.
+    pub relations: BTreeMap<String, UsdRelation>,
+    /// Of an instancer: `inactiveIds`, the instances that are left out at all times.
+    pub inactive_ids: Vec<i64>,
     /// The prims within it.
     pub children: Vec<UsdPrim>,
+}
+
+/// A relationship.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct UsdRelation {
+    /// Paths of prims and properties.
+    pub targets: Vec<String>,
+    /// Of one that binds a material: `bindMaterialAs = "strongerThanDescendants"`.
+    pub is_stronger: bool,
+    /// Whether anyone has looked at it.
+    pub used: Cell<bool>,
 }
 
 /// An attribute.
@@ -117,6 +130,14 @@ impl UsdPrim {
         let attribute = self.attributes.get(name)?;
         attribute.used.set(true);
         attribute.value.as_ref()
+    }
+
+    /// A relationship with targets, which counts as looked at.
+    #[must_use]
+    pub fn relation(&self, name: &str) -> Option<&UsdRelation> {
+        let relation = self.relations.get(name)?;
+        relation.used.set(true);
+        Some(relation).filter(|relation| !relation.targets.is_empty())
     }
 
     /// Whether an API schema is applied to it.

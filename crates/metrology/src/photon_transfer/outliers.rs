@@ -8,7 +8,7 @@
 //!
 //! Additional currents are taken to be exponential, as `hot` of a camera file is: m is the maximum of the likelihood where currents above C
 //! (saturated pixels) are known to be no less (censored, Deemer & Votaw 1955), and what lies below T is added by the same law. Uncertainty: of numbers n as
-//! √n, of m as m/√n_below. Pixels that touch in rows or columns, a saturated one among them, are one hot pixel whose charge ran over. Fewer than five are counted and no share is told of them.
+//! √n, of m as m/√n_below. Pixels that touch in rows or columns, a saturated one among them, are one hot pixel whose charge ran over, the middle one of those that are saturated (charge runs over to both sides). Fewer than five are counted and no share is told of them.
 
 use super::Stack;
 use crate::Estimate;
@@ -79,7 +79,8 @@ pub fn hot_pixels(
     Some(Outliers { share, mean_e_s, ..none })
 }
 
-/// Of pixels (rising places, row by row) that touch in rows or columns, where a saturated one is among them, that alone: what the others have ran over from it.
+/// Of pixels (rising places, row by row) that touch in rows or columns, where saturated ones are among them, the middle one of these alone: what the others
+/// have ran over from it, to both sides alike.
 fn without_overflow(above: &[usize], width: usize, is_full: impl Fn(usize) -> bool) -> Vec<usize> {
     let mut found = Vec::new();
     let mut seen = vec![false; above.len()];
@@ -104,8 +105,10 @@ fn without_overflow(above: &[usize], width: usize, is_full: impl Fn(usize) -> bo
             next += 1;
         }
         let places = group.into_iter().map(|member| above[member]);
-        match places.clone().find(|place| is_full(*place)) {
-            Some(source) => found.push(source),
+        let mut full: Vec<usize> = places.clone().filter(|place| is_full(*place)).collect();
+        full.sort_unstable();
+        match full.get(full.len() / 2) {
+            Some(source) => found.push(*source),
             None => found.extend(places),
         }
     }
@@ -172,14 +175,15 @@ mod tests {
     #[test]
     fn charge_that_ran_over_is_one_hot_pixel() {
         let mut long = vec![65.0; 2000];
-        // Five lone ones, and one whose column it filled: two full pixels, two half full ones.
+        // Five lone ones, and one whose column it filled: three full pixels, two half full ones above them and one below.
         [5, 99, 430, 931, 1900].iter().for_each(|i| long[*i] = 800.0);
-        [(1010, 4095.0), (1030, 4095.0), (990, 1500.0), (1050, 2300.0)].iter().for_each(|(i, v)| long[*i] = *v);
+        [990, 1010, 1030].iter().for_each(|i| long[*i] = 4095.0);
+        [(950, 700.0), (970, 1500.0), (1050, 2300.0)].iter().for_each(|(i, v)| long[*i] = *v);
         let found = hot_pixels((&stack(&long, 20), 2.5), (&stack(&[64.0; 2000], 20), 0.5), 0.5, Some(4095.0));
         let found = found.expect("two exposures");
         assert_eq!(found.places, [[5, 0], [19, 4], [10, 21], [11, 46], [10, 50], [0, 95]]);
         // The charge is there, wherever it was made.
-        let added = (5.0 * 735.0 + 2.0 * 4030.0 + 1435.0 + 2235.0) / 2000.0;
+        let added = (5.0 * 735.0 + 3.0 * 4030.0 + 635.0 + 1435.0 + 2235.0) / 2000.0;
         assert!((found.added_e_s - added).abs() < 1e-9, "{}", found.added_e_s);
     }
 

@@ -27,7 +27,7 @@ struct Knot {
     /// q.
     ratio: f64,
     /// q″.
-    bend: f64,
+    second_derivative: f64,
 }
 
 impl Tabulated {
@@ -47,15 +47,15 @@ impl Tabulated {
         let [first, second] = [points[0], points[1]].map(|(angle, radius)| (angle * angle, radius / angle));
         let on_axis = (first.1 * second.0 - second.1 * first.0) / (second.0 - first.0);
         legal("the focal length", on_axis, on_axis > 0.0, "a table whose first points tell one above 0")?;
-        let axis = Knot { angle: 0.0, radius: 0.0, ratio: on_axis, bend: 0.0 };
+        let axis = Knot { angle: 0.0, radius: 0.0, ratio: on_axis, second_derivative: 0.0 };
         let beyond = points.iter().map(|(angle, radius)| Knot {
             angle: *angle,
             radius: *radius,
             ratio: radius / angle,
-            bend: 0.0,
+            second_derivative: 0.0,
         });
         let mut knots: Vec<Knot> = core::iter::once(axis).chain(beyond).collect();
-        bend(&mut knots);
+        solve_second_derivatives(&mut knots);
         let tabulated = Self { knots };
         tabulated.check_rises()?;
         Ok(tabulated)
@@ -96,16 +96,16 @@ impl Tabulated {
 fn coefficients(pair: &[Knot]) -> [f64; 4] {
     let (a, b) = (pair[0], pair[1]);
     let h = b.angle - a.angle;
-    let slope = (b.ratio - a.ratio) / h - h * (2.0 * a.bend + b.bend) / 6.0;
-    [a.ratio, slope, 0.5 * a.bend, (b.bend - a.bend) / (6.0 * h)]
+    let slope = (b.ratio - a.ratio) / h - h * (2.0 * a.second_derivative + b.second_derivative) / 6.0;
+    [a.ratio, slope, 0.5 * a.second_derivative, (b.second_derivative - a.second_derivative) / (6.0 * h)]
 }
 
 /// The second derivatives at the knots: a tridiagonal system, solved from both ends (Thomas).
-fn bend(knots: &mut [Knot]) {
+fn solve_second_derivatives(knots: &mut [Knot]) {
     let last = knots.len() - 1;
     let step = |i: usize, knots: &[Knot]| knots[i + 1].angle - knots[i].angle;
     let slope = |i: usize, knots: &[Knot]| (knots[i + 1].ratio - knots[i].ratio) / step(i, knots);
-    // Of each row what the next knot's bend is multiplied by, and what is on the right.
+    // Of each row what the next knot's second derivative is multiplied by, and what is on the right.
     let (mut upper, mut right) = (vec![0.0; last + 1], vec![0.0; last + 1]);
     // q′(0) = 0.
     upper[0] = 0.5;
@@ -116,11 +116,11 @@ fn bend(knots: &mut [Knot]) {
         upper[i] = after / diagonal;
         right[i] = (6.0 * (slope(i, knots) - slope(i - 1, knots)) - before * right[i - 1]) / diagonal;
     }
-    // The last interval has one curvature: the last bend is the one before it.
-    knots[last - 1].bend = right[last - 1] / (1.0 + upper[last - 1]);
-    knots[last].bend = knots[last - 1].bend;
+    // The last interval has one curvature: the last second derivative is the one before it.
+    knots[last - 1].second_derivative = right[last - 1] / (1.0 + upper[last - 1]);
+    knots[last].second_derivative = knots[last - 1].second_derivative;
     for i in (0..last - 1).rev() {
-        knots[i].bend = right[i] - upper[i] * knots[i + 1].bend;
+        knots[i].second_derivative = right[i] - upper[i] * knots[i + 1].second_derivative;
     }
 }
 

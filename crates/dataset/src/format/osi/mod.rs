@@ -1,5 +1,7 @@
-//! ASAM OSI 3.8.0: `osi/SPLIT/NNNNNN_gt_380_FRAMES.osi`, a trace a sample: for each frame a `GroundTruth` behind its length (four bytes, little-endian).
+//! ASAM OSI 3.8.0: `osi/SPLIT/TIME_gt_380_6302_FRAMES_NNNNNN.osi`, a trace a sample: for each frame a `GroundTruth` behind its length (four bytes, little-endian).
 //!
+//! - Names follow OSI's convention ([`name`]): the time of the first frame, counted from 1970 as the messages' own, so that no clock is in them; the version of the messages; 6.30.2, the
+//!   version of protobuf that osi-python 3.8.0 is made with and asks for; how many frames; and the sample's number as the name of the trace.
 //! - Objects are all of the world with a class, seen or not, by their identities: those that a class or their motion makes movers as `moving_object`, others as `stationary_object`, by the lists of [`kind`];
 //!   `source_reference` has their names. Surfaces (road, terrain …) and the sky have no box.
 //! - The frame of the ground truth is the scene's (x forward, y left, z up, m); position is the middle of the object's box, whose length, width and height are along the object's own x, y and z; orientation turns
@@ -8,6 +10,7 @@
 //! - Left out: the host vehicle, accelerations and rates of turning, lanes and markings, what signs and lights mean (they are stationary objects of type other), occupants, environment.
 
 mod kind;
+mod name;
 mod wire;
 
 use super::writer::{Writer, write};
@@ -28,24 +31,24 @@ const VERSION: [u64; 3] = [3, 8, 0];
 
 /// The messages of the frames of the sample that is being made.
 #[derive(Default)]
-pub(super) struct Osi(RefCell<BTreeMap<u32, Message>>);
+pub(super) struct Osi(RefCell<BTreeMap<u32, (f64, Message)>>);
 
 impl Writer for Osi {
     fn picture(&self, set: &Set, picture: &Picture<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {
         let record = &picture.record;
         if set.cameras.first() == Some(&record.camera) {
             let message = ground_truth(record.time_s, &picture.world_objects());
-            self.0.borrow_mut().insert(record.frame, message);
+            self.0.borrow_mut().insert(record.frame, (record.time_s, message));
         }
         Ok(())
     }
 
     fn sample(&self, _set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
         let frames = self.0.take();
-        let [major, minor, patch] = VERSION;
-        let name = format!("{:06}_gt_{major}{minor}{patch}_{}.osi", record.sample, frames.len());
+        let first_s = frames.values().next().map_or(0.0, |(time_s, _)| *time_s);
+        let name = name::of(first_s, VERSION, frames.len(), record.sample);
         let mut bytes = Vec::new();
-        for message in frames.values() {
+        for (_, message) in frames.values() {
             let length = u32::try_from(message.bytes().len());
             let length = length.map_err(|_| Error::run("osi: the objects of a frame take more than 4 GiB"))?;
             bytes.extend_from_slice(&length.to_le_bytes());

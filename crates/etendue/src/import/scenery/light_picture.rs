@@ -30,8 +30,7 @@ impl Scenery {
         scale: f64,
     ) -> Result<Environment, String> {
         let LightPicture { shown, path, columns, pixel } = *picture;
-        let is_upright = (turn.z_axis - DVec3::Z).length() < 1e-9 && turn.determinant() > 0.0;
-        if is_upright {
+        if is_upright(&turn) {
             let [azimuth, _] = azimuth_elevation_deg(turn.x_axis);
             let [degrees, ..] = rounded([azimuth, 0.0, 0.0]);
             self.report.note(format!("the light of `{shown}`: 1 is {scale} cd/m²"));
@@ -49,6 +48,11 @@ impl Scenery {
         self.report.note(format!("the light of `{shown}`: turned, and resampled; 1 is {scale} cd/m²"));
         Ok(Environment::Image(EnvironmentImage::new(written.as_str(), scale)))
     }
+}
+
+/// Whether a picture by [`Scenery::light_picture`]'s `turn` stands upright and is not mirrored: it needs no other pixels.
+pub(in crate::import) fn is_upright(turn: &DMat3) -> bool {
+    (turn.z_axis - DVec3::Z).length() < 1e-9 && turn.determinant() > 0.0
 }
 
 /// Columns go round, rows end at the poles.

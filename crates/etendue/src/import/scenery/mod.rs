@@ -23,6 +23,8 @@ pub(super) use environment::resampled;
 pub(super) use known::{Homogeneous, INTERFACE, KnownTexture};
 pub(super) use light_picture::LightPicture;
 #[cfg(feature = "usd")]
+pub(super) use light_picture::is_upright;
+#[cfg(feature = "usd")]
 pub(super) use numbers::stored_pixels;
 pub(super) use objects::above_zero;
 pub(super) use report::Report;

@@ -79,4 +79,5 @@ pub(super) fn vector(prim: &UsdPrim, name: &str) -> Option<DVec3> {
 /// Counts everything of a prim as looked at: what is left out is told once.
 pub(super) fn leave(prim: &UsdPrim) {
     prim.attributes.values().for_each(|attribute| attribute.used.set(true));
+    prim.relations.values().for_each(|relation| relation.used.set(true));
 }

@@ -2,7 +2,7 @@
 
 use super::access::{asset, text};
 use super::importer::{Importer, State};
-use crate::import::scenery::{LightPicture, LightUnit, grey, linear_pixels};
+use crate::import::scenery::{LightPicture, LightUnit, grey, is_upright, linear_pixels};
 use etendue_io::usd::{UsdAxis, UsdFile, UsdPrim};
 use etendue_scene::record::{Emission, Environment, Level, LightColour};
 use glam::{DMat3, DVec3};
@@ -75,9 +75,8 @@ impl<'a> Importer<'a> {
             axes.z_axis.normalize_or_zero(),
         );
         let turn = self.scenery.to_ours * own * stand * picture_axes().transpose();
-        let is_upright = (turn.z_axis - DVec3::Z).length() < 1e-9 && turn.determinant() > 0.0;
         // What is resampled need not lie beside the scene as well.
-        let path = match (&stated.file, is_upright) {
+        let path = match (&stated.file, is_upright(&turn)) {
             (Some(UsdFile::Packed(..)), false) => String::new(),
             _ => self.file(stated)?,
         };

@@ -1,7 +1,8 @@
 //! Prims to a scene.
 
 use super::access::text;
-use super::bound::Bound;
+use super::binding::{Bindings, binds_collections};
+use super::bound_material::BoundMaterial;
 use super::paths::Paths;
 use super::transform::transform_of;
 use crate::import::scenery::{KnownTexture, Scenery};
@@ -24,7 +25,9 @@ pub(super) struct Importer<'a> {
     /// From the stage's space to that of lengths in metres.
     root: DAffine3,
     /// What materials became, by their paths.
-    pub(super) materials: HashMap<String, Bound>,
+    pub(super) materials: HashMap<String, BoundMaterial>,
+    /// Of the material that is being made: how pictures lie that are black outside.
+    pub(super) black_outside: Vec<[[f64; 2]; 2]>,
     /// What pictures became, by all that is asked of them.
     pub(super) textures: HashMap<String, KnownTexture>,
     /// Files of packages that are written, by their names there.
@@ -43,8 +46,8 @@ pub(super) struct State<'a> {
     pub(super) to_world: DAffine3,
     is_visible: bool,
     purpose: &'a str,
-    /// The path of the material that is bound.
-    pub(super) material: Option<&'a str>,
+    /// The materials that are bound.
+    pub(super) bindings: Bindings<'a>,
     /// Instancers about it.
     pub(super) depth: usize,
 }
@@ -69,6 +72,7 @@ impl<'a> Importer<'a> {
             paths: Paths::of(&stage.roots),
             root: DAffine3::from_scale(DVec3::splat(stage.metres_per_unit)),
             materials: HashMap::new(),
+            black_outside: Vec::new(),
             textures: HashMap::new(),
             unpacked: HashMap::new(),
             cameras: Vec::new(),
@@ -79,18 +83,25 @@ impl<'a> Importer<'a> {
         }
     }
 
-    /// The files of the scene.
-    pub(super) fn finish(mut self, file: &Path) -> Result<Written, String> {
+    /// Makes the scene of all prims.
+    pub(super) fn read(&mut self) -> Result<(), String> {
         let metres = self.stage.metres_per_unit;
         let by = if self.stage.says_metres { "as it says" } else { "as where nothing is said" };
         let up = if self.stage.up == UsdAxis::Y { "y" } else { "z" };
         self.scenery.report.note(format!("a length of 1 is {metres} m, {by}; {up} is up"));
         self.stage.notes.iter().for_each(|note| self.scenery.report.note(note.as_str()));
-        let state = State { to_world: self.root, is_visible: true, purpose: "", material: None, depth: 0 };
+        let bindings = Bindings::default();
+        let state = State { to_world: self.root, is_visible: true, purpose: "", bindings, depth: 0 };
         for prim in &self.stage.roots {
             self.prim(prim, &state)?;
         }
         self.scenery.report.at(String::new());
+        Ok(())
+    }
+
+    /// The files of the scene.
+    pub(super) fn finish(mut self, file: &Path) -> Result<Written, String> {
+        self.read()?;
         let Scenery { scene, report, .. } = &mut self.scenery;
         if scene.lights.is_empty() && scene.environment.is_none() && !self.shines {
             let told = even_sky(scene);
@@ -125,20 +136,14 @@ impl<'a> Importer<'a> {
         if !purpose.is_empty() {
             state.purpose = purpose;
         }
-        if let Some(path) = self.binding(prim) {
-            state.material = Some(path);
-        }
+        state.bindings = self.bindings(prim, &about.bindings);
         match prim.kind.as_str() {
             "PointInstancer" => return self.instancer(prim, &state),
             // Whoever asks for them reads them.
             "Material" | "Shader" | "NodeGraph" | "GeomSubset" => return Ok(()),
             "Camera" => self.camera(prim, &state)?,
             "" | "Xform" | "Scope" | "SkelRoot" => {}
-            _ if !state.is_drawn() => {
-                super::access::leave(prim);
-                let told = "what is invisible, or for purposes other than rendering (guide, proxy), is left out";
-                self.scenery.report.note(told);
-            }
+            _ if !state.is_drawn() => self.leave_undrawn(prim),
             kind if kind.ends_with("Light") || kind == "DomeLight_1" => self.light(prim, &state)?,
             _ => self.shape(prim, &state)?,
         }
@@ -146,14 +151,19 @@ impl<'a> Importer<'a> {
         prim.children.iter().try_for_each(|child| self.prim(child, &state))
     }
 
-    /// The material that a prim is bound to by itself.
-    pub(super) fn binding(&mut self, prim: &'a UsdPrim) -> Option<&'a str> {
-        if prim.relations.keys().any(|name| name.starts_with("material:binding:collection")) {
+    /// What a prim is bound to, within one of these bindings.
+    pub(super) fn bindings(&mut self, prim: &'a UsdPrim, about: &Bindings<'a>) -> Bindings<'a> {
+        if binds_collections(prim) {
             self.scenery.report.note("materials that are bound to collections are not used");
         }
-        // What a renderer takes: the one for full rendering before the one for all purposes.
-        let names = ["material:binding:full", "material:binding", "material:binding:preview"];
-        names.iter().find_map(|name| prim.relations.get(*name)?.first().map(String::as_str))
+        about.within(prim)
+    }
+
+    /// Says that a prim is not drawn.
+    pub(super) fn leave_undrawn(&mut self, prim: &UsdPrim) {
+        super::access::leave(prim);
+        let told = "what is invisible, or for purposes other than rendering (guide, proxy), is left out";
+        self.scenery.report.note(told);
     }
 
     /// What a shape is called.
@@ -171,8 +181,8 @@ impl<'a> Importer<'a> {
     pub(super) fn note_unused(&mut self, prim: &UsdPrim) {
         let time = self.stage.start_time;
         self.scenery.report.at(prim.path.clone());
+        let kind = if prim.kind.is_empty() { "prim" } else { &prim.kind };
         for (name, attribute) in prim.attributes.iter().filter(|(_, attribute)| attribute.value.is_some()) {
-            let kind = if prim.kind.is_empty() { "prim" } else { &prim.kind };
             if !attribute.used.get() {
                 if !is_aside(name) {
                     self.scenery.report.note(format!("{kind}: \"{name}\" is not used"));
@@ -181,12 +191,18 @@ impl<'a> Importer<'a> {
                 self.scenery.report.note(format!("{kind}: \"{name}\" changes: all stands as at time code {time}"));
             }
         }
+        for (name, relation) in prim.relations.iter().filter(|(_, relation)| !relation.targets.is_empty()) {
+            if !relation.used.get() && !is_aside(name) {
+                self.scenery.report.note(format!("{kind}: the relationship \"{name}\" is not used"));
+            }
+        }
     }
 }
 
-/// Attributes that say nothing of a picture, and those of which what they lead to is used.
+/// Attributes and relationships that say nothing of a picture, and those of which what they lead to is used.
 fn is_aside(name: &str) -> bool {
     matches!(name, "extent" | "doubleSided" | "extentsHint" | "visibility" | "purpose" | "xformOpOrder")
+        || matches!(name, "proxyPrim" | "familyName")
         || [
             "ui:",
             "userProperties:",

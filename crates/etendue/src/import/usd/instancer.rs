@@ -1,6 +1,6 @@
 //! Many copies of a few prototypes.
 
-use super::access::{indices, leave, numbers, tuples};
+use super::access::{indices, numbers, tuples};
 use super::importer::{Importer, State};
 use super::transform::rotation;
 use etendue_io::usd::UsdPrim;
@@ -18,7 +18,7 @@ impl<'a> Importer<'a> {
             return told(format!("instancers stand more than {MAX_DEPTH} deep in one another, or in a circle"));
         }
         if !state.is_drawn() {
-            leave(prim);
+            self.leave_undrawn(prim);
             return Ok(());
         }
         let Some(which) = indices(prim, "protoIndices") else {
@@ -29,12 +29,13 @@ impl<'a> Importer<'a> {
         let precise = tuples::<4>(prim, "orientationsf");
         let turns = if precise.is_empty() { tuples::<4>(prim, "orientations") } else { precise };
         let ids = numbers(prim, "ids");
-        let hidden: HashSet<u64> = numbers(prim, "invisibleIds").iter().map(|id| id.to_bits()).collect();
+        let inactive = prim.inactive_ids.iter().map(|id| *id as f64);
+        let hidden = numbers(prim, "invisibleIds").iter().copied().chain(inactive);
+        let hidden: HashSet<u64> = hidden.map(f64::to_bits).collect();
         if positions.len() < which.len() {
             return told(format!("{} positions of {} instances", positions.len(), which.len()));
         }
-        let none = Vec::new();
-        let targets = prim.relations.get("prototypes").unwrap_or(&none);
+        let targets = prim.relation("prototypes").map_or(&[][..], |relation| &relation.targets);
         for (number, prototype) in which.iter().enumerate() {
             let id = ids.get(number).copied().unwrap_or(number as f64);
             if hidden.contains(&id.to_bits()) {

@@ -8,7 +8,7 @@ use crate::import::lamps;
 use crate::import::scenery::{AreaLight, Graphics, LightUnit};
 use etendue_core::maths::f64 as maths;
 use etendue_io::usd::UsdPrim;
-use etendue_scene::record::Light;
+use etendue_scene::record::{Light, LightColour};
 use glam::{DAffine3, DMat3, DVec3};
 use std::f64::consts::PI;
 use std::rc::Rc;
@@ -39,26 +39,26 @@ impl<'a> Importer<'a> {
             "DomeLight" | "DomeLight_1" => return self.dome(prim, state, unit).map_err(told),
             _ => {}
         }
-        let scale = self.scales(state);
-        let area = area_of(prim, scale);
-        let luminance = if is_divided && area > 0.0 { unit.luminance / area } else { unit.luminance };
-        let unit = LightUnit { luminance, ..unit };
         let cone = cone_of(prim);
         match (cone, prim.kind.as_str()) {
             (Some(cone), "SphereLight") => {
-                self.spot(prim, state, unit, cone);
+                let candela = self.candela(prim, state, unit.luminance);
+                self.spot(prim, state, cone, candela, unit.colour);
                 return Ok(());
             }
             (Some(_), _) => {
                 self.scenery.report.note(format!("the cone of a {} is not used: it shines all round", prim.kind));
             }
             (None, "SphereLight") if flag(prim, "treatAsPoint", false) || number(prim, "inputs:radius", 0.5) <= 0.0 => {
-                self.point(prim, state, unit);
+                let candela = self.candela(prim, state, unit.luminance);
+                self.point(prim, state, candela, unit.colour);
                 return Ok(());
             }
             (None, _) => {}
         }
-        self.area(prim, state, unit).map_err(told)
+        let area = area_of(prim, self.scales(state));
+        let luminance = if is_divided && area > 0.0 { unit.luminance / area } else { unit.luminance };
+        self.area(prim, state, LightUnit { luminance, ..unit }).map_err(told)
     }
 
     /// Lengths of a light's axes in the stage's unit.
@@ -103,29 +103,32 @@ impl<'a> Importer<'a> {
         self.scenery.check_size()
     }
 
-    /// What a sphere of this luminance gives from afar, cd.
+    /// What a sphere of this luminance gives from afar, cd: L π r², or where "normalize" divides by its surface 4 π r², a quarter of L unit²,
+    /// whatever its radius is.
     fn candela(&self, prim: &UsdPrim, state: &State<'a>, luminance: f64) -> f64 {
+        if flag(prim, "inputs:normalize", false) {
+            let _ = number(prim, "inputs:radius", 0.5);
+            return 0.25 * luminance * self.stage.metres_per_unit * self.stage.metres_per_unit;
+        }
         let radius = number(prim, "inputs:radius", 0.5);
         let scale = maths::cbrt(self.scales(state).iter().product::<f64>()) * self.stage.metres_per_unit;
         luminance * PI * (radius * scale) * (radius * scale)
     }
 
-    fn point(&mut self, prim: &'a UsdPrim, state: &State<'a>, unit: LightUnit) {
-        let candela = self.candela(prim, state, unit.luminance);
+    fn point(&mut self, prim: &'a UsdPrim, state: &State<'a>, candela: f64, colour: LightColour) {
         if candela <= 0.0 {
-            self.scenery.report.note("a SphereLight without a radius is dark and left out");
+            self.note_dark_point();
             return;
         }
         self.scenery.report.note(format!("SphereLight as a point: {candela} cd"));
         let name = self.scenery.names.take(prim.name(), "light");
         let position = self.scenery.to_ours * state.to_world.translation;
-        self.scenery.scene.lights.push(lamps::point(&name, position, candela, unit.colour));
+        self.scenery.scene.lights.push(lamps::point(&name, position, candela, colour));
     }
 
-    fn spot(&mut self, prim: &'a UsdPrim, state: &State<'a>, unit: LightUnit, cone: [f64; 2]) {
-        let candela = self.candela(prim, state, unit.luminance);
+    fn spot(&mut self, prim: &'a UsdPrim, state: &State<'a>, cone: [f64; 2], candela: f64, colour: LightColour) {
         if candela <= 0.0 {
-            self.scenery.report.note("a SphereLight without a radius is dark and left out");
+            self.note_dark_point();
             return;
         }
         let [inner_deg, outer_deg] = cone;
@@ -135,7 +138,11 @@ impl<'a> Importer<'a> {
         let name = self.scenery.names.take(prim.name(), "light");
         let ahead = (self.scenery.to_ours * -state.to_world.matrix3.z_axis).normalize_or(DVec3::X);
         let position = self.scenery.to_ours * state.to_world.translation;
-        self.scenery.scene.lights.push(lamps::spot(&name, (position, ahead), cone, candela, unit.colour));
+        self.scenery.scene.lights.push(lamps::spot(&name, (position, ahead), cone, candela, colour));
+    }
+
+    fn note_dark_point(&mut self) {
+        self.scenery.report.note("a SphereLight without a radius, and without \"normalize\", is dark and left out");
     }
 
     /// A disc at infinity: its luminance over its projected solid angle is what arrives.
@@ -173,7 +180,6 @@ fn area_of(prim: &UsdPrim, [x, y, z]: [f64; 3]) -> f64 {
 mod tests {
     use super::*;
     use etendue_io::usd::{UsdAttribute, UsdValue};
-    use std::collections::BTreeMap;
 
     #[test]
     fn areas_are_those_of_the_world() {
@@ -182,10 +188,8 @@ mod tests {
         let prim = |kind: &str| UsdPrim {
             path: "/a".to_owned(),
             kind: kind.to_owned(),
-            schemas: Vec::new(),
             attributes: attributes.iter().map(|(name, v)| ((*name).to_owned(), value(*v))).collect(),
-            relations: BTreeMap::new(),
-            children: Vec::new(),
+            ..UsdPrim::default()
         };
         let near = |kind: &str, expected: f64| assert!((area_of(&prim(kind), [2.0; 3]) / expected - 1.0).abs() < 1e-12);
         near("RectLight", 8.0 * 2.0);

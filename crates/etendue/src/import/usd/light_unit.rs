@@ -64,11 +64,11 @@ impl<'a> Importer<'a> {
 /// A black body's light through a filter of a colour.
 fn tinted(rgb: [f64; 3], kelvin: f64, strength: f64) -> LightUnit {
     let body = illuminant::blackbody(kelvin);
-    let level = observer::luminance(&body);
     let own = linear_srgb_from_xyz(observer::xyz(&body));
     let luminance = |rgb: [f64; 3]| -> f64 { rgb.iter().zip(BT709).map(|(v, weight)| v * weight).sum() };
     // Of luminance 1, and without what lies outside the colours of sRGB.
-    let scale = luminance(own);
-    let tint: [f64; 3] = std::array::from_fn(|i| (rgb[i] * own[i] / if level > 0.0 { scale } else { 1.0 }).max(0.0));
+    let level = luminance(own);
+    let scale = if level > 0.0 { 1.0 / level } else { 1.0 };
+    let tint: [f64; 3] = std::array::from_fn(|i| (rgb[i] * own[i] * scale).max(0.0));
     LightUnit { colour: LightColour::Rgb(tint.into()), luminance: strength * luminance(tint) }
 }

@@ -1,9 +1,9 @@
 //! UsdPreviewSurface as surfaces of ours.
 
-use super::bound::Bound;
+use super::bound_material::BoundMaterial;
 use super::importer::Importer;
 use super::network::Input;
-use super::texture::Picture;
+use super::texture::{ColourRule, Picture};
 use crate::import::scenery::{KnownTexture, grey};
 use etendue_io::usd::{UsdPrim, UsdValue};
 use etendue_scene::asset::COAT_INDICES;
@@ -13,6 +13,7 @@ use etendue_scene::record::material::{
 };
 use etendue_scene::record::{Emission, Level, LightColour, Reflectance, SurfaceEmission};
 use etendue_spectra::colour::BT709;
+use std::ops::RangeInclusive;
 
 /// The index that reflects a share of light at normal incidence.
 fn index_of(share: f64) -> f64 {
@@ -22,7 +23,7 @@ fn index_of(share: f64) -> f64 {
 
 impl<'a> Importer<'a> {
     /// The material of a path.
-    pub(super) fn material(&mut self, path: &str) -> Result<Bound, String> {
+    pub(super) fn material(&mut self, path: &str) -> Result<BoundMaterial, String> {
         if let Some(known) = self.materials.get(path) {
             return Ok(known.clone());
         }
@@ -30,14 +31,15 @@ impl<'a> Importer<'a> {
             Some(prim) => self.material_of(prim)?,
             None => {
                 self.scenery.report.note(format!("the material <{path}> is not there: grey of 0.5 in its place"));
-                Bound::default()
+                BoundMaterial::default()
             }
         };
         self.materials.insert(path.to_owned(), bound.clone());
         Ok(bound)
     }
 
-    fn material_of(&mut self, prim: &'a UsdPrim) -> Result<Bound, String> {
+    fn material_of(&mut self, prim: &'a UsdPrim) -> Result<BoundMaterial, String> {
+        self.black_outside.clear();
         let named = prim.attributes.keys().filter(|name| name.starts_with("outputs:") && name.ends_with("surface"));
         // That of all renderers comes first.
         let outputs = std::iter::once("outputs:surface").chain(named.map(String::as_str));
@@ -53,7 +55,7 @@ impl<'a> Importer<'a> {
                 id => format!("a surface \"{id}\" is not understood: grey of 0.5 in its place"),
             };
             self.scenery.report.note(told);
-            return Ok(Bound::default());
+            return Ok(BoundMaterial::default());
         };
         self.scenery.report.at(shader.path.clone());
         let primvar = self.primvar_of(shader);
@@ -72,7 +74,7 @@ impl<'a> Importer<'a> {
         self.shines |= material.emission.is_some();
         self.scenery.scene.materials.push(material);
         self.note_left_out(shader);
-        Ok(Bound { name: name.as_str().into(), primvar })
+        Ok(BoundMaterial::new(&name, primvar, std::mem::take(&mut self.black_outside)))
     }
 
     fn note_left_out(&mut self, shader: &'a UsdPrim) {
@@ -103,15 +105,13 @@ impl<'a> Importer<'a> {
             self.scenery.report.note(
                 "a surface of an opacity of 0.5 or less is a pane without thickness: light goes straight through; for a solid that refracts write type = \"dielectric\"",
             );
-            return Ok(Surface::ThinSheet(ThinSheet {
-                index: Some(stated.clamp(1.0, 4.0).into()),
-                ..ThinSheet::default()
-            }));
+            let index = self.index_within("ior", stated, 1.0..=4.0);
+            return Ok(Surface::ThinSheet(ThinSheet { index: Some(index.into()), ..ThinSheet::default() }));
         }
         if self.plain_number(shader, "inputs:useSpecularWorkflow").unwrap_or(0.0) != 0.0 {
             return self.specular(shader, base, alpha);
         }
-        let coated = coated(base, stated, &alpha);
+        let coated = self.coated(base, ("ior", stated), &alpha);
         if matches!(&metallic, Factor::Number(m) if m.value == 0.0) {
             return Ok(coated);
         }
@@ -141,11 +141,40 @@ impl<'a> Importer<'a> {
         if grey(colour).is_none() {
             self.scenery.report.note("the colour of highlights (specularColor) is white of its luminance");
         }
-        Ok(coated(base, index_of(share), &alpha))
+        Ok(self.coated(base, ("specularColor", index_of(share)), &alpha))
+    }
+
+    /// A base under a coat. Within its range an index is as stated; one of 1 reflects nothing, and leaves the base alone.
+    fn coated(&mut self, base: Reflectance, (name, index): (&str, f64), alpha: &Factor) -> Surface {
+        if index == 1.0 {
+            return Surface::Diffuse(Diffuse::new(base));
+        }
+        let index = self.index_within(name, index, COAT_INDICES);
+        Surface::Coated(Coated { index: Some(index.into()), ..Coated::new(base, alpha.clone()) })
+    }
+
+    /// The nearest index of a range.
+    fn index_within(&mut self, name: &str, stated: f64, range: RangeInclusive<f64>) -> f64 {
+        let legal = stated.clamp(*range.start(), *range.end());
+        if legal != stated {
+            let [low, high] = [range.start(), range.end()];
+            self.scenery.report.note(format!(
+                "the refractive index {stated} of \"{name}\" is taken as {legal}: expected {low} … {high}"
+            ));
+        }
+        legal
+    }
+
+    /// Whether opacity says what of the surface is there, and not how much goes through it.
+    fn is_presence(&self, shader: &'a UsdPrim) -> bool {
+        self.plain_text(shader, "inputs:opacityMode") == Some("presence")
     }
 
     /// Whether most light goes through.
     fn is_clear(&self, shader: &'a UsdPrim) -> bool {
+        if self.is_presence(shader) {
+            return false;
+        }
         let opacity = self.plain_number(shader, "inputs:opacity");
         let threshold = self.plain_number(shader, "inputs:opacityThreshold").unwrap_or(0.0);
         opacity.is_some_and(|opacity| opacity <= 0.5) && threshold <= 0.0
@@ -161,7 +190,7 @@ impl<'a> Importer<'a> {
             false => self.factor(shader, "inputs:opacity", 1.0, &|v| v)?,
         };
         let is_whole = matches!(&opacity, Factor::Number(v) if v.value == 1.0);
-        if !is_whole && threshold <= 0.0 {
+        if !is_whole && threshold <= 0.0 && !self.is_presence(shader) {
             self.scenery.report.note("opacity is the share of the surface that is there, its highlights with it");
         }
         Ok(Some(opacity).filter(|_| !is_whole))
@@ -175,7 +204,7 @@ impl<'a> Importer<'a> {
         };
         let (rgb, texture) = match picture {
             Picture::Even(rgb) => (rgb.map(|v| v.max(0.0)), None),
-            Picture::Node(node) => match self.colours(&node, &|v| v.max(0.0))? {
+            Picture::Node(node) => match self.colours(&node, ColourRule::Light)? {
                 KnownTexture::Even(rgb) => (rgb, None),
                 KnownTexture::Picture { name, scale, .. } => ([scale; 3], Some(name)),
             },
@@ -216,7 +245,7 @@ impl<'a> Importer<'a> {
         };
         let known = match picture {
             Picture::Even(rgb) => KnownTexture::Even(rgb),
-            Picture::Node(node) => self.colours(&node, &|v| v.clamp(0.0, 1.0))?,
+            Picture::Node(node) => self.colours(&node, ColourRule::Share)?,
         };
         Ok(match known {
             KnownTexture::Even(rgb) => Reflectance::Plain(self.scenery.share_of_rgb(name, rgb)),
@@ -264,14 +293,6 @@ impl<'a> Importer<'a> {
         };
         let share = self.scenery.cut(name, even);
         Ok(Factor::Number(rule(share).into()))
-    }
-}
-
-/// A base under a coat of an index that coats have; matt without one.
-fn coated(base: Reflectance, index: f64, alpha: &Factor) -> Surface {
-    match COAT_INDICES.contains(&index) {
-        true => Surface::Coated(Coated { index: Some(index.into()), ..Coated::new(base, alpha.clone()) }),
-        false => Surface::Diffuse(Diffuse::new(base)),
     }
 }
 

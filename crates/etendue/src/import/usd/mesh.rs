@@ -5,11 +5,22 @@ use super::primvar::{Counts, Primvar};
 use crate::import::scenery::Triangles;
 use etendue_io::mesh::polygon_triangles;
 use etendue_io::usd::UsdPrim;
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 use std::collections::{HashMap, HashSet};
 
 /// Corners of a polygon.
 const MAX_CORNERS: usize = 65_536;
+
+/// What a mesh's polygons are: UsdGeomMesh's `subdivisionScheme`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scheme {
+    /// The surface, with normals of their own.
+    None,
+    /// The control mesh of a surface that goes through it, flat where it is.
+    Bilinear,
+    /// The control mesh of a smooth surface (Catmull-Clark, Loop), as where nothing is said.
+    Smooth,
+}
 
 /// A mesh as a prim has it.
 pub(super) struct PolygonMesh<'a> {
@@ -19,19 +30,18 @@ pub(super) struct PolygonMesh<'a> {
     /// Points of all corners.
     corners: Vec<usize>,
     normals: Option<Primvar<'a, 3>>,
-    uvs: Option<Primvar<'a, 2>>,
-    /// Of the cage of a smooth surface: normals of points.
+    /// Of the control mesh of a smooth surface: normals of points.
     smooth: Vec<[f64; 3]>,
     holes: HashSet<usize>,
-    /// Whether it is the cage of a smooth surface.
-    pub(super) is_cage: bool,
+    counts: Counts,
+    pub(super) scheme: Scheme,
     /// Whether its winding is the other way round.
     pub(super) is_left_handed: bool,
 }
 
 impl<'a> PolygonMesh<'a> {
     /// An error, in words, of a mesh that cannot be used.
-    pub(super) fn read(prim: &'a UsdPrim, uv: &str) -> Result<Self, String> {
+    pub(super) fn read(prim: &'a UsdPrim) -> Result<Self, String> {
         let points = tuples::<3>(prim, "points");
         if points.iter().flatten().any(|v| !v.is_finite()) {
             return Err("a point that is no finite number".to_owned());
@@ -52,8 +62,11 @@ impl<'a> PolygonMesh<'a> {
             return Err(format!("a corner at point {beyond}, of {}", points.len()));
         }
         let counts = Counts { faces: counts.len(), points: points.len(), corners: corners.len() };
-        let scheme = text(prim, "subdivisionScheme");
-        let is_cage = !matches!(scheme, "none");
+        let scheme = match text(prim, "subdivisionScheme") {
+            "none" => Scheme::None,
+            "bilinear" => Scheme::Bilinear,
+            _ => Scheme::Smooth,
+        };
         // The creases of what is smoothed have no place in its cage.
         for name in ["cornerIndices", "cornerSharpnesses", "creaseIndices", "creaseLengths", "creaseSharpnesses"] {
             let _ = prim.value(name);
@@ -66,14 +79,14 @@ impl<'a> PolygonMesh<'a> {
             points,
             begins,
             corners,
-            normals: normals.filter(|_| !is_cage),
-            uvs: Primvar::read(prim, &format!("primvars:{uv}"), "constant", counts)?,
+            normals: normals.filter(|_| scheme == Scheme::None),
             holes: indices(prim, "holeIndices").unwrap_or_default().into_iter().collect(),
-            is_cage,
+            counts,
+            scheme,
             smooth: Vec::new(),
             is_left_handed: text(prim, "orientation") == "leftHanded",
         };
-        if is_cage {
+        if scheme == Scheme::Smooth {
             made.smooth = made.smoothed();
         }
         Ok(made)
@@ -91,11 +104,27 @@ impl<'a> PolygonMesh<'a> {
     }
 
     pub(super) fn faces(&self) -> usize {
-        self.begins.len() - 1
+        self.counts.faces
     }
 
-    /// Triangles of some faces; the second number says how many polygons had none.
-    pub(super) fn triangles(&self, faces: impl Iterator<Item = usize>) -> (Triangles, usize) {
+    /// Texture coordinates of its prim by their name, those that there are.
+    pub(super) fn uvs(&self, prim: &'a UsdPrim, name: &str) -> Result<Option<Primvar<'a, 2>>, String> {
+        Primvar::read(prim, &format!("primvars:{name}"), "constant", self.counts)
+    }
+
+    /// The area of all faces in the space that a transform leads to.
+    pub(super) fn area(&self, to_world: DAffine3) -> f64 {
+        let (all, _) = self.triangles(0..self.faces(), None);
+        let at = |i: u32| to_world.transform_point3(DVec3::from_array(all.positions[i as usize]));
+        all.triangles.iter().map(|t| t.map(at)).map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum()
+    }
+
+    /// Triangles of some faces, with texture coordinates; the second number says how many polygons had none.
+    pub(super) fn triangles(
+        &self,
+        faces: impl Iterator<Item = usize>,
+        uvs: Option<&Primvar<'a, 2>>,
+    ) -> (Triangles, usize) {
         let mut made = Triangles::default();
         let mut known: HashMap<[usize; 3], u32> = HashMap::new();
         let mut refused = 0;
@@ -110,7 +139,7 @@ impl<'a> PolygonMesh<'a> {
                 continue;
             };
             for triangle in cut {
-                let vertex = triangle.map(|i| self.vertex(face, own.start + i, &mut made, &mut known));
+                let vertex = triangle.map(|i| self.vertex([face, own.start + i], uvs, &mut made, &mut known));
                 made.triangles.push(vertex);
             }
         }
@@ -118,16 +147,22 @@ impl<'a> PolygonMesh<'a> {
     }
 
     /// The number of a corner's vertex: one for all corners that are alike.
-    fn vertex(&self, face: usize, corner: usize, made: &mut Triangles, known: &mut HashMap<[usize; 3], u32>) -> u32 {
+    fn vertex(
+        &self,
+        [face, corner]: [usize; 2],
+        uvs: Option<&Primvar<'a, 2>>,
+        made: &mut Triangles,
+        known: &mut HashMap<[usize; 3], u32>,
+    ) -> u32 {
         let point = self.corners[corner];
         let place = [face, point, corner];
         let normal = self.normals.as_ref().map(|normals| normals.index(place));
-        let uv = self.uvs.as_ref().map(|uvs| uvs.index(place));
+        let uv = uvs.map(|uvs| uvs.index(place));
         *known.entry([point, normal.unwrap_or_default(), uv.unwrap_or_default()]).or_insert_with(|| {
             made.positions.push(self.points[point]);
             made.normals.extend(self.normals.iter().zip(normal).map(|(normals, index)| normals.value(index)));
             made.normals.extend(self.smooth.get(point));
-            made.uvs.extend(self.uvs.iter().zip(uv).map(|(uvs, index)| uvs.value(index)));
+            made.uvs.extend(uvs.iter().zip(uv).map(|(uvs, index)| uvs.value(index)));
             made.positions.len() as u32 - 1
         })
     }

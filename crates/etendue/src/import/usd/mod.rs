@@ -6,7 +6,8 @@
 //! 1 cd/m², as UsdLux has it. Values are those at the stage's start.
 
 mod access;
-mod bound;
+mod binding;
+mod bound_material;
 mod camera;
 mod cone;
 mod dome;
@@ -18,11 +19,15 @@ mod material;
 mod mesh;
 mod network;
 mod paths;
+mod polygons;
 mod primvar;
 mod shape;
 mod solids;
+#[cfg(test)]
+mod tests;
 mod texture;
 mod transform;
+mod wrap;
 
 use super::written::Written;
 use crate::error::Error;

@@ -9,12 +9,12 @@ pub(super) struct Primvar<'a, const N: usize> {
     values: Cow<'a, [[f64; N]]>,
     /// Which value each element has; `None`: the one of its own number.
     indices: Option<Vec<usize>>,
-    lies: Lies,
+    interpolation: Interpolation,
 }
 
-/// What elements are.
+/// What has a value each: the whole mesh, each face, point or corner.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Lies {
+enum Interpolation {
     Whole,
     Faces,
     Points,
@@ -44,11 +44,11 @@ impl<'a, const N: usize> Primvar<'a, N> {
             return Err(format!("\"{name}\" that is no finite number"));
         }
         let stated = prim.attributes.get(name).map_or("", |attribute| attribute.interpolation.as_str());
-        let (lies, count) = match if stated.is_empty() { usual } else { stated } {
-            "constant" => (Lies::Whole, 1),
-            "uniform" => (Lies::Faces, counts.faces),
-            "vertex" | "varying" => (Lies::Points, counts.points),
-            "faceVarying" => (Lies::Corners, counts.corners),
+        let (interpolation, count) = match if stated.is_empty() { usual } else { stated } {
+            "constant" => (Interpolation::Whole, 1),
+            "uniform" => (Interpolation::Faces, counts.faces),
+            "vertex" | "varying" => (Interpolation::Points, counts.points),
+            "faceVarying" => (Interpolation::Corners, counts.corners),
             other => return Err(format!("\"{name}\" of an interpolation \"{other}\", which there is not")),
         };
         let by = format!("{name}:indices");
@@ -64,16 +64,16 @@ impl<'a, const N: usize> Primvar<'a, N> {
         if indices.iter().flatten().take(count).any(|index| *index >= values.len()) {
             return Err(format!("\"{by}\" goes beyond the {} values", values.len()));
         }
-        Ok(Some(Self { values, indices, lies }))
+        Ok(Some(Self { values, indices, interpolation }))
     }
 
     /// Which value a corner has: by the numbers of its face, its point and itself.
     pub(super) fn index(&self, [face, point, corner]: [usize; 3]) -> usize {
-        let element = match self.lies {
-            Lies::Whole => 0,
-            Lies::Faces => face,
-            Lies::Points => point,
-            Lies::Corners => corner,
+        let element = match self.interpolation {
+            Interpolation::Whole => 0,
+            Interpolation::Faces => face,
+            Interpolation::Points => point,
+            Interpolation::Corners => corner,
         };
         self.indices.as_ref().map_or(element, |indices| indices[element])
     }

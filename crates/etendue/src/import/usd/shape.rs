@@ -1,9 +1,8 @@
 //! Shapes.
 
-use super::access::{indices, number, text};
-use super::bound::Bound;
+use super::access::{number, text};
+use super::bound_material::BoundMaterial;
 use super::importer::{Importer, State};
-use super::mesh::PolygonMesh;
 use super::primvar::Primvar;
 use super::solids::{about, capsule, cube, cylinder, plane, plane_about};
 use crate::import::scenery::{AreaLight, Graphics, Triangles};
@@ -11,7 +10,6 @@ use etendue_io::usd::UsdPrim;
 use etendue_scene::record::Reflectance;
 use etendue_scene::record::material::{Diffuse, Factor, Material, Surface};
 use glam::{DAffine3, DVec3};
-use std::collections::BTreeMap;
 use std::rc::Rc;
 
 impl<'a> Importer<'a> {
@@ -56,22 +54,37 @@ impl<'a> Importer<'a> {
         if matches!(prim.kind.as_str(), "Cylinder" | "Cylinder_1" | "Cone" | "Capsule" | "Capsule_1") {
             self.scenery.report.note("cylinders, cones and capsules are meshes of 128 sides");
         }
-        let graphics = self.graphics(prim, state, state.material)?;
-        let graphics = Graphics { to_world: graphics.to_world * turn, ..graphics };
+        let (graphics, material) = self.graphics(prim, state, state.bindings.material())?;
+        if material.shows_outside(&mesh.uvs) {
+            self.note_outside();
+        }
+        let area_light = self.light_of_shape(prim);
+        let graphics = Graphics { to_world: graphics.to_world * turn, area_light, ..graphics };
         self.add(mesh, &graphics).map_err(told)
     }
 
-    /// What holds for a shape, with a material by its path.
-    fn graphics(&mut self, prim: &'a UsdPrim, state: &State<'a>, material: Option<&str>) -> Result<Graphics, String> {
+    /// What holds for a shape that gives no light, with a material by its path.
+    pub(super) fn graphics(
+        &mut self,
+        prim: &'a UsdPrim,
+        state: &State<'a>,
+        material: Option<&str>,
+    ) -> Result<(Graphics, BoundMaterial), String> {
         let mut graphics = Graphics { to_world: state.to_world, name: Self::name(prim), ..Graphics::plain() };
-        match material {
-            Some(path) => graphics.material = self.material(path)?.name,
-            None => self.display(prim, &mut graphics),
-        }
-        if prim.has_schema("MeshLightAPI") || prim.has_schema("LightAPI") {
-            graphics.area_light = self.mesh_light(prim).map(Rc::new);
-        }
-        Ok(graphics)
+        let Some(path) = material else {
+            self.display(prim, &mut graphics);
+            return Ok((graphics, BoundMaterial::default()));
+        };
+        let material = self.material(path)?;
+        self.scenery.report.at(prim.path.clone());
+        graphics.material = material.name.clone();
+        Ok((graphics, material))
+    }
+
+    /// The light of a shape, without "normalize".
+    pub(super) fn light_of_shape(&mut self, prim: &'a UsdPrim) -> Option<Rc<AreaLight>> {
+        let is_light = prim.has_schema("MeshLightAPI") || prim.has_schema("LightAPI");
+        if is_light { self.mesh_light(prim).map(Rc::new) } else { None }
     }
 
     /// The colour of a prim without a material.
@@ -111,7 +124,11 @@ impl<'a> Importer<'a> {
         if radius <= 0.0 {
             return Err(format!("\"radius\" of {radius}; expected a number above 0"));
         }
-        let graphics = self.graphics(prim, state, state.material)?;
+        let (graphics, material) = self.graphics(prim, state, state.bindings.material())?;
+        if material.shows_outside(&[[0.0; 2], [1.0; 2]]) {
+            self.note_outside();
+        }
+        let graphics = Graphics { area_light: self.light_of_shape(prim), ..graphics };
         self.round(radius, &graphics);
         self.scenery.check_size()
     }
@@ -132,77 +149,5 @@ impl<'a> Importer<'a> {
             self.reaches(graphics.to_world.transform_point3(DVec3::from_array(*position)));
         }
         self.scenery.mesh(mesh, graphics)
-    }
-
-    fn polygons(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
-        // Faces by the path of their material; what no subset has is the mesh's own.
-        let mut parts: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-        let mut taken = vec![false; PolygonMesh::read(prim, "")?.faces()];
-        for subset in prim.children.iter().filter(|child| child.kind == "GeomSubset") {
-            let Some(path) = self.binding(subset) else { continue };
-            if !matches!(text(subset, "elementType"), "" | "face") {
-                self.scenery.report.note("a GeomSubset of other than faces is not used");
-                continue;
-            }
-            for face in indices(subset, "indices").ok_or_else(|| format!("{}: a face below 0", subset.path))? {
-                if taken.get(face) == Some(&false) {
-                    taken[face] = true;
-                    parts.entry(path).or_default().push(face);
-                }
-            }
-        }
-        let rest: Vec<usize> = (0..taken.len()).filter(|face| !taken[*face]).collect();
-        if !rest.is_empty() || parts.is_empty() {
-            self.part(prim, state, state.material, rest)?;
-        }
-        parts.into_iter().try_for_each(|(path, faces)| self.part(prim, state, Some(path), faces))
-    }
-
-    /// Faces of a mesh that have one material.
-    fn part(
-        &mut self,
-        prim: &'a UsdPrim,
-        state: &State<'a>,
-        material: Option<&str>,
-        faces: Vec<usize>,
-    ) -> Result<(), String> {
-        let graphics = self.graphics(prim, state, material)?;
-        let uv: Bound = match material {
-            Some(path) => self.material(path)?,
-            None => Bound::default(),
-        };
-        let mesh = PolygonMesh::read(prim, uv.primvar())?;
-        let (mut triangles, refused) = mesh.triangles(faces.into_iter());
-        if uv.has_pictures() && triangles.uvs.is_empty() {
-            let told =
-                format!("a mesh without \"{}\", by which its pictures lie: all of it has their corner", uv.primvar());
-            self.scenery.report.note(told);
-            triangles.uvs = vec![[0.0; 2]; triangles.positions.len()];
-        }
-        if refused > 0 {
-            self.scenery.report.note(format!("{refused} polygons that cross themselves are left out"));
-        }
-        if mesh.is_cage {
-            self.scenery.report.note(
-                "a subdivision surface is its control mesh with smooth normals: subdivide it before, or set subdivisionScheme = \"none\"",
-            );
-        }
-        // Normals say which side is the front, and those of a cage follow its winding.
-        let has_own = !triangles.normals.is_empty() && !mesh.is_cage;
-        let reverse_orientation = mesh.is_left_handed && !has_own;
-        let area_light = graphics.area_light.clone().map(|light| self.spread(light, &triangles, &graphics, prim));
-        self.add(triangles, &Graphics { reverse_orientation, area_light, ..graphics })
-    }
-
-    /// The light of a mesh of which "normalize" holds: divided by its area in the world of the stage.
-    fn spread(&self, light: Rc<AreaLight>, mesh: &Triangles, graphics: &Graphics, prim: &UsdPrim) -> Rc<AreaLight> {
-        if !super::access::flag(prim, "inputs:normalize", false) {
-            return light;
-        }
-        let at = |i: u32| graphics.to_world.transform_point3(DVec3::from_array(mesh.positions[i as usize]));
-        let area_m2: f64 =
-            mesh.triangles.iter().map(|t| t.map(at)).map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
-        let area = area_m2 / (self.stage.metres_per_unit * self.stage.metres_per_unit);
-        if area > 0.0 { Rc::new(AreaLight { luminance: light.luminance / area, ..(*light).clone() }) } else { light }
     }
 }

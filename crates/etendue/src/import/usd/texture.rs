@@ -5,12 +5,14 @@ use super::network::Input;
 use crate::import::scenery::{KnownTexture, stored_pixels};
 use etendue_io::Provenance;
 use etendue_io::exr::{Layer, encode_layers};
-use etendue_io::picture::{decode_picture, read_picture};
+use etendue_io::picture::{decode_picture, has_colours_of_8_bits, read_picture};
 use etendue_io::usd::{UsdAsset, UsdFile, UsdPrim, UsdValue};
 use etendue_scene::asset::ImageAsset;
 use etendue_scene::record::Texture;
 use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_spectra::colour;
+use std::fs::File;
+use std::io::{BufReader, Cursor};
 use std::path::Path;
 use std::rc::Rc;
 
@@ -26,6 +28,24 @@ pub(super) enum Picture<'a> {
     Node(PictureNode<'a>),
 }
 
+/// What colours of a picture are for.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum ColourRule {
+    /// Shares of light, 0 … 1.
+    Share,
+    /// Light, 0 and more.
+    Light,
+}
+
+impl ColourRule {
+    fn of(self, v: f64) -> f64 {
+        match self {
+            Self::Share => v.clamp(0.0, 1.0),
+            Self::Light => v.max(0.0),
+        }
+    }
+}
+
 /// A picture and how it is read.
 pub(super) struct PictureNode<'a> {
     asset: &'a UsdAsset,
@@ -36,7 +56,7 @@ pub(super) struct PictureNode<'a> {
     is_encoded: bool,
     wrap: Wrap,
     /// How its u, v lie: factors, and what is added.
-    laid: [[f64; 2]; 2],
+    uv_transform: [[f64; 2]; 2],
 }
 
 impl PictureNode<'_> {
@@ -46,13 +66,13 @@ impl PictureNode<'_> {
 
     /// What makes it another texture of ours.
     fn key(&self) -> String {
-        let Self { asset, scale, bias, channel, is_encoded, wrap, laid } = self;
+        let Self { asset, scale, bias, channel, is_encoded, wrap, uv_transform } = self;
         let file = match &asset.file {
             Some(UsdFile::Plain(path)) => path.to_string_lossy().into_owned(),
             Some(UsdFile::Packed(name, _)) => format!("[{name}]"),
             None => String::new(),
         };
-        format!("{file} {scale:?} {bias:?} {channel:?} {is_encoded} {wrap:?} {laid:?}")
+        format!("{file} {scale:?} {bias:?} {channel:?} {is_encoded} {wrap:?} {uv_transform:?}")
     }
 }
 
@@ -111,36 +131,20 @@ impl<'a> Importer<'a> {
                 None => [fallback[0], fallback[1], fallback[2]],
             }));
         };
-        let is_float = matches!(ending.as_deref(), Some("hdr" | "exr"));
-        // Of "auto" pictures of 8 bits with colours are encoded; alpha never is.
+        // What "auto" finds, its file says, whichever output is asked for; alpha never is encoded.
         let is_encoded = match self.plain_text(node, "inputs:sourceColorSpace").unwrap_or("auto") {
             "raw" => false,
             "sRGB" => true,
-            _ => !is_float && channel.is_none(),
+            _ => has_encoded_colours(asset),
         } && channel != Some(3);
-        let (wrap, laid) = (self.wrap(node), self.laid(node));
+        let ((wrap, is_black_outside), uv_transform) = (self.wrap(node), self.uv_transform(node));
+        self.black_outside.extend(is_black_outside.then_some(uv_transform));
         self.note_unused(node);
-        Ok(Picture::Node(PictureNode { asset, scale, bias, channel, is_encoded, wrap, laid }))
-    }
-
-    fn wrap(&mut self, node: &'a UsdPrim) -> Wrap {
-        let [s, t] = ["inputs:wrapS", "inputs:wrapT"].map(|name| self.plain_text(node, name).unwrap_or("useMetadata"));
-        if s != t {
-            self.scenery.report.note("of two ways in which a picture goes on, that along s holds for both");
-        }
-        match s {
-            "clamp" => Wrap::Clamp,
-            "mirror" => Wrap::Mirror,
-            "black" => {
-                self.scenery.report.note("a picture that is black outside has its edge there");
-                Wrap::Clamp
-            }
-            _ => Wrap::Repeat,
-        }
+        Ok(Picture::Node(PictureNode { asset, scale, bias, channel, is_encoded, wrap, uv_transform }))
     }
 
     /// How u, v lie by a UsdTransform2d.
-    fn laid(&mut self, node: &'a UsdPrim) -> [[f64; 2]; 2] {
+    fn uv_transform(&mut self, node: &'a UsdPrim) -> [[f64; 2]; 2] {
         let none = [[1.0; 2], [0.0; 2]];
         let Some(Input::Shader(inner, _)) = self.input(node, "inputs:st") else { return none };
         if self.plain_text(inner, "info:id") != Some("UsdTransform2d") {
@@ -157,25 +161,23 @@ impl<'a> Importer<'a> {
     }
 
     /// Colours: the picture as it is where that is what they are, else another one of linear numbers.
-    pub(super) fn colours(
-        &mut self,
-        node: &PictureNode<'a>,
-        rule: &dyn Fn(f64) -> f64,
-    ) -> Result<KnownTexture, String> {
+    pub(super) fn colours(&mut self, node: &PictureNode<'a>, rule: ColourRule) -> Result<KnownTexture, String> {
         let factor = node.scale[0];
         let is_even = node.scale[..3] == [factor; 3] && factor > 0.0 && factor <= 1.0;
-        let key = format!("colours {}", node.key());
+        let is_as_it_is = node.is_plain() && is_even;
+        let made = if is_as_it_is { "as it is".to_owned() } else { format!("{rule:?}") };
+        let key = format!("colours {made} {}", node.key());
         if let Some(known) = self.textures.get(&key) {
             return Ok(known.clone());
         }
-        let known = if node.is_plain() && is_even {
+        let known = if is_as_it_is {
             let path = self.file(node.asset)?;
             let encoding = if node.is_encoded { Encoding::Srgb } else { Encoding::Linear };
             let name = self.texture(node, &path, encoding);
             KnownTexture::Picture { name, scale: factor, has_alpha: false }
         } else {
             let image = self.image(node.asset)?;
-            let pixels = values(&image, node, rule);
+            let pixels = values(&image, node, &|v| rule.of(v));
             let name = self.baked(node, &image, &pixels, Encoding::Linear)?;
             KnownTexture::Picture { name, scale: 1.0, has_alpha: false }
         };
@@ -256,12 +258,12 @@ impl<'a> Importer<'a> {
     fn texture(&mut self, node: &PictureNode<'a>, path: &str, encoding: Encoding) -> String {
         let stem = Path::new(&node.asset.stated).file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let name = self.scenery.names.take(&stem, "texture");
-        let [scale, offset] = node.laid;
-        let is_laid = node.laid != [[1.0; 2], [0.0; 2]];
+        let [scale, offset] = node.uv_transform;
+        let is_moved = node.uv_transform != [[1.0; 2], [0.0; 2]];
         self.scenery.scene.textures.push(Texture {
             wrap: Some(node.wrap.into()),
-            uv_scale: is_laid.then(|| scale.into()),
-            uv_offset: is_laid.then(|| offset.into()),
+            uv_scale: is_moved.then(|| scale.into()),
+            uv_offset: is_moved.then(|| offset.into()),
             ..Texture::new(name.as_str(), path, encoding)
         });
         name
@@ -285,6 +287,18 @@ impl<'a> Importer<'a> {
         let path = self.scenery.add_file(format!("textures/{own}.exr"), bytes);
         self.scenery.check_size()?;
         Ok(self.texture(node, &path, encoding))
+    }
+}
+
+/// Whether a picture has colours that are encoded as sRGB's, by UsdUVTexture's rule for `auto`: three or four channels of 8 bits.
+fn has_encoded_colours(asset: &UsdAsset) -> bool {
+    match &asset.file {
+        // A pipe would be waited for; reading it refuses it.
+        Some(UsdFile::Plain(path)) if path.is_file() => {
+            File::open(path).is_ok_and(|opened| has_colours_of_8_bits(path, BufReader::new(opened)))
+        }
+        Some(UsdFile::Packed(name, bytes)) => has_colours_of_8_bits(Path::new(name), Cursor::new(bytes)),
+        Some(UsdFile::Plain(_)) | None => false,
     }
 }
 

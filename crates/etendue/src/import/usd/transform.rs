@@ -105,10 +105,8 @@ mod tests {
         UsdPrim {
             path: "/a".to_owned(),
             kind: "Xform".to_owned(),
-            schemas: Vec::new(),
             attributes: all.map(|(name, value)| (name.to_owned(), attribute(value))).collect(),
-            relations: std::collections::BTreeMap::new(),
-            children: Vec::new(),
+            ..UsdPrim::default()
         }
     }
 

@@ -30,7 +30,7 @@ impl SolidBox {
     /// box then stands along the first of them and about all of it.
     pub(super) fn of(plan: &Plan, instance: &Instance, time_s: f64, pose: &CameraPose) -> Self {
         let (size_m, world) = Self::in_world(plan, instance, time_s);
-        let axes = upright(&instance.to_world.at(time_s).matrix3);
+        let axes = orthonormalised(&instance.to_world.at(time_s).matrix3);
         let to_camera = DAffine3::from_mat3_translation(pose.rotation, pose.position_m).inverse();
         let camera = Stance {
             centre_m: to_camera.transform_point3(world.centre_m),
@@ -42,7 +42,7 @@ impl SolidBox {
     /// Size, m, and place in the world.
     pub(super) fn in_world(plan: &Plan, instance: &Instance, time_s: f64) -> (DVec3, Stance) {
         let to_world = instance.to_world.at(time_s);
-        let axes = upright(&to_world.matrix3);
+        let axes = orthonormalised(&to_world.matrix3);
         let corners =
             corners(plan, instance, time_s).map(|corner| axes.transpose() * to_world.transform_vector3(corner));
         let low = corners.iter().copied().reduce(DVec3::min).unwrap_or_default();
@@ -67,7 +67,7 @@ fn corners(plan: &Plan, instance: &Instance, time_s: f64) -> [DVec3; 8] {
 }
 
 /// The rotation whose axes are those of a matrix, made perpendicular one after the other; of a matrix that mirrors, z turned about.
-fn upright(matrix: &DMat3) -> DMat3 {
+fn orthonormalised(matrix: &DMat3) -> DMat3 {
     let x = matrix.x_axis.normalize();
     let y = (matrix.y_axis - x * x.dot(matrix.y_axis)).normalize();
     DMat3::from_cols(x, y, x.cross(y))

@@ -1,0 +1,50 @@
+//! Materials of prims.
+
+use super::{CARD, Made, surface};
+
+fn plain(names: &[&str]) -> String {
+    names.iter().map(|name| surface(name, "")).collect()
+}
+
+#[test]
+fn strong_bindings_and_those_for_full_rendering_go_before_near_ones() {
+    let made = Made::of(&format!(
+        "{}def Xform \"strong\" {{ rel material:binding = </Outer> ( bindMaterialAs = \"strongerThanDescendants\" )\n\
+           def Mesh \"a\" {{ {CARD} rel material:binding = </Inner> }} }}\n\
+         def Xform \"weak\" {{ rel material:binding = </Outer>\n\
+           def Mesh \"b\" {{ {CARD} rel material:binding = </Inner> }} }}\n\
+         def Xform \"full\" {{ rel material:binding:full = </Full>\n\
+           def Mesh \"c\" {{ {CARD} rel material:binding = </Inner> }} }}\n\
+         def Mesh \"d\" {{ {CARD} rel material:binding:preview = </Inner> }}\n",
+        plain(&["Outer", "Inner", "Full"])
+    ));
+    let found = ["a", "b", "c"].map(|name| made.material_name(name));
+    assert_eq!(found, ["Outer", "Inner", "Full"]);
+    assert!(made.material_name("d").starts_with("default"), "{}", made.material_name("d"));
+    assert!(made.says("Mesh: the relationship \"material:binding:preview\" is not used"), "{}", made.told);
+}
+
+/// A subset whose mesh has a material for full rendering takes that, as its own is for all purposes.
+#[test]
+fn subsets_inherit_by_purpose() {
+    let made = Made::of(&format!(
+        "{}def Mesh \"a\" {{ {CARD} rel material:binding:full = </Full>\n\
+           def GeomSubset \"s\" {{ int[] indices = [1] rel material:binding = </Inner> }} }}\n\
+         def Mesh \"b\" {{ {CARD} rel material:binding = </Outer>\n\
+           def GeomSubset \"s\" {{ int[] indices = [1] rel material:binding = </Inner> }} }}\n",
+        plain(&["Outer", "Inner", "Full"])
+    ));
+    assert_eq!(["a", "a-2", "b", "b-2"].map(|name| made.material_name(name)), ["Full", "Full", "Outer", "Inner"]);
+}
+
+#[test]
+fn collections_and_other_relationships_are_said() {
+    let made = Made::of(&format!(
+        "{}def Mesh \"a\" {{ {CARD} rel material:binding:collection:red = [</a.collection:red>, </Outer>]\n\
+         rel collection:red:includes = </a> rel proxyPrim = </a> rel skel:skeleton = </a> }}\n",
+        plain(&["Outer"])
+    ));
+    assert!(made.says("materials that are bound to collections are not used"), "{}", made.told);
+    assert!(made.says("Mesh: the relationship \"skel:skeleton\" is not used (/a)"), "{}", made.told);
+    assert_eq!(made.told.matches("relationship").count(), 1, "{}", made.told);
+}

@@ -1,0 +1,48 @@
+//! UsdPreviewSurface.
+
+use super::{Made, surface};
+use etendue_scene::record::material::{Factor, Surface};
+
+fn ball(inputs: &str) -> Made {
+    Made::of(&format!("{}def Sphere \"a\" {{ rel material:binding = </M> }}\n", surface("M", inputs)))
+}
+
+/// What is there of a surface, where that is the same everywhere.
+fn opacity(made: &Made) -> Option<f64> {
+    match &made.material("a").opacity {
+        Some(Factor::Number(share)) => Some(share.value),
+        _ => None,
+    }
+}
+
+#[test]
+fn opacity_that_is_presence_makes_no_glass() {
+    let presence = ball("float inputs:opacity = 0.3 token inputs:opacityMode = \"presence\"");
+    assert!(matches!(presence.material("a").surface.0, Surface::Coated(_)), "{}", presence.told);
+    assert_eq!(opacity(&presence), Some(0.3));
+    assert!(!presence.says("opacity"), "as it is meant: {}", presence.told);
+    for mode in ["", "token inputs:opacityMode = \"transparent\""] {
+        let glass = ball(&format!("float inputs:opacity = 0.3 {mode}"));
+        assert!(matches!(glass.material("a").surface.0, Surface::ThinSheet(_)), "{mode}");
+        assert!(!glass.says("opacityMode"), "{}", glass.told);
+        let thin = ball(&format!("float inputs:opacity = 0.7 {mode}"));
+        assert_eq!(opacity(&thin), Some(0.7));
+        assert!(thin.says("opacity is the share of the surface that is there, its highlights with it"), "{mode}");
+    }
+}
+
+#[test]
+fn an_index_beyond_those_of_coats_is_the_nearest() {
+    for (stated, expected) in [("0.8", 1.1), ("1.05", 1.1), ("5", 4.0), ("1.5", 1.5)] {
+        let made = ball(&format!("float inputs:ior = {stated}"));
+        let Surface::Coated(coated) = &made.material("a").surface.0 else { panic!("{stated}: {}", made.told) };
+        assert_eq!(coated.index.as_ref().map(|index| index.value), Some(expected));
+        let told = format!("the refractive index {stated} of \"ior\" is taken as {expected}: expected 1.1 … 4");
+        assert_eq!(made.says(&told), expected.to_string() != stated, "{}", made.told);
+    }
+    let sheet = ball("float inputs:opacity = 0.1 float inputs:ior = 5");
+    assert!(sheet.says("the refractive index 5 of \"ior\" is taken as 4: expected 1 … 4"), "{}", sheet.told);
+    // An index of 1 reflects nothing.
+    let made = ball("float inputs:ior = 1");
+    assert!(matches!(made.material("a").surface.0, Surface::Diffuse(_)) && !made.says("refractive"), "{}", made.told);
+}
