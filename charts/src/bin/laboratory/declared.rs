@@ -27,13 +27,8 @@ const DECLARED: [(&str, &str, &str, f64); 17] = [
     ("calibrate", "k1", "lens.projection.k1", 1.0),
     ("calibrate", "k2", "lens.projection.k2", 1.0),
 ];
-/// Of the reference cameras' files themselves: thin lenses without diffraction, and pixels that exchange nothing.
-const NOTHING: [&str; 4] = [
-    "effects.psf.variance_horizontal_px2",
-    "effects.psf.variance_vertical_px2",
-    "sensor.crosstalk.horizontal",
-    "sensor.crosstalk.vertical",
-];
+/// Of the reference cameras' files themselves: thin lenses without diffraction.
+const NOTHING: [&str; 2] = ["effects.psf.variance_horizontal_px2", "effects.psf.variance_vertical_px2"];
 
 /// The truth by parameters, of a laboratory whose measurements are `measurements`.
 pub(crate) fn declared(place: &Path, measurements: &Value) -> Result<BTreeMap<String, f64>, Error> {
@@ -63,6 +58,12 @@ fn written(file: &Path) -> Result<BTreeMap<String, f64>, Error> {
     if let Some(hot) = p.charge.dark.hot {
         found.extend([("sensor.dark.hot.share", hot.fraction), ("sensor.dark.hot.mean_e_s", hot.mean_e_s)]);
     }
+    // Edges tell the sums over columns and rows of neighbours.
+    let exchange = p.light.crosstalk.as_ref().map_or([0.0; 2], |crosstalk| {
+        let near = &crosstalk.0;
+        [near.horizontal, near.vertical].map(|beside| beside + 2.0 * near.corner)
+    });
+    found.extend(["sensor.crosstalk.horizontal", "sensor.crosstalk.vertical"].into_iter().zip(exchange));
     Ok(found.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
 }
 
