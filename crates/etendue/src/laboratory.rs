@@ -47,6 +47,8 @@ const SEEDS_APART: u64 = 1 << 20;
 const SQUARE_PX: u32 = 24;
 /// Width of the picture for each column of squares with slanted edges, px, at least; of a mosaic twice that.
 const EDGES_PX: u32 = 64;
+/// Height that a row of squares with slanted edges takes, of the width of a column.
+const SQUARE_AND_MARGIN: f64 = 1.25;
 const DECLARED: &str = "declared.toml";
 const JOB: &str = "job.toml";
 
@@ -102,7 +104,7 @@ pub fn laboratory(
     // Where there is no series, there is no laboratory.
     files.extend(series.inspect_err(|_| drop(std::fs::remove_file(&bench.declared)))?);
     files.extend(bench.long_exposures(sensor.parameters().charge.dark.mean_e_s())?);
-    files.extend(bench.lens(sensor.parameters().channels.len() > 1, body.raster.width())?);
+    files.extend(bench.lens(sensor.parameters().channels.len() > 1, (body.raster.width(), body.raster.height()))?);
     Ok(files)
 }
 
@@ -213,10 +215,11 @@ impl Bench<'_> {
     }
 
     /// Pictures through the lens.
-    fn lens(&self, in_colour: bool, width_px: usize) -> Result<Vec<PathBuf>, Error> {
+    fn lens(&self, in_colour: bool, (width_px, height_px): (usize, usize)) -> Result<Vec<PathBuf>, Error> {
         let open = GridSize { columns: None, rows: None, pitch_mm: None };
         // Regions about the edges of squares want 16 readings of a colour each way.
-        let squares = (width_px as u32 / if in_colour { 2 * EDGES_PX } else { EDGES_PX }).clamp(1, 3);
+        let wide = (width_px as u32 / if in_colour { 2 * EDGES_PX } else { EDGES_PX }).clamp(1, 3);
+        let squares = wide.max((SQUARE_AND_MARGIN * width_px as f64 / height_px as f64).ceil() as u32);
         let edges = SlantedEdges { size: GridSize { columns: Some(squares), ..open }, angle_deg: 5.0, contrast: 4.0 };
         // Tilted views stand farther away: their squares are two thirds as large, and corners want 10 px between them.
         let columns = (width_px as u32 / SQUARE_PX).clamp(6, 12);
