@@ -9,6 +9,7 @@ use super::operation_counts::OperationCounts;
 use super::psf::{Psf, Ready};
 use super::sample_spread::SampleSpread;
 use super::spread_image::{ReadyImage, SpreadImage};
+use super::spread_table::{ReadyTable, SpreadTable};
 use core::fmt;
 use etendue_core::{Bands, EffectStatus};
 use glam::DVec2;
@@ -16,7 +17,7 @@ use glam::DVec2;
 /// Where it is told how narrow a function is, nm.
 const GREEN_NM: f64 = 555.0;
 
-/// How narrow a point-spread function is on the pixels of a film, in the middle of the picture at 555 nm.
+/// How narrow a point-spread function is on the pixels of a film, in the middle of the picture at 555 nm; of tables over the field where they are widest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpreadWidth {
     /// Share of the light that samples can be displaced by: all of it within a pixel, none beyond 2.5 px, along rows and columns.
@@ -34,6 +35,8 @@ pub enum PointSpread {
     Aperture(Psf),
     /// From a picture.
     Image(SpreadImage),
+    /// From tables over the field.
+    Table(SpreadTable),
 }
 
 impl fmt::Debug for PointSpread {
@@ -42,6 +45,7 @@ impl fmt::Debug for PointSpread {
         match self {
             Self::Aperture(psf) => psf.fmt(f),
             Self::Image(image) => image.fmt(f),
+            Self::Table(table) => table.fmt(f),
         }
     }
 }
@@ -52,6 +56,7 @@ impl PointSpread {
             None => EffectStatus::LeftOut("no [effects.psf] is described".to_owned()),
             Some(Self::Aperture(psf)) => psf.status(),
             Some(Self::Image(image)) => image.status(),
+            Some(Self::Table(table)) => table.status(),
         }
     }
 
@@ -60,6 +65,7 @@ impl PointSpread {
         match self {
             Self::Aperture(psf) => psf.reach_px(pitch_mm),
             Self::Image(image) => image.reach_px(pitch_mm),
+            Self::Table(table) => table.reach_px(pitch_mm),
         }
     }
 
@@ -68,6 +74,7 @@ impl PointSpread {
         match self {
             Self::Aperture(psf) => psf.operation_counts(canvas, bands, pictures),
             Self::Image(image) => image.operation_counts(canvas, bands, pictures),
+            Self::Table(table) => table.operation_counts(canvas, bands, pictures),
         }
     }
 
@@ -76,6 +83,7 @@ impl PointSpread {
         match self {
             Self::Aperture(psf) => ReadySpread::Aperture(Box::new(psf.ready(canvas, range_nm, part))),
             Self::Image(image) => ReadySpread::Image(Box::new(image.ready(canvas, part))),
+            Self::Table(table) => ReadySpread::Table(Box::new(table.ready(canvas, part))),
         }
     }
 
@@ -84,29 +92,44 @@ impl PointSpread {
         match self {
             Self::Aperture(psf) => psf.sample_spread(canvas, range_nm),
             Self::Image(image) => image.sample_spread(canvas, range_nm),
+            Self::Table(table) => table.sample_spread(canvas, range_nm),
         }
     }
 
-    /// How narrow it is on the pixels of a film, in the middle of the picture.
+    /// How narrow it is on the pixels of a film.
     pub(super) fn width(&self, canvas: &Canvas) -> SpreadWidth {
+        let reach = self.reach_px(canvas.pitch_mm());
+        match self {
+            Self::Aperture(psf) => SpreadWidth::new(reach, true, |to| psf.deposit_middle(canvas, GREEN_NM, to)),
+            Self::Image(image) => {
+                let scales = image.parameters().wavelength_nm.is_some();
+                SpreadWidth::new(reach, scales, |to| image.deposit(canvas.pitch_mm(), GREEN_NM, to))
+            }
+            Self::Table(table) => table.width(canvas, GREEN_NM),
+        }
+    }
+}
+
+impl SpreadWidth {
+    /// Of a function that adds where light lands, px, and how much.
+    pub(super) fn new(reach: [usize; 2], scales: bool, deposit: impl FnOnce(&mut dyn FnMut(DVec2, f64))) -> Self {
         let mut core = CoreBuilder::default();
-        let (mut all, mut band) = (0.0, BandLimited::zeros(self.reach_px(canvas.pitch_mm())));
-        let add = |offset_px: DVec2, mass: f64| {
+        let (mut all, mut band) = (0.0, BandLimited::zeros(reach));
+        deposit(&mut |offset_px: DVec2, mass: f64| {
             all += mass;
             core.deposit(offset_px, mass);
             band.deposit(offset_px, mass);
-        };
-        let scales = match self {
-            Self::Aperture(psf) => {
-                psf.deposit_middle(canvas, GREEN_NM, add);
-                true
-            }
-            Self::Image(image) => {
-                image.deposit(canvas.pitch_mm(), GREEN_NM, add);
-                image.parameters().wavelength_nm.is_some()
-            }
-        };
-        SpreadWidth { core: core.sum() / all, film_error: band.worst_error(), scales }
+        });
+        Self { core: core.sum() / all, film_error: band.worst_error(), scales }
+    }
+
+    /// The wider core and the greater error of two.
+    pub(super) fn worse(self, other: Self) -> Self {
+        Self {
+            core: self.core.min(other.core),
+            film_error: self.film_error.max(other.film_error),
+            scales: self.scales || other.scales,
+        }
     }
 }
 
@@ -117,6 +140,8 @@ pub(super) enum ReadySpread {
     Aperture(Box<Ready>),
     /// From a picture.
     Image(Box<ReadyImage>),
+    /// From tables over the field.
+    Table(Box<ReadyTable>),
 }
 
 impl ReadySpread {
@@ -125,6 +150,7 @@ impl ReadySpread {
         match self {
             Self::Aperture(ready) => ready.apply(band_nm, light, variance),
             Self::Image(ready) => ready.apply(band_nm, light, variance),
+            Self::Table(ready) => ready.apply(band_nm, light, variance),
         }
     }
 }
