@@ -93,6 +93,8 @@ pub(super) struct Function {
     /// From the samples' axes to those along the radius and across it.
     turn: DMat2,
     sum: f64,
+    /// How far the centroid lies outwards of the point, mm.
+    pub(super) centroid_mm: f64,
     /// Second moments about the point along the radius and across it, mm².
     moments: DMat2,
 }
@@ -102,14 +104,16 @@ impl Function {
     pub(super) fn new(spread: FieldSpread, outwards_on_axis: DVec2) -> Self {
         let outwards = spread.outwards().unwrap_or(outwards_on_axis);
         let turn = axes(outwards).transpose();
-        let (mut sum, mut moments) = (0.0, DMat2::ZERO);
+        let (mut sum, mut centroid_mm, mut moments) = (0.0, 0.0, DMat2::ZERO);
         for (offset, light) in spread.lit() {
             let along = turn * offset;
             sum += light;
+            centroid_mm += along.x * light;
             moments += DMat2::from_cols(along * along.x, along * along.y) * light;
         }
         let (radius_mm, reach_mm) = (spread.radius_mm(), spread.reach_mm());
-        Self { spread, radius_mm, reach_mm, turn, sum, moments: moments * (1.0 / sum) }
+        let (centroid_mm, moments) = (centroid_mm / sum, moments * (1.0 / sum));
+        Self { spread, radius_mm, reach_mm, turn, sum, centroid_mm, moments }
     }
 
     /// Where light lands around a place of the sensor, mm, and which share of all.

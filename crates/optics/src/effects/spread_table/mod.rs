@@ -137,6 +137,19 @@ impl SpreadTable {
         ))
     }
 
+    /// By how much a point's light is off at most, relatively: each pixel takes the functions of its own place, so that of a point comes more or less by the
+    /// divergence of the centroids over the field, dc/dr + c/r.
+    #[must_use]
+    pub fn light_error(&self) -> f64 {
+        let pairs = self.wavelengths.iter().flat_map(|wavelength| wavelength.functions.windows(2));
+        let divergence = |pair: &[Function]| {
+            let [near, far] = pair else { return 0.0 };
+            let slope = (far.centroid_mm - near.centroid_mm) / (far.radius_mm - near.radius_mm);
+            (slope + far.centroid_mm / far.radius_mm).abs()
+        };
+        pairs.map(divergence).fold(0.0, f64::max)
+    }
+
     fn functions(&self) -> impl Iterator<Item = &Function> {
         self.wavelengths.iter().flat_map(|wavelength| &wavelength.functions)
     }
