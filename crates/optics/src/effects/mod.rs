@@ -40,6 +40,7 @@ mod spread;
 mod spread_by;
 pub mod spread_image;
 pub mod spread_table;
+mod spread_width;
 
 pub(crate) use canvas::Canvas;
 pub use chain::{Effects, EffectsParameters, MARGIN_CAP, Prepared};
@@ -48,12 +49,13 @@ pub use film_part::FilmPart;
 pub use glare::{Glare, GlareParameters};
 pub use mtf::spread_of_modulation;
 pub use operation_counts::OperationCounts;
-pub use point_spread::{PointSpread, SpreadWidth};
+pub use point_spread::PointSpread;
 pub use psf::{Psf, PsfParameters, Zernike, ZernikeTerm};
 pub use sample_spread::{SampleSpread, SpreadDraw};
 pub use spread_by::SpreadBy;
 pub use spread_image::{SpreadImage, SpreadImageParameters};
 pub use spread_table::{FieldSpread, SpreadTable, SpreadTableParameters, TabledWavelength};
+pub use spread_width::SpreadWidth;
 
 /// The effects that there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,32 +1,20 @@
 //! The point-spread functions that there are.
 
 use super::Canvas;
-use super::band::BandLimited;
 use super::convolve::Field;
-use super::core_table::CoreBuilder;
 use super::film_part::FilmPart;
 use super::operation_counts::OperationCounts;
 use super::psf::{Psf, Ready};
 use super::sample_spread::SampleSpread;
 use super::spread_image::{ReadyImage, SpreadImage};
 use super::spread_table::{ReadyTable, SpreadTable};
+use super::spread_width::SpreadWidth;
 use core::fmt;
 use etendue_core::{Bands, EffectStatus};
 use glam::DVec2;
 
 /// Where it is told how narrow a function is, nm.
 const GREEN_NM: f64 = 555.0;
-
-/// How narrow a point-spread function is on the pixels of a film, in the middle of the picture at 555 nm; of tables over the field where they are widest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpreadWidth {
-    /// Share of the light that samples can be displaced by: all of it within a pixel, none beyond 2.5 px, along rows and columns.
-    pub core: f64,
-    /// Modulation that a kernel on whole pixels lacks or adds, at most, at up to half a cycle a pixel.
-    pub film_error: f64,
-    /// Whether it is of another width at other wavelengths.
-    pub scales: bool,
-}
 
 /// A point-spread function.
 #[derive(Clone, PartialEq)]
@@ -83,7 +71,7 @@ impl PointSpread {
         match self {
             Self::Aperture(psf) => ReadySpread::Aperture(Box::new(psf.ready(canvas, range_nm, part))),
             Self::Image(image) => ReadySpread::Image(Box::new(image.ready(canvas, part))),
-            Self::Table(table) => ReadySpread::Table(Box::new(table.ready(canvas, part))),
+            Self::Table(table) => ReadySpread::Table(Box::new(ReadyTable::new(table.clone(), canvas, part))),
         }
     }
 
@@ -106,29 +94,6 @@ impl PointSpread {
                 SpreadWidth::new(reach, scales, |to| image.deposit(canvas.pitch_mm(), GREEN_NM, to))
             }
             Self::Table(table) => table.width(canvas, GREEN_NM),
-        }
-    }
-}
-
-impl SpreadWidth {
-    /// Of a function that adds where light lands, px, and how much.
-    pub(super) fn new(reach: [usize; 2], scales: bool, deposit: impl FnOnce(&mut dyn FnMut(DVec2, f64))) -> Self {
-        let mut core = CoreBuilder::default();
-        let (mut all, mut band) = (0.0, BandLimited::zeros(reach));
-        deposit(&mut |offset_px: DVec2, mass: f64| {
-            all += mass;
-            core.deposit(offset_px, mass);
-            band.deposit(offset_px, mass);
-        });
-        Self { core: core.sum() / all, film_error: band.worst_error(), scales }
-    }
-
-    /// The wider core and the greater error of two.
-    pub(super) fn worse(self, other: Self) -> Self {
-        Self {
-            core: self.core.min(other.core),
-            film_error: self.film_error.max(other.film_error),
-            scales: self.scales || other.scales,
         }
     }
 }

@@ -1,7 +1,5 @@
 //! How many patches functions over the field need.
 
-use super::SpreadTable;
-use crate::effects::psf::VISIBLE_NM;
 use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
 
@@ -11,52 +9,34 @@ const MOST: usize = 11;
 const RELATIVE: f64 = 0.005;
 const ABSOLUTE_PX2: f64 = 0.005;
 
-impl SpreadTable {
-    /// As few patches as keep second moments between them; odd numbers, so that one stands in the middle.
-    pub(super) fn patches_needed(&self, picture: &Raster) -> [usize; 2] {
-        let counts = (1..=MOST).step_by(2).map(|across| [across, down(across, picture)]);
-        let kept = |counts: &[usize; 2]| self.keeps_moments(*counts, picture);
-        counts.clone().find(kept).unwrap_or([MOST, down(MOST, picture)])
-    }
+/// As few patches as keep second moments (mm², by the place on the sensor, mm) between them; odd numbers, so that one stands in the middle.
+pub(super) fn patches_needed(picture: &Raster, moments: impl Fn(DVec2) -> DMat2) -> [usize; 2] {
+    let mut counts = (1..=MOST).step_by(2).map(|across| [across, down(across, picture)]);
+    let kept = |counts: &[usize; 2]| keeps_moments(*counts, picture, &moments);
+    counts.find(kept).unwrap_or([MOST, down(MOST, picture)])
+}
 
-    /// Whether the mean of neighbours' second moments is near that of the place midway between them.
-    fn keeps_moments(&self, [across, down]: [usize; 2], picture: &Raster) -> bool {
-        let size = DVec2::new(picture.width() as f64, picture.height() as f64);
-        // Halves of the steps from patch to patch; of a single patch those of the picture.
-        let at = |x: usize, y: usize| {
-            let share =
-                |index: usize, count: usize| if count > 1 { index as f64 / (2 * (count - 1)) as f64 } else { 0.5 };
-            picture.sensor_mm(size * DVec2::new(share(x, across), share(y, down)))
-        };
-        if across == 1 {
-            let here = self.moments(picture.sensor_mm(0.5 * size));
-            let corners = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].map(|corner| picture.sensor_mm(size * corner));
-            return corners.into_iter().all(|corner| is_near(self.moments(corner), here, picture));
-        }
-        (0..2 * across - 1).all(|x| {
-            (0..2 * down - 1).all(|y| {
-                let sides = |index: usize| if index % 2 == 1 { [index - 1, index + 1] } else { [index, index] };
-                let around = sides(x).into_iter().flat_map(|x| sides(y).map(|y| self.moments(at(x, y))));
-                let mean = around.fold(DMat2::ZERO, |sum, moments| sum + moments * 0.25);
-                is_near(self.moments(at(x, y)), mean, picture)
-            })
+/// Whether the mean of neighbours' second moments is near that of the place midway between them.
+fn keeps_moments([across, down]: [usize; 2], picture: &Raster, moments: impl Fn(DVec2) -> DMat2) -> bool {
+    let size = DVec2::new(picture.width() as f64, picture.height() as f64);
+    if across == 1 {
+        let here = moments(picture.sensor_mm(0.5 * size));
+        let corners = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].map(|corner| picture.sensor_mm(size * corner));
+        return corners.into_iter().all(|corner| is_near(moments(corner), here, picture));
+    }
+    // Halves of the steps from patch to patch.
+    let at = |x: usize, y: usize| {
+        let share = |index: usize, count: usize| if count > 1 { index as f64 / (2 * (count - 1)) as f64 } else { 0.5 };
+        picture.sensor_mm(size * DVec2::new(share(x, across), share(y, down)))
+    };
+    (0..2 * across - 1).all(|x| {
+        (0..2 * down - 1).all(|y| {
+            let sides = |index: usize| if index % 2 == 1 { [index - 1, index + 1] } else { [index, index] };
+            let around = sides(x).into_iter().flat_map(|x| sides(y).map(|y| moments(at(x, y))));
+            let mean = around.fold(DMat2::ZERO, |sum, moments| sum + moments * 0.25);
+            is_near(moments(at(x, y)), mean, picture)
         })
-    }
-
-    /// Second moments at a place, mm²; the mean over the wavelengths.
-    fn moments(&self, at_mm: DVec2) -> DMat2 {
-        let radius_mm = at_mm.length();
-        let outwards = if radius_mm > 0.0 { at_mm / radius_mm } else { DVec2::X };
-        let of = |nm: f64| {
-            let parts = self.mix(nm, radius_mm).map(|(function, weight)| function.moments(outwards) * weight);
-            parts.fold(DMat2::ZERO, |sum, part| sum + part)
-        };
-        let wavelengths = self.wavelengths_nm();
-        match wavelengths.len() {
-            0 => of(VISIBLE_NM.0),
-            count => wavelengths.iter().fold(DMat2::ZERO, |sum, nm| sum + of(*nm) * (1.0 / count as f64)),
-        }
-    }
+    })
 }
 
 fn is_near(wanted: DMat2, found: DMat2, picture: &Raster) -> bool {

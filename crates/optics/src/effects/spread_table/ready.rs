@@ -1,6 +1,6 @@
 //! Point-spread functions over the field on the pixels of a film.
 
-use super::SpreadTable;
+use super::table::SpreadTable;
 use crate::effects::Canvas;
 use crate::effects::convolve::Field;
 use crate::effects::film_part::{FilmPart, KernelBuilder};
@@ -21,7 +21,7 @@ pub(in crate::effects) struct ReadyTable {
 }
 
 impl ReadyTable {
-    pub(super) fn new(table: SpreadTable, canvas: &Canvas, part: FilmPart) -> Self {
+    pub(in crate::effects) fn new(table: SpreadTable, canvas: &Canvas, part: FilmPart) -> Self {
         let places = table.places(canvas);
         let mut ready = Self { table, canvas: *canvas, part, places, shared: None };
         if !ready.table.varies_by_wavelength() {
