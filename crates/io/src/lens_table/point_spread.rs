@@ -92,7 +92,7 @@ fn field(listing: &Listing<'_>) -> Result<([f64; 2], FieldPoint), Error> {
     };
     let um =
         length_um(unit).ok_or_else(|| listing.fault(line, "the wavelength is in no unit of length; expected µm"))?;
-    let nm = [light[0], light[light.len() - 1]].map(|value| value * um * 1e3);
+    let nm = [light[0], light[light.len() - 1]].map(|value| (value * um * 1e9).round() / 1e6);
     if !nm.iter().all(|nm| (100.0..20_000.0).contains(nm)) || nm[0] > nm[1] {
         return Err(listing
             .fault(line, format!("found wavelengths from {} to {} nm; expected 100 … 20 000, rising", nm[0], nm[1])));
