@@ -5,7 +5,7 @@ use std::sync::Arc;
 use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset, TexelStore};
 
 use crate::calibration::{ImportedCamera, read_calibration};
-use crate::lens_table::read_lens_table;
+use crate::lens_table::{read_lens_table, read_point_spread};
 use crate::mesh::{read_mesh_frame, read_mesh_in};
 use crate::photometry::read_photometry_in;
 use crate::picture::{PictureHead, head, large_picture, read_picture};
@@ -113,6 +113,7 @@ fn load(assets: &mut Assets, request: &AssetRequest, sandbox: &Sandbox) -> Resul
         AssetKind::LensTable(quantity) => {
             drop(assets.lens_tables.insert((key, *quantity), read_lens_table(path, *quantity)?));
         }
+        AssetKind::PointSpread => drop(assets.point_spreads.insert(key, read_point_spread(path)?)),
         AssetKind::Calibration(choice) => {
             let camera = read_calibration(path, choice.format, choice.camera.as_deref())?;
             let ImportedCamera { calibration, notes: report, hash, .. } = camera;

@@ -54,6 +54,7 @@ mod normal_maps;
 mod plan_json;
 mod plans;
 mod point_lists;
+mod point_spread_files;
 mod precipitation;
 mod progressive;
 mod raw_files;

@@ -378,6 +378,11 @@ fn point_spread(spread: &PointSpread) -> Value {
                 "image_wavelength_nm": p.wavelength_nm,
             })
         }
+        PointSpread::Table(table) => json!({
+            "field_radii_mm": table.radii_mm(),
+            "wavelengths_nm": table.wavelengths_nm(),
+            "patches": table.patches(),
+        }),
     }
 }
 

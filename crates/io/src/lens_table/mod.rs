@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | Relative Illumination | field, `Rel. Ill.` | degrees, or mm of the picture |
 //! | Field Curvature/Distortion | field, `Ref. Height`, distortion | degrees |
+//! | Huygens and FFT PSF | all: samples of one field ([`read_point_spread`]) | degrees, or mm of the picture |
 //! | FFT, Huygens and Geometric MTF | spatial frequency, tangential, sagittal | the first |
 //!
 //! The unit of the fields is what the line of the head that begins with "Field" or the title of the first column says. A table of one direction from
@@ -13,12 +14,13 @@ mod distortion;
 mod illumination;
 mod listing;
 mod modulation;
+mod point_spread;
 
 use std::path::Path;
 
-use etendue_scene::asset::{LensQuantity, LensTableAsset};
+use etendue_scene::asset::{LensQuantity, LensTableAsset, PointSpreadAsset};
 
-use crate::source::{decode_lens_text, read_description_bytes};
+use crate::source::{decode_lens_text, read_bytes, read_description_bytes};
 use crate::{Error, hash};
 use listing::Listing;
 
@@ -37,4 +39,16 @@ pub fn read_lens_table(file: &Path, quantity: LensQuantity) -> Result<LensTableA
     };
     table.hash = hash::of_bytes(&bytes);
     Ok(table)
+}
+
+/// Reads a point's light at one place of the field.
+///
+/// # Errors
+/// The first fault of the file, with its line.
+pub fn read_point_spread(file: &Path) -> Result<PointSpreadAsset, Error> {
+    let bytes = read_bytes(file, "point spread")?;
+    let text = decode_lens_text(file, &bytes)?;
+    let mut spread = point_spread::read(&Listing::read(file, &text)?)?;
+    spread.hash = hash::of_bytes(&bytes);
+    Ok(spread)
 }

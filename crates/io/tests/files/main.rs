@@ -15,4 +15,5 @@ mod openexr;
 mod pbrt;
 mod pixel_centres;
 mod ply;
+mod point_spreads;
 mod prescriptions;

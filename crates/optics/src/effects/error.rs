@@ -97,6 +97,30 @@ pub enum EffectsError {
         /// How far it may.
         most_px: usize,
     },
+    /// A function over the field whose samples are farther apart than pixels.
+    #[error(
+        "the function's samples lie {step_um:.3} µm apart on the sensor, farther than the pixels' {pixel_um:.3} µm: light would arrive in separate dots; \
+         export it with a smaller spacing (\"image delta\")"
+    )]
+    CoarseFunction {
+        /// Distance of samples, µm.
+        step_um: f64,
+        /// Distance of pixels, µm.
+        pixel_um: f64,
+    },
+    /// A function over the field that is too wide.
+    #[error("the function spreads light over {reach_px} px, and {most_px} is the most: export it over a smaller area")]
+    WideFunction {
+        /// How far it reaches, px.
+        reach_px: usize,
+        /// How far it may.
+        most_px: usize,
+    },
+    /// Functions over the field that do not make a table.
+    #[error(
+        "functions over the field need distances from the axis that rise, as many at every wavelength, and wavelengths that rise"
+    )]
+    SpreadTable,
     /// A table of modulation that is no lens's.
     #[error(
         "the modulation is no sum of Gaussians: the nearest is off by {deviation:.3}, and {most} is the most; expected modulations that fall from 1 \

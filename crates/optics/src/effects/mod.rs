@@ -12,7 +12,7 @@
 //!
 //! | order | effect | on |
 //! | --- | --- | --- |
-//! | 1 | [point spread](psf) | diffraction of the aperture, wavefront error; or [a picture](spread_image) |
+//! | 1 | [point spread](psf) | diffraction of the aperture, wavefront error; or [a picture](spread_image); or [tables over the field](spread_table) |
 //! | 2 | [veiling glare](glare) | scatters a share of the light over the plane |
 //! | 3 | [ghosts](crate::ghosts) | adds light that two surfaces of the lens reflect |
 //!
@@ -32,12 +32,15 @@ pub mod glare;
 mod kernel;
 mod mtf;
 mod operation_counts;
+mod patches;
 mod point_spread;
 pub mod psf;
 mod sample_spread;
 mod spread;
 mod spread_by;
 pub mod spread_image;
+pub mod spread_table;
+mod spread_width;
 
 pub(crate) use canvas::Canvas;
 pub use chain::{Effects, EffectsParameters, MARGIN_CAP, Prepared};
@@ -46,11 +49,13 @@ pub use film_part::FilmPart;
 pub use glare::{Glare, GlareParameters};
 pub use mtf::spread_of_modulation;
 pub use operation_counts::OperationCounts;
-pub use point_spread::{PointSpread, SpreadWidth};
+pub use point_spread::PointSpread;
 pub use psf::{Psf, PsfParameters, Zernike, ZernikeTerm};
 pub use sample_spread::{SampleSpread, SpreadDraw};
 pub use spread_by::SpreadBy;
 pub use spread_image::{SpreadImage, SpreadImageParameters};
+pub use spread_table::{FieldSpread, SpreadTable, SpreadTableParameters, TabledWavelength};
+pub use spread_width::SpreadWidth;
 
 /// The effects that there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,31 +1,20 @@
 //! The point-spread functions that there are.
 
 use super::Canvas;
-use super::band::BandLimited;
 use super::convolve::Field;
-use super::core_table::CoreBuilder;
 use super::film_part::FilmPart;
 use super::operation_counts::OperationCounts;
 use super::psf::{Psf, Ready};
 use super::sample_spread::SampleSpread;
 use super::spread_image::{ReadyImage, SpreadImage};
+use super::spread_table::{ReadyTable, SpreadTable};
+use super::spread_width::SpreadWidth;
 use core::fmt;
 use etendue_core::{Bands, EffectStatus};
 use glam::DVec2;
 
 /// Where it is told how narrow a function is, nm.
 const GREEN_NM: f64 = 555.0;
-
-/// How narrow a point-spread function is on the pixels of a film, in the middle of the picture at 555 nm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpreadWidth {
-    /// Share of the light that samples can be displaced by: all of it within a pixel, none beyond 2.5 px, along rows and columns.
-    pub core: f64,
-    /// Modulation that a kernel on whole pixels lacks or adds, at most, at up to half a cycle a pixel.
-    pub film_error: f64,
-    /// Whether it is of another width at other wavelengths.
-    pub scales: bool,
-}
 
 /// A point-spread function.
 #[derive(Clone, PartialEq)]
@@ -34,6 +23,8 @@ pub enum PointSpread {
     Aperture(Psf),
     /// From a picture.
     Image(SpreadImage),
+    /// From tables over the field.
+    Table(SpreadTable),
 }
 
 impl fmt::Debug for PointSpread {
@@ -42,6 +33,7 @@ impl fmt::Debug for PointSpread {
         match self {
             Self::Aperture(psf) => psf.fmt(f),
             Self::Image(image) => image.fmt(f),
+            Self::Table(table) => table.fmt(f),
         }
     }
 }
@@ -52,6 +44,7 @@ impl PointSpread {
             None => EffectStatus::LeftOut("no [effects.psf] is described".to_owned()),
             Some(Self::Aperture(psf)) => psf.status(),
             Some(Self::Image(image)) => image.status(),
+            Some(Self::Table(table)) => table.status(),
         }
     }
 
@@ -60,6 +53,7 @@ impl PointSpread {
         match self {
             Self::Aperture(psf) => psf.reach_px(pitch_mm),
             Self::Image(image) => image.reach_px(pitch_mm),
+            Self::Table(table) => table.reach_px(pitch_mm),
         }
     }
 
@@ -68,6 +62,7 @@ impl PointSpread {
         match self {
             Self::Aperture(psf) => psf.operation_counts(canvas, bands, pictures),
             Self::Image(image) => image.operation_counts(canvas, bands, pictures),
+            Self::Table(table) => table.operation_counts(canvas, bands, pictures),
         }
     }
 
@@ -76,6 +71,7 @@ impl PointSpread {
         match self {
             Self::Aperture(psf) => ReadySpread::Aperture(Box::new(psf.ready(canvas, range_nm, part))),
             Self::Image(image) => ReadySpread::Image(Box::new(image.ready(canvas, part))),
+            Self::Table(table) => ReadySpread::Table(Box::new(ReadyTable::new(table.clone(), canvas, part))),
         }
     }
 
@@ -84,29 +80,21 @@ impl PointSpread {
         match self {
             Self::Aperture(psf) => psf.sample_spread(canvas, range_nm),
             Self::Image(image) => image.sample_spread(canvas, range_nm),
+            Self::Table(table) => table.sample_spread(canvas, range_nm),
         }
     }
 
-    /// How narrow it is on the pixels of a film, in the middle of the picture.
+    /// How narrow it is on the pixels of a film.
     pub(super) fn width(&self, canvas: &Canvas) -> SpreadWidth {
-        let mut core = CoreBuilder::default();
-        let (mut all, mut band) = (0.0, BandLimited::zeros(self.reach_px(canvas.pitch_mm())));
-        let add = |offset_px: DVec2, mass: f64| {
-            all += mass;
-            core.deposit(offset_px, mass);
-            band.deposit(offset_px, mass);
-        };
-        let scales = match self {
-            Self::Aperture(psf) => {
-                psf.deposit_middle(canvas, GREEN_NM, add);
-                true
-            }
+        let reach = self.reach_px(canvas.pitch_mm());
+        match self {
+            Self::Aperture(psf) => SpreadWidth::new(reach, true, |to| psf.deposit_middle(canvas, GREEN_NM, to)),
             Self::Image(image) => {
-                image.deposit(canvas.pitch_mm(), GREEN_NM, add);
-                image.parameters().wavelength_nm.is_some()
+                let scales = image.parameters().wavelength_nm.is_some();
+                SpreadWidth::new(reach, scales, |to| image.deposit(canvas.pitch_mm(), GREEN_NM, to))
             }
-        };
-        SpreadWidth { core: core.sum() / all, film_error: band.worst_error(), scales }
+            Self::Table(table) => table.width(canvas, GREEN_NM),
+        }
     }
 }
 
@@ -117,6 +105,8 @@ pub(super) enum ReadySpread {
     Aperture(Box<Ready>),
     /// From a picture.
     Image(Box<ReadyImage>),
+    /// From tables over the field.
+    Table(Box<ReadyTable>),
 }
 
 impl ReadySpread {
@@ -125,6 +115,7 @@ impl ReadySpread {
         match self {
             Self::Aperture(ready) => ready.apply(band_nm, light, variance),
             Self::Image(ready) => ready.apply(band_nm, light, variance),
+            Self::Table(ready) => ready.apply(band_nm, light, variance),
         }
     }
 }

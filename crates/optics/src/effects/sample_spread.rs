@@ -12,7 +12,7 @@
 //! Where the function varies over the picture, a pixel takes one patch's at random, by the weights that the film's pixels take them with.
 
 use super::core_table::CoreTable;
-use super::psf::Hat;
+use super::patches::Hat;
 use etendue_core::random::Pixel;
 use glam::DVec2;
 

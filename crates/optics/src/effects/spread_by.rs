@@ -1,7 +1,7 @@
 //! By what a point-spread function spreads light: by the film's pixels, or sample by sample.
 
 use super::error::EffectsError;
-use super::point_spread::SpreadWidth;
+use super::spread_width::SpreadWidth;
 
 /// Light in the core from which on samples may be displaced: its blur of the tails, which the film then spreads once more, stays unseen.
 const MIN_CORE: f64 = 0.8;

@@ -21,3 +21,4 @@ mod ray_transfer;
 mod sample_spread;
 mod spots;
 mod spread_image;
+mod spread_table;

@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::picture::grey;
+use super::point_spread_files;
 use crate::plan::Route;
 use etendue_optics::effects::{
     Glare, GlareParameters, PointSpread, Psf, PsfParameters, SpreadImage, SpreadImageParameters, spread_of_modulation,
@@ -106,6 +107,10 @@ fn point_spread(
     if let Some(table) = &record.mtf {
         return modulation(table, picture, context).map(PointSpread::Image);
     }
+    if !record.files.is_empty() {
+        let patches = record.patches.as_ref().map(counts);
+        return point_spread_files::table(&record.files, patches, lens, picture, context).map(PointSpread::Table);
+    }
     match (&record.image, &record.image_pitch_um) {
         (Some(file), Some(pitch)) => {
             let wavelength = record.image_wavelength_nm.as_ref();
@@ -163,9 +168,14 @@ fn psf(record: &description::Psf, lens: &Lens, picture: &Raster) -> Result<Psf, 
         obstruction: number(&record.obstruction),
         wavefront: record.wavefront.iter().map(term).collect(),
         reach_mm: record.reach_mm.as_ref().map(|r| r.value),
-        patches: record.patches.as_ref().map(|p| [p.value[0].value as usize, p.value[1].value as usize]),
+        patches: record.patches.as_ref().map(counts),
     };
     Psf::new(parameters, lens, picture)
+}
+
+/// Patches across and down.
+fn counts(patches: &Placed<[Placed<u64>; 2]>) -> [usize; 2] {
+    [patches.value[0].value as usize, patches.value[1].value as usize]
 }
 
 /// A term whose index the record holds within the known ones.

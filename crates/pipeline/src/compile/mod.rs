@@ -29,6 +29,7 @@ mod object_motion;
 mod open_lamp;
 mod opening;
 mod picture;
+mod point_spread_files;
 mod positions;
 mod precipitation;
 mod processing;

@@ -9,6 +9,7 @@ mod mesh_frame;
 mod mtl;
 mod named_files;
 mod photometry;
+mod point_spread;
 mod prescription;
 mod ray_transfer;
 pub(crate) mod request;
@@ -26,6 +27,7 @@ pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurfac
 pub(crate) use named_files::requests;
 pub use named_files::{of_camera, of_weather};
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
+pub use point_spread::{FieldPoint, PointSpreadAsset};
 pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 pub use ray_transfer::{PassAsset, RayTransferAsset, TermAsset, TransferAsset};
 pub use request::{AssetKind, AssetRequest, Covered, Values};

@@ -164,6 +164,7 @@ fn camera(camera: &Camera, files: &mut FileList) {
     if let Some(ModulationSource::File(file)) = psf.and_then(|psf| psf.mtf.as_ref()).map(|table| &table.source) {
         files.add(AssetKind::LensTable(LensQuantity::Modulation), file);
     }
+    psf.into_iter().flat_map(|psf| &psf.files).for_each(|file| files.add(AssetKind::PointSpread, file));
     camera.isp.iter().flat_map(Processing::files).for_each(|file| files.add(AssetKind::Numbers, file));
     match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
         Some(QuantumEfficiency::Same(curve)) => curve.name_file(Values::Share, files),

@@ -79,6 +79,8 @@ pub enum AssetKind {
     Trajectory,
     /// [`super::LensTableAsset`] of this quantity.
     LensTable(LensQuantity),
+    /// [`super::PointSpreadAsset`].
+    PointSpread,
     /// [`super::CalibrationAsset`] of this camera.
     Calibration(CalibrationChoice),
 }

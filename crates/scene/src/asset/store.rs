@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use super::mtl::SlotMaterial;
 use super::{
     AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, ImageAsset, LargeImage,
-    LensQuantity, LensTableAsset, MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PrescriptionAsset,
-    RayTransferAsset, RetroTableAsset, SpectrumAsset, TexelStore, TrajectoryAsset,
+    LensQuantity, LensTableAsset, MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PointSpreadAsset,
+    PrescriptionAsset, RayTransferAsset, RetroTableAsset, SpectrumAsset, TexelStore, TrajectoryAsset,
 };
 use crate::place::Place;
 use crate::record::is_numbered;
@@ -45,6 +45,8 @@ pub struct Assets {
     pub trajectories: BTreeMap<PathBuf, TrajectoryAsset>,
     /// Tables over the field by path and by what they tell.
     pub lens_tables: BTreeMap<(PathBuf, LensQuantity), LensTableAsset>,
+    /// Points' light at places of the field by path.
+    pub point_spreads: BTreeMap<PathBuf, PointSpreadAsset>,
     /// Calibrated cameras by path and by which of the file's they are.
     pub calibrations: BTreeMap<(PathBuf, CalibrationChoice), CalibrationAsset>,
 }
@@ -80,6 +82,7 @@ impl Assets {
             ray_transfers,
             trajectories,
             lens_tables,
+            point_spreads,
             calibrations,
         } = self;
         let is_it = |file: &Path| file == path || is_numbered(path, file);
@@ -100,6 +103,7 @@ impl Assets {
         hashes.extend(ray_transfers.get(path).map(|asset| asset.hash));
         hashes.extend(trajectories.get(path).map(|asset| asset.hash));
         hashes.extend(lens_tables.iter().filter(|((file, _), _)| file == path).map(|(_, asset)| asset.hash));
+        hashes.extend(point_spreads.get(path).map(|asset| asset.hash));
         hashes.extend(calibrations.iter().filter(|((file, _), _)| file == path).map(|(_, asset)| asset.hash));
         hashes.concat()
     }
@@ -119,6 +123,7 @@ impl Assets {
             AssetKind::RayTransfer => self.ray_transfers.contains_key(path),
             AssetKind::Trajectory => self.trajectories.contains_key(path),
             AssetKind::LensTable(quantity) => self.lens_tables.contains_key(&(path.to_owned(), *quantity)),
+            AssetKind::PointSpread => self.point_spreads.contains_key(path),
             AssetKind::Calibration(choice) => self.calibrations.contains_key(&(path.to_owned(), choice.clone())),
         }
     }
@@ -147,7 +152,7 @@ fn picture(slot: &SlotMaterial) -> Option<&Path> {
 #[cfg(test)]
 mod tests {
     use super::super::photometry::{Opening, OpeningShape, PhotometryAxes, Tilt};
-    use super::super::{CalibrationFormat, ImagePixels, LensNumbers, SlotReflectance, SlotSurface, Values};
+    use super::super::{CalibrationFormat, FieldPoint, ImagePixels, LensNumbers, SlotReflectance, SlotSurface, Values};
     use super::*;
     use etendue_projection::model::Perspective;
     use etendue_projection::{Calibration, CameraMatrix, Model};
@@ -178,6 +183,7 @@ mod tests {
                 drop(assets.trajectories.insert(file, TrajectoryAsset { hash, ..Default::default() }));
             }
             AssetKind::LensTable(quantity) => drop(assets.lens_tables.insert((file, *quantity), table(hash))),
+            AssetKind::PointSpread => drop(assets.point_spreads.insert(file, point_spread(hash))),
             AssetKind::Calibration(choice) => {
                 drop(assets.calibrations.insert((file, choice.clone()), camera(hash)));
             }
@@ -226,6 +232,20 @@ mod tests {
         }
     }
 
+    fn point_spread(hash: [u8; 32]) -> PointSpreadAsset {
+        PointSpreadAsset {
+            field: FieldPoint::Degrees([0.0; 2]),
+            place_mm: None,
+            wavelengths_nm: [550.0; 2],
+            spacing_um: 1.0,
+            width: 1,
+            light: vec![1.0],
+            point: [0; 2],
+            notes: Vec::new(),
+            hash,
+        }
+    }
+
     fn table(hash: [u8; 32]) -> LensTableAsset {
         LensTableAsset { numbers: LensNumbers::Modulation, points: Vec::new(), notes: Vec::new(), hash }
     }
@@ -254,6 +274,7 @@ mod tests {
             AssetKind::RayTransfer,
             AssetKind::Trajectory,
             AssetKind::LensTable(LensQuantity::RelativeIllumination),
+            AssetKind::PointSpread,
             AssetKind::Calibration(choice),
         ];
         for kind in kinds {

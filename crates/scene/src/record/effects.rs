@@ -27,7 +27,7 @@ record! {
 
 record! {
     /// The point-spread function of the aperture: diffraction at the lens's working f-number, with the wavefront's error. Or, with
-    /// "image", what a picture shows, in place of both.
+    /// "image", what a picture shows, or with "files", what tables over the field say, in place of both.
     pub struct Psf check(check_psf) {
         /// Blades of the diaphragm, 3 … 32. Default: a circle. The area is always that of the circle of the f-number.
         optional blades: Placed<u64> = whole(3, 32);
@@ -59,6 +59,12 @@ record! {
         /// A table of the lens's modulation, in place of the aperture's function and all of its keys: a round function, the same at all wavelengths and over the
         /// picture, as a sum of Gaussians. Default: the aperture.
         optional mtf: ModulationTable = record();
+        /// Points' light at places of the field, in place of the aperture's function and all of its keys but "patches": Zemax's "Huygens PSF" or "FFT PSF"
+        /// saved as text, one file for each place (and wavelength, or all polychromatic). The distance from the axis is that of the file's centre (or reference)
+        /// coordinates, else of its field, by the lens's projection or in mm; the direction turns with the place in the picture. Linear between distances and
+        /// between wavelengths, held beyond; values are divided by their sum. Without "patches" as many as that takes, 11 across at most; functions stand on the
+        /// picture's edges and evenly between. Default: the aperture.
+        many files: Placed<PathBuf> = list(path(&["txt", "dat"]), 1);
         /// By what light is spread: "film" by the film's pixels, without noise, but where the function is about as narrow as a pixel contrast is lost;
         /// "samples" by displacing each sample's place on the sensor, exact however narrow, with some more noise (the film spreads what falls beyond 2.5 px).
         /// Default: "samples" where samples come through the lens, four fifths of the light fall near, and the film's contrast would be wrong by more than 0.01
@@ -162,14 +168,22 @@ fn sizes(unit: &'static str) -> impl Rule<Out = Vec<Placed<f64>>> {
 
 fn check_psf(psf: &Psf, faults: &mut Faults) {
     check_blades(psf, faults);
-    match (&psf.image, &psf.mtf) {
-        (None, None) => check_without_image(psf, faults),
-        (Some(image), None) => check_image(psf, &image.place, faults),
-        (None, Some(_)) => {
+    match (&psf.image, &psf.mtf, psf.files.first()) {
+        (None, None, None) => check_without_image(psf, faults),
+        (Some(image), None, None) => check_image(psf, &image.place, faults),
+        (None, Some(_), None) => {
             check_without_image(psf, faults);
             check_alone(psf, "mtf", faults);
         }
-        (Some(image), Some(_)) => faults.add(&image.place, "\"image\" contradicts \"mtf\"", "remove one of them"),
+        (None, None, Some(_)) => {
+            check_without_image(psf, faults);
+            check_alone(psf, "files", faults);
+        }
+        (Some(image), Some(_), _) => faults.add(&image.place, "\"image\" contradicts \"mtf\"", "remove one of them"),
+        (image, _, Some(file)) => {
+            let other = if image.is_some() { "image" } else { "mtf" };
+            faults.add(&file.place, format!("\"files\" contradicts \"{other}\""), "remove one of them");
+        }
     }
 }
 
@@ -190,7 +204,8 @@ fn check_image(psf: &Psf, image: &Place, faults: &mut Faults) {
 
 /// Refuses keys of the aperture beside a function that is whole by itself.
 fn check_alone(psf: &Psf, whole: &str, faults: &mut Faults) {
-    for (place, name) in of_aperture(psf) {
+    let shared = |name: &str| name == "patches" && whole == "files";
+    for (place, name) in of_aperture(psf).filter(|(_, name)| !shared(name)) {
         let problem = format!("\"{name}\" contradicts \"{whole}\", which is the whole point-spread function");
         faults.add(place, problem, "remove one of them");
     }
@@ -216,7 +231,7 @@ fn of_aperture(psf: &Psf) -> impl Iterator<Item = (&Place, &'static str)> {
 fn check_blades(psf: &Psf, faults: &mut Faults) {
     let of_blades = [(&psf.blade_curvature, "blade_curvature"), (&psf.rotation_deg, "rotation_deg")];
     for (key, name) in of_blades {
-        if let (Some(key), None, None) = (key, &psf.blades, &psf.image) {
+        if let (Some(key), None, None, true) = (key, &psf.blades, &psf.image, psf.files.is_empty()) {
             faults.add(&key.place, format!("\"{name}\" has no effect on a circle"), "give \"blades\", or remove it");
         }
     }

@@ -220,6 +220,26 @@ fn a_point_spread_function_is_of_an_aperture_or_from_a_picture() {
 }
 
 #[test]
+fn files_over_the_field_are_the_whole_function() {
+    assert_eq!(psf("files = [\"a.txt\", \"b.DAT\"], patches = [7, 5], spread_by = \"film\""), "");
+    for (keys, words) in [
+        ("files = []", "effects.psf.files"),
+        ("files = [\"a.png\"]", "effects.psf.files"),
+        ("files = [\"a.txt\"], image_pitch_um = 2", "no effect without \"image\""),
+        ("files = [\"a.txt\"], image = \"k.exr\", image_pitch_um = 2", "\"files\" contradicts \"image\""),
+        ("files = [\"a.txt\"], mtf = { file = \"m.txt\" }", "\"files\" contradicts \"mtf\""),
+        ("files = [\"a.txt\"], blades = 6", "\"blades\" contradicts \"files\""),
+        ("files = [\"a.txt\"], rotation_deg = 6", "\"rotation_deg\" contradicts \"files\""),
+        ("files = [\"a.txt\"], wavefront = [{ noll = 4, rms_um = 0.1 }]", "contradicts \"files\""),
+        ("files = [\"a.txt\"], patches = [0, 3]", "effects.psf.patches"),
+    ] {
+        let said = psf(keys);
+        assert!(said.starts_with("camera.toml:2:") && said.contains(words), "{keys}: {said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+    }
+}
+
+#[test]
 fn an_aperture_says_what_it_means() {
     for (keys, words) in [
         ("blades = 2", "effects.psf.blades: "),

@@ -6,7 +6,7 @@
 //! neighbours: Σ w_n r_n cos(2π ν n·d_n)/Σ w_n r_n       w_n what the pixel takes of neighbour n at d_n (n the normal), r_n its response to the light
 //! lens: circular pupil: 2/π (arccos s − s √(1 − s²)), s = λ N ν w/pitch, averaged over the light that the pixel sees; w how much wider
 //!       the pattern is at the edge's place: 1/cos³ θ′ along the radius, 1/cos θ′ across it
-//!       picture of a point: Σ L cos(2π ν x)/Σ L
+//!       picture of a point: Σ L cos(2π ν x)/Σ L; tables over the field: |Σ L exp(2πi ν x)|/Σ L at the edge's place
 //! ```
 //!
 //! a is the side of the photosensitive area. Frequencies are those of the picture, of one colour of a mosaic, too. The lens is in
@@ -135,6 +135,10 @@ impl<'a> Response<'a> {
                 average(&|nm| diffraction(nm * 1e-6 * psf.f_number() * per_mm * wider))
             }
             Some(PointSpread::Image(image)) => average(&|nm| of_picture(image, nm, per_mm, down)),
+            Some(PointSpread::Table(table)) => {
+                let place = place_px.map_or(DVec2::ZERO, |at| (at - self.body.raster.principal_px()) * pitch);
+                average(&|nm| table.modulation(nm, place, axis * per_mm))
+            }
         }
     }
 }

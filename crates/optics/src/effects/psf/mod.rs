@@ -5,10 +5,7 @@
 //! the rim and cos³ θ′ towards the axis, θ′ the chief ray's angle at the exit pupil, so that the pattern is wider by as much
 //! (Goodman, Introduction to Fourier Optics).
 //!
-//! The function varies over the picture by patches. Each pixel takes a mean of what the functions of the nearest patches make
-//! of the film, with weights that are linear between the patches and sum to one: a uniform irradiance stays uniform. Light
-//! of a point is kept where the functions' centroids lie in the middle and the weights are straight across it. A variance is
-//! that mean of what the squared functions make, which is not too small.
+//! The function varies over the picture by patches (`patches`).
 //!
 //! Zernike terms are in units of length (root mean square over the pupil of the f-number), the same at all wavelengths. Terms
 //! with a table over the field turn with it: they are stated for a point of the picture to the right of the axis.
@@ -16,7 +13,6 @@
 //! Left out: the pupil's being cut by rims away from the axis; what the lens's own rays make of a wavefront (a traced lens
 //! has its aberrations already); light beyond the pattern's end, which is shared out over it.
 
-mod hat;
 mod outline;
 mod pattern;
 mod patterns;
@@ -26,10 +22,11 @@ pub use zernike::Zernike;
 
 use super::Canvas;
 use super::band_wavelengths::{MM_PER_NM, NM_PER_UM, mid_wavelengths};
-use super::convolve::{self, Region};
+use super::convolve;
 use super::error::EffectsError;
 use super::film_part::FilmPart;
 use super::operation_counts::{OperationCounts, Uses};
+use super::patches::{Patches, Stand};
 use super::sample_spread::SampleSpread;
 use crate::lens::Lens;
 use etendue_core::{Bands, EffectStatus};
@@ -40,7 +37,6 @@ use pattern::{CELLS, Pupil};
 use patterns::{Extent, Patch, Patterns};
 use rayon::prelude::*;
 
-pub(super) use hat::Hat;
 pub(super) use patterns::{MAX_PX, Ready};
 
 pub(super) const MM_PER_UM: f64 = 1e-3;
@@ -233,11 +229,11 @@ impl Psf {
         let pitch_mm = canvas.pitch_mm().min_element();
         let fineness = self.fineness(bands.high_nm(), pitch_mm);
         let parts = mid_wavelengths(band_nm).count() as f64;
+        let places = self.places(canvas);
         let patch = |i: usize| {
-            let [x, y] = self.hats(canvas, i % self.patches[0], i / self.patches[0]);
-            let widest = self.stretch(canvas.sensor_mm(DVec2::new(x.middle, y.middle)).length())[0];
+            let widest = self.stretch(canvas.sensor_mm(places.middle_px(i)).length())[0];
             let reach = self.extent(fineness).reach_px(band_nm.1, pitch_mm, widest);
-            let region = Region { x: x.range(), y: y.range() };
+            let region = places.region(i);
             let uses = Uses { ready: pictures, applied: pictures };
             let kernel = OperationCounts {
                 shared: parts * (CELLS * CELLS) as f64,
@@ -246,14 +242,11 @@ impl Psf {
             };
             kernel + convolve::operation_counts([reach, reach], canvas.size(), &region, uses)
         };
-        (0..self.patches[0] * self.patches[1]).map(patch).sum::<OperationCounts>() * bands.count() as f64
+        (0..places.count()).map(patch).sum::<OperationCounts>() * bands.count() as f64
     }
 
-    fn hats(&self, canvas: &Canvas, column: usize, row: usize) -> [Hat; 2] {
-        let region = canvas.picture();
-        let x = Hat::new(column, self.patches[0], &region.x, canvas.size()[0]);
-        let y = Hat::new(row, self.patches[1], &region.y, canvas.size()[1]);
-        [x, y]
+    fn places(&self, canvas: &Canvas) -> Patches {
+        Patches::new(self.patches, Stand::Middles, canvas)
     }
 
     /// The function made ready for a film and the wavelengths of a range.
@@ -264,10 +257,11 @@ impl Psf {
 
     fn patterns(&self, canvas: &Canvas, fineness: f64) -> Patterns {
         let pupil = Pupil::new(&self.outline(), fineness);
-        let [columns, rows] = self.patches;
-        let patches = (0..columns * rows).map(|i| self.patch(canvas, &pupil, i % columns, i / columns)).collect();
+        let places = self.places(canvas);
+        let patch = |i: usize| self.patch(canvas.sensor_mm(places.middle_px(i)), &pupil);
+        let patches = (0..places.count()).map(patch).collect();
         let shared = self.parameters.wavefront.is_empty().then(|| pupil.pattern(None));
-        Patterns { extent: self.extent(fineness), canvas: *canvas, pupil, shared, patches }
+        Patterns { extent: self.extent(fineness), canvas: *canvas, pupil, shared, places, patches }
     }
 
     /// Adds where light of a wavelength lands by the function in the middle of the picture, px, and how much.
@@ -287,18 +281,11 @@ impl Psf {
         let wavelengths: Vec<f64> = mid_wavelengths(range_nm).collect();
         let of_patch = |patch| wavelengths.par_iter().map(|nm| patterns.core(*nm, patch)).collect::<Option<Vec<_>>>();
         let tables = patterns.patches.iter().map(of_patch).collect::<Option<Vec<_>>>()?;
-        let [columns, rows] = self.patches;
-        let hats = [
-            (0..columns).map(|column| self.hats(canvas, column, 0)[0].clone()).collect(),
-            (0..rows).map(|row| self.hats(canvas, 0, row)[1].clone()).collect(),
-        ];
         let step_nm = (range_nm.1 - range_nm.0) / wavelengths.len() as f64;
-        Some(SampleSpread::new(hats, (range_nm.0, step_nm), tables))
+        Some(SampleSpread::new(patterns.places.into_hats(), (range_nm.0, step_nm), tables))
     }
 
-    fn patch(&self, canvas: &Canvas, pupil: &Pupil, column: usize, row: usize) -> Patch {
-        let [x, y] = self.hats(canvas, column, row);
-        let point = canvas.sensor_mm(DVec2::new(x.middle, y.middle));
+    fn patch(&self, point: DVec2, pupil: &Pupil) -> Patch {
         let radius_mm = point.length();
         let outwards = if radius_mm > 0.0 { point / radius_mm } else { DVec2::X };
         let [along, across] = self.stretch(radius_mm);
@@ -306,6 +293,6 @@ impl Psf {
         let stretch = turn * DMat2::from_diagonal(DVec2::new(along, across)) * turn.transpose();
         let error = !self.parameters.wavefront.is_empty();
         let wavefront_um = error.then(|| pupil.map(|u| self.wavefront_um(radius_mm, outwards, u)));
-        Patch { x, y, stretch, widest: along, wavefront_um }
+        Patch { stretch, widest: along, wavefront_um }
     }
 }

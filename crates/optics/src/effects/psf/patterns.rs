@@ -1,20 +1,18 @@
 //! The patterns of an aperture on the pixels of a film, patch by patch.
 
-use super::hat::Hat;
 use super::pattern::{CELLS, Pattern, Pupil};
 use crate::effects::Canvas;
 use crate::effects::band_wavelengths::{MM_PER_NM, NM_PER_UM, mid_wavelengths};
-use crate::effects::convolve::{Convolver, Field, Region};
+use crate::effects::convolve::Field;
 use crate::effects::core_table::{CORE_PX, CoreBuilder, CoreTable};
 use crate::effects::film_part::{FilmPart, KernelBuilder};
 use crate::effects::kernel::Kernel;
+use crate::effects::patches::Patches;
 use glam::{DMat2, DVec2};
 
 /// A part of the picture with a function of its own.
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
-    pub(super) x: Hat,
-    pub(super) y: Hat,
     pub(super) stretch: DMat2,
     pub(super) widest: f64,
     pub(super) wavefront_um: Option<Vec<f64>>,
@@ -55,6 +53,8 @@ pub(super) struct Patterns {
     pub(super) pupil: Pupil,
     /// The pattern that all patches and wavelengths share, where there is no wavefront error.
     pub(super) shared: Option<Pattern>,
+    pub(super) places: Patches,
+    /// In the order of `places`.
     pub(super) patches: Vec<Patch>,
 }
 
@@ -102,18 +102,8 @@ impl Ready {
         light: &Field,
         variance: Option<&Field>,
     ) -> (Field, Option<Field>) {
-        let size = self.patterns.canvas.size();
-        let mut spread = Field::zeros(size[0], size[1]);
-        let mut spread_variance = variance.map(|_| Field::zeros(size[0], size[1]));
-        for patch in &self.patterns.patches {
-            let kernel = self.kernel(band_nm, patch);
-            let region = Region { x: patch.x.range(), y: patch.y.range() };
-            add(&Convolver::new(&kernel, size, region.clone()).apply(light), patch, &mut spread);
-            if let (Some(from), Some(to)) = (variance, &mut spread_variance) {
-                add(&Convolver::new(&kernel.squared(), size, region).apply(from), patch, to);
-            }
-        }
-        (spread, spread_variance)
+        let Patterns { places, patches, .. } = &self.patterns;
+        places.apply(light, variance, |index| self.kernel(band_nm, &patches[index]))
     }
 
     /// The kernel of a patch, its sum one.
@@ -125,15 +115,5 @@ impl Ready {
             self.patterns.deposit(nm, patch, f64::INFINITY, |offset_px, share| kernel.deposit(offset_px, share));
         }
         kernel.kernel()
-    }
-}
-
-/// Adds a patch's part by its weights.
-fn add(part: &Field, patch: &Patch, to: &mut Field) {
-    for (row, (y, tall)) in patch.y.range().zip(&patch.y.weights).enumerate() {
-        let target = &mut to.row_mut(y)[patch.x.range()];
-        for ((to, from), wide) in target.iter_mut().zip(part.row(row)).zip(&patch.x.weights) {
-            *to += tall * wide * from;
-        }
     }
 }

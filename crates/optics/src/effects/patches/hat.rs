@@ -1,5 +1,14 @@
 //! Weights of a patch along one axis.
 
+/// Where the functions of patches stand along an axis of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::effects) enum Stand {
+    /// In the middles of equal parts; the outermost hold to the edge.
+    Middles,
+    /// On both edges, and evenly between; a single one in the middle.
+    Edges,
+}
+
 /// Weights of a patch along one axis: linear to its neighbours, even outside of the outermost.
 #[derive(Clone, Debug)]
 pub(in crate::effects) struct Hat {
@@ -9,9 +18,24 @@ pub(in crate::effects) struct Hat {
 }
 
 impl Hat {
-    pub(super) fn new(index: usize, count: usize, picture: &core::ops::Range<usize>, size: usize) -> Self {
-        let step = picture.len() as f64 / count as f64;
-        let middle = picture.start as f64 + (index as f64 + 0.5) * step;
+    /// The patch `index` of `count` over the pixels `picture` of a film of `size`.
+    pub(super) fn new(
+        stand: Stand,
+        (index, count): (usize, usize),
+        picture: &core::ops::Range<usize>,
+        size: usize,
+    ) -> Self {
+        let (start, length, at) = (picture.start as f64, picture.len() as f64, index as f64);
+        let (middle, step) = match stand {
+            Stand::Edges if count > 1 => {
+                let step = length / (count - 1) as f64;
+                (start + at * step, step)
+            }
+            _ => {
+                let step = length / count as f64;
+                (start + (at + 0.5) * step, step)
+            }
+        };
         let weight = |pixel: usize| {
             let away = (pixel as f64 + 0.5 - middle) / step;
             let outer = (index == 0 && away < 0.0) || (index + 1 == count && away > 0.0);

@@ -1,0 +1,258 @@
+//! Zemax's "Huygens PSF" and "FFT PSF".
+//!
+//! ```text
+//! Listing of Huygens PSF Data                      Listing of FFT PSF Data
+//! 0.5000 µm at 0.0000, 1.2250 (deg).               0.5000 µm at 0.0000, 1.2250 (deg).
+//! Data spacing is 0.289 µm.                        Data spacing is 0.288 µm.
+//! Image grid size: 64 by 64                        Reference Coordinates: 0.0E+00, 2.20488E+02
+//! Center point is: 33, 33                          Image grid size: 64 by 64
+//! Center coordinates : 0.0E+00, 2.20E+02 Millim…   Center point is: row 33, column 32
+//! Values are relative intensity.                   Values are not normalized.
+//! ```
+//!
+//! and rows of numbers, their columns with rising x. **The first row has the greatest y** in both. Of Huygens listings the centre's column counts from the left and its row
+//! **from the last row** upwards, of FFT listings, which say "row" and "column", the row counts from the first. Found from the listings in the test data of batoid
+//! (github.com/jmeyers314/batoid, `tests/testdata/LSST_hpsf_*`, `LSST_fftpsf_*`, `HSC_huygensPSF.txt`): counted so, centroids are those that
+//! the Huygens heads state beside them ("Centroid offset", +3.408 µm of y at 1.225°, +1.612 µm of x and y at 1.176° both ways) to 5 nm, those on the axis are even about the
+//! centre, and the FFT listings of the same fields agree; batoid's own functions agree after it turns the rows over. Older versions write one field, of y ("0.5500 µm at -27.38 deg.").
+//!
+//! Fields in mm are taken for places in the picture. What is not read: Strehl ratio, pupil grid, area.
+
+use etendue_scene::asset::{FieldPoint, PointSpreadAsset};
+
+use super::listing::{Listing, Table};
+use crate::Error;
+
+/// Light at the border over the greatest from which on it is said that the listing ends within it.
+const CUT_OFF: f64 = 0.01;
+
+/// Which of the two analyses.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Analysis {
+    Huygens,
+    Fft,
+}
+
+pub(super) fn read(listing: &Listing<'_>) -> Result<PointSpreadAsset, Error> {
+    let analysis = match ["huygens psf", "fft psf"].map(|words| listing.speaks_of(words)) {
+        [true, _] => Analysis::Huygens,
+        [_, true] => Analysis::Fft,
+        _ => {
+            let told = "is no listing of a point spread: its head speaks neither of \"Huygens PSF\" nor of \"FFT PSF\"";
+            return Err(listing.fault(0, told));
+        }
+    };
+    let [table] = &listing.tables[..] else {
+        let second = listing.tables[1].rows[0].line;
+        return Err(listing.fault(second, "a second table; export one field position to a file"));
+    };
+    let mut notes = Vec::new();
+    let [width, height] = size(listing, table)?;
+    let (wavelengths_nm, field) = field(listing)?;
+    let spacing_um = spacing_um(listing)?;
+    let place_mm = place_mm(listing, &mut notes);
+    let point = point(listing, analysis, [width, height], &mut notes)?;
+    let light = light(listing, table)?;
+    if place_mm.is_none() && matches!(field, FieldPoint::Millimetres(_)) {
+        notes.push("its field in mm is taken for a place in the picture".to_owned());
+    }
+    let asset =
+        PointSpreadAsset { field, place_mm, wavelengths_nm, spacing_um, width, light, point, notes, hash: [0; 32] };
+    Ok(checked(asset, listing))
+}
+
+/// Columns and rows, which are those that the head states.
+fn size(listing: &Listing<'_>, table: &Table<'_>) -> Result<[usize; 2], Error> {
+    let found = [table.rows[0].numbers.len(), table.rows.len()];
+    let stated = said(listing, "image grid size").map(|(line, text)| (line, numbers(text)));
+    match stated {
+        Some((line, stated)) if stated.len() == 2 && stated != found.map(|n| n as f64) => {
+            let told = format!(
+                "the head states {} by {} samples, and {} rows of {} are there; save the whole listing",
+                stated[0], stated[1], found[1], found[0]
+            );
+            Err(listing.fault(line, told))
+        }
+        _ => Ok(found),
+    }
+}
+
+/// Shortest and longest wavelength, nm, and the field: "0.4861 to 0.6563 µm at 0.0000, 14.0000 (deg).".
+fn field(listing: &Listing<'_>) -> Result<([f64; 2], FieldPoint), Error> {
+    let named = |text: &str| ["file", "title", "date"].iter().any(|word| text.to_lowercase().starts_with(word));
+    let told = listing.head.iter().filter(|(_, text)| !named(text));
+    let lines = told.filter_map(|(line, text)| Some((*line, text.split_once(" at ")?)));
+    let stated = lines.map(|(line, (light, field))| (line, numbers(light), light, numbers(field), field));
+    let Some((line, light, unit, field, words)) = stated
+        .into_iter()
+        .find(|(_, light, _, field, _)| (1..=2).contains(&light.len()) && (1..=2).contains(&field.len()))
+    else {
+        let told = "its head does not say of which wavelength and field it is, as \"0.5500 µm at 0.0000, 14.0000 (deg).\" does";
+        return Err(listing.fault(0, told));
+    };
+    let um =
+        length_um(unit).ok_or_else(|| listing.fault(line, "the wavelength is in no unit of length; expected µm"))?;
+    let nm = [light[0], light[light.len() - 1]].map(|value| (value * um * 1e9).round() / 1e6);
+    if !nm.iter().all(|nm| (100.0..20_000.0).contains(nm)) || nm[0] > nm[1] {
+        return Err(listing
+            .fault(line, format!("found wavelengths from {} to {} nm; expected 100 … 20 000, rising", nm[0], nm[1])));
+    }
+    // One number is y.
+    let at = if let [y] = field[..] { [0.0, y] } else { [field[0], field[1]] };
+    let words = words.to_lowercase();
+    let field = if words.contains("deg") {
+        FieldPoint::Degrees(at)
+    } else if words.contains("mm") || words.contains("millimet") {
+        FieldPoint::Millimetres(at)
+    } else {
+        let told = "the field is neither in degrees nor in mm; export with fields of angle or of image height";
+        return Err(listing.fault(line, told));
+    };
+    Ok((nm, field))
+}
+
+fn spacing_um(listing: &Listing<'_>) -> Result<f64, Error> {
+    let Some((line, text)) = said(listing, "data spacing") else {
+        return Err(listing
+            .fault(0, "its head does not say how far its samples are apart, as \"Data spacing is 0.250 µm.\" does"));
+    };
+    let spacing = numbers(text).first().copied().zip(length_um(text)).map(|(number, um)| number * um);
+    spacing.filter(|um| um.is_finite() && *um > 0.0).ok_or_else(|| {
+        listing.fault(
+            line,
+            "the spacing is no length above 0 on the sensor; expected µm, of a lens that focuses on its image",
+        )
+    })
+}
+
+/// Where the point is on the sensor.
+fn place_mm(listing: &Listing<'_>, notes: &mut Vec<String>) -> Option<[f64; 2]> {
+    let (_, text) = said(listing, "center coordinates").or_else(|| said(listing, "reference coordinates"))?;
+    let unit = lens_unit_mm(text);
+    if unit.is_none() {
+        notes.push("its coordinates on the sensor are taken for mm".to_owned());
+    }
+    match numbers(text)[..] {
+        [x, y] => Some([x, y].map(|value| value * unit.unwrap_or(1.0))),
+        _ => None,
+    }
+}
+
+/// The sample at the point, from 0: its column from the left, its row from the first.
+fn point(
+    listing: &Listing<'_>,
+    analysis: Analysis,
+    [width, height]: [usize; 2],
+    notes: &mut Vec<String>,
+) -> Result<[usize; 2], Error> {
+    let Some((line, text)) = said(listing, "center point") else {
+        notes.push("it states no centre: the sample in the middle is taken, as listings with one have it".to_owned());
+        return Ok(match analysis {
+            Analysis::Huygens => [width / 2, (height - 1) / 2],
+            Analysis::Fft => [(width - 1) / 2, height / 2],
+        });
+    };
+    let whole = |value: f64, most: usize| (1..=most).find(|index| *index as f64 == value);
+    let by_name = text.to_lowercase().contains("row");
+    let found = match numbers(text)[..] {
+        [row, column] if by_name => whole(column, width).zip(whole(row, height)),
+        [column, row] => whole(column, width).zip(whole(row, height).map(|row| height + 1 - row)),
+        _ => None,
+    };
+    let told = || {
+        listing
+            .fault(line, format!("the centre is no sample of the {width} by {height}; expected whole numbers from 1"))
+    };
+    found.map(|(column, row)| [column - 1, row - 1]).ok_or_else(told)
+}
+
+fn light(listing: &Listing<'_>, table: &Table<'_>) -> Result<Vec<f32>, Error> {
+    if let Some((line, text)) = said(listing, "values are").filter(|(_, text)| text.to_lowercase().contains("log")) {
+        return Err(listing.fault(line, format!("found \"Values are{text}\"; export with the type \"Linear\"")));
+    }
+    let mut light = Vec::with_capacity(table.rows.len() * table.rows[0].numbers.len());
+    for row in &table.rows {
+        if let Some(wrong) = row.numbers.iter().find(|value| **value < 0.0) {
+            return Err(
+                listing.fault(row.line, format!("found the light {wrong}; expected 0 or more (the type \"Linear\")"))
+            );
+        }
+        light.extend(row.numbers.iter().map(|value| *value as f32));
+    }
+    if light.iter().all(|value| *value == 0.0) {
+        return Err(listing.fault(table.rows[0].line, "is 0 everywhere; expected some light"));
+    }
+    Ok(light)
+}
+
+/// Notes on what the samples do not hold, and where they are not as the head says.
+fn checked(mut asset: PointSpreadAsset, listing: &Listing<'_>) -> PointSpreadAsset {
+    let (width, height) = (asset.width, asset.light.len() / asset.width);
+    let (mut sum, mut centroid, mut most, mut border) = (0.0, [0.0; 2], 0.0_f32, 0.0_f32);
+    for (i, light) in asset.light.iter().enumerate() {
+        let (x, y) = (i % width, i / width);
+        most = most.max(*light);
+        if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
+            border = border.max(*light);
+        }
+        let light = f64::from(*light);
+        sum += light;
+        centroid[0] += light * (x as f64 - asset.point[0] as f64);
+        centroid[1] += light * (asset.point[1] as f64 - y as f64);
+    }
+    let border = f64::from(border / most);
+    if border > CUT_OFF {
+        asset.notes.push(format!(
+            "light at its border is {:.1} % of its greatest: what lies beyond is left out",
+            100.0 * border
+        ));
+    }
+    let found = centroid.map(|moment| moment / sum * asset.spacing_um);
+    let stated = said(listing, "centroid offset").map(|(_, text)| (numbers(text), lens_unit_mm(text).unwrap_or(1.0)));
+    if let Some((stated, mm)) = stated.filter(|(stated, _)| stated.len() == 2) {
+        let stated = [stated[0], stated[1]].map(|value| value * mm * 1e3);
+        if found.iter().zip(stated).any(|(found, stated)| (found - stated).abs() > asset.spacing_um) {
+            asset.notes.push(format!(
+                "its centroid lies {:.2}, {:.2} µm from its centre, and its head says {:.2}, {:.2} µm: its rows may run otherwise than is known",
+                found[0], found[1], stated[0], stated[1]
+            ));
+        }
+    }
+    asset
+}
+
+/// The line of the head that begins with some words, in small letters, and what follows them.
+fn said<'a>(listing: &Listing<'a>, words: &str) -> Option<(usize, &'a str)> {
+    listing.head.iter().find_map(|(line, text)| {
+        let begins = text.get(..words.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(words));
+        begins.then(|| (*line, &text[words.len()..]))
+    })
+}
+
+/// The numbers among the words of a line.
+fn numbers(text: &str) -> Vec<f64> {
+    let words = text.split([' ', '\t', ',', ':', '(', ')']).map(|word| word.strip_suffix('.').unwrap_or(word));
+    words.filter_map(|word| word.parse().ok()).filter(|number: &f64| number.is_finite()).collect()
+}
+
+/// How many µm the unit has that a line names.
+fn length_um(text: &str) -> Option<f64> {
+    let words = text.split([' ', '\t']).map(|word| word.trim_end_matches(['.', ',']).to_lowercase());
+    words
+        .filter_map(|word| match &word[..] {
+            "mm" | "millimeters" | "millimetres" => Some(1e3),
+            "nm" | "nanometers" => Some(1e-3),
+            "um" | "microns" | "micrometers" | "micrometres" => Some(1.0),
+            // Micro: two letters of Unicode, or what became of them.
+            word if word.ends_with('m') && word.chars().count() == 2 && !word.is_ascii() => Some(1.0),
+            _ => None,
+        })
+        .next()
+}
+
+/// How many mm the lens's unit has that a line names.
+fn lens_unit_mm(text: &str) -> Option<f64> {
+    let units = [("millimet", 1.0), ("centimet", 10.0), ("inch", 25.4), ("meter", 1e3), ("metre", 1e3)];
+    let text = text.to_lowercase();
+    units.into_iter().find(|(name, _)| text.contains(name)).map(|(_, mm)| mm)
+}

@@ -1,0 +1,276 @@
+//! The table of functions: by wavelength and by distance from the axis.
+
+use super::function::{FieldSpread, Function};
+use super::patch_count::patches_needed;
+use crate::effects::Canvas;
+use crate::effects::band_wavelengths::mid_wavelengths;
+use crate::effects::convolve;
+use crate::effects::core_table::{CoreBuilder, CoreTable};
+use crate::effects::error::EffectsError;
+use crate::effects::operation_counts::{OperationCounts, Uses};
+use crate::effects::patches::{Patches, Stand};
+use crate::effects::psf::VISIBLE_NM;
+use crate::effects::sample_spread::SampleSpread;
+use crate::effects::spread_width::SpreadWidth;
+use etendue_core::maths::f64::sin_cos;
+use etendue_core::{Bands, EffectStatus};
+use etendue_projection::Raster;
+use glam::{DMat2, DVec2};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// The functions of a wavelength.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TabledWavelength {
+    /// Which, nm; `None` for the same at all wavelengths.
+    pub nm: Option<f64>,
+    /// From the axis outwards.
+    pub fields: Vec<FieldSpread>,
+}
+
+/// Point-spread functions over the field.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpreadTableParameters {
+    /// Rising; one, or all with a wavelength.
+    pub wavelengths: Vec<TabledWavelength>,
+    /// Patches across and down; `None` for as many as the functions need.
+    pub patches: Option<[usize; 2]>,
+}
+
+/// The functions of a wavelength, made ready.
+#[derive(Clone, Debug, PartialEq)]
+struct Wavelength {
+    nm: Option<f64>,
+    functions: Vec<Function>,
+}
+
+/// Point-spread functions over the field, from tables.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpreadTable {
+    wavelengths: Arc<Vec<Wavelength>>,
+    patches: [usize; 2],
+}
+
+impl SpreadTable {
+    /// The functions over a picture.
+    ///
+    /// # Errors
+    /// Where distances or wavelengths do not rise or are not the same number everywhere, or a function cannot stand on the pixels.
+    pub fn new(parameters: SpreadTableParameters, picture: &Raster) -> Result<Self, EffectsError> {
+        let SpreadTableParameters { wavelengths, patches } = parameters;
+        check_grid(&wavelengths)?;
+        wavelengths.iter().flat_map(|w| &w.fields).try_for_each(|field| field.check(picture))?;
+        let wavelengths: Vec<Wavelength> = wavelengths.into_iter().map(ready_wavelength).collect();
+        let mut table = Self { wavelengths: Arc::new(wavelengths), patches: [1, 1] };
+        table.patches = patches.unwrap_or_else(|| patches_needed(picture, |at_mm| table.moments(at_mm)));
+        Ok(table)
+    }
+
+    /// Patches across and down.
+    #[must_use]
+    pub fn patches(&self) -> [usize; 2] {
+        self.patches
+    }
+
+    /// Distances from the axis, mm, rising; where they differ by wavelength those of the shortest.
+    #[must_use]
+    pub fn radii_mm(&self) -> Vec<f64> {
+        self.wavelengths[0].functions.iter().map(|function| function.radius_mm).collect()
+    }
+
+    /// The wavelengths, nm, rising; none where the functions hold for all.
+    #[must_use]
+    pub fn wavelengths_nm(&self) -> Vec<f64> {
+        self.wavelengths.iter().filter_map(|wavelength| wavelength.nm).collect()
+    }
+
+    /// Whether the function is of another shape at other wavelengths.
+    pub(in crate::effects) fn varies_by_wavelength(&self) -> bool {
+        self.wavelengths.len() > 1
+    }
+
+    pub(in crate::effects) fn status(&self) -> EffectStatus {
+        let radii = self.radii_mm();
+        let number = |mm: &f64| format!("{}", (mm * 1e4).round() / 1e4);
+        let numbers = match &radii[..] {
+            [first, .., last] if radii.len() > 4 => format!("{} to {}", number(first), number(last)),
+            list => list.iter().map(number).collect::<Vec<_>>().join(", "),
+        };
+        let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+        let nm = self.wavelengths_nm();
+        let by = match (nm.len(), self.wavelengths.len()) {
+            (0, _) => "the same at all wavelengths".to_owned(),
+            (_, 1) => format!("computed for {} nm, the same at all wavelengths", nm[0]),
+            (count, _) => format!("{count} wavelengths ({} to {} nm)", nm[0], nm[count - 1]),
+        };
+        let [x, y] = self.patches;
+        let functions = counted(self.functions().count(), "function");
+        let distances = counted(radii.len(), "distance");
+        EffectStatus::Modelled(format!(
+            "a table of {functions} at {distances} from the axis ({numbers} mm), {by}, in {x} × {y} patches"
+        ))
+    }
+
+    /// By how much a point's light is off at most, relatively: each pixel takes the functions of its own place, so that of a point comes more or less by the
+    /// divergence of the centroids over the field, dc/dr + c/r.
+    #[must_use]
+    pub fn light_error(&self) -> f64 {
+        let pairs = self.wavelengths.iter().flat_map(|wavelength| wavelength.functions.windows(2));
+        let divergence = |pair: &[Function]| {
+            let [near, far] = pair else { return 0.0 };
+            let slope = (far.centroid_mm - near.centroid_mm) / (far.radius_mm - near.radius_mm);
+            (slope + far.centroid_mm / far.radius_mm).abs()
+        };
+        pairs.map(divergence).fold(0.0, f64::max)
+    }
+
+    fn functions(&self) -> impl Iterator<Item = &Function> {
+        self.wavelengths.iter().flat_map(|wavelength| &wavelength.functions)
+    }
+
+    /// Columns and rows that light is spread over.
+    pub(in crate::effects) fn reach_px(&self, pitch_mm: DVec2) -> [usize; 2] {
+        let reach_mm = self.functions().map(|function| function.reach_mm).fold(0.0, f64::max);
+        let reach = (DVec2::splat(reach_mm) / pitch_mm).ceil();
+        [reach.x as usize, reach.y as usize]
+    }
+
+    /// The functions that make up that of a wavelength and a distance from the axis, with their weights.
+    fn mix(&self, nm: f64, radius_mm: f64) -> impl Iterator<Item = (&Function, f64)> {
+        let of_wavelength = between(&self.wavelengths, nm, |wavelength| wavelength.nm.unwrap_or(0.0));
+        let of_field = move |wavelength: &'_ Wavelength| between(&wavelength.functions, radius_mm, |f| f.radius_mm);
+        let parts = of_wavelength.into_iter().filter(|(_, weight)| *weight > 0.0);
+        parts.flat_map(move |(i, weight)| {
+            let wavelength = &self.wavelengths[i];
+            let fields = of_field(wavelength).into_iter().filter(|(_, weight)| *weight > 0.0);
+            fields.map(move |(j, share)| (&wavelength.functions[j], weight * share))
+        })
+    }
+
+    /// Adds where light of a wavelength lands from a point of the sensor, mm, and how much of it.
+    pub(super) fn deposit(&self, nm: f64, at_mm: DVec2, mut to: impl FnMut(DVec2, f64)) {
+        let radius_mm = at_mm.length();
+        let outwards = if radius_mm > 0.0 { at_mm / radius_mm } else { DVec2::X };
+        for (function, weight) in self.mix(nm, radius_mm) {
+            function.landings(outwards).for_each(|(offset, share)| to(offset, weight * share));
+        }
+    }
+
+    /// Second moments at a place, mm²; the mean over the wavelengths.
+    fn moments(&self, at_mm: DVec2) -> DMat2 {
+        let radius_mm = at_mm.length();
+        let outwards = if radius_mm > 0.0 { at_mm / radius_mm } else { DVec2::X };
+        let of = |nm: f64| {
+            let parts = self.mix(nm, radius_mm).map(|(function, weight)| function.moments(outwards) * weight);
+            parts.fold(DMat2::ZERO, |sum, part| sum + part)
+        };
+        let wavelengths = self.wavelengths_nm();
+        match wavelengths.len() {
+            0 => of(VISIBLE_NM.0),
+            count => wavelengths.iter().fold(DMat2::ZERO, |sum, nm| sum + of(*nm) * (1.0 / count as f64)),
+        }
+    }
+
+    /// The modulation of a wavelength at a point of the sensor for a frequency, cycles/mm.
+    #[must_use]
+    pub fn modulation(&self, nm: f64, at_mm: DVec2, cycles_per_mm: DVec2) -> f64 {
+        let mut sum = DVec2::ZERO;
+        self.deposit(nm, at_mm, |offset, share| {
+            let (sine, cosine) = sin_cos(core::f64::consts::TAU * cycles_per_mm.dot(offset));
+            sum += share * DVec2::new(cosine, sine);
+        });
+        sum.length()
+    }
+
+    /// The corner that is farthest from the axis, mm.
+    fn corner_mm(canvas: &Canvas) -> DVec2 {
+        let region = canvas.picture();
+        let corners = [region.x.start, region.x.end].into_iter().flat_map(|x| [(x, region.y.start), (x, region.y.end)]);
+        let places = corners.map(|(x, y)| canvas.sensor_mm(DVec2::new(x as f64, y as f64)));
+        places.max_by(|a, b| a.length().total_cmp(&b.length())).unwrap_or(DVec2::ZERO)
+    }
+
+    /// How narrow it is where it is widest: on the axis, at the distances within the picture that have functions, and in the corner.
+    pub(in crate::effects) fn width(&self, canvas: &Canvas, nm: f64) -> SpreadWidth {
+        let (corner_mm, pitch_mm) = (Self::corner_mm(canvas), canvas.pitch_mm());
+        let outwards = corner_mm.try_normalize().unwrap_or(DVec2::X);
+        let at = |radius_mm: f64| {
+            SpreadWidth::new(self.reach_px(pitch_mm), self.varies_by_wavelength(), |to| {
+                self.deposit(nm, outwards * radius_mm, |offset, share| to(offset / pitch_mm, share));
+            })
+        };
+        let within = self.radii_mm().into_iter().filter(|radius| *radius < corner_mm.length());
+        within.map(at).fold(at(corner_mm.length()), SpreadWidth::worse)
+    }
+
+    pub(super) fn places(&self, canvas: &Canvas) -> Patches {
+        Patches::new(self.patches, Stand::Edges, canvas)
+    }
+
+    /// The cores by which samples are displaced, for the wavelengths of a range; `None` where no light is in them.
+    pub(in crate::effects) fn sample_spread(&self, canvas: &Canvas, range_nm: (f64, f64)) -> Option<SampleSpread> {
+        let places = self.places(canvas);
+        let parts = if self.varies_by_wavelength() { mid_wavelengths(range_nm).count() } else { 1 };
+        let step_nm = (range_nm.1 - range_nm.0) / parts as f64;
+        let core = |patch: usize, part: usize| -> Option<CoreTable> {
+            let mut builder = CoreBuilder::default();
+            let nm = range_nm.0 + (part as f64 + 0.5) * step_nm;
+            let pitch_mm = canvas.pitch_mm();
+            self.deposit(nm, canvas.sensor_mm(places.middle_px(patch)), |offset, share| {
+                builder.deposit(offset / pitch_mm, share);
+            });
+            builder.table()
+        };
+        let of_patch = |patch: usize| (0..parts).map(|part| core(patch, part)).collect::<Option<Vec<_>>>();
+        let tables = (0..places.count()).into_par_iter().map(of_patch).collect::<Option<Vec<_>>>()?;
+        Some(SampleSpread::new(places.into_hats(), (range_nm.0, step_nm), tables))
+    }
+
+    /// What it has to do on so many pictures a band: all bands as the middle one.
+    pub(in crate::effects) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
+        let (places, reach) = (self.places(canvas), self.reach_px(canvas.pitch_mm()));
+        let count = bands.count() as f64;
+        let uses = Uses { ready: pictures * count, applied: pictures * count };
+        let kernels = if self.varies_by_wavelength() { count } else { 1.0 };
+        let parts = mid_wavelengths((bands.low_nm(), bands.low_nm() + bands.width_nm())).count() as f64;
+        let (mixed, parts) = if self.varies_by_wavelength() { (4.0, parts) } else { (2.0, 1.0) };
+        let samples = self.functions().map(Function::samples).max().unwrap_or(0) as f64;
+        let kernel = OperationCounts { shared: kernels * parts * mixed * samples, ..OperationCounts::default() };
+        let of = |i| kernel + convolve::operation_counts(reach, canvas.size(), &places.region(i), uses);
+        (0..places.count()).map(of).sum()
+    }
+
+    /// The wavelengths that stand for a band.
+    pub(super) fn wavelengths_of(&self, band_nm: (f64, f64)) -> Vec<f64> {
+        if self.varies_by_wavelength() { mid_wavelengths(band_nm).collect() } else { vec![VISIBLE_NM.0] }
+    }
+}
+
+fn check_grid(wavelengths: &[TabledWavelength]) -> Result<(), EffectsError> {
+    let rises = |list: &[f64]| list.windows(2).all(|pair| pair[0] < pair[1]);
+    let count = wavelengths.first().map_or(0, |first| first.fields.len());
+    let radii = |w: &TabledWavelength| w.fields.iter().map(FieldSpread::radius_mm).collect::<Vec<_>>();
+    let nm: Vec<f64> = wavelengths.iter().filter_map(|w| w.nm).collect();
+    let known = wavelengths.len() == 1 || nm.len() == wavelengths.len();
+    let whole = count > 0 && wavelengths.iter().all(|w| w.fields.len() == count && rises(&radii(w)));
+    if whole && known && rises(&nm) { Ok(()) } else { Err(EffectsError::SpreadTable) }
+}
+
+fn ready_wavelength(wavelength: TabledWavelength) -> Wavelength {
+    let TabledWavelength { nm, fields } = wavelength;
+    let outwards = fields.last().and_then(FieldSpread::outwards).unwrap_or(DVec2::NEG_Y);
+    Wavelength { nm, functions: fields.into_iter().map(|field| Function::new(field, outwards)).collect() }
+}
+
+/// The two that are nearest to a value, by index, with their weights: linear between, the ends held.
+fn between<T>(rising: &[T], at: f64, value: impl Fn(&T) -> f64) -> [(usize, f64); 2] {
+    match rising.partition_point(|item| value(item) <= at) {
+        0 => [(0, 1.0), (0, 0.0)],
+        n if n == rising.len() => [(n - 1, 1.0), (n - 1, 0.0)],
+        n => {
+            let [low, high] = [value(&rising[n - 1]), value(&rising[n])];
+            let share = (at - low) / (high - low);
+            [(n - 1, 1.0 - share), (n, share)]
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! Points' light at places of the field, from files: a table by distance from the axis and by wavelength.
+//!
+//! x and y of a file are those of its lens program, of the physical image seen against the light: y upwards. The samples' own axes have y
+//! downwards ([`etendue_optics::effects::spread_table`]).
+
+use super::context::Context;
+use etendue_core::maths::f64::{sin_cos, tan};
+use etendue_optics::Lens;
+use etendue_optics::effects::{FieldSpread, SpreadTable, SpreadTableParameters, TabledWavelength};
+use etendue_projection::Raster;
+use etendue_scene::Placed;
+use etendue_scene::asset::{FieldPoint, PointSpreadAsset};
+use glam::{DVec2, DVec3};
+use std::path::PathBuf;
+
+/// From which share of a point's light on it is said that it is not kept.
+const LIGHT_ERROR: f64 = 0.002;
+/// How far beyond the farthest function the picture may go before that is said.
+const BEYOND: f64 = 1.02;
+
+/// A file with what it holds.
+struct Listed<'a> {
+    file: &'a Placed<PathBuf>,
+    asset: &'a PointSpreadAsset,
+    spread: FieldSpread,
+}
+
+/// The functions of files over a picture.
+pub(super) fn table(
+    files: &[Placed<PathBuf>],
+    patches: Option<[usize; 2]>,
+    lens: &Lens,
+    picture: &Raster,
+    context: &mut Context<'_>,
+) -> Option<SpreadTable> {
+    let listed: Vec<Option<Listed<'_>>> = files.iter().map(|file| listed(file, lens, picture, context)).collect();
+    let listed = listed.into_iter().collect::<Option<Vec<_>>>()?;
+    let wavelengths = wavelengths(&listed, context)?;
+    let table = SpreadTable::new(SpreadTableParameters { wavelengths, patches }, picture);
+    let table = context.accept(&files[0].place, table)?;
+    remark_on(&table, picture, context);
+    Some(table)
+}
+
+/// What a file holds, on the sensor; what was made of it is remarked.
+fn listed<'a, 'c: 'a>(
+    file: &'a Placed<PathBuf>,
+    lens: &Lens,
+    picture: &Raster,
+    context: &mut Context<'c>,
+) -> Option<Listed<'a>> {
+    let assets = context.assets;
+    let Some(asset) = assets.point_spreads.get(&file.value) else {
+        context.fault(&file.place, "the point spread was not loaded", "give a readable file");
+        return None;
+    };
+    asset.notes.iter().for_each(|note| context.remark_on(file.value.display(), note));
+    let Some(place_mm) = place_mm(asset, lens) else {
+        let problem = format!("the lens images nothing at the field {}, which the file states", field(asset.field));
+        context.fault(
+            &file.place,
+            problem,
+            "give files of its field, or such as state their coordinates on the sensor",
+        );
+        return None;
+    };
+    let spread = FieldSpread {
+        place_mm,
+        pitch_um: asset.spacing_um,
+        width: asset.width,
+        light: asset.light.clone(),
+        point: asset.point,
+    };
+    context.accept(&file.place, spread.check(picture))?;
+    Some(Listed { file, asset, spread })
+}
+
+/// Where the point is on the sensor, by the samples' axes.
+fn place_mm(asset: &PointSpreadAsset, lens: &Lens) -> Option<DVec2> {
+    let stated = |[x, y]: [f64; 2]| DVec2::new(x, -y);
+    match (asset.place_mm, asset.field) {
+        (Some(place), _) | (None, FieldPoint::Millimetres(place)) => Some(stated(place)),
+        (None, FieldPoint::Degrees(degrees)) => {
+            let direction = stated(degrees);
+            let radius_mm = lens.project(towards(degrees)?)?.length();
+            Some(direction.try_normalize().map_or(DVec2::ZERO, |outwards| outwards * radius_mm))
+        }
+    }
+}
+
+/// A direction at the field angles of x and y, which go by their tangents; of one alone by the angle.
+fn towards(degrees: [f64; 2]) -> Option<DVec3> {
+    let [x, y] = degrees.map(f64::to_radians);
+    if x == 0.0 || y == 0.0 {
+        let (sine, cosine) = sin_cos(x + y);
+        return Some(DVec3::new(sine, 0.0, cosine));
+    }
+    let ahead = x.abs().max(y.abs()) < core::f64::consts::FRAC_PI_2;
+    ahead.then(|| DVec3::new(tan(x), tan(y), 1.0))
+}
+
+/// The functions by wavelength and by distance from the axis, where every wavelength has the same fields.
+fn wavelengths(listed: &[Listed<'_>], context: &mut Context<'_>) -> Option<Vec<TabledWavelength>> {
+    let first = &listed[0];
+    let is_broad = |one: &Listed<'_>| one.asset.wavelengths_nm[0] != one.asset.wavelengths_nm[1];
+    let other = |one: &&Listed<'_>| one.asset.wavelengths_nm != first.asset.wavelengths_nm;
+    if let Some(other) = listed.iter().find(other).filter(|_| listed.iter().any(is_broad)) {
+        let nm = |one: &Listed<'_>| format!("{} to {} nm", one.asset.wavelengths_nm[0], one.asset.wavelengths_nm[1]);
+        let problem = format!("{} is of {}, and {} of {}", name(other), nm(other), name(first), nm(first));
+        context.fault(
+            &other.file.place,
+            problem,
+            "give files of one wavelength each, or polychromatic ones of the same range",
+        );
+        return None;
+    }
+    let mut nm: Vec<f64> = listed.iter().map(|one| one.asset.wavelengths_nm[0]).collect();
+    nm.sort_by(f64::total_cmp);
+    nm.dedup();
+    let broad = is_broad(first);
+    let of = |nm: &f64| {
+        let mut fields: Vec<&Listed<'_>> = listed.iter().filter(|one| one.asset.wavelengths_nm[0] == *nm).collect();
+        fields.sort_by(|a, b| a.spread.place_mm.length().total_cmp(&b.spread.place_mm.length()));
+        (*nm, fields)
+    };
+    let grid: Vec<(f64, Vec<&Listed<'_>>)> = nm.iter().map(of).collect();
+    check_twice(&grid, context)?;
+    check_complete(listed, &grid, context)?;
+    let wavelength = |(nm, fields): (f64, Vec<&Listed<'_>>)| TabledWavelength {
+        nm: (!broad).then_some(nm),
+        fields: fields.into_iter().map(|one| one.spread.clone()).collect(),
+    };
+    Some(grid.into_iter().map(wavelength).collect())
+}
+
+/// No two files are of the same distance and wavelength.
+fn check_twice(grid: &[(f64, Vec<&Listed<'_>>)], context: &mut Context<'_>) -> Option<()> {
+    let mut pairs = grid.iter().flat_map(|(_, fields)| fields.windows(2));
+    let alike = pairs.find(|pair| {
+        let [near, far] = [pair[0], pair[1]].map(|one| one.spread.place_mm.length());
+        far - near <= 1e-6 * far.max(1.0)
+    });
+    let Some(pair) = alike else { return Some(()) };
+    let problem =
+        format!("{} is at the distance from the axis of {}, and of its wavelength", name(pair[1]), name(pair[0]));
+    context.fault(&pair[1].file.place, problem, "remove one of them: the function turns with the place in the picture");
+    None
+}
+
+/// Every wavelength has the fields of all.
+fn check_complete(listed: &[Listed<'_>], grid: &[(f64, Vec<&Listed<'_>>)], context: &mut Context<'_>) -> Option<()> {
+    let has = |fields: &[&Listed<'_>], wanted: FieldPoint| fields.iter().any(|one| one.asset.field == wanted);
+    for one in listed {
+        if let Some((nm, _)) = grid.iter().find(|(_, fields)| !has(fields, one.asset.field)) {
+            let problem = format!("no file is of {nm} nm at the field {} of {}", field(one.asset.field), name(one));
+            context.fault(&one.file.place, problem, "give a file of every field at every wavelength");
+            return None;
+        }
+    }
+    Some(())
+}
+
+fn remark_on(table: &SpreadTable, picture: &Raster, context: &mut Context<'_>) {
+    let (corner_mm, radii) = (picture.max_radius_mm(), table.radii_mm());
+    let last_mm = radii[radii.len() - 1];
+    if corner_mm > BEYOND * last_mm && radii.len() > 1 {
+        context.remark(format!(
+            "point spreads are known to {last_mm:.4} mm from the axis and held beyond; the picture's corner is at {corner_mm:.4} mm"
+        ));
+    }
+    let error = table.light_error();
+    if error > LIGHT_ERROR {
+        context.remark(format!(
+            "point spreads keep the light of a point to {:.1} %: their centroids shift over the field",
+            100.0 * error
+        ));
+    }
+}
+
+fn name(one: &Listed<'_>) -> String {
+    one.file.value.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn field(field: FieldPoint) -> String {
+    match field {
+        FieldPoint::Degrees([x, y]) => format!("({x}°, {y}°)"),
+        FieldPoint::Millimetres([x, y]) => format!("({x}, {y}) mm"),
+    }
+}
