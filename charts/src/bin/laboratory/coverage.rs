@@ -59,7 +59,7 @@ pub(crate) fn introduction(seeds: u64) -> String {
 const INTRODUCTION: &str = "# How often the intervals of characterise hold the truth
 
 Written by `just laboratory`: laboratory folders of the three reference cameras (`charts/*/camera.toml`, made small: the same field in fewer, larger pixels) are
-photographed with SEEDS seeds, each with noise and a specimen of its own, and characterised. Held: in how many the stated 95 % interval (value ± 2 standard
+photographed with SEEDS seeds, each with noise, a specimen and views of the chart of its own, and characterised. Held: in how many the stated 95 % interval (value ± 2 standard
 uncertainties) holds what the camera file declares; where it declares no number of this kind, the mean over the seeds (\"mean\"), which tells the
 scatter and no bias. Numbers that cannot be below 0 and whose truth is 0 are held more often than 95 %, as their intervals are one-sided there.
 What few seeds tell (\"of\") is told where by chance enough hot pixels lie in the picture, and then its share is not the mean one.
