@@ -11,7 +11,7 @@ use rand::RngExt as _;
 
 /// The camera points beside its target by up to this share of the distance, across and up.
 const ASIDE: f64 = 0.005;
-/// It stands farther away by up to this share of the distance: what was in the picture stays in it.
+/// It stands farther away by up to this share of the distance, never nearer.
 const FARTHER: f64 = 0.02;
 /// It is rolled about its axis by up to this much, either way, degrees.
 const ROLL_DEG: f64 = 1.5;

@@ -58,12 +58,10 @@ fn written(file: &Path) -> Result<BTreeMap<String, f64>, Error> {
     if let Some(hot) = p.charge.dark.hot {
         found.extend([("sensor.dark.hot.share", hot.fraction), ("sensor.dark.hot.mean_e_s", hot.mean_e_s)]);
     }
-    // Edges tell the sums over columns and rows of neighbours.
-    let exchange = p.light.crosstalk.as_ref().map_or([0.0; 2], |crosstalk| {
-        let near = &crosstalk.0;
-        [near.horizontal, near.vertical].map(|beside| beside + 2.0 * near.corner)
-    });
-    found.extend(["sensor.crosstalk.horizontal", "sensor.crosstalk.vertical"].into_iter().zip(exchange));
+    // Pixels that exchange nothing; else, in green, what is seen depends on the light of the neighbours' colours.
+    if p.light.crosstalk.is_none() {
+        found.extend(["sensor.crosstalk.horizontal", "sensor.crosstalk.vertical"].map(|key| (key, 0.0)));
+    }
     Ok(found.into_iter().map(|(key, value)| (key.to_owned(), value)).collect())
 }
 

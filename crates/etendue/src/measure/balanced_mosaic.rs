@@ -5,7 +5,7 @@
 //! sensor without filters would have taken: nothing is interpolated, and no edge moves with its place among the colours, as it does in a mean of unequal
 //! responses or along the patterns that demosaicing draws. Pixels of tiles in which a filter's pixel is saturated do not count.
 //!
-//! Left out: light whose colour varies over the picture (coloured surfaces, lateral chromatic aberration), which leaves a pattern of two pixels.
+//! Left out: light whose colour varies over the picture (coloured surfaces, lateral chromatic aberration) and what saturates under some of the filters only, which leave a pattern of two pixels.
 
 use etendue_metrology::Image;
 

@@ -182,7 +182,7 @@ fn metadata(stage: &Stage, path: &openusd::sdf::Path, name: &str) -> Result<Opti
     stage.attribute(path.clone()).get_metadata(name).map_err(words)
 }
 
-/// The metadata `inactiveIds` of a prim, of all layers together.
+/// The metadata `inactiveIds` of a prim, of the strongest layer that has an opinion: those of weaker layers are not merged into it.
 fn inactive_ids(prim: &Prim) -> Result<Vec<i64>, String> {
     Ok(match metadata(prim.stage(), prim.path(), "inactiveIds")? {
         Some(Value::Int64ListOp(list)) => list.iter().copied().collect(),

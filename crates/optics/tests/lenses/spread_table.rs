@@ -203,7 +203,7 @@ fn between_wavelengths_functions_are_mixed_and_beyond_them_held() {
             exp(-0.5 * phase * phase)
         };
         let expected = (1.0 - share) * of(0.006) + share * of(0.012);
-        let found = table.modulation(nm, DVec2::new(0.1, 0.2), frequency);
+        let found = table.transfer(nm, DVec2::new(0.1, 0.2), frequency).length();
         assert!((found - expected).abs() < 1e-5, "{nm}: {found} for {expected}");
         // The film's band of 10 nm about it, by what becomes of a point.
         let effects = effects(table.clone(), Some(SpreadBy::Film));

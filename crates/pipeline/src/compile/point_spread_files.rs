@@ -81,8 +81,9 @@ fn place_mm(asset: &PointSpreadAsset, lens: &Lens) -> Option<DVec2> {
     match (asset.place_mm, asset.field) {
         (Some(place), _) | (None, FieldPoint::Millimetres(place)) => Some(stated(place)),
         (None, FieldPoint::Degrees(degrees)) => {
-            let direction = stated(degrees);
-            let radius_mm = lens.project(towards(degrees)?)?.length();
+            let towards = towards(degrees)?;
+            let direction = if towards.y == 0.0 { stated(degrees) } else { stated([towards.x, towards.y]) };
+            let radius_mm = lens.project(towards)?.length();
             Some(direction.try_normalize().map_or(DVec2::ZERO, |outwards| outwards * radius_mm))
         }
     }
@@ -163,9 +164,21 @@ fn check_complete(listed: &[Listed<'_>], grid: &[(f64, Vec<&Listed<'_>>)], conte
 fn remark_on(table: &SpreadTable, picture: &Raster, context: &mut Context<'_>) {
     let (corner_mm, radii) = (picture.max_radius_mm(), table.radii_mm());
     let last_mm = radii[radii.len() - 1];
-    if corner_mm > BEYOND * last_mm && radii.len() > 1 {
+    if corner_mm > BEYOND * last_mm && (radii.len() > 1 || last_mm > 0.0) {
         context.remark(format!(
             "point spreads are known to {last_mm:.4} mm from the axis and held beyond; the picture's corner is at {corner_mm:.4} mm"
+        ));
+    }
+    if radii[0] > 0.0 {
+        context.remark(format!(
+            "no point spread is of the axis: that at {:.4} mm is held inwards, where it turns with the place as there; give a file of the axis",
+            radii[0]
+        ));
+    }
+    if !table.keeps_shapes() {
+        let [across, down] = table.patches();
+        context.remark(format!(
+            "point spreads change too fast for {across} × {down} patches: between them second moments are off by more than half a per cent; \"patches\" takes more"
         ));
     }
     let error = table.light_error();

@@ -24,9 +24,10 @@ struct Binding<'a> {
 
 impl<'a> Bindings<'a> {
     /// Those of a prim in one that has these.
-    pub(super) fn within(self, prim: &'a UsdPrim) -> Self {
-        let full = holding(self.full, prim, FULL);
-        Self { full, all_purposes: holding(self.all_purposes, prim, ALL_PURPOSES) }
+    /// A binding to what `is_material` says is none does not hold.
+    pub(super) fn within(self, prim: &'a UsdPrim, is_material: impl Fn(&str) -> bool) -> Self {
+        let full = holding(self.full, prim, FULL, &is_material);
+        Self { full, all_purposes: holding(self.all_purposes, prim, ALL_PURPOSES, &is_material) }
     }
 
     /// The path of the material.
@@ -35,12 +36,24 @@ impl<'a> Bindings<'a> {
     }
 }
 
-fn holding<'a>(above: Option<Binding<'a>>, prim: &'a UsdPrim, name: &str) -> Option<Binding<'a>> {
+fn holding<'a>(
+    above: Option<Binding<'a>>,
+    prim: &'a UsdPrim,
+    name: &str,
+    is_material: impl Fn(&str) -> bool,
+) -> Option<Binding<'a>> {
     let own = prim.relation(name).map(|relation| Binding {
         path: relation.targets.first().map_or("", String::as_str),
         is_stronger: relation.is_stronger,
     });
+    let own = own.filter(|binding| is_material(binding.path));
     above.filter(|binding| binding.is_stronger).or(own).or(above)
+}
+
+/// The paths that a prim is bound to by itself.
+pub(super) fn bound(prim: &UsdPrim) -> impl Iterator<Item = &str> {
+    let relations = [FULL, ALL_PURPOSES].into_iter().filter_map(|name| prim.relation(name));
+    relations.filter_map(|relation| relation.targets.first()).map(String::as_str)
 }
 
 /// Whether a prim is bound to a material by itself.
@@ -73,7 +86,7 @@ mod tests {
 
     /// From the outermost prim inwards.
     fn material(prims: &[UsdPrim]) -> Option<&str> {
-        prims.iter().fold(Bindings::default(), Bindings::within).material()
+        prims.iter().fold(Bindings::default(), |about, prim| about.within(prim, |path| path != "/none")).material()
     }
 
     #[test]
@@ -84,6 +97,9 @@ mod tests {
         assert_eq!(material(&[outer(), prim(&[])]), Some("/outer"));
         // Full rendering goes before all purposes, however far above it is bound.
         assert_eq!(material(&[prim(&[(FULL, "/full", false)]), inner()]), Some("/full"));
+        // What leads to no material hides none.
+        assert_eq!(material(&[outer(), prim(&[(ALL_PURPOSES, "/none", true)])]), Some("/outer"));
+        assert_eq!(material(&[prim(&[(FULL, "/none", false), (ALL_PURPOSES, "/inner", false)])]), Some("/inner"));
         assert_eq!(material(&[prim(&[("material:binding:preview", "/preview", true)])]), None);
     }
 

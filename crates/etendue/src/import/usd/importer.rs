@@ -1,7 +1,7 @@
 //! Prims to a scene.
 
 use super::access::text;
-use super::binding::{Bindings, binds_collections};
+use super::binding::{Bindings, binds_collections, bound};
 use super::bound_material::BoundMaterial;
 use super::paths::Paths;
 use super::transform::transform_of;
@@ -156,7 +156,14 @@ impl<'a> Importer<'a> {
         if binds_collections(prim) {
             self.scenery.report.note("materials that are bound to collections are not used");
         }
-        about.within(prim)
+        let paths = &self.paths;
+        let is_material = |path: &str| paths.prim(path).is_some_and(|prim| prim.kind == "Material");
+        for path in bound(prim).filter(|path| !is_material(path)) {
+            self.scenery
+                .report
+                .note(format!("the material <{path}> is not there: what is bound to it is as if it were not"));
+        }
+        about.within(prim, is_material)
     }
 
     /// Says that a prim is not drawn.

@@ -27,13 +27,7 @@ impl<'a> Importer<'a> {
         if let Some(known) = self.materials.get(path) {
             return Ok(known.clone());
         }
-        let bound = match self.paths.prim(path) {
-            Some(prim) => self.material_of(prim)?,
-            None => {
-                self.scenery.report.note(format!("the material <{path}> is not there: grey of 0.5 in its place"));
-                BoundMaterial::default()
-            }
-        };
+        let bound = self.paths.prim(path).map(|prim| self.material_of(prim)).transpose()?.unwrap_or_default();
         self.materials.insert(path.to_owned(), bound.clone());
         Ok(bound)
     }

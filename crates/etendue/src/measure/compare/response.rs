@@ -137,7 +137,9 @@ impl<'a> Response<'a> {
             Some(PointSpread::Image(image)) => average(&|nm| of_picture(image, nm, per_mm, down)),
             Some(PointSpread::Table(table)) => {
                 let place = place_px.map_or(DVec2::ZERO, |at| (at - self.body.raster.principal_px()) * pitch);
-                average(&|nm| table.modulation(nm, place, axis * per_mm))
+                // Wavelengths add before the modulus is taken.
+                let of = |(weight, nm): &(f64, f64)| *weight * table.transfer(*nm, place, axis * per_mm);
+                self.light.iter().map(of).sum::<DVec2>().length()
             }
         }
     }

@@ -3,26 +3,36 @@
 use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
 
+/// Where a function's light lies about its point, mm and mm².
+#[derive(Clone, Copy)]
+pub(super) struct Shape {
+    pub(super) centroid: DVec2,
+    pub(super) moments: DMat2,
+}
+
 /// The most across, where nothing is said.
 const MOST: usize = 11;
 /// By how much second moments midway between patches may be off: of their sum, and px².
 const RELATIVE: f64 = 0.005;
 const ABSOLUTE_PX2: f64 = 0.005;
+/// And the centroid: of the root of that sum, and px.
+const RELATIVE_CENTROID: f64 = 0.01;
+const CENTROID_PX: f64 = 0.01;
 
-/// As few patches as keep second moments (mm², by the place on the sensor, mm) between them; odd numbers, so that one stands in the middle.
-pub(super) fn patches_needed(picture: &Raster, moments: impl Fn(DVec2) -> DMat2) -> [usize; 2] {
+/// As few patches as keep centroid and second moments (by the place on the sensor, mm) between them; odd numbers, so that one stands in the middle.
+pub(super) fn patches_needed(picture: &Raster, shape: impl Fn(DVec2) -> Shape) -> [usize; 2] {
     let mut counts = (1..=MOST).step_by(2).map(|across| [across, down(across, picture)]);
-    let kept = |counts: &[usize; 2]| keeps_moments(*counts, picture, &moments);
+    let kept = |counts: &[usize; 2]| keeps_shapes(*counts, picture, &shape);
     counts.find(kept).unwrap_or([MOST, down(MOST, picture)])
 }
 
-/// Whether the mean of neighbours' second moments is near that of the place midway between them.
-fn keeps_moments([across, down]: [usize; 2], picture: &Raster, moments: impl Fn(DVec2) -> DMat2) -> bool {
+/// Whether the mean of neighbours' centroids and second moments is near those of the place midway between them.
+pub(super) fn keeps_shapes([across, down]: [usize; 2], picture: &Raster, shape: impl Fn(DVec2) -> Shape) -> bool {
     let size = DVec2::new(picture.width() as f64, picture.height() as f64);
     if across == 1 {
-        let here = moments(picture.sensor_mm(0.5 * size));
+        let here = shape(picture.sensor_mm(0.5 * size));
         let corners = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].map(|corner| picture.sensor_mm(size * corner));
-        return corners.into_iter().all(|corner| is_near(moments(corner), here, picture));
+        return corners.into_iter().all(|corner| is_near(&shape(corner), &here, picture));
     }
     // Halves of the steps from patch to patch.
     let at = |x: usize, y: usize| {
@@ -32,18 +42,25 @@ fn keeps_moments([across, down]: [usize; 2], picture: &Raster, moments: impl Fn(
     (0..2 * across - 1).all(|x| {
         (0..2 * down - 1).all(|y| {
             let sides = |index: usize| if index % 2 == 1 { [index - 1, index + 1] } else { [index, index] };
-            let around = sides(x).into_iter().flat_map(|x| sides(y).map(|y| moments(at(x, y))));
-            let mean = around.fold(DMat2::ZERO, |sum, moments| sum + moments * 0.25);
-            is_near(moments(at(x, y)), mean, picture)
+            let around = sides(x).into_iter().flat_map(|x| sides(y).map(|y| shape(at(x, y))));
+            let none = Shape { centroid: DVec2::ZERO, moments: DMat2::ZERO };
+            let mean = around.fold(none, |sum, one| Shape {
+                centroid: sum.centroid + one.centroid * 0.25,
+                moments: sum.moments + one.moments * 0.25,
+            });
+            is_near(&shape(at(x, y)), &mean, picture)
         })
     })
 }
 
-fn is_near(wanted: DMat2, found: DMat2, picture: &Raster) -> bool {
-    let off = found - wanted;
+fn is_near(wanted: &Shape, found: &Shape, picture: &Raster) -> bool {
+    let off = found.moments - wanted.moments;
     let pixel_mm = picture.pitch_mm().min_element();
-    let most = RELATIVE * (wanted.x_axis.x + wanted.y_axis.y) + ABSOLUTE_PX2 * pixel_mm * pixel_mm;
-    off.to_cols_array().into_iter().all(|v| v.abs() <= most)
+    let trace = wanted.moments.x_axis.x + wanted.moments.y_axis.y;
+    let most = RELATIVE * trace + ABSOLUTE_PX2 * pixel_mm * pixel_mm;
+    let aside = (found.centroid - wanted.centroid).length();
+    let is_in_place = aside <= RELATIVE_CENTROID * trace.sqrt() + CENTROID_PX * pixel_mm;
+    is_in_place && off.to_cols_array().into_iter().all(|v| v.abs() <= most)
 }
 
 /// Patches down for so many across: about square, an odd number.

@@ -1,7 +1,7 @@
 //! The table of functions: by wavelength and by distance from the axis.
 
 use super::function::{FieldSpread, Function};
-use super::patch_count::patches_needed;
+use super::patch_count::{Shape, keeps_shapes, patches_needed};
 use crate::effects::Canvas;
 use crate::effects::band_wavelengths::mid_wavelengths;
 use crate::effects::convolve;
@@ -49,6 +49,7 @@ struct Wavelength {
 pub struct SpreadTable {
     wavelengths: Arc<Vec<Wavelength>>,
     patches: [usize; 2],
+    keeps_shapes: bool,
 }
 
 impl SpreadTable {
@@ -61,8 +62,9 @@ impl SpreadTable {
         check_grid(&wavelengths)?;
         wavelengths.iter().flat_map(|w| &w.fields).try_for_each(|field| field.check(picture))?;
         let wavelengths: Vec<Wavelength> = wavelengths.into_iter().map(ready_wavelength).collect();
-        let mut table = Self { wavelengths: Arc::new(wavelengths), patches: [1, 1] };
-        table.patches = patches.unwrap_or_else(|| patches_needed(picture, |at_mm| table.moments(at_mm)));
+        let mut table = Self { wavelengths: Arc::new(wavelengths), patches: [1, 1], keeps_shapes: true };
+        table.patches = patches.unwrap_or_else(|| patches_needed(picture, |at_mm| table.shape(at_mm)));
+        table.keeps_shapes = keeps_shapes(table.patches, picture, |at_mm| table.shape(at_mm));
         Ok(table)
     }
 
@@ -70,6 +72,12 @@ impl SpreadTable {
     #[must_use]
     pub fn patches(&self) -> [usize; 2] {
         self.patches
+    }
+
+    /// Whether centroids and second moments between the patches are kept, to a hundredth of the width and half a hundredth.
+    #[must_use]
+    pub fn keeps_shapes(&self) -> bool {
+        self.keeps_shapes
     }
 
     /// Distances from the axis, mm, rising; where they differ by wavelength those of the shortest.
@@ -112,7 +120,7 @@ impl SpreadTable {
     }
 
     /// By how much a point's light is off at most, relatively: each pixel takes the functions of its own place, so that of a point comes more or less by the
-    /// divergence of the centroids over the field, dc/dr + c/r.
+    /// divergence of the centroids over the field, dc/dr + c/r; within the first distance c is held.
     #[must_use]
     pub fn light_error(&self) -> f64 {
         let pairs = self.wavelengths.iter().flat_map(|wavelength| wavelength.functions.windows(2));
@@ -121,7 +129,11 @@ impl SpreadTable {
             let slope = (far.centroid_mm - near.centroid_mm) / (far.radius_mm - near.radius_mm);
             (slope + far.centroid_mm / far.radius_mm).abs()
         };
-        pairs.map(divergence).fold(0.0, f64::max)
+        let held = |wavelength: &Wavelength| {
+            let first = &wavelength.functions[0];
+            if first.radius_mm > 0.0 { (first.centroid_mm / first.radius_mm).abs() } else { 0.0 }
+        };
+        self.wavelengths.iter().map(held).chain(pairs.map(divergence)).fold(0.0, f64::max)
     }
 
     fn functions(&self) -> impl Iterator<Item = &Function> {
@@ -156,30 +168,35 @@ impl SpreadTable {
         }
     }
 
-    /// Second moments at a place, mm²; the mean over the wavelengths.
-    fn moments(&self, at_mm: DVec2) -> DMat2 {
+    /// Centroid and second moments at a place; the mean over the wavelengths.
+    fn shape(&self, at_mm: DVec2) -> Shape {
         let radius_mm = at_mm.length();
         let outwards = if radius_mm > 0.0 { at_mm / radius_mm } else { DVec2::X };
         let of = |nm: f64| {
-            let parts = self.mix(nm, radius_mm).map(|(function, weight)| function.moments(outwards) * weight);
-            parts.fold(DMat2::ZERO, |sum, part| sum + part)
+            self.mix(nm, radius_mm).fold((DVec2::ZERO, DMat2::ZERO), |(centroid, moments), (function, weight)| {
+                let aside = outwards * (function.centroid_mm * weight);
+                (centroid + aside, moments + function.moments(outwards) * weight)
+            })
         };
         let wavelengths = self.wavelengths_nm();
-        match wavelengths.len() {
-            0 => of(VISIBLE_NM.0),
-            count => wavelengths.iter().fold(DMat2::ZERO, |sum, nm| sum + of(*nm) * (1.0 / count as f64)),
-        }
+        let every = if wavelengths.is_empty() { vec![VISIBLE_NM.0] } else { wavelengths };
+        let share = 1.0 / every.len() as f64;
+        let (centroid, moments) = every
+            .iter()
+            .map(|nm| of(*nm))
+            .fold((DVec2::ZERO, DMat2::ZERO), |sum, one| (sum.0 + one.0 * share, sum.1 + one.1 * share));
+        Shape { centroid, moments }
     }
 
-    /// The modulation of a wavelength at a point of the sensor for a frequency, cycles/mm.
+    /// The transfer function of a wavelength at a point of the sensor for a frequency, cycles/mm: its real part and its imaginary part.
     #[must_use]
-    pub fn modulation(&self, nm: f64, at_mm: DVec2, cycles_per_mm: DVec2) -> f64 {
+    pub fn transfer(&self, nm: f64, at_mm: DVec2, cycles_per_mm: DVec2) -> DVec2 {
         let mut sum = DVec2::ZERO;
         self.deposit(nm, at_mm, |offset, share| {
             let (sine, cosine) = sin_cos(core::f64::consts::TAU * cycles_per_mm.dot(offset));
             sum += share * DVec2::new(cosine, sine);
         });
-        sum.length()
+        sum
     }
 
     /// The corner that is farthest from the axis, mm.
