@@ -280,3 +280,29 @@ fn functions_that_make_no_table_are_refused() {
         assert_eq!(SpreadTable::new(parameters, &raster()).expect_err("no table"), EffectsError::SpreadTable);
     }
 }
+
+/// Functions of one width whose centroids move outwards by a tenth of it, which second moments would not tell, stand in more than one patch.
+#[test]
+fn centroids_that_move_take_patches() {
+    let moved = |most_mm: f64| {
+        let at = |i: u32| {
+            let radius_mm = 0.15 * f64::from(i);
+            let shape = Shape { widths: [0.008; 2], beside: [most_mm * (radius_mm / 1.5).powi(2), 0.0] };
+            function(DVec2::Y * radius_mm, move |along, across| shape.light(along, across))
+        };
+        let table = table((0..=10).map(at).collect(), None).expect("legal");
+        assert!(table.keeps_shapes());
+        table.patches()[0]
+    };
+    assert_eq!(moved(0.0), 1);
+    assert!(moved(0.0008) > 1, "{}", moved(0.0008));
+}
+
+/// A table that does not begin on the axis is held inwards: what its centroid does to light there is told.
+#[test]
+fn light_within_the_first_distance_is_told() {
+    let one = Shape { widths: [0.008; 2], beside: [0.002, 0.0] };
+    let field = function(DVec2::Y * 0.5, |along, across| one.light(along, across));
+    let error = table(vec![field], None).expect("legal").light_error();
+    assert!((error / (0.002 / 0.5) - 1.0).abs() < 0.01, "{error}");
+}
