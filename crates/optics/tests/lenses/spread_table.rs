@@ -287,7 +287,8 @@ fn centroids_that_move_take_patches() {
     let moved = |most_mm: f64| {
         let at = |i: u32| {
             let radius_mm = 0.15 * f64::from(i);
-            let shape = Shape { widths: [0.008; 2], beside: [most_mm * (radius_mm / 1.5).powi(2), 0.0] };
+            let share = radius_mm / 1.5;
+            let shape = Shape { widths: [0.008; 2], beside: [most_mm * share * share, 0.0] };
             function(DVec2::Y * radius_mm, move |along, across| shape.light(along, across))
         };
         let table = table((0..=10).map(at).collect(), None).expect("legal");
