@@ -15,7 +15,7 @@
 //! Between the two nearest distances, and between the two nearest wavelengths, the function is the linear mean of both; beyond the ends that of the end. One
 //! function on the axis alone has no direction of its own: it takes that of the farthest.
 //!
-//! The picture has patches ([`super::patches`]) whose functions stand on its edges and evenly between. Unless their number is said, there are as few as
+//! The picture has patches (`patches`) whose functions stand on its edges and evenly between. Unless their number is said, there are as few as
 //! keep second moments midway between patches within half a per cent of the table's, eleven across at most.
 //!
 //! Left out: lenses that are not symmetric about their axis; the change of shape between two distances (both are seen at once, weighted); light beyond the samples.
