@@ -2,7 +2,7 @@
 
 use super::seeds::{repository, stored, write};
 use super::target::{NUMBERS as PER_NUMBER, RECORDS, SCANNED, TREE, Target, told};
-use etendue_io::lens_table::read_lens_table;
+use etendue_io::lens_table::{read_lens_table, read_point_spread};
 use etendue_io::mesh::{read_mesh, read_mesh_frame};
 use etendue_io::photometry::read_photometry;
 use etendue_io::prescription::read_prescription;
@@ -268,7 +268,8 @@ pub(super) const FIELD_TABLE: Target = Target {
         |_| stored("field-table"),
         |file| {
             let quantities = [LensQuantity::RelativeIllumination, LensQuantity::Distortion, LensQuantity::Modulation];
-            quantities.map(|quantity| told(read_lens_table(file, quantity))).join("; ")
+            let tables = quantities.map(|quantity| told(read_lens_table(file, quantity)));
+            [tables.join("; "), told(read_point_spread(file))].join("; ")
         },
         &[
             "Relative Illumination",
@@ -284,6 +285,12 @@ pub(super) const FIELD_TABLE: Target = Target {
             "F-Theta distortion",
             "Distortion focal length = 1e-300",
             "MTF, cycles per mm",
+            "Huygens PSF",
+            "FFT PSF",
+            "0.5500 µm at 0.0000, 14.0000 (deg).",
+            "Data spacing is 0.250 µm.",
+            "Center point is: row 2, column 2",
+            "Image grid size: 2 by 2",
             "diffraction limit",
         ],
     )

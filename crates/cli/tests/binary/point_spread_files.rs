@@ -1,7 +1,7 @@
 //! Zemax's listings of point spreads over the field drive a camera that follows them, and bad ones are told.
 
 use crate::black_boxes::{irradiance, job, plan};
-use crate::support::{etendue, text};
+use crate::support::{etendue, root, text};
 use etendue_core::maths::f64::exp;
 use std::path::Path;
 
@@ -249,5 +249,22 @@ fn files_that_make_no_table_are_told() {
         .replace("[output]", "route = \"pupil\"\n[output]\nradiance = true");
     let said = plan(folder.path(), &job).ok().out;
     assert!(said.contains("2 wavelengths (480 to 550 nm), in 3 × 3 patches"), "{said}");
-    etendue(["render", &text(&folder.path().join("job.toml")), "-o", &text(&folder.path().join("out"))]).ok();
+    let [out, taken, camera] = ["out", "taken", "camera.toml"].map(|name| text(&folder.path().join(name)));
+    etendue(["render", &text(&folder.path().join("job.toml")), "-o", &out]).ok();
+    let lens = LENS.replace("[cameras.effects]", "[effects]");
+    let body = format!("format = 1\nsensor = {{ {SMALL} }}\n[lens]\n{lens}{files}] }}\n");
+    std::fs::write(&camera, body).expect("written");
+    etendue(["expose", &format!("{out}/eye/radiance.exr"), "--camera", &camera, "-o", &taken]).ok();
+}
+
+/// The camera that ships with listings draws its dots by all of them.
+#[test]
+fn the_shipped_camera_has_its_point_spreads() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let chart = text(&folder.path().join("dots"));
+    let camera = text(&root().join("scenes/cameras/zemax-point-spread.toml"));
+    etendue(["chart", "dots", "--columns", "9", "--camera", &camera, "-o", &chart]).ok();
+    let said = etendue(["plan", &format!("{chart}/job.toml")]).ok().out;
+    let told = "a table of 3 functions at 3 distances from the axis (0, 11, 22 mm), computed for 550 nm, the same at all wavelengths";
+    assert!(said.contains(told) && !said.contains("light at its border"), "{said}");
 }

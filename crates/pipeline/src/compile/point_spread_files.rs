@@ -82,9 +82,8 @@ fn place_mm(asset: &PointSpreadAsset, lens: &Lens) -> Option<DVec2> {
         (Some(place), _) | (None, FieldPoint::Millimetres(place)) => Some(stated(place)),
         (None, FieldPoint::Degrees(degrees)) => {
             let towards = towards(degrees)?;
-            let direction = if towards.y == 0.0 { stated(degrees) } else { stated([towards.x, towards.y]) };
             let radius_mm = lens.project(towards)?.length();
-            Some(direction.try_normalize().map_or(DVec2::ZERO, |outwards| outwards * radius_mm))
+            Some(stated([towards.x, towards.y]).try_normalize().map_or(DVec2::ZERO, |outwards| outwards * radius_mm))
         }
     }
 }
@@ -93,8 +92,8 @@ fn place_mm(asset: &PointSpreadAsset, lens: &Lens) -> Option<DVec2> {
 fn towards(degrees: [f64; 2]) -> Option<DVec3> {
     let [x, y] = degrees.map(f64::to_radians);
     if x == 0.0 || y == 0.0 {
-        let (sine, cosine) = sin_cos(x + y);
-        return Some(DVec3::new(sine, 0.0, cosine));
+        let [(across, ahead), (up, above)] = [x, y].map(sin_cos);
+        return Some(DVec3::new(across, up, ahead * above));
     }
     let ahead = x.abs().max(y.abs()) < core::f64::consts::FRAC_PI_2;
     ahead.then(|| DVec3::new(tan(x), tan(y), 1.0))
@@ -164,7 +163,7 @@ fn check_complete(listed: &[Listed<'_>], grid: &[(f64, Vec<&Listed<'_>>)], conte
 fn remark_on(table: &SpreadTable, picture: &Raster, context: &mut Context<'_>) {
     let (corner_mm, radii) = (picture.max_radius_mm(), table.radii_mm());
     let last_mm = radii[radii.len() - 1];
-    if corner_mm > BEYOND * last_mm && (radii.len() > 1 || last_mm > 0.0) {
+    if corner_mm > BEYOND * last_mm && last_mm > 0.0 {
         context.remark(format!(
             "point spreads are known to {last_mm:.4} mm from the axis and held beyond; the picture's corner is at {corner_mm:.4} mm"
         ));
@@ -178,7 +177,7 @@ fn remark_on(table: &SpreadTable, picture: &Raster, context: &mut Context<'_>) {
     if !table.keeps_shapes() {
         let [across, down] = table.patches();
         context.remark(format!(
-            "point spreads change too fast for {across} × {down} patches: between them second moments are off by more than half a per cent; \"patches\" takes more"
+            "point spreads change too fast for {across} × {down} patches: between them centroids are off by more than a hundredth of the width or second moments by more than half a per cent; \"patches\" takes more"
         ));
     }
     let error = table.light_error();
@@ -198,5 +197,22 @@ fn field(field: FieldPoint) -> String {
     match field {
         FieldPoint::Degrees([x, y]) => format!("({x}°, {y}°)"),
         FieldPoint::Millimetres([x, y]) => format!("({x}, {y}) mm"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// tan of 20° and 40° by the tables of Abramowitz and Stegun, 4.3.
+    #[test]
+    fn fields_of_two_angles_go_by_their_tangents() {
+        let near = |found: Option<DVec3>, expected: DVec3| {
+            assert!(found.is_some_and(|found| (found - expected).length() < 1e-9), "{found:?}");
+        };
+        near(towards([20.0, 40.0]), DVec3::new(0.363_970_234_266, 0.839_099_631_177, 1.0));
+        near(towards([0.0, -30.0]), DVec3::new(0.0, -0.5, 0.866_025_403_784));
+        near(towards([120.0, 0.0]), DVec3::new(0.866_025_403_784, 0.0, -0.5));
+        assert_eq!((towards([0.0, 0.0]), towards([91.0, 10.0])), (Some(DVec3::Z), None));
     }
 }

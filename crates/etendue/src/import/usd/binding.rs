@@ -23,8 +23,7 @@ struct Binding<'a> {
 }
 
 impl<'a> Bindings<'a> {
-    /// Those of a prim in one that has these.
-    /// A binding to what `is_material` says is none does not hold.
+    /// Those of a prim in one that has these; only what leads to a material holds.
     pub(super) fn within(self, prim: &'a UsdPrim, is_material: impl Fn(&str) -> bool) -> Self {
         let full = holding(self.full, prim, FULL, &is_material);
         Self { full, all_purposes: holding(self.all_purposes, prim, ALL_PURPOSES, &is_material) }
@@ -42,11 +41,10 @@ fn holding<'a>(
     name: &str,
     is_material: impl Fn(&str) -> bool,
 ) -> Option<Binding<'a>> {
-    let own = prim.relation(name).map(|relation| Binding {
-        path: relation.targets.first().map_or("", String::as_str),
-        is_stronger: relation.is_stronger,
+    let own = prim.relation(name).and_then(|relation| {
+        let path = relation.targets.first().filter(|path| is_material(path))?;
+        Some(Binding { path, is_stronger: relation.is_stronger })
     });
-    let own = own.filter(|binding| is_material(binding.path));
     above.filter(|binding| binding.is_stronger).or(own).or(above)
 }
 

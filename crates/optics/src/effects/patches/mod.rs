@@ -12,6 +12,7 @@ use super::canvas::Canvas;
 use super::convolve::{Convolver, Field, Region};
 use super::kernel::Kernel;
 use glam::DVec2;
+use std::borrow::Borrow;
 
 /// Patches over the picture in a film, row by row.
 #[derive(Clone, Debug)]
@@ -56,17 +57,18 @@ impl Patches {
     }
 
     /// The film's light and variance, spread by the kernels of the patches.
-    pub(super) fn apply(
+    pub(super) fn apply<K: Borrow<Kernel>>(
         &self,
         light: &Field,
         variance: Option<&Field>,
-        kernel: impl Fn(usize) -> Kernel,
+        kernel: impl Fn(usize) -> K,
     ) -> (Field, Option<Field>) {
         let mut spread = Field::zeros(self.size[0], self.size[1]);
         let mut spread_variance = variance.map(|_| Field::zeros(self.size[0], self.size[1]));
         for index in 0..self.count() {
             let (kernel, region) = (kernel(index), self.region(index));
-            self.add(&Convolver::new(&kernel, self.size, region.clone()).apply(light), index, &mut spread);
+            let kernel = kernel.borrow();
+            self.add(&Convolver::new(kernel, self.size, region.clone()).apply(light), index, &mut spread);
             if let (Some(from), Some(to)) = (variance, &mut spread_variance) {
                 self.add(&Convolver::new(&kernel.squared(), self.size, region).apply(from), index, to);
             }

@@ -16,7 +16,7 @@
 //! function on the axis alone has no direction of its own: it takes that of the farthest.
 //!
 //! The picture has patches (`patches`) whose functions stand on its edges and evenly between. Unless their number is said, there are as few as
-//! keep second moments midway between patches within half a per cent of the table's, eleven across at most.
+//! keep centroids midway between patches within a hundredth of the width and second moments within half a per cent of the table's, eleven across at most.
 //!
 //! Left out: lenses that are not symmetric about their axis; the change of shape between two distances (both are seen at once, weighted); light beyond the samples.
 

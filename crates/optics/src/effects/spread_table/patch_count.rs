@@ -19,38 +19,40 @@ const ABSOLUTE_PX2: f64 = 0.005;
 const RELATIVE_CENTROID: f64 = 0.01;
 const CENTROID_PX: f64 = 0.01;
 
-/// As few patches as keep centroid and second moments (by the place on the sensor, mm) between them; odd numbers, so that one stands in the middle.
-pub(super) fn patches_needed(picture: &Raster, shape: impl Fn(DVec2) -> Shape) -> [usize; 2] {
+/// As few patches as keep centroid and second moments (by the place on the sensor, mm) between them, odd numbers, so that one stands in the middle; and
+/// whether the most do.
+pub(super) fn patches_needed(picture: &Raster, shape: impl Fn(DVec2) -> Shape) -> ([usize; 2], bool) {
     let mut counts = (1..=MOST).step_by(2).map(|across| [across, down(across, picture)]);
     let kept = |counts: &[usize; 2]| keeps_shapes(*counts, picture, &shape);
-    counts.find(kept).unwrap_or([MOST, down(MOST, picture)])
+    counts.find(kept).map_or(([MOST, down(MOST, picture)], false), |counts| (counts, true))
 }
 
-/// Whether the mean of neighbours' centroids and second moments is near those of the place midway between them.
+/// Whether centroids and second moments at patches and midway between them are near those of the mean of the nearest patches.
 pub(super) fn keeps_shapes([across, down]: [usize; 2], picture: &Raster, shape: impl Fn(DVec2) -> Shape) -> bool {
     let size = DVec2::new(picture.width() as f64, picture.height() as f64);
-    if across == 1 {
-        let here = shape(picture.sensor_mm(0.5 * size));
-        let corners = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].map(|corner| picture.sensor_mm(size * corner));
-        return corners.into_iter().all(|corner| is_near(&shape(corner), &here, picture));
-    }
-    // Halves of the steps from patch to patch.
-    let at = |x: usize, y: usize| {
-        let share = |index: usize, count: usize| if count > 1 { index as f64 / (2 * (count - 1)) as f64 } else { 0.5 };
-        picture.sensor_mm(size * DVec2::new(share(x, across), share(y, down)))
-    };
-    (0..2 * across - 1).all(|x| {
-        (0..2 * down - 1).all(|y| {
-            let sides = |index: usize| if index % 2 == 1 { [index - 1, index + 1] } else { [index, index] };
-            let around = sides(x).into_iter().flat_map(|x| sides(y).map(|y| shape(at(x, y))));
+    let at = |x: f64, y: f64| shape(picture.sensor_mm(size * DVec2::new(x, y)));
+    let rows = stations(down);
+    stations(across).into_iter().all(|(x, columns)| {
+        rows.iter().all(|(y, rows)| {
+            let around = columns.iter().flat_map(|x| rows.iter().map(|y| at(*x, *y)));
             let none = Shape { centroid: DVec2::ZERO, moments: DMat2::ZERO };
             let mean = around.fold(none, |sum, one| Shape {
                 centroid: sum.centroid + one.centroid * 0.25,
                 moments: sum.moments + one.moments * 0.25,
             });
-            is_near(&shape(at(x, y)), &mean, picture)
+            is_near(&at(x, *y), &mean, picture)
         })
     })
+}
+
+/// Places along an axis, as shares of its length, each with the two patches that its pixels are between: those of patches and midway between them; of a single one,
+/// which holds from edge to edge, the edges and the middle.
+fn stations(count: usize) -> Vec<(f64, [f64; 2])> {
+    if count == 1 {
+        return [0.0, 0.5, 1.0].map(|place| (place, [0.5; 2])).to_vec();
+    }
+    let share = |half_steps: usize| half_steps as f64 / (2 * (count - 1)) as f64;
+    (0..2 * count - 1).map(|i| (share(i), [i - i % 2, i + i % 2].map(share))).collect()
 }
 
 fn is_near(wanted: &Shape, found: &Shape, picture: &Raster) -> bool {

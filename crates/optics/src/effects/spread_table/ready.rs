@@ -8,6 +8,7 @@ use crate::effects::kernel::Kernel;
 use crate::effects::patches::Patches;
 use crate::effects::psf::VISIBLE_NM;
 use rayon::prelude::*;
+use std::borrow::Cow;
 
 /// The functions of a film, or their tails.
 #[derive(Debug)]
@@ -39,8 +40,8 @@ impl ReadyTable {
         variance: Option<&Field>,
     ) -> (Field, Option<Field>) {
         let kernel = |patch: usize| match &self.shared {
-            Some(kernels) => kernels[patch].clone(),
-            None => self.kernel(band_nm, patch),
+            Some(kernels) => Cow::Borrowed(&kernels[patch]),
+            None => Cow::Owned(self.kernel(band_nm, patch)),
         };
         self.places.apply(light, variance, kernel)
     }

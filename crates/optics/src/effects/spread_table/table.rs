@@ -63,8 +63,10 @@ impl SpreadTable {
         wavelengths.iter().flat_map(|w| &w.fields).try_for_each(|field| field.check(picture))?;
         let wavelengths: Vec<Wavelength> = wavelengths.into_iter().map(ready_wavelength).collect();
         let mut table = Self { wavelengths: Arc::new(wavelengths), patches: [1, 1], keeps_shapes: true };
-        table.patches = patches.unwrap_or_else(|| patches_needed(picture, |at_mm| table.shape(at_mm)));
-        table.keeps_shapes = keeps_shapes(table.patches, picture, |at_mm| table.shape(at_mm));
+        let shape = |at_mm| table.shape(at_mm);
+        let needed = || patches_needed(picture, shape);
+        (table.patches, table.keeps_shapes) =
+            patches.map_or_else(needed, |patches| (patches, keeps_shapes(patches, picture, shape)));
         Ok(table)
     }
 
@@ -127,13 +129,11 @@ impl SpreadTable {
         let divergence = |pair: &[Function]| {
             let [near, far] = pair else { return 0.0 };
             let slope = (far.centroid_mm - near.centroid_mm) / (far.radius_mm - near.radius_mm);
-            (slope + far.centroid_mm / far.radius_mm).abs()
+            // c/r is greatest at one of the ends.
+            (slope + turned(near)).abs().max((slope + turned(far)).abs())
         };
-        let held = |wavelength: &Wavelength| {
-            let first = &wavelength.functions[0];
-            if first.radius_mm > 0.0 { (first.centroid_mm / first.radius_mm).abs() } else { 0.0 }
-        };
-        self.wavelengths.iter().map(held).chain(pairs.map(divergence)).fold(0.0, f64::max)
+        let held = self.wavelengths.iter().map(|wavelength| turned(&wavelength.functions[0]).abs());
+        held.chain(pairs.map(divergence)).fold(0.0, f64::max)
     }
 
     fn functions(&self) -> impl Iterator<Item = &Function> {
@@ -261,6 +261,11 @@ impl SpreadTable {
     pub(super) fn wavelengths_of(&self, band_nm: (f64, f64)) -> Vec<f64> {
         if self.varies_by_wavelength() { mid_wavelengths(band_nm).collect() } else { vec![VISIBLE_NM.0] }
     }
+}
+
+/// c/r, what turning a function about the axis does; none on it.
+fn turned(function: &Function) -> f64 {
+    if function.radius_mm > 0.0 { function.centroid_mm / function.radius_mm } else { 0.0 }
 }
 
 fn check_grid(wavelengths: &[TabledWavelength]) -> Result<(), EffectsError> {
