@@ -266,5 +266,5 @@ fn the_shipped_camera_has_its_point_spreads() {
     etendue(["chart", "dots", "--columns", "9", "--camera", &camera, "-o", &chart]).ok();
     let said = etendue(["plan", &format!("{chart}/job.toml")]).ok().out;
     let told = "a table of 3 functions at 3 distances from the axis (0, 11, 22 mm), computed for 550 nm, the same at all wavelengths";
-    assert!(said.contains(told) && !said.contains("light at its border"), "{said}");
+    assert!(said.contains(told) && !said.contains("light at its border") && !said.contains("too fast"), "{said}");
 }
