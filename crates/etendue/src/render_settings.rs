@@ -20,6 +20,8 @@ pub struct RenderSettings {
     pub caustics: bool,
     /// Whether lobes are widened that come after wider ones.
     pub regularize: bool,
+    /// Whether matt surfaces draw directions by what paths before the picture have found.
+    pub guiding: bool,
     /// What lights are drawn by: "gloss" or "irradiance".
     pub light_sampling: &'static str,
     /// Side of the squares of pixels that share the tails of their paths; 1 where none do.
@@ -55,6 +57,7 @@ impl Job {
             max_bounces: s.max_bounces,
             caustics: s.caustics,
             regularize: s.regularize,
+            guiding: s.guiding,
             light_sampling: s.light_sampling.word(),
             path_reuse_px: s.blocks.side_px(),
             wavelengths: s.wavelengths,

@@ -79,6 +79,8 @@ impl WayToRender {
             keys.push(("max_bounces", self.max_bounces.to_string()));
             keys.push(("caustics", self.caustics.to_string()));
             keys.push(("regularize", self.regularize.to_string()));
+            // What it learns belongs to whole pictures, of which a study renders parts.
+            keys.push(("guiding", "false".to_owned()));
             keys.push(("path_reuse_px", self.path_reuse_px.to_string()));
         }
         keys.push(("light_sampling", format!("\"{}\"", self.light_sampling)));
@@ -144,11 +146,12 @@ const BLIND: &str = "irradiance";
 pub(crate) const LIGHT_SAMPLINGS: [&str; 2] = ["gloss", BLIND];
 
 /// Keys of `[render]` that say a way.
-pub(crate) const WAY_KEYS: [&str; 8] = [
+pub(crate) const WAY_KEYS: [&str; 9] = [
     "integrator",
     "max_bounces",
     "caustics",
     "regularize",
+    "guiding",
     "path_reuse_px",
     "light_sampling",
     "wavelengths_per_path",

@@ -5,6 +5,7 @@
 
 pub mod accel;
 pub mod geometry;
+pub mod guiding;
 pub mod integrator;
 pub mod lights;
 pub mod materials;

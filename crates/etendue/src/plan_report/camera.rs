@@ -70,6 +70,8 @@ pub struct SettingsReport {
     pub caustics: bool,
     /// Whether lobes are widened that come after wider ones: a bias.
     pub regularize: bool,
+    /// Whether matt surfaces draw directions by what paths before the picture have found.
+    pub guiding: bool,
     /// Samples a pixel; the most that a pixel gets where noise decides.
     pub spp: u32,
     /// Samples that every pixel gets where noise decides; else null.
@@ -229,6 +231,7 @@ impl SettingsReport {
             max_bounces: s.max_bounces,
             caustics: s.caustics && s.level == Level::Path,
             regularize: s.regularize,
+            guiding: s.guiding,
             spp: s.spp,
             min_spp: s.adaptive.map(|limit| limit.min_spp),
             noise_threshold: s.adaptive.map(|limit| limit.threshold),

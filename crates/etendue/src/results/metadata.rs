@@ -260,6 +260,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
             "correlated_block_px": settings.blocks.len_px(),
             "max_bounces": settings.max_bounces,
             "regularize": settings.regularize,
+            "guiding": settings.guiding,
             "light_sampling": settings.light_sampling.word(),
             "wavelengths_per_path": settings.wavelengths,
             "wavelength_density": settings.wavelength_sampling.word(),

@@ -208,6 +208,7 @@ pub(super) fn settings(
         // Of paths only.
         caustics: level != Level::Path || render.caustics.as_ref().is_none_or(|c| c.value),
         regularize: level == Level::Path && render.regularize.as_ref().is_some_and(|r| r.value),
+        guiding: level == Level::Path && render.guiding.as_ref().is_some_and(|g| g.value),
         light_sampling: match render.light_sampling.as_ref().map(|sampling| sampling.value) {
             Some(render::LightSampling::Irradiance) => LightSampling::Irradiance,
             Some(render::LightSampling::Gloss) | None => LightSampling::Gloss,

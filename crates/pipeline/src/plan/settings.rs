@@ -42,6 +42,8 @@ pub struct Settings {
     pub caustics: bool,
     /// Whether lobes are widened that come after wider ones; of paths only.
     pub regularize: bool,
+    /// Whether matt surfaces draw directions by what paths before the picture have found; of paths only.
+    pub guiding: bool,
     /// What lights are drawn by.
     pub light_sampling: LightSampling,
     /// Wavelengths a path: 1, 4 or 8.
@@ -62,4 +64,12 @@ pub struct Settings {
     pub blocks: Blocks,
     /// Seed of every random number.
     pub seed: u64,
+}
+
+impl Settings {
+    /// Samples that every pixel gets.
+    #[must_use]
+    pub fn least_spp(&self) -> u32 {
+        self.adaptive.map_or(self.spp, |limit| limit.min_spp)
+    }
 }

@@ -12,6 +12,7 @@ use crate::render::pixel_density::PixelDensity;
 use crate::render::spectrum_spread::SpectrumSpread;
 use crate::render::tile::Shard;
 use crate::render::tolerance::Tolerance;
+use crate::render::training::guide;
 use etendue_core::PupilRay;
 use etendue_core::maths::f64::atan2;
 use etendue_optics::effects::SampleSpread;
@@ -163,11 +164,24 @@ fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, GatherE
     let sample_spread = sample_spread(camera);
     let sample_spread = sample_spread.as_ref();
     let job = RenderJob { sampling: Sampling { pass, ..job.sampling }, sample_spread, scratch, ..job };
+    let asked = (before, observer);
     match settings.wavelengths {
-        1 => job.gather::<1>(&tracer, before, observer),
-        8 => job.gather::<8>(&tracer, before, observer),
-        _ => job.gather::<4>(&tracer, before, observer),
+        1 => gathered::<S, 1>(&job, tracer, settings, asked),
+        8 => gathered::<S, 8>(&job, tracer, settings, asked),
+        _ => gathered::<S, 4>(&job, tracer, settings, asked),
     }
+}
+
+/// The light of a job, with a guide where the settings ask for one.
+fn gathered<S: RaySource, const N: usize>(
+    job: &RenderJob<'_, S>,
+    tracer: PathTracer<'_>,
+    settings: &Settings,
+    (before, observer): (Option<&Film>, &dyn Observer),
+) -> Result<Film, GatherError> {
+    let asks = settings.guiding && tracer.can_be_guided();
+    let guide = asks.then(|| guide::<S, N>(job, &tracer, settings.least_spp(), observer)).transpose()?;
+    job.gather::<N>(&tracer.with_guide(guide.as_ref()), before, observer)
 }
 
 /// What displaces a camera's samples on its film.

@@ -273,6 +273,11 @@ impl<S: RaySource> RenderJob<'_, S> {
         PixelAddress { frame: FrameAddress { seed, camera, frame, capture }, pixel, replicate }
     }
 
+    /// The address of paths that are followed before the picture, apart from all that are part of it.
+    pub(super) fn training_address(&self, pixel: Pixel) -> PixelAddress {
+        PixelAddress { replicate: u32::MAX, ..self.address(pixel, 0) }
+    }
+
     /// The wavelengths of a replicate of a block, which are those of its first pixel.
     fn heroes(&self, pixel: Pixel, replicate: u32) -> Heroes {
         let Sampling { replicates, spread, .. } = self.sampling;
@@ -312,7 +317,7 @@ impl<S: RaySource> RenderJob<'_, S> {
     }
 
     /// How far the point spread displaces a sample, px, and the weights of its wavelengths.
-    fn displaced<const N: usize>(
+    pub(super) fn displaced<const N: usize>(
         &self,
         pixel: Pixel,
         stream: &PathStream,
@@ -333,7 +338,7 @@ impl<S: RaySource> RenderJob<'_, S> {
     }
 
     /// A pixel that folds its responsivity draws wavelengths by it.
-    fn wavelengths<const N: usize>(&self, site: Option<&Site>, u: f32) -> Wavelengths<N> {
+    pub(super) fn wavelengths<const N: usize>(&self, site: Option<&Site>, u: f32) -> Wavelengths<N> {
         let Sampling { low_nm, high_nm, .. } = self.sampling;
         match site {
             Some(site) => site.density.draw(u),

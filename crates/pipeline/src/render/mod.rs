@@ -49,6 +49,7 @@ pub mod tile;
 pub mod tile_bands;
 pub mod tiled_cube;
 mod tolerance;
+pub mod training;
 pub mod truth;
 pub mod weather_layers;
 

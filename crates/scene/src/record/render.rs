@@ -48,6 +48,9 @@ record! {
         /// samples. The picture is biased: mirror images in what other surfaces mirror, and caustics, are blurred. What is seen straight or in
         /// mirrors is as it was. Belongs to integrator = "path". Default: false.
         optional regularize: Placed<bool> = flag();
+        /// Whether matt surfaces scatter paths to where light was found to come from (path guiding): a sixteenth as many paths as the picture has, at most
+        /// 524 288, are followed before it. Noise of indirect light depends on it, no mean does. Belongs to integrator = "path". Default: false.
+        optional guiding: Placed<bool> = flag();
         /// Paths of blocks of this many by this many pixels of one colour share their tails: 1 (none do), 2, 4 or 8. It takes
         /// much less time for the same error where light is scattered from surface to surface, but errors of the pixels of
         /// a block are then alike. Belongs to integrator = "path". Default: 1.
@@ -236,6 +239,7 @@ impl Render {
             max_bounces: None,
             caustics: None,
             regularize: None,
+            guiding: None,
             path_reuse_px: None,
             light_sampling: None,
             wavelengths_per_path: None,
@@ -281,6 +285,7 @@ impl Render {
             ("max_bounces", self.max_bounces.as_ref().map(|b| &b.place)),
             ("caustics", self.caustics.as_ref().map(|c| &c.place)),
             ("regularize", self.regularize.as_ref().map(|r| &r.place)),
+            ("guiding", self.guiding.as_ref().map(|g| &g.place)),
             ("path_reuse_px", self.path_reuse_px.as_ref().map(|t| &t.place)),
         ];
         keys.into_iter().filter_map(|(key, place)| Some((key, place?)))
@@ -308,6 +313,7 @@ impl Render {
             max_bounces: a.max_bounces.or(b.max_bounces),
             caustics: a.caustics.or(b.caustics),
             regularize: a.regularize.or(b.regularize),
+            guiding: a.guiding.or(b.guiding),
             path_reuse_px: a.path_reuse_px.or(b.path_reuse_px),
             light_sampling: a.light_sampling.or(b.light_sampling),
             wavelengths_per_path: a.wavelengths_per_path.or(b.wavelengths_per_path),

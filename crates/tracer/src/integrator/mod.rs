@@ -14,6 +14,7 @@
 mod caustic;
 mod cone;
 mod effects;
+mod guided;
 mod level;
 mod medium;
 mod met_light;

@@ -15,6 +15,7 @@ use super::medium::Medium;
 use super::{Level, LightSampling, PathTracer};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
+use crate::guiding::DirectionDistribution;
 use crate::lights::{LightSample, LightSampleContext, ReceiverGloss};
 use crate::materials::{Bsdf, BsdfSample, BsdfValue, Event, GlossLobe, ShadingFrame};
 use crate::media::Phase;
@@ -66,6 +67,8 @@ pub(super) struct Vertex<'a, const N: usize> {
     pub(super) bsdf: Bsdf<'a, N>,
     /// Of mixes the part that was drawn.
     pub(super) material: MaterialId,
+    /// What its directions are drawn by; `None` where by the bsdf alone.
+    pub(super) guide: Option<&'a DirectionDistribution>,
 }
 
 /// What a path meets.
@@ -139,7 +142,14 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
 
     /// To the next surface and on from it, or to infinity.
     fn step(&mut self) -> PathStep {
-        match self.meet() {
+        let met = self.meet();
+        self.go_on_from(met)
+    }
+
+    /// On from what the path has met.
+    #[inline(always)]
+    pub(super) fn go_on_from(&mut self, met: Intersection<'a>) -> PathStep {
+        match met {
             Intersection::Nothing => PathStep::Ends,
             Intersection::Passed => PathStep::Goes,
             Intersection::Medium(..) | Intersection::Particle(_) if !E::MEDIA => PathStep::Ends,
@@ -279,7 +289,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         } else {
             material_table.matt_bsdf(material, self.wavelengths)
         };
-        Vertex { bsdf, point, frame, material }
+        Vertex { guide: self.guide(&bsdf, &point, &frame), bsdf, point, frame, material }
     }
 
     /// The shading frame of a material at a point that a ray of unit `direction` has met.
@@ -318,7 +328,10 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         if !(light.surrounds || self.follows(self.history.would_be_caustic(value.pdf))) {
             return;
         }
-        let arriving = self.throughput * value.value_cos * light.radiance * self.drawn_weight(&light, value.pdf);
+        let arriving = self.throughput
+            * value.value_cos
+            * light.radiance
+            * self.drawn_weight(&light, vertex.density(wi, value.pdf));
         let following = self.following(self.history.would_be_matt(value.pdf));
         if !arriving.is_zero()
             && let Some(share) = self.share(vertex, &light, (self.medium_towards(vertex, wi), following))
@@ -374,6 +387,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         };
         let u = self.asked.stream.two(Draw::BsdfDirection, self.met);
         match &vertex.bsdf {
+            Bsdf::Diffuse(bsdf) if vertex.guide.is_some() => vertex.guided_sample(bsdf, u),
             Bsdf::Diffuse(bsdf) if !E::SURFACES => bsdf.sample_above(u),
             bsdf => bsdf.sample(vertex.frame.wo, choice, u),
         }
@@ -404,12 +418,14 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     fn go_on(&mut self, vertex: &Vertex<'a, N>, sample: &BsdfSample<N>, receiver: &LightSampleContext) -> PathStep {
         let Some(direction) = vertex.frame.outward(sample.wi) else { return PathStep::Ends };
         self.throughput *= sample.weight;
-        self.scattered = (!E::SURFACES || sample.event == Event::Scatter).then_some(sample.pdf);
-        self.receiver = self.scattered.map(|_| *receiver);
-        self.history.scatter(self.scattered);
-        if let Some(pdf) = self.scattered {
+        // What counts as a caustic, and how wide textures are read, goes by the surface, not by how its directions are drawn.
+        let bsdf_density = (!E::SURFACES || sample.event == Event::Scatter).then_some(sample.pdf);
+        self.history.scatter(bsdf_density);
+        if let Some(pdf) = bsdf_density {
             self.cone.scatter(pdf);
         }
+        self.scattered = bsdf_density.map(|pdf| vertex.density(sample.wi, pdf));
+        self.receiver = self.scattered.map(|_| *receiver);
         self.medium = self.medium_towards(vertex, sample.wi);
         self.leave(Ray { time_s: self.ray.time_s, ..vertex.point.leave(direction) })
     }

@@ -5,6 +5,7 @@ use super::level::Level;
 use super::medium::Medium;
 use super::settings::PathSettings;
 use super::surroundings::Surroundings;
+use crate::guiding::Guide;
 use crate::lights::Lights;
 use crate::materials::MaterialTable;
 use crate::media::Media;
@@ -24,6 +25,8 @@ pub struct PathTracer<'a> {
     pub(super) media: Option<&'a Media<'a>>,
     /// Drops or flakes that rays from the camera meet; `None` where none fall.
     pub(super) near: Option<&'a Near<'a>>,
+    /// What matt surfaces draw directions by; `None` where they go by the cosine alone.
+    pub(super) guide: Option<&'a Guide>,
     /// Whether any light goes up and down.
     pub(super) is_modulated: bool,
     /// The code that is made for the scene.
@@ -44,8 +47,8 @@ impl<'a> PathTracer<'a> {
         let medium = solid.map_or_else(Medium::default, |id| Medium::inside(material_table.absorption(id)));
         let is_modulated = material_table.is_modulated() || lights.are_modulated();
         let effects = SceneEffects::Every;
-        let tracer =
-            Self { view, material_table, lights, settings, medium, media: None, near: None, is_modulated, effects };
+        let (media, near, guide) = (None, None, None);
+        let tracer = Self { view, material_table, lights, settings, medium, media, near, guide, is_modulated, effects };
         tracer.with_effects()
     }
 
@@ -59,6 +62,12 @@ impl<'a> PathTracer<'a> {
     #[must_use]
     pub fn with_near(self, near: Option<&'a Near<'a>>) -> Self {
         Self { near, ..self }.with_effects()
+    }
+
+    /// The same with what paths of the same view and lights have found, by which matt surfaces draw directions. No mean depends on it.
+    #[must_use]
+    pub fn with_guide(self, guide: Option<&'a Guide>) -> Self {
+        Self { guide, ..self }
     }
 
     /// The same by the code that is made for what it may meet.

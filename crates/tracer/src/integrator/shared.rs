@@ -205,7 +205,8 @@ impl<'a, const N: usize, E: Effects> Opening<'a, N, E> {
         let wi = first.vertex.frame.inward(direction)?;
         let value = self.path.evaluate(&first.vertex, wi);
         let weight = first.throughput * value.value_cos * per_area;
-        let claim = Claim { index, weight, density: value.pdf * per_area }.if_sound()?;
+        let density = first.vertex.density(wi, value.pdf) * per_area;
+        let claim = Claim { index, weight, density }.if_sound()?;
         self.sees(first, second, direction).then_some(claim)
     }
 

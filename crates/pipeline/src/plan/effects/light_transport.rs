@@ -5,6 +5,7 @@ use super::planned_effect::{EffectGroup, PlannedEffect, where_there};
 use crate::plan::path_cost::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, TWO_BOUNCES_CPU_S, path_cpu_s};
 use crate::plan::{CameraPlan, FrameCost, Plan, Settings};
 use crate::render::block::Blocks;
+use crate::render::training;
 use etendue_core::EffectStatus;
 use etendue_tracer::integrator::{Level, LightSampling};
 
@@ -21,6 +22,7 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
         caustics(camera),
         regularization(camera),
         light_sampling(camera),
+        guiding(camera),
         path_reuse(camera),
         adaptive_sampling(camera),
         never("polarisation"),
@@ -110,6 +112,18 @@ fn regularization(camera: &CameraPlan) -> PlannedEffect {
     );
     let effect = PlannedEffect::new(GROUP, "regularisation", status).described_by("render.regularize");
     effect.dropped_by([of_camera(camera, "render.regularize", "false")])
+}
+
+fn guiding(camera: &CameraPlan) -> PlannedEffect {
+    let paths = training::paths(camera.film_size(), camera.settings.least_spp());
+    let status = where_there(
+        camera.settings.guiding,
+        format!("directions at matt surfaces follow what {paths} paths before the picture find"),
+        "directions at matt surfaces are drawn by the cosine alone",
+    );
+    let effect = PlannedEffect::new(GROUP, "path guiding", status).described_by("render.guiding");
+    let cpu_s = if camera.settings.guiding { paths as f64 * path_cpu_s(camera) } else { 0.0 };
+    effect.dropped_by([of_camera(camera, "render.guiding", "false")]).taking(cpu_s)
 }
 
 fn light_sampling(camera: &CameraPlan) -> PlannedEffect {

@@ -22,7 +22,7 @@ use crate::plan::{
     AdaptiveSampling, CameraPlan, FilmBytes, Passes, Plan, Products, RawFormat, Route, Settings, SkyFacts,
 };
 use crate::render::block::Blocks;
-use crate::render::light_counts;
+use crate::render::{light_counts, training};
 use depth_of_field::depth_of_field;
 use effects_table::effects_table;
 use etendue_core::{Bands, EffectStatus};
@@ -202,6 +202,10 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     }
     if !s.caustics {
         line(f, "left out", "caustics of suns and lamps (light thrown by smooth surfaces on matt ones), as asked")?;
+    }
+    if s.guiding {
+        let paths = count(training::paths(camera.film_size(), s.least_spp()) as usize, "path");
+        line(f, "guided", format!("directions at matt surfaces, by what {paths} find before the picture"))?;
     }
     if s.regularize {
         line(f, "widened", "lobes of metals, coats, glass and paint behind wider ones (a bias), as asked")?;

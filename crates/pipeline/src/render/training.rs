@@ -1,0 +1,88 @@
+//! Paths that are followed before a picture, so that matt surfaces know where light comes from.
+//!
+//! A sixteenth as many as the picture will have, and at most [`MOST_PATHS`], spread evenly over the whole film whatever part of it is
+//! rendered: every shard, pass and resumed run learns the same. They have random numbers of their own and are not part of the picture.
+
+use crate::render::light::{GatherError, RaySource, RenderJob};
+use crate::render::observer::Observer;
+use etendue_core::FieldRay;
+use etendue_core::random::{Draw, PathStream, Pixel};
+use etendue_tracer::guiding::{Guide, Training};
+use etendue_tracer::integrator::PathTracer;
+use rayon::prelude::*;
+
+/// Paths of a picture for each that is followed before it.
+const PATHS_FOR_ONE: u64 = 16;
+/// Paths that are followed before a picture at most: a second or two of one thread.
+const MOST_PATHS: u64 = 1 << 19;
+/// Paths between two questions whether to go on.
+const A_CHUNK: u64 = 1 << 12;
+/// Steps from one path's pixel to the next, of columns and rows (Roberts 2018, the R2 sequence).
+const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
+
+/// What paths of the picture find at matt surfaces; `spp` samples a pixel will be rendered of it.
+///
+/// # Errors
+/// Where the observer asked to stop.
+pub(super) fn guide<S: RaySource, const N: usize>(
+    job: &RenderJob<'_, S>,
+    tracer: &PathTracer<'_>,
+    spp: u32,
+    observer: &dyn Observer,
+) -> Result<Guide, GatherError> {
+    let training = Training::default();
+    let paths = paths((job.width, job.height), spp);
+    (0..paths.div_ceil(A_CHUNK)).into_par_iter().try_for_each(|chunk| {
+        if observer.cancelled() {
+            return Err(GatherError::Cancelled);
+        }
+        (chunk * A_CHUNK..paths.min((chunk + 1) * A_CHUNK))
+            .for_each(|path| train::<S, N>(job, tracer, path, &training));
+        Ok(())
+    })?;
+    Ok(training.guide())
+}
+
+/// How many paths are followed before a picture of so many columns and rows, and samples a pixel.
+#[must_use]
+pub fn paths((width, height): (u32, u32), spp: u32) -> u64 {
+    (u64::from(width) * u64::from(height) * u64::from(spp) / PATHS_FOR_ONE).min(MOST_PATHS)
+}
+
+fn train<S: RaySource, const N: usize>(
+    job: &RenderJob<'_, S>,
+    tracer: &PathTracer<'_>,
+    path: u64,
+    training: &Training,
+) {
+    let place = |step: f64, size: u32| (((0.5 + path as f64 * step).fract() * f64::from(size)) as u32).min(size - 1);
+    let pixel = Pixel { x: place(STEPS[0], job.width), y: place(STEPS[1], job.height) };
+    let stream = PathStream::new(&job.training_address(pixel), path as u32);
+    let wavelengths = job.wavelengths::<N>(job.mosaic.map(|mosaic| mosaic.at(pixel)), stream.one(Draw::Wavelength, 0));
+    let (displaced_px, _) = job.displaced(pixel, &stream, &wavelengths);
+    let Some(pupil_ray) = job.pupil_ray(pixel, displaced_px, &stream, wavelengths.nm[0]) else { return };
+    let moment_s = job.exposure.moment_s(pixel.y, job.time_number(&stream));
+    let (ray, lit) = (job.exposure.to_render(&pupil_ray, moment_s), job.exposure.lit(pixel.y, moment_s));
+    tracer.train(&FieldRay { ray, stream, lit }, &wavelengths, training);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sixteenth_of_the_paths_and_no_more_than_the_most() {
+        assert_eq!(paths((32, 20), 16), 640);
+        assert_eq!(paths((3, 1), 4), 0);
+        assert_eq!(paths((u32::MAX, 2), 64), MOST_PATHS);
+    }
+
+    /// A step of the sequence in the place of another would leave gaps or meet pixels twice.
+    #[test]
+    fn paths_are_spread_over_the_film() {
+        let place = |path: u32, step: f64| ((0.5 + f64::from(path) * step).fract() * 8.0) as usize;
+        let mut met = [[0; 8]; 8];
+        (0..64 * 16).for_each(|path| met[place(path, STEPS[0])][place(path, STEPS[1])] += 1);
+        assert!(met.iter().flatten().all(|met| (11..=21).contains(met)), "{met:?}");
+    }
+}

@@ -1,0 +1,211 @@
+//! A density of directions in bins of equal cosine-weighted solid angle.
+//!
+//! The hemisphere is seen from above as a disc, where the cosine's density is even (Nusselt's analogue). It has sixteen sectors of
+//! equal angle with eight rings of equal area each. Which bin a direction is in takes comparisons alone.
+
+use core::f32::consts::FRAC_PI_4;
+use etendue_core::maths::f32::{cos, sin};
+use glam::{Vec2, Vec3};
+
+/// Rings, from the normal outwards.
+const RINGS: usize = 8;
+/// Sectors about the normal, anticlockwise from x.
+const SECTORS: usize = 16;
+/// All bins.
+pub(super) const BINS: usize = RINGS * SECTORS;
+/// tan 22.5°.
+const TAN_SIXTEENTH: f32 = 0.414_213_56;
+/// The greatest f32 below 1.
+const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
+
+/// The bin of a unit direction above a surface, in its shading frame.
+#[inline(always)]
+pub(crate) fn bin_of(wi: Vec3) -> usize {
+    let (quarter, x, y) = in_first_quarter(wi.x, wi.y);
+    let is_steep = y > x;
+    let (less, more) = if is_steep { (x, y) } else { (y, x) };
+    let from_axis = usize::from(less > more * TAN_SIXTEENTH);
+    let sector = 4 * quarter + if is_steep { 3 - from_axis } else { from_axis };
+    let ring = ((wi.x * wi.x + wi.y * wi.y) * RINGS as f32) as usize;
+    sector * RINGS + ring.min(RINGS - 1)
+}
+
+/// The quarter of the plane that a point is in, and the point turned to the first.
+#[inline(always)]
+fn in_first_quarter(x: f32, y: f32) -> (usize, f32, f32) {
+    if x > 0.0 && y >= 0.0 {
+        (0, x, y)
+    } else if x <= 0.0 && y > 0.0 {
+        (1, y, -x)
+    } else if x < 0.0 {
+        (2, -x, -y)
+    } else {
+        (3, -y, x)
+    }
+}
+
+/// Bins that neighbour one: two in its ring, one or two in its sector.
+pub(super) fn neighbours(bin: usize) -> impl Iterator<Item = usize> {
+    let (sector, ring) = (bin / RINGS, bin % RINGS);
+    let beside = [(sector + 1) % SECTORS, (sector + SECTORS - 1) % SECTORS].map(|s| s * RINGS + ring);
+    let within = (ring > 0).then(|| bin - 1);
+    let beyond = (ring + 1 < RINGS).then_some(bin + 1);
+    beside.into_iter().chain(within).chain(beyond)
+}
+
+/// A density of directions above a matt surface.
+#[derive(Clone, Debug)]
+pub(crate) struct DirectionDistribution {
+    /// Where each sector ends in [0, 1].
+    sectors: [f32; SECTORS],
+    /// Where each ring of a sector ends in [0, 1].
+    rings: [[f32; RINGS]; SECTORS],
+    /// Density of each bin over the cosine's.
+    relative: [f32; BINS],
+}
+
+impl DirectionDistribution {
+    /// The density that is in proportion to positive `weights` of bins.
+    pub(super) fn new(weights: &[f32; BINS]) -> Self {
+        let mean = weights.iter().sum::<f32>() / BINS as f32;
+        let relative = weights.map(|weight| weight / mean);
+        let row = |sector: usize| &relative[sector * RINGS..][..RINGS];
+        Self {
+            sectors: ends(core::array::from_fn(|sector| row(sector).iter().sum())),
+            rings: core::array::from_fn(|sector| ends(core::array::from_fn(|ring| row(sector)[ring]))),
+            relative,
+        }
+    }
+
+    /// Density of a unit direction above the surface (shading frame) over that of the cosine.
+    #[inline(always)]
+    pub(crate) fn relative_density(&self, wi: Vec3) -> f32 {
+        self.relative[bin_of(wi)]
+    }
+
+    /// The direction (unit, shading frame) of a point of the unit square, and its density over that of the cosine.
+    #[inline(always)]
+    pub(crate) fn sample(&self, u: Vec2) -> (Vec3, f32) {
+        let (sector, across) = step(&self.sectors, u.x);
+        let (ring, out) = step(&self.rings[sector], u.y);
+        let squared = (ring as f32 + out) / RINGS as f32;
+        let direction = at_angle((sector as f32 + across) * 0.5) * squared.sqrt();
+        let wi = Vec3::new(direction.x, direction.y, (1.0 - squared).sqrt());
+        (wi, self.relative[sector * RINGS + ring])
+    }
+}
+
+/// Where parts end in [0, 1], the last at 1.
+fn ends<const M: usize>(parts: [f32; M]) -> [f32; M] {
+    let all: f32 = parts.iter().sum();
+    let mut sum = 0.0;
+    let mut ends = parts.map(|part| {
+        sum += part;
+        sum / all
+    });
+    ends[M - 1] = 1.0;
+    ends
+}
+
+/// The part that a number in [0, 1) is in, and how far in it, in [0, 1).
+#[inline(always)]
+fn step<const M: usize>(ends: &[f32; M], u: f32) -> (usize, f32) {
+    let part = ends.iter().map(|end| usize::from(*end <= u)).sum::<usize>().min(M - 1);
+    let begin = if part == 0 { 0.0 } else { ends[part - 1] };
+    (part, ((u - begin) / (ends[part] - begin)).clamp(0.0, BELOW_ONE))
+}
+
+/// The unit vector at an angle in eighths of a turn, from 0 to 8.
+#[inline(always)]
+fn at_angle(eighths: f32) -> Vec2 {
+    let eighth = eighths as usize;
+    let part = eighths - eighth as f32;
+    let from_axis = FRAC_PI_4 * if eighth % 2 == 0 { part } else { 1.0 - part };
+    let (along, across) = (cos(from_axis), sin(from_axis));
+    let (x, y) = if eighth % 2 == 0 { (along, across) } else { (across, along) };
+    match eighth / 2 {
+        0 => Vec2::new(x, y),
+        1 => Vec2::new(-y, x),
+        2 => Vec2::new(-x, -y),
+        _ => Vec2::new(y, -x),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
+
+    fn uneven() -> DirectionDistribution {
+        DirectionDistribution::new(&core::array::from_fn(|bin| 0.25 + ((bin * 37) % 23) as f32))
+    }
+
+    fn points(count: u32) -> impl Iterator<Item = Vec2> {
+        let address = PixelAddress { frame: FrameAddress::default(), pixel: Pixel { x: 3, y: 1 }, replicate: 0 };
+        (0..count).map(move |sample| PathStream::new(&address, sample).two(Draw::BsdfDirection, 0))
+    }
+
+    /// Every direction is drawn by the density that is told of it, but for those that rounding carries over a bin's edge.
+    #[test]
+    fn drawn_directions_are_unit_and_have_the_density_that_is_told_of_them() {
+        let density = uneven();
+        let mut over_an_edge = 0;
+        for u in points(1 << 16) {
+            let (wi, relative) = density.sample(u);
+            assert!((wi.length() - 1.0).abs() < 1e-6 && wi.z >= 0.0, "{wi}");
+            over_an_edge += u32::from(density.relative_density(wi) != relative);
+        }
+        assert!(over_an_edge <= 16, "{over_an_edge}");
+    }
+
+    /// χ² of 2¹⁶ draws that are stratified, so that it is less than that of independent ones: below its 99.9th percentile of 127 degrees of freedom.
+    #[test]
+    fn bins_are_drawn_as_often_as_their_density_says() {
+        let (density, count) = (uneven(), 1 << 16);
+        let mut met = [0.0_f64; BINS];
+        points(count).for_each(|u| met[bin_of(density.sample(u).0)] += 1.0);
+        let expected = density.relative.map(|r| f64::from(r) * f64::from(count) / BINS as f64);
+        let squares: f64 = met.iter().zip(expected).map(|(met, expected)| (met - expected).powi(2) / expected).sum();
+        assert!(squares < 181.0, "{squares}");
+    }
+
+    /// The mean of 1/p of a drawn direction is the size of what it is drawn from, here 1 in units of the cosine's density; and every
+    /// bin of an even density is the cosine's.
+    #[test]
+    fn densities_integrate_to_one() {
+        let density = uneven();
+        let mean = points(1 << 16).map(|u| f64::from(1.0 / density.sample(u).1)).sum::<f64>() / f64::from(1 << 16);
+        assert!((mean - 1.0).abs() < 1e-3, "{mean}");
+        let even = DirectionDistribution::new(&[3.0; BINS]);
+        assert!(points(256).all(|u| even.sample(u).1 == 1.0));
+    }
+
+    /// Bins have equal parts of cosine-weighted solid angle: directions drawn by the cosine meet all equally.
+    #[test]
+    fn bins_are_of_equal_cosine_weighted_solid_angle() {
+        let mut met = [0_u32; BINS];
+        let count = 1 << 17;
+        points(count).for_each(|u| met[bin_of(etendue_core::warp::cosine_hemisphere(u))] += 1);
+        // Independent draws would scatter by 32 about 1024.
+        assert!(met.iter().all(|met| met.abs_diff(count / BINS as u32) < 100), "{met:?}");
+    }
+
+    #[test]
+    fn bins_of_a_neighbourhood_name_each_other() {
+        for bin in 0..BINS {
+            assert!(neighbours(bin).all(|other| other != bin && neighbours(other).any(|back| back == bin)), "{bin}");
+        }
+    }
+
+    #[test]
+    fn the_ends_of_the_square_and_the_axes_have_bins() {
+        let density = uneven();
+        for u in [Vec2::ZERO, Vec2::splat(BELOW_ONE), Vec2::new(0.0, BELOW_ONE), Vec2::new(BELOW_ONE, 0.0)] {
+            let (wi, relative) = density.sample(u);
+            assert!(wi.is_finite() && relative > 0.0, "{u}");
+        }
+        let axes = [Vec3::X, Vec3::Y, Vec3::NEG_X, Vec3::NEG_Y].map(|axis| bin_of(axis) / RINGS);
+        assert_eq!(axes, [0, 4, 8, 12]);
+        assert!(bin_of(Vec3::Z) < BINS);
+    }
+}
