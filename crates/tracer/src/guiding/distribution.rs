@@ -53,66 +53,85 @@ pub(super) fn neighbours(bin: usize) -> impl Iterator<Item = usize> {
     beside.into_iter().chain(within).chain(beyond)
 }
 
-/// A density of directions above a matt surface.
+/// A density of directions above a matt surface, in whole numbers: a path reads one cache line to choose a sector and one for the ring.
 #[derive(Clone, Debug)]
+#[repr(C, align(64))]
 pub(crate) struct DirectionDistribution {
-    /// Where each sector ends in [0, 1].
-    sectors: [f32; SECTORS],
-    /// Where each ring of a sector ends in [0, 1].
-    rings: [[f32; RINGS]; SECTORS],
-    /// Density of each bin over the cosine's.
-    relative: [f32; BINS],
+    /// Where each sector ends, as a sum of weights.
+    ends: [u32; SECTORS],
+    /// Weights of the rings of each sector, 1 or more.
+    weights: [[u16; RINGS]; SECTORS],
 }
 
 impl DirectionDistribution {
-    /// The density that is in proportion to positive `weights` of bins.
-    pub(super) fn new(weights: &[f32; BINS]) -> Self {
-        let mean = weights.iter().sum::<f32>() / BINS as f32;
-        let relative = weights.map(|weight| weight / mean);
-        let row = |sector: usize| &relative[sector * RINGS..][..RINGS];
-        Self {
-            sectors: ends(core::array::from_fn(|sector| row(sector).iter().sum())),
-            rings: core::array::from_fn(|sector| ends(core::array::from_fn(|ring| row(sector)[ring]))),
-            relative,
-        }
+    /// The density that is in proportion to positive `weights` of bins; what is less than 1/65 535 of the greatest counts as that.
+    pub(super) fn new(weights: &[f64; BINS]) -> Self {
+        let most = weights.iter().copied().fold(0.0, f64::max);
+        let whole = weights.map(|weight| (weight / most * f64::from(u16::MAX)).round().max(1.0) as u16);
+        let weights: [[u16; RINGS]; SECTORS] =
+            core::array::from_fn(|sector| core::array::from_fn(|ring| whole[sector * RINGS + ring]));
+        let mut sum = 0;
+        let ends = core::array::from_fn(|sector| {
+            sum += sum_of(&weights[sector]);
+            sum
+        });
+        Self { ends, weights }
     }
 
     /// Density of a unit direction above the surface (shading frame) over that of the cosine.
     #[inline(always)]
     pub(crate) fn relative_density(&self, wi: Vec3) -> f32 {
-        self.relative[bin_of(wi)]
+        let bin = bin_of(wi);
+        self.relative(self.weights[bin / RINGS][bin % RINGS])
+    }
+
+    /// Density of a bin over that of the cosine.
+    #[inline(always)]
+    fn relative(&self, weight: u16) -> f32 {
+        f32::from(weight) * (BINS as f32 / self.ends[SECTORS - 1] as f32)
     }
 
     /// The direction (unit, shading frame) of a point of the unit square, and its density over that of the cosine.
     #[inline(always)]
     pub(crate) fn sample(&self, u: Vec2) -> (Vec3, f32) {
-        let (sector, across) = step(&self.sectors, u.x);
-        let (ring, out) = step(&self.rings[sector], u.y);
+        let (sector, across) = self.sector(u.x);
+        let (ring, out) = self.ring(sector, u.y);
         let squared = (ring as f32 + out) / RINGS as f32;
         let direction = at_angle((sector as f32 + across) * 0.5) * squared.sqrt();
         let wi = Vec3::new(direction.x, direction.y, (1.0 - squared).sqrt());
-        (wi, self.relative[sector * RINGS + ring])
+        (wi, self.relative(self.weights[sector][ring]))
+    }
+
+    /// The sector that a number in [0, 1) is in, and how far in it, in [0, 1).
+    #[inline(always)]
+    fn sector(&self, u: f32) -> (usize, f32) {
+        let at = f64::from(u) * f64::from(self.ends[SECTORS - 1]);
+        let whole = at as u32;
+        let sector = self.ends.iter().map(|end| usize::from(*end <= whole)).sum::<usize>().min(SECTORS - 1);
+        let begin = if sector == 0 { 0 } else { self.ends[sector - 1] };
+        let part = (at - f64::from(begin)) / f64::from(self.ends[sector] - begin);
+        (sector, (part as f32).clamp(0.0, BELOW_ONE))
+    }
+
+    /// The ring of a sector likewise.
+    #[inline(always)]
+    fn ring(&self, sector: usize, u: f32) -> (usize, f32) {
+        let weights = &self.weights[sector];
+        let at = u * sum_of(weights) as f32;
+        let (mut ring, mut begin) = (0, 0.0);
+        // The last ring takes what rounding leaves.
+        while ring < RINGS - 1 && at >= begin + f32::from(weights[ring]) {
+            begin += f32::from(weights[ring]);
+            ring += 1;
+        }
+        (ring, ((at - begin) / f32::from(weights[ring])).clamp(0.0, BELOW_ONE))
     }
 }
 
-/// Where parts end in [0, 1], the last at 1.
-fn ends<const M: usize>(parts: [f32; M]) -> [f32; M] {
-    let all: f32 = parts.iter().sum();
-    let mut sum = 0.0;
-    let mut ends = parts.map(|part| {
-        sum += part;
-        sum / all
-    });
-    ends[M - 1] = 1.0;
-    ends
-}
-
-/// The part that a number in [0, 1) is in, and how far in it, in [0, 1).
+/// The sum of a sector's weights.
 #[inline(always)]
-fn step<const M: usize>(ends: &[f32; M], u: f32) -> (usize, f32) {
-    let part = ends.iter().map(|end| usize::from(*end <= u)).sum::<usize>().min(M - 1);
-    let begin = if part == 0 { 0.0 } else { ends[part - 1] };
-    (part, ((u - begin) / (ends[part] - begin)).clamp(0.0, BELOW_ONE))
+fn sum_of(weights: &[u16; RINGS]) -> u32 {
+    weights.iter().map(|weight| u32::from(*weight)).sum()
 }
 
 /// The unit vector at an angle in eighths of a turn, from 0 to 8.
@@ -137,7 +156,7 @@ mod tests {
     use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
 
     fn uneven() -> DirectionDistribution {
-        DirectionDistribution::new(&core::array::from_fn(|bin| 0.25 + ((bin * 37) % 23) as f32))
+        DirectionDistribution::new(&core::array::from_fn(|bin| 0.25 + ((bin * 37) % 23) as f64))
     }
 
     fn points(count: u32) -> impl Iterator<Item = Vec2> {
@@ -164,8 +183,13 @@ mod tests {
         let (density, count) = (uneven(), 1 << 16);
         let mut met = [0.0_f64; BINS];
         points(count).for_each(|u| met[bin_of(density.sample(u).0)] += 1.0);
-        let expected = density.relative.map(|r| f64::from(r) * f64::from(count) / BINS as f64);
-        let squares: f64 = met.iter().zip(expected).map(|(met, expected)| (met - expected).powi(2) / expected).sum();
+        let weights = density.weights.as_flattened();
+        let all = f64::from(density.ends[SECTORS - 1]);
+        let squared = |(met, weight): (&f64, &u16)| {
+            let expected = f64::from(*weight) / all * f64::from(count);
+            (met - expected) * (met - expected) / expected
+        };
+        let squares: f64 = met.iter().zip(weights).map(squared).sum();
         assert!(squares < 181.0, "{squares}");
     }
 

@@ -97,5 +97,5 @@ fn squares(found: &FoundByBin, expected: &[f64; BINS]) -> [f64; BINS] {
 fn distribution(squares: &[f64; BINS]) -> DirectionDistribution {
     let roots = squares.map(f64::sqrt);
     let mean = roots.iter().sum::<f64>() / BINS as f64;
-    DirectionDistribution::new(&roots.map(|root| (UNGUIDED + (1.0 - UNGUIDED) * root / mean) as f32))
+    DirectionDistribution::new(&roots.map(|root| UNGUIDED + (1.0 - UNGUIDED) * root / mean))
 }

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 /// Side of a cube over its distance from the camera, between half of this and all of it.
-const ANGLE: f32 = 0.05;
+const ANGLE: f32 = 0.08;
 /// How many normals there are a side: a direction's components, times this, are rounded.
 const NORMALS: f32 = 1.8;
 
