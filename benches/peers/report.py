@@ -1,6 +1,7 @@
 """Tables of a comparison, in Markdown."""
 
-NAMES = {"etendue": "Étendue", "etendue-reuse": "Étendue, path reuse", "mitsuba": "Mitsuba", "cycles": "Cycles"}
+NAMES = {"etendue": "Étendue", "etendue-guided": "Étendue, guided", "etendue-reuse": "Étendue, path reuse",
+         "etendue-guided-reuse": "Étendue, guided, path reuse", "mitsuba": "Mitsuba", "cycles": "Cycles"}
 
 
 def table(head, rows):

@@ -71,6 +71,13 @@ fn nor_where_paths_share_their_tails() {
 }
 
 #[test]
+fn nor_where_paths_before_the_picture_guide_its_own() {
+    same_however_it_is_cut(&["--set", "render.guiding=true"]);
+    let guided = rendered(&small(), &["--set", "render.guiding=true"]);
+    assert_ne!(guided["front/radiance.exr"], rendered(&small(), &[])["front/radiance.exr"], "the guide leads paths");
+}
+
+#[test]
 fn frames_share_the_light_and_have_noise_of_their_own() {
     let both = rendered(&small(), &["--frames", "0..2"]);
     assert_ne!(both["front/raw.0000.png"], both["front/raw.0001.png"]);

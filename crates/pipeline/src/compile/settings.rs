@@ -208,7 +208,7 @@ pub(super) fn settings(
         // Of paths only.
         caustics: level != Level::Path || render.caustics.as_ref().is_none_or(|c| c.value),
         regularize: level == Level::Path && render.regularize.as_ref().is_some_and(|r| r.value),
-        guiding: level == Level::Path && render.guiding.as_ref().is_some_and(|g| g.value),
+        guiding: guiding(level, render, choices, context),
         light_sampling: match render.light_sampling.as_ref().map(|sampling| sampling.value) {
             Some(render::LightSampling::Irradiance) => LightSampling::Irradiance,
             Some(render::LightSampling::Gloss) | None => LightSampling::Gloss,
@@ -251,6 +251,15 @@ fn level(render: &Render) -> Level {
         Some(render::Integrator::Direct) => Level::Direct,
         Some(render::Integrator::Path) | None => Level::Path,
     }
+}
+
+fn guiding(level: Level, render: &Render, choices: &Choices, context: &mut Context<'_>) -> bool {
+    let asked = level == Level::Path && render.guiding.as_ref().is_some_and(|g| g.value);
+    let is_of_use = max_bounces(level, render, choices) > 1;
+    if asked && !is_of_use {
+        context.remark("\"guiding\" is passed over: with \"max_bounces\" = 1 no light is indirect");
+    }
+    asked && is_of_use
 }
 
 fn max_bounces(level: Level, render: &Render, choices: &Choices) -> u32 {

@@ -5,11 +5,12 @@
 use super::film_cost::{self, Share};
 use super::path_cost::path_cpu_s;
 use crate::plan::{CameraPlan, FilmBytes, Plan};
+use crate::render::training;
 
 /// What a frame of a camera is foretold to take.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameCost {
-    /// Paths that are traced; where noise decides, the fewest. 0 where another camera's light serves.
+    /// Paths that are traced, with those that learn before the picture; where noise decides, the fewest. 0 where another camera's light serves.
     pub paths: f64,
     /// Processor time of these paths at the street's rate, s.
     pub paths_cpu_s: f64,
@@ -29,7 +30,9 @@ impl FrameCost {
         let settings = &camera.settings;
         let is_served = plan.cameras.iter().any(|other| other.light == camera.light && other.index < camera.index);
         let samples = settings.adaptive.map_or(settings.spp, |limit| limit.min_spp);
-        let paths = if is_served { 0.0 } else { f64::from(width) * f64::from(height) * f64::from(samples) };
+        let guiding = if settings.guiding { training::paths_of(camera) as f64 } else { 0.0 };
+        let own = f64::from(width) * f64::from(height) * f64::from(samples);
+        let paths = if is_served { 0.0 } else { own + guiding };
         Self {
             paths,
             paths_cpu_s: paths * path_cpu_s(camera),

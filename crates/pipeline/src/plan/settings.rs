@@ -65,11 +65,3 @@ pub struct Settings {
     /// Seed of every random number.
     pub seed: u64,
 }
-
-impl Settings {
-    /// Samples that every pixel gets.
-    #[must_use]
-    pub fn least_spp(&self) -> u32 {
-        self.adaptive.map_or(self.spp, |limit| limit.min_spp)
-    }
-}

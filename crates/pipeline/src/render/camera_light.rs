@@ -166,9 +166,9 @@ fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, GatherE
     let job = RenderJob { sampling: Sampling { pass, ..job.sampling }, sample_spread, scratch, ..job };
     let asked = (before, observer);
     match settings.wavelengths {
-        1 => gathered::<S, 1>(&job, tracer, settings, asked),
-        8 => gathered::<S, 8>(&job, tracer, settings, asked),
-        _ => gathered::<S, 4>(&job, tracer, settings, asked),
+        1 => gathered::<S, 1>(&job, tracer, camera, asked),
+        8 => gathered::<S, 8>(&job, tracer, camera, asked),
+        _ => gathered::<S, 4>(&job, tracer, camera, asked),
     }
 }
 
@@ -176,11 +176,11 @@ fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, GatherE
 fn gathered<S: RaySource, const N: usize>(
     job: &RenderJob<'_, S>,
     tracer: PathTracer<'_>,
-    settings: &Settings,
+    camera: &CameraPlan,
     (before, observer): (Option<&Film>, &dyn Observer),
 ) -> Result<Film, GatherError> {
-    let asks = settings.guiding && tracer.can_be_guided();
-    let guide = asks.then(|| guide::<S, N>(job, &tracer, settings.least_spp(), observer)).transpose()?;
+    let asks = camera.settings.guiding;
+    let guide = asks.then(|| guide::<S, N>(job, &tracer, camera, observer)).transpose()?;
     job.gather::<N>(&tracer.with_guide(guide.as_ref()), before, observer)
 }
 

@@ -1,8 +1,9 @@
 //! Paths that are followed before a picture, so that matt surfaces know where light comes from.
 //!
-//! A sixteenth as many as the picture will have, and at most [`MOST_PATHS`], spread evenly over the whole film whatever part of it is
-//! rendered: every shard, pass and resumed run learns the same. They have random numbers of their own and are not part of the picture.
+//! A sixteenth as many as the pass has (where noise decides, as all pixels have), and at most [`MOST_PATHS`], spread evenly over the whole film whatever part of it is
+//! rendered: every shard, and every run of the same pass, learns the same. They have random numbers of their own and are not part of the picture.
 
+use crate::plan::{CameraPlan, PassAt};
 use crate::render::light::{GatherError, RaySource, RenderJob};
 use crate::render::observer::Observer;
 use etendue_core::FieldRay;
@@ -20,18 +21,18 @@ const A_CHUNK: u64 = 1 << 12;
 /// Steps from one path's pixel to the next, of columns and rows (Roberts 2018, the R2 sequence).
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 
-/// What paths of the picture find at matt surfaces; `spp` samples a pixel will be rendered of it.
+/// What paths of the picture find at matt surfaces, before a pass of it.
 ///
 /// # Errors
 /// Where the observer asked to stop.
 pub(super) fn guide<S: RaySource, const N: usize>(
     job: &RenderJob<'_, S>,
     tracer: &PathTracer<'_>,
-    spp: u32,
+    camera: &CameraPlan,
     observer: &dyn Observer,
 ) -> Result<Guide, GatherError> {
     let training = Training::default();
-    let paths = paths((job.width, job.height), spp);
+    let paths = paths((job.width, job.height), spp(camera, job.sampling.pass));
     (0..paths.div_ceil(A_CHUNK)).into_par_iter().try_for_each(|chunk| {
         if observer.cancelled() {
             return Err(GatherError::Cancelled);
@@ -43,9 +44,20 @@ pub(super) fn guide<S: RaySource, const N: usize>(
     Ok(training.guide())
 }
 
-/// How many paths are followed before a picture of so many columns and rows, and samples a pixel.
+/// How many paths are followed before the passes of a camera's picture, all together.
 #[must_use]
-pub fn paths((width, height): (u32, u32), spp: u32) -> u64 {
+pub fn paths_of(camera: &CameraPlan) -> u64 {
+    let passes = (0..camera.pass_count()).map(|number| camera.pass(number));
+    passes.map(|pass| paths(camera.film_size(), spp(camera, pass))).sum()
+}
+
+/// Samples a pixel that every pixel gets in a pass.
+fn spp(camera: &CameraPlan, pass: PassAt) -> u32 {
+    camera.settings.adaptive.map_or(pass.pass.samples, |limit| limit.min_spp)
+}
+
+/// How many paths are followed before a pass of so many columns and rows, and samples a pixel.
+fn paths((width, height): (u32, u32), spp: u32) -> u64 {
     (u64::from(width) * u64::from(height) * u64::from(spp) / PATHS_FOR_ONE).min(MOST_PATHS)
 }
 

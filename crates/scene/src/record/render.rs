@@ -48,8 +48,8 @@ record! {
         /// samples. The picture is biased: mirror images in what other surfaces mirror, and caustics, are blurred. What is seen straight or in
         /// mirrors is as it was. Belongs to integrator = "path". Default: false.
         optional regularize: Placed<bool> = flag();
-        /// Whether matt surfaces scatter paths to where light was found to come from (path guiding): a sixteenth as many paths as the picture has, at most
-        /// 524 288, are followed before it. Noise of indirect light depends on it, no mean does. Belongs to integrator = "path". Default: false.
+        /// Whether matt surfaces scatter paths to where light was found to come from (path guiding): before each pass a sixteenth as many paths as it has (with "noise_threshold", as "min_spp" makes),
+        /// at most 524 288, are followed. Noise of indirect light depends on it, no mean does. Belongs to integrator = "path". Default: false.
         optional guiding: Placed<bool> = flag();
         /// Paths of blocks of this many by this many pixels of one colour share their tails: 1 (none do), 2, 4 or 8. It takes
         /// much less time for the same error where light is scattered from surface to surface, but errors of the pixels of

@@ -6,7 +6,7 @@ use super::training::FoundByBin;
 use glam::Vec3;
 use std::collections::BTreeMap;
 
-/// The part of directions that is drawn by the cosine: no weight is more than five times that without a guide.
+/// Share of the cosine in the mixture (defensive sampling): no weight is more than five times that without a guide.
 const UNGUIDED: f64 = 0.2;
 /// Paths a bin for which what is expected of it counts.
 const EXPECTED_PATHS: f64 = 4.0;

@@ -1,6 +1,6 @@
 //! Path guiding: matt surfaces scatter paths to where light was found to come from.
 //!
-//! Before a picture is rendered some paths are followed as they would be without a guide, and what they find behind their first
+//! A spatial-directional histogram. Before a picture is rendered some paths are followed as they would be without a guide, and what they find behind their first
 //! matt surfaces is kept by place and direction ([`Training`]). Of that a [`Guide`] is made, which no longer changes. A matt surface then draws directions
 //! by a density that follows it. As the density is known for every direction and nowhere less than a fifth of the cosine's, no mean
 //! changes, and light that is drawn is weighed beside it by multiple importance sampling as ever.
@@ -28,5 +28,5 @@ pub use training::Training;
 pub(crate) use distribution::{DirectionDistribution, bin_of};
 pub(crate) use place::Place;
 
-/// Scattering events up to which surfaces guide.
+/// Scattering events before which surfaces guide.
 pub(crate) const GUIDED_BOUNCES: u32 = 2;

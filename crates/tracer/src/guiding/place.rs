@@ -26,7 +26,7 @@ impl Place {
     pub(crate) fn of(position: Vec3, normal: Vec3) -> Self {
         let side = (position.length() * ANGLE).clamp(f32::MIN_POSITIVE, f32::MAX / 2.0);
         let exponent = side.to_bits() >> 23;
-        // Sides are powers of two, so that the quotient is exact; up to 40 cubes lie between the camera and a point of theirs.
+        // Sides are powers of two, so that the quotient is exact; up to 25 cubes lie between the camera and a point of theirs.
         let inverse = f32::from_bits((254 - exponent).max(1) << 23);
         let cube = (position * inverse).floor();
         let word = coordinates([cube.x, cube.y, cube.z].map(|c| c as i32));
@@ -56,7 +56,7 @@ impl Place {
 /// Three coordinates in one word.
 #[inline(always)]
 fn coordinates(cube: [i32; 3]) -> u64 {
-    let bits = cube.map(|c| (c + HALF).clamp(0, 2 * HALF - 1) as u64);
+    let bits = cube.map(|c| (c.clamp(-HALF, HALF - 1) + HALF) as u64);
     bits[0] | bits[1] << BITS | bits[2] << (2 * BITS)
 }
 
@@ -74,12 +74,12 @@ mod tests {
     #[test]
     fn cubes_grow_with_the_distance_and_hold_what_is_near_each_other() {
         let at = |x: f32| Place::of(Vec3::new(x, 0.001, 0.001), Vec3::Z);
-        assert_eq!(at(10.0), at(10.1));
-        assert_ne!(at(10.0), at(10.3));
+        assert_eq!(at(10.0), at(10.4));
+        assert_ne!(at(10.0), at(10.6));
         assert_eq!(at(100.0), at(101.0));
         assert_ne!(at(10.0), at(100.0));
-        assert_eq!(at(10.0).coarse(), at(10.9).coarse());
-        assert_ne!(at(10.0).coarse(), at(12.0).coarse());
+        assert_eq!(at(10.0).coarse(), at(11.9).coarse());
+        assert_ne!(at(10.0).coarse(), at(12.1).coarse());
     }
 
     /// Every pair of different cubes has different places, on a grid that crosses the camera's axes.
@@ -90,8 +90,8 @@ mod tests {
         let mut places: Vec<Place> = points.iter().map(|p| Place::of(*p, Vec3::X)).collect();
         places.sort_unstable();
         places.dedup();
-        // Cubes of 1/32 m to 1.28 m from the camera, 26 × 26 and those at the edges.
-        assert!(places.len() >= 26 * 26 && places.len() <= 28 * 28, "{}", places.len());
+        // Cubes of 1/16 m, of which -0.395 m to 0.395 m meets fourteen.
+        assert_eq!(places.len(), 14 * 14);
     }
 
     #[test]
@@ -107,7 +107,7 @@ mod tests {
     /// From the smallest to the greatest numbers there is a place, and the same one for the same point.
     #[test]
     fn every_point_has_a_place() {
-        for scale in [0.0, 1e-38, 1e-20, 1.0, 1e12, 1e30, f32::MAX / 4.0] {
+        for scale in [0.0, 1e-38, 1e-30, 1e-25, 1e-20, 1.0, 1e12, 1e30, f32::MAX / 4.0] {
             let point = Vec3::new(0.3, -0.7, 0.6) * scale;
             assert_eq!(Place::of(point, Vec3::Z), Place::of(point, Vec3::Z), "{scale}");
         }

@@ -8,8 +8,8 @@ use std::sync::Mutex;
 
 /// Parts that are locked apart.
 const PARTS: usize = 16;
-/// What a whole number counts: squares of radiance, (W/(m² sr nm))², from 5e-20 to 1.8e19 times so many samples. Beyond, guiding fades.
-const ONE: f64 = (1_u128 << 64) as f64;
+/// What 1 counts as: squares of radiance, (W/(m² sr nm))², from 8e-25 on are told apart, and their sums to 2.8e14. Beyond, densities tend to the cosine's.
+const ONE: f64 = (1_u128 << 80) as f64;
 
 /// Paths below which a place has no density of its own.
 const LEAST_PATHS: u32 = 16;

@@ -3,23 +3,15 @@
 use etendue_core::{FieldRay, Wavelengths};
 use glam::{Vec2, Vec3};
 
+use super::PathTracer;
 use super::effects::{Clear, Effects, Every, Matt, SceneEffects};
 use super::path::{Intersection, MAX_MET, Path, PathStep, Vertex};
-use super::{Level, PathTracer};
 use crate::ALL_EFFECTS;
 use crate::geometry::SurfacePoint;
 use crate::guiding::{DirectionDistribution, GUIDED_BOUNCES, Place, Training, bin_of};
 use crate::materials::{Bsdf, BsdfSample, DiffuseBsdf, Event, ShadingFrame};
 
 impl PathTracer<'_> {
-    /// Whether paths go far enough for a guide to be of use.
-    #[must_use]
-    pub fn can_be_guided(&self) -> bool {
-        self.settings.level == Level::Path
-            && self.settings.max_bounces > 1
-            && self.settings.roulette_start >= GUIDED_BOUNCES
-    }
-
     /// Follows a path and adds what it finds behind its first matt surfaces to `training`. To be asked without a guide.
     pub fn train<const N: usize>(&self, asked: &FieldRay, wavelengths: &Wavelengths<N>, training: &Training) {
         match self.effects {

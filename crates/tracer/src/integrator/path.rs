@@ -425,6 +425,10 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             self.cone.scatter(pdf);
         }
         self.scattered = bsdf_density.map(|pdf| vertex.density(sample.wi, pdf));
+        if let Some(guide) = vertex.guide {
+            // Roulette goes by what surfaces reflect: a direction that is drawn often carries less, and is worth no less.
+            self.prior *= guide.relative_density(sample.wi);
+        }
         self.receiver = self.scattered.map(|_| *receiver);
         self.medium = self.medium_towards(vertex, sample.wi);
         self.leave(Ray { time_s: self.ray.time_s, ..vertex.point.leave(direction) })

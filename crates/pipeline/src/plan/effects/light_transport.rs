@@ -115,15 +115,14 @@ fn regularization(camera: &CameraPlan) -> PlannedEffect {
 }
 
 fn guiding(camera: &CameraPlan) -> PlannedEffect {
-    let paths = training::paths(camera.film_size(), camera.settings.least_spp());
+    let paths = if camera.settings.guiding { training::paths_of(camera) } else { 0 };
     let status = where_there(
-        camera.settings.guiding,
+        paths > 0,
         format!("directions at matt surfaces follow what {paths} paths before the picture find"),
         "directions at matt surfaces are drawn by the cosine alone",
     );
     let effect = PlannedEffect::new(GROUP, "path guiding", status).described_by("render.guiding");
-    let cpu_s = if camera.settings.guiding { paths as f64 * path_cpu_s(camera) } else { 0.0 };
-    effect.dropped_by([of_camera(camera, "render.guiding", "false")]).taking(cpu_s)
+    effect.dropped_by([of_camera(camera, "render.guiding", "false")]).taking(paths as f64 * path_cpu_s(camera))
 }
 
 fn light_sampling(camera: &CameraPlan) -> PlannedEffect {

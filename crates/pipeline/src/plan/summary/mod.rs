@@ -204,7 +204,7 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         line(f, "left out", "caustics of suns and lamps (light thrown by smooth surfaces on matt ones), as asked")?;
     }
     if s.guiding {
-        let paths = count(training::paths(camera.film_size(), s.least_spp()) as usize, "path");
+        let paths = count(training::paths_of(camera) as usize, "path");
         line(f, "guided", format!("directions at matt surfaces, by what {paths} find before the picture"))?;
     }
     if s.regularize {

@@ -7,6 +7,7 @@ mod agreement;
 mod carried;
 mod closed_forms;
 mod glossy;
+mod guided;
 mod inside;
 mod lamps;
 mod levels;

@@ -4,7 +4,7 @@ use super::*;
 use crate::materials::{Factor, Leaf, Mix, ThinSheet};
 
 /// Rays of a group, which meet different surfaces.
-const TARGETS: [[f32; 3]; 7] = [
+pub(super) const TARGETS: [[f32; 3]; 7] = [
     [0.2, 0.1, 0.0],
     [0.25, 0.1, 0.0],
     [-0.8, 0.0, 0.5],
@@ -16,7 +16,7 @@ const TARGETS: [[f32; 3]; 7] = [
 
 /// A floor and two walls under the sun, with balls and a pane; with a sky, a glowing ball, a mirror, walls of two materials
 /// with gaps and a cellar, or all matt.
-fn corner(floor: Surface, glows: bool) -> Ready {
+pub(super) fn corner(floor: Surface, glows: bool) -> Ready {
     let mut scene = Scene::default();
     let sky = Environment::Uniform(Spectrum::constant(0.3));
     let sun = Sun::of_radiance(DVec3::new(-1.0, -0.6, 1.2), 2.0, Spectrum::constant(300.0)).expect("a sun");
@@ -66,7 +66,13 @@ fn looks(ready: &Ready, targets: &[[f32; 3]], samples: u32, shared: bool) -> Vec
     (0..targets.len()).map(|ray| ReplicateEstimate::of(&of_ray(ray)).expect("replicates")).collect()
 }
 
-fn group(tracer: &PathTracer<'_>, targets: &[[f32; 3]], samples: u32, replicate: u32, shared: bool) -> Vec<f64> {
+pub(super) fn group(
+    tracer: &PathTracer<'_>,
+    targets: &[[f32; 3]],
+    samples: u32,
+    replicate: u32,
+    shared: bool,
+) -> Vec<f64> {
     let stream = |x| {
         let pixel = Pixel { x, y: 4 };
         PathStream::new(

@@ -1,0 +1,125 @@
+//! Paths that a guide leads against paths that go by the surface alone.
+
+use super::sharing::{TARGETS, corner};
+use super::*;
+use crate::guiding::{Guide, Training};
+use crate::materials::Leaf;
+
+/// Paths that are followed before.
+const PATHS: u32 = 1 << 14;
+
+fn settings(strategies: Strategies) -> PathSettings {
+    PathSettings { max_bounces: 6, strategies, ..PathSettings::default() }
+}
+
+/// The `path`th path towards one of the targets, of a replicate that no picture has.
+fn asked(targets: &[[f32; 3]], path: u32) -> FieldRay {
+    let pixel = Pixel { x: path % 64, y: path / 64 };
+    let address = PixelAddress { frame: FrameAddress::default(), pixel, replicate: u32::MAX };
+    let ray = ray([-2.0, -2.0, 2.0], targets[path as usize % targets.len()]);
+    FieldRay { ray, stream: PathStream::new(&address, path), lit: TimeInterval::default() }
+}
+
+/// What paths towards the targets find, in the order that they are given in.
+fn learnt(tracer: &PathTracer<'_>, targets: &[[f32; 3]], paths: impl Iterator<Item = u32>) -> Guide {
+    let training = Training::default();
+    paths.for_each(|path| tracer.train(&asked(targets, path), &WAVELENGTHS, &training));
+    training.guide()
+}
+
+/// Means of 32 replicates towards each target, guided or not.
+fn looks(
+    ready: &Ready,
+    targets: &[[f32; 3]],
+    samples: u32,
+    (strategies, guided): (Strategies, bool),
+) -> Vec<ReplicateEstimate> {
+    let view = ready.world.render_space(DVec3::ZERO);
+    let lights = ready.lights(&view);
+    let tracer = PathTracer::new(&view, &ready.material_table, &lights, settings(strategies));
+    let guide = guided.then(|| learnt(&tracer, targets, 0..PATHS));
+    assert!(guide.as_ref().is_none_or(|guide| guide.places() > 8));
+    let tracer = tracer.with_guide(guide.as_ref());
+    let towards = |target: &[f32; 3]| {
+        let ray = ray([-2.0, -2.0, 2.0], *target);
+        let means: Vec<_> = (0..32).map(|r| replicate(&tracer, &ray, samples, r)).collect();
+        ReplicateEstimate::of(&means).expect("replicates")
+    };
+    targets.iter().map(towards).collect()
+}
+
+/// Matt, coated, translucent and mixed floors, with a sky, a glowing ball, a mirror and a pane, and all matt in the sun; light drawn and met, or drawn alone.
+#[test]
+fn a_guide_leaves_every_mean() {
+    let half = || Reflectance::Spectrum(Spectrum::constant(0.45));
+    let leaf = Surface::Leaf(Box::new(Leaf { reflectance: half(), transmittance: half() }));
+    for (floor, glows) in [(matt(0.7), true), (matt(0.7), false), (paint(0.6, 0.2), true), (leaf, true)] {
+        let ready = corner(floor, glows);
+        for strategies in [Strategies::Both, Strategies::Lights] {
+            let [guided, alone] = [true, false].map(|guided| looks(&ready, &TARGETS, 256, (strategies, guided)));
+            guided.iter().zip(&alone).for_each(|(a, b)| agree(a, b));
+        }
+    }
+}
+
+/// A glowing ball and a sky that guided rays meet by chance alone, and beside light that is drawn: their weights hold the guide's density.
+#[test]
+fn light_that_is_met_by_a_guided_path_is_weighed_by_its_density() {
+    let mut ready = corner(matt(0.7), true);
+    ready.sources.suns.clear();
+    let close: Vec<_> = (0..4).map(|i| [0.9 + 0.05 * i as f32, 0.5, 0.0]).collect();
+    let alone = looks(&ready, &close, 512, (Strategies::Both, false));
+    for strategies in [Strategies::Both, Strategies::Scattering] {
+        let guided = looks(&ready, &close, 512, (strategies, true));
+        guided.iter().zip(&alone).for_each(|(a, b)| agree(a, b));
+        guided.iter().for_each(|e| assert!(e.standard_error() < 0.01 * e.mean, "{strategies:?} {e:?}"));
+    }
+}
+
+/// Points in the shadow of the walls' corner, which a small part of what they see lights.
+#[test]
+fn a_guide_lowers_the_error_of_indirect_light() {
+    let ready = corner(matt(0.7), false);
+    let close: Vec<_> = (0..16).map(|i| [1.6 + 0.01 * (i % 4) as f32, -1.4 + 0.01 * (i / 4) as f32, 0.0]).collect();
+    let relative = |e: &ReplicateEstimate| e.variance_of_mean / (e.mean * e.mean);
+    let error = |guided| looks(&ready, &close, 64, (Strategies::Both, guided)).iter().map(relative).sum::<f64>();
+    let (alone, guided) = (error(false), error(true));
+    assert!(guided < 0.8 * alone, "{guided} for {alone}");
+}
+
+#[test]
+fn the_order_in_which_paths_are_followed_changes_no_bit() {
+    let ready = corner(matt(0.7), true);
+    let view = ready.world.render_space(DVec3::ZERO);
+    let lights = ready.lights(&view);
+    let tracer = PathTracer::new(&view, &ready.material_table, &lights, settings(Strategies::Both));
+    let look = |guide: &Guide| {
+        let tracer = tracer.with_guide(Some(guide));
+        TARGETS.map(|target| replicate(&tracer, &ray([-2.0, -2.0, 2.0], target), 64, 0).to_bits())
+    };
+    let forwards = look(&learnt(&tracer, &TARGETS, 0..2048));
+    assert_eq!(forwards, look(&learnt(&tracer, &TARGETS, (0..2048).rev())));
+    assert_ne!(forwards, TARGETS.map(|target| replicate(&tracer, &ray([-2.0, -2.0, 2.0], target), 64, 0).to_bits()));
+}
+
+/// Paths that share their tails look at them along directions whose densities hold the guide's.
+#[test]
+fn tails_are_shared_under_a_guide() {
+    let ready = corner(matt(0.7), false);
+    let view = ready.world.render_space(DVec3::ZERO);
+    let lights = ready.lights(&view);
+    let tracer = PathTracer::new(
+        &view,
+        &ready.material_table,
+        &lights,
+        PathSettings { samples: 64, ..settings(Strategies::Both) },
+    );
+    let guide = learnt(&tracer, &TARGETS, 0..PATHS);
+    let guided = tracer.with_guide(Some(&guide));
+    let of = |tracer: &PathTracer<'_>, shared| {
+        let means: Vec<_> = (0..32).map(|r| super::sharing::group(tracer, &TARGETS, 64, r, shared)).collect();
+        let of_ray = |ray: usize| means.iter().map(|group| group[ray]).collect::<Vec<_>>();
+        (0..TARGETS.len()).map(|ray| ReplicateEstimate::of(&of_ray(ray)).expect("replicates")).collect::<Vec<_>>()
+    };
+    of(&guided, true).iter().zip(&of(&tracer, false)).for_each(|(a, b)| agree(a, b));
+}
