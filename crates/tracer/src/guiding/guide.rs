@@ -1,8 +1,8 @@
 //! What was learnt, ready to be asked.
 
 use super::distribution::{BINS, DirectionDistribution, neighbours};
+use super::found::FoundByBin;
 use super::place::Place;
-use super::training::FoundByBin;
 use glam::Vec3;
 use std::collections::BTreeMap;
 

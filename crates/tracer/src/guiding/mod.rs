@@ -18,6 +18,7 @@
 //! second scattering; and refinement by guided paths.
 
 mod distribution;
+mod found;
 mod guide;
 mod place;
 mod training;

@@ -1,6 +1,7 @@
 //! What paths find, by place and direction.
 
 use super::distribution::BINS;
+use super::found::{Found, FoundByBin};
 use super::guide::Guide;
 use super::place::Place;
 use std::collections::BTreeMap;
@@ -21,18 +22,6 @@ struct Sum {
     squares: u128,
     paths: u32,
 }
-
-/// What was found in the directions of one bin.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Found {
-    /// Sum of squares of radiance.
-    pub(super) squares: f64,
-    /// Paths.
-    pub(super) paths: f64,
-}
-
-/// What was found at one place.
-pub(super) type FoundByBin = [Found; BINS];
 
 /// Gathers what paths find behind matt surfaces. Threads may add in any order.
 #[derive(Debug, Default)]
