@@ -273,11 +273,6 @@ impl<S: RaySource> RenderJob<'_, S> {
         PixelAddress { frame: FrameAddress { seed, camera, frame, capture }, pixel, replicate }
     }
 
-    /// The address of paths that are followed before the picture, apart from all that are part of it.
-    pub(super) fn training_address(&self, pixel: Pixel) -> PixelAddress {
-        PixelAddress { replicate: u32::MAX, ..self.address(pixel, 0) }
-    }
-
     /// The wavelengths of a replicate of a block, which are those of its first pixel.
     fn heroes(&self, pixel: Pixel, replicate: u32) -> Heroes {
         let Sampling { replicates, spread, .. } = self.sampling;

@@ -7,7 +7,7 @@ use crate::plan::{CameraPlan, PassAt};
 use crate::render::light::{GatherError, RaySource, RenderJob};
 use crate::render::observer::Observer;
 use etendue_core::FieldRay;
-use etendue_core::random::{Draw, PathStream, Pixel};
+use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
 use etendue_tracer::guiding::{Guide, Training};
 use etendue_tracer::integrator::PathTracer;
 use rayon::prelude::*;
@@ -69,7 +69,9 @@ fn train<S: RaySource, const N: usize>(
 ) {
     let place = |step: f64, size: u32| (((0.5 + path as f64 * step).fract() * f64::from(size)) as u32).min(size - 1);
     let pixel = Pixel { x: place(STEPS[0], job.width), y: place(STEPS[1], job.height) };
-    let stream = PathStream::new(&job.training_address(pixel), path as u32);
+    // Apart from all that are part of the picture.
+    let address = PixelAddress { replicate: u32::MAX, ..job.address(pixel, 0) };
+    let stream = PathStream::new(&address, path as u32);
     let wavelengths = job.wavelengths::<N>(job.mosaic.map(|mosaic| mosaic.at(pixel)), stream.one(Draw::Wavelength, 0));
     let (displaced_px, _) = job.displaced(pixel, &stream, &wavelengths);
     let Some(pupil_ray) = job.pupil_ray(pixel, displaced_px, &stream, wavelengths.nm[0]) else { return };

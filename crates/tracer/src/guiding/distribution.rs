@@ -139,9 +139,10 @@ fn sum_of(weights: &[u16; RINGS]) -> u32 {
 fn at_angle(eighths: f32) -> Vec2 {
     let eighth = eighths as usize;
     let part = eighths - eighth as f32;
-    let from_axis = FRAC_PI_4 * if eighth % 2 == 0 { part } else { 1.0 - part };
+    let is_even = eighth.is_multiple_of(2);
+    let from_axis = FRAC_PI_4 * if is_even { part } else { 1.0 - part };
     let (along, across) = (cos(from_axis), sin(from_axis));
-    let (x, y) = if eighth % 2 == 0 { (along, across) } else { (across, along) };
+    let (x, y) = if is_even { (along, across) } else { (across, along) };
     // Rounding may reach the full turn.
     match eighth / 2 % 4 {
         0 => Vec2::new(x, y),

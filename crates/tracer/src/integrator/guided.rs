@@ -100,7 +100,14 @@ impl<const N: usize> Vertex<'_, N> {
     /// Density with which `wi` (shading frame) is drawn, 1/sr, of a bsdf that would draw it with density `pdf`.
     #[inline(always)]
     pub(super) fn density(&self, wi: Vec3, pdf: f32) -> f32 {
-        self.guide.map_or(pdf, |guide| pdf * guide.relative_density(wi))
+        pdf * self.relative_density(wi)
+    }
+
+    /// Density with which `wi` (shading frame) is drawn over that of the bsdf. Roulette goes by the throughput times this, as if nothing
+    /// led the path: a direction that is drawn often carries less, and is worth no less.
+    #[inline(always)]
+    pub(super) fn relative_density(&self, wi: Vec3) -> f32 {
+        self.guide.map_or(1.0, |guide| guide.relative_density(wi))
     }
 
     /// A direction drawn by the guide; its density is told as that of the bsdf.

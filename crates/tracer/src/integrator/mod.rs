@@ -23,6 +23,7 @@ mod path;
 mod path_tracer;
 mod radiance;
 mod regularize;
+mod roulette;
 mod scatter_at_particle;
 mod scatter_in_medium;
 mod settings;

@@ -425,10 +425,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             self.cone.scatter(pdf);
         }
         self.scattered = bsdf_density.map(|pdf| vertex.density(sample.wi, pdf));
-        if let Some(guide) = vertex.guide {
-            // Roulette goes by what surfaces reflect: a direction that is drawn often carries less, and is worth no less.
-            self.prior *= guide.relative_density(sample.wi);
-        }
+        self.prior *= vertex.relative_density(sample.wi);
         self.receiver = self.scattered.map(|_| *receiver);
         self.medium = self.medium_towards(vertex, sample.wi);
         self.leave(Ray { time_s: self.ray.time_s, ..vertex.point.leave(direction) })
@@ -448,23 +445,5 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             PathStep::Goes if self.survives() => PathStep::Goes,
             _ => PathStep::Ends,
         }
-    }
-
-    pub(super) fn unless_dark(&self) -> PathStep {
-        if self.throughput.is_zero() { PathStep::Ends } else { PathStep::Goes }
-    }
-
-    /// Russian roulette: the path goes on with the probability of its greatest throughput, and then counts for those
-    /// that ended.
-    fn survives(&mut self) -> bool {
-        if self.bounces < self.tracer.settings.roulette_start {
-            return true;
-        }
-        let chance = self.prior * self.throughput.max_value();
-        if chance >= 1.0 || !chance.is_finite() {
-            return true;
-        }
-        self.throughput = self.throughput / chance;
-        self.asked.stream.one(Draw::Roulette, self.bounces) < chance
     }
 }
