@@ -156,14 +156,17 @@ fn a_timed_run_keeps_its_time_and_its_passes_give_its_bytes() {
     assert_same(&contents(&out), &rendered(job, &options), "the passes that were told");
 }
 
-/// The same job, killed twice.
+/// The same job, killed twice. Guided paths: each pass learns the same wherever the run was cut.
 #[test]
 fn a_timed_run_that_was_killed_takes_the_time_that_was_left() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = place.path().join("out");
     let (job, output) = ("scenes/cornell/cornell.toml", text(&out));
-    let size = ["--set", "cameras.front.sensor.width_px=32", "--set", "cameras.front.sensor.height_px=32"];
-    let arguments = ["render", job, "-o", &output, "--time", "10", "--progressive"].into_iter().chain(size);
+    let size = ["sensor.width_px=32", "sensor.height_px=32", "render.guiding=true"];
+    let size = size.map(|key| format!("cameras.front.{key}"));
+    let size: Vec<&str> = size.iter().flat_map(|key| ["--set", key]).collect();
+    let arguments =
+        ["render", job, "-o", &output, "--time", "10", "--progressive"].into_iter().chain(size.iter().copied());
     let mut arguments: Vec<String> = arguments.map(str::to_owned).collect();
     kill_after_a_pass(&arguments, &out);
     arguments.push("--resume".to_owned());

@@ -1,6 +1,6 @@
 //! Paths that are followed before a picture, so that matt surfaces know where light comes from.
 //!
-//! A sixteenth as many as the pass has (where noise decides, as all pixels have), and at most [`MOST_PATHS`], spread evenly over the whole film whatever part of it is
+//! A sixteenth as many as the pass has (where noise decides, as all pixels have), and at most 524 288, spread evenly over the whole film whatever part of it is
 //! rendered: every shard, and every run of the same pass, learns the same. They have random numbers of their own and are not part of the picture.
 
 use crate::plan::{CameraPlan, PassAt};

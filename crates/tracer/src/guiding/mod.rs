@@ -6,8 +6,8 @@
 //! changes, and light that is drawn is weighed beside it by multiple importance sampling as ever.
 //!
 //! - **Places** are cubes whose side grows with the distance from the camera, in steps of two, and ranges of normals
-//!   ([`place`]): where few paths came, those of cubes four times as wide count.
-//! - **Directions** fall into 128 bins of equal cosine-weighted solid angle about the normal ([`distribution`]). So an even
+//!   (`place.rs`): where few paths came, those of cubes four times as wide count.
+//! - **Directions** fall into 128 bins of equal cosine-weighted solid angle about the normal (`distribution.rs`). So an even
 //!   density is the one without a guide, and points that are stratified on the square stay so.
 //! - **What is learnt** is the root of the mean square of what a direction brings, as estimated by one path with all that follows behind: of all
 //!   densities in such bins the one of least variance (Rath et al. 2020, "Variance-aware path guiding", eq. 6), in the place of the mean
