@@ -424,8 +424,9 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         if let Some(pdf) = bsdf_density {
             self.cone.scatter(pdf);
         }
-        self.scattered = bsdf_density.map(|pdf| vertex.density(sample.wi, pdf));
-        self.prior *= vertex.relative_density(sample.wi);
+        let relative = vertex.relative_density(sample.wi);
+        self.scattered = bsdf_density.map(|pdf| pdf * relative);
+        self.prior *= relative;
         self.receiver = self.scattered.map(|_| *receiver);
         self.medium = self.medium_towards(vertex, sample.wi);
         self.leave(Ray { time_s: self.ray.time_s, ..vertex.point.leave(direction) })

@@ -1,6 +1,6 @@
 //! Paths that a guide leads against paths that go by the surface alone.
 
-use super::sharing::{TARGETS, corner};
+use super::sharing::{TARGETS, corner, estimates};
 use super::*;
 use crate::guiding::{Guide, Training};
 use crate::materials::Leaf;
@@ -116,10 +116,6 @@ fn tails_are_shared_under_a_guide() {
     );
     let guide = learnt(&tracer, &TARGETS, 0..PATHS);
     let guided = tracer.with_guide(Some(&guide));
-    let of = |tracer: &PathTracer<'_>, shared| {
-        let means: Vec<_> = (0..32).map(|r| super::sharing::group(tracer, &TARGETS, 64, r, shared)).collect();
-        let of_ray = |ray: usize| means.iter().map(|group| group[ray]).collect::<Vec<_>>();
-        (0..TARGETS.len()).map(|ray| ReplicateEstimate::of(&of_ray(ray)).expect("replicates")).collect::<Vec<_>>()
-    };
-    of(&guided, true).iter().zip(&of(&tracer, false)).for_each(|(a, b)| agree(a, b));
+    let (shared, alone) = (estimates(&guided, &TARGETS, 64, true), estimates(&tracer, &TARGETS, 64, false));
+    shared.iter().zip(&alone).for_each(|(a, b)| agree(a, b));
 }

@@ -61,18 +61,22 @@ fn looks(ready: &Ready, targets: &[[f32; 3]], samples: u32, shared: bool) -> Vec
         &lights,
         PathSettings { max_bounces: 6, samples, ..PathSettings::default() },
     );
-    let means: Vec<Vec<f64>> = (0..32).map(|replicate| group(&tracer, targets, samples, replicate, shared)).collect();
+    estimates(&tracer, targets, samples, shared)
+}
+
+/// The same by a path tracer.
+pub(super) fn estimates(
+    tracer: &PathTracer<'_>,
+    targets: &[[f32; 3]],
+    samples: u32,
+    shared: bool,
+) -> Vec<ReplicateEstimate> {
+    let means: Vec<Vec<f64>> = (0..32).map(|replicate| group(tracer, targets, samples, replicate, shared)).collect();
     let of_ray = |ray: usize| means.iter().map(|group| group[ray]).collect::<Vec<_>>();
     (0..targets.len()).map(|ray| ReplicateEstimate::of(&of_ray(ray)).expect("replicates")).collect()
 }
 
-pub(super) fn group(
-    tracer: &PathTracer<'_>,
-    targets: &[[f32; 3]],
-    samples: u32,
-    replicate: u32,
-    shared: bool,
-) -> Vec<f64> {
+fn group(tracer: &PathTracer<'_>, targets: &[[f32; 3]], samples: u32, replicate: u32, shared: bool) -> Vec<f64> {
     let stream = |x| {
         let pixel = Pixel { x, y: 4 };
         PathStream::new(
