@@ -29,14 +29,13 @@ impl Guide {
     pub(super) fn new(fine: &BTreeMap<Place, FoundByBin>, coarse: &BTreeMap<Place, FoundByBin>) -> Self {
         let wide: BTreeMap<Place, [f64; BINS]> =
             coarse.iter().map(|(place, found)| (*place, squares(found, &[1.0; BINS]))).collect();
-        let narrow = fine.iter().map(|(place, found)| (*place, squares(found, &wide[&place.coarse()])));
-        let learnt: Vec<(Place, [f64; BINS])> =
-            wide.iter().map(|(place, squares)| (*place, *squares)).chain(narrow).collect();
+        let places = wide.len() + fine.len();
         let mut guide = Self {
-            slots: vec![(Place::of(Vec3::ZERO, Vec3::Z), EMPTY); (2 * learnt.len() + 1).next_power_of_two()],
-            distributions: Vec::with_capacity(learnt.len()),
+            slots: vec![(Place::of(Vec3::ZERO, Vec3::Z), EMPTY); (2 * places + 1).next_power_of_two()],
+            distributions: Vec::with_capacity(places),
         };
-        learnt.iter().for_each(|(place, squares)| guide.insert(*place, squares));
+        wide.iter().for_each(|(place, squares)| guide.insert(*place, squares));
+        fine.iter().for_each(|(place, found)| guide.insert(*place, &squares(found, &wide[&place.coarse()])));
         guide
     }
 
@@ -73,8 +72,8 @@ impl Guide {
     }
 
     /// How many places have a density, of cubes and of those four times as wide together.
-    #[must_use]
-    pub fn places(&self) -> usize {
+    #[cfg(test)]
+    pub(crate) fn places(&self) -> usize {
         self.distributions.len()
     }
 }

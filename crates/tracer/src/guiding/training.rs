@@ -30,7 +30,8 @@ pub struct Training {
 }
 
 impl Training {
-    /// Adds what a path has found that left a place in the directions of a bin, as radiance that arrived by them.
+    /// Adds what a path has found that left a place in the directions of a bin: the radiance that arrived by them, W/(m² sr nm), summed over the
+    /// path's wavelengths as they count at the camera.
     pub(crate) fn add(&self, place: Place, bin: usize, radiance: f32) {
         let square = f64::from(radiance) * f64::from(radiance) * ONE;
         let mut part = self.parts[place.hash() % PARTS].lock().expect("no path panicked");

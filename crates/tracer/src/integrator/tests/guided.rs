@@ -1,9 +1,11 @@
 //! Paths that a guide leads against paths that go by the surface alone.
 
+use super::media::fog;
 use super::sharing::{TARGETS, corner, estimates};
 use super::*;
 use crate::guiding::{Guide, Training};
 use crate::materials::Leaf;
+use crate::media::{Media, Phase, Shape as Region};
 
 /// Paths that are followed before.
 const PATHS: u32 = 1 << 14;
@@ -60,6 +62,22 @@ fn a_guide_leaves_every_mean() {
             guided.iter().zip(&alone).for_each(|(a, b)| agree(a, b));
         }
     }
+}
+
+/// Paths through a fog whose first matt surface lies before, between and behind scatterings in it.
+#[test]
+fn a_guide_leaves_every_mean_in_fog() {
+    let ready = corner(matt(0.7), false);
+    let view = ready.world.render_space(DVec3::ZERO);
+    let lights = ready.lights(&view);
+    let fog = [fog(0.1, 0.9, Phase::Isotropic, Region::Ball { radius_m: 6.0 })];
+    let media = Media::new(&fog, DVec3::ZERO, TimeInterval::default());
+    let tracer = PathTracer::new(&view, &ready.material_table, &lights, settings(Strategies::Both)).with_media(&media);
+    let guide = learnt(&tracer, &TARGETS, 0..PATHS);
+    let guided = tracer.with_guide(Some(&guide));
+    let (led, alone) = (estimates(&guided, &TARGETS, 256, false), estimates(&tracer, &TARGETS, 256, false));
+    led.iter().zip(&alone).for_each(|(a, b)| agree(a, b));
+    assert!(led.iter().zip(&alone).any(|(a, b)| a.mean != b.mean), "the guide leads paths");
 }
 
 /// A glowing ball and a sky that guided rays meet by chance alone, and beside light that is drawn: their weights hold the guide's density.

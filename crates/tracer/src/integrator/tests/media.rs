@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 const FORWARD: Phase = Phase::HenyeyGreenstein { g: 0.85 };
 
-fn fog(extinction_per_m: f64, albedo: f64, phase: Phase, shape: Region) -> Medium {
+pub(super) fn fog(extinction_per_m: f64, albedo: f64, phase: Phase, shape: Region) -> Medium {
     let of = |value| Spectrum::constant(value);
     Medium::new((of(extinction_per_m), of(albedo)), phase, shape, Motion::still(DAffine3::IDENTITY)).expect("legal")
 }
