@@ -4,12 +4,12 @@ use crate::plan::CameraPlan;
 use etendue_tracer::integrator::Level;
 
 /// A path of the street scene (docs/performance.md).
-pub(crate) const PATH_CPU_S: f64 = 3e-6;
+pub(crate) const PATH_CPU_S: f64 = 2.2e-6;
 /// The same of at most two bounces, with direct light alone, and without its shadows: shares of a whole path, by street.toml with max_bounces 6 and 2
 /// and the integrators direct and flat (docs/plan.md).
-pub(crate) const TWO_BOUNCES_CPU_S: f64 = 0.74 * PATH_CPU_S;
-pub(crate) const DIRECT_PATH_CPU_S: f64 = 0.50 * PATH_CPU_S;
-pub(crate) const FLAT_PATH_CPU_S: f64 = 0.34 * PATH_CPU_S;
+pub(crate) const TWO_BOUNCES_CPU_S: f64 = 0.95 * PATH_CPU_S;
+pub(crate) const DIRECT_PATH_CPU_S: f64 = 0.70 * PATH_CPU_S;
+pub(crate) const FLAT_PATH_CPU_S: f64 = 0.57 * PATH_CPU_S;
 
 /// Processor time of a path by the integrator and bounces of a camera, s.
 pub(crate) fn path_cpu_s(camera: &CameraPlan) -> f64 {

@@ -28,9 +28,6 @@ use etendue_tracer::render_space::RenderSpace;
 use glam::{DVec2, DVec3};
 use std::borrow::Cow;
 
-/// Where paths may begin to end at random.
-const ROULETTE_START: u32 = 4;
-
 /// What a rendering is asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Request {
@@ -314,7 +311,6 @@ pub(super) fn path_settings(camera: &CameraPlan, pass: PassAt) -> PathSettings {
     PathSettings {
         level: camera.settings.level,
         max_bounces: camera.settings.max_bounces,
-        roulette_start: ROULETTE_START,
         samples,
         cone_spread_rad: pitch_tan(camera) as f32 * sample_width(covering / replicates),
         caustics: camera.settings.caustics,

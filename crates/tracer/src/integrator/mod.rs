@@ -2,7 +2,7 @@
 //!
 //! Unidirectional paths from the camera (Kajiya 1986). At each vertex a light is drawn and asked (next-event
 //! estimation), then the surface draws where the path goes on; light found in both ways is weighed by its densities
-//! (multiple importance sampling). Paths end at random in proportion to what they still carry (Russian roulette), which
+//! (multiple importance sampling). Paths end at random by what is left of what they carried (Russian roulette), which
 //! leaves the mean unchanged. Nothing is clamped.
 //!
 //! `max_bounces` is the greatest number of scattering events between a light and the camera: 0 shows only what
@@ -11,6 +11,7 @@
 //!
 //! All wavelengths of a path share its directions, drawn by densities common to them.
 
+mod carried;
 mod caustic;
 mod cone;
 mod effects;

@@ -8,6 +8,7 @@ use etendue_core::random::Draw;
 use etendue_core::{FieldRay, Ray, Spectral, TimeInterval, Wavelengths};
 use glam::Vec3;
 
+use super::carried::Carried;
 use super::caustic::History;
 use super::cone::Cone;
 use super::effects::Effects;
@@ -51,8 +52,8 @@ pub(super) struct Path<'a, const N: usize, E> {
     pub(super) beyond_particle: bool,
     /// Random numbers used for flights through media.
     pub(super) flights: u32,
-    /// What the path carried when its throughput was last set to one: roulette looks at the product.
-    pub(super) prior: f32,
+    /// What roulette goes by.
+    pub(super) carried: Carried,
     /// What radiance along the ray counts at the camera.
     pub(super) throughput: Spectral<N>,
     pub(super) radiance: Spectral<N>,
@@ -110,7 +111,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             history: History::default(),
             beyond_particle: false,
             flights: 0,
-            prior: 1.0,
+            carried: Carried::default(),
             throughput: Spectral::ONE,
             radiance: Spectral::ZERO,
             effects: PhantomData,
@@ -128,7 +129,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// The light that a surface, which the path has just met, scatters against it: what the rest of the path gathers.
     /// Roulette goes on as if the path were not cut.
     pub(super) fn tail(mut self, vertex: &Vertex<'a, N>) -> Spectral<N> {
-        self.prior *= self.throughput.max_value();
+        self.carried.scale(self.throughput.max_value());
         self.throughput = Spectral::ONE;
         self.radiance = Spectral::ZERO;
         match self.scatter(vertex) {
@@ -238,10 +239,8 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             return PathStep::Ends;
         }
         let vertex = self.vertex(point, lookup);
-        match self.sample(&vertex) {
-            Some(sample) if sample.event == Event::Null => self.go_through(&vertex, &sample),
-            _ => PathStep::Ends,
-        }
+        let through = self.sample(&vertex).filter(|sample| sample.event == Event::Null);
+        through.map_or(PathStep::Ends, |sample| self.go_through(&vertex, &sample))
     }
 
     /// Gathers drawn light at a surface and goes on from it.
@@ -426,7 +425,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
         let relative = vertex.relative_density(sample.wi);
         self.scattered = bsdf_density.map(|pdf| pdf * relative);
-        self.prior *= relative;
+        self.carried.scale(relative);
         self.receiver = self.scattered.map(|_| *receiver);
         self.medium = self.medium_towards(vertex, sample.wi);
         self.leave(Ray { time_s: self.ray.time_s, ..vertex.point.leave(direction) })

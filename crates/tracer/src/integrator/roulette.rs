@@ -1,4 +1,9 @@
 //! Where paths end: those that carry nothing, and others at random (Russian roulette; Arvo and Kirk 1990).
+//!
+//! What a path still finds counts in its pixel by the throughput, and so does all else that the pixel shows: behind a dark
+//! surface everything is dark. So the chance to go on goes by what is left of the throughput behind the first surface that
+//! scatters, and not by the throughput itself. Where light is alike everywhere the best chance is in proportion to that share,
+//! by the root of a whole path's cost over that of what is left of it (Bolin and Meyer 1997; Rath and others 2022, "EARS").
 
 use super::effects::Effects;
 use super::path::{Path, PathStep};
@@ -10,14 +15,13 @@ impl<const N: usize, E: Effects> Path<'_, N, E> {
         if self.throughput.is_zero() { PathStep::Ends } else { PathStep::Goes }
     }
 
-    /// Russian roulette: the path goes on with the probability of its greatest throughput, and then counts for those
-    /// that ended.
+    /// Russian roulette: a path that goes on counts for those that ended. Paths that only mirrors have scattered all go on.
     pub(super) fn survives(&mut self) -> bool {
-        if self.bounces < self.tracer.settings.roulette_start {
+        if self.history.is_seen() {
             return true;
         }
-        let chance = self.prior * self.throughput.max_value();
-        if chance >= 1.0 || !chance.is_finite() {
+        let chance = self.carried.chance(self.throughput.max_value());
+        if self.bounces < self.tracer.settings.roulette_start || chance >= 1.0 || !chance.is_finite() {
             return true;
         }
         self.throughput = self.throughput / chance;

@@ -55,7 +55,7 @@ impl Default for PathSettings {
         Self {
             level: Level::Path,
             max_bounces: 16,
-            roulette_start: 4,
+            roulette_start: 2,
             samples: 1,
             cone_spread_rad: 0.0,
             strategies: Strategies::Both,

@@ -3,22 +3,10 @@
 //! Lights in the scene and lights at infinity share the draws by the irradiances that a receiver can expect of them: the
 //! tree's estimate on one side, on the other that of the suns which its surface faces and that of the surroundings in the
 //! mean. Neither side gets less than [`FLOOR`] while it can give anything at all, since both numbers are estimates.
-//! Within the scene the tree decides (`tree/`); at infinity suns and surroundings share by irradiance, but a sun that
-//! the surface faces away from gets nothing.
-//!
-//! Equal shares for sun and surroundings look fairer to places that only the sky lights, but are worse even there: up to
-//! half of their light is sunlight thrown by lit surfaces, and the sky is also met by chance. Measured on the street
-//! before receivers were looked at (75 klx of sun, 15 klx of sky; 240 × 150 pixels, 64 samples in 8 replicates, without
-//! caustics): mean relative variance of a pixel, in units of 1e-2, over all pixels, over the 30 % that get most of their
-//! light from the sky, and over the others, by the sun's share of the draws:
-//!
-//! | sun's share | all | by the sky | others |
-//! | --- | --- | --- | --- |
-//! | 0.91 | 1.41 | 1.82 | 1.24 |
-//! | by power, 0.83 | 1.47 | 1.80 | 1.32 |
-//! | 0.65 | 1.64 | 1.82 | 1.57 |
-//! | 0.50 | 1.96 | 1.96 | 1.96 |
-//! | 0.35 | 2.59 | 2.30 | 2.72 |
+//! Within the scene the tree decides (`tree/`); at infinity suns and surroundings share by irradiance. Of surroundings beside suns only
+//! bright patches count, and what else is beyond the irradiance of the suns (`patches.rs`): scattered rays meet what is even as
+//! often as it deserves. A draw that falls on a sun behind the receiver's surface asks nothing, so that surfaces in shade, too, ask the
+//! surroundings no more often than that. Figures are in `docs/decisions/light-choice.md`.
 
 use super::LightSampleContext;
 use super::lamp::LampIrradiance;
@@ -91,6 +79,7 @@ impl Choice {
         Some((chosen.0, share * chosen.1))
     }
 
+    /// `None` where the draw falls on a sun that the receiver faces away from.
     fn pick_distant(&self, receiver: &LightSampleContext, u: f32) -> Option<(Chosen, f32)> {
         let of = |light: Chosen| self.share_of_distant(light, receiver);
         let suns = (0..self.suns.len()).map(Chosen::Sun);
@@ -103,28 +92,28 @@ impl Choice {
             }
             rest -= share;
         }
-        chosen
+        chosen.filter(|(light, _)| self.reaches(*light, receiver))
     }
 
     /// The share of a light at infinity among those at infinity: by what they count, and to [`MATT_SHARE`] by what they count for a
-    /// matt receiver.
+    /// matt receiver. Suns that the receiver faces away from keep their shares.
     fn share_of_distant(&self, light: Chosen, receiver: &LightSampleContext) -> f32 {
-        let share = |counts: f32, total: f32| if counts > 0.0 { counts / total } else { 0.0 };
-        let raised = share(self.of_distant(light, receiver), self.distant_irradiance(receiver));
+        let raised = self.plain_share_of_distant(light, receiver);
         if receiver.gloss.is_none() {
             return raised;
         }
         let matt = LightSampleContext { gloss: None, ..*receiver };
-        let plain = share(self.of_distant(light, &matt), self.distant_irradiance(&matt));
-        (1.0 - MATT_SHARE) * raised + MATT_SHARE * plain
+        (1.0 - MATT_SHARE) * raised + MATT_SHARE * self.plain_share_of_distant(light, &matt)
     }
 
-    fn of_distant(&self, light: Chosen, receiver: &LightSampleContext) -> f32 {
-        match light {
+    fn plain_share_of_distant(&self, light: Chosen, receiver: &LightSampleContext) -> f32 {
+        let counts = match light {
             Chosen::Sun(i) => self.of_sun(i, receiver),
             Chosen::Environment => self.environment,
             Chosen::Local(_) => 0.0,
-        }
+        };
+        let total = (0..self.suns.len()).map(|i| self.of_sun(i, receiver)).sum::<f32>() + self.environment;
+        if counts > 0.0 { counts / total } else { 0.0 }
     }
 
     /// The probability by which [`Choice::pick`] gives a light.
@@ -134,6 +123,7 @@ impl Choice {
         match (light, &self.tree) {
             (Chosen::Local(_), None) => 0.0,
             (Chosen::Local(i), Some(tree)) => local * tree.probability(question, &start, i),
+            _ if !self.reaches(light, question.receiver) => 0.0,
             _ => (1.0 - local) * self.share_of_distant(light, question.receiver),
         }
     }
@@ -161,17 +151,54 @@ impl Choice {
         if local > 0.0 { (1.0 / (1.0 + distant / local)).clamp(FLOOR, 1.0 - FLOOR) } else { 0.0 }
     }
 
+    /// Of what may reach the receiver.
     fn distant_irradiance(&self, receiver: &LightSampleContext) -> f32 {
-        (0..self.suns.len()).map(|i| self.of_sun(i, receiver)).sum::<f32>() + self.environment
+        let reaching = (0..self.suns.len()).filter(|i| self.reaches(Chosen::Sun(*i), receiver));
+        reaching.map(|i| self.of_sun(i, receiver)).sum::<f32>() + self.environment
     }
 
-    /// What a sun counts for a receiver.
+    /// Whether the receiver faces a light at infinity.
+    fn reaches(&self, light: Chosen, receiver: &LightSampleContext) -> bool {
+        match light {
+            Chosen::Sun(i) => receiver.normal == glam::Vec3::ZERO || self.suns[i].0.rises_over(receiver.normal),
+            Chosen::Environment | Chosen::Local(_) => true,
+        }
+    }
+
+    /// What a sun counts for a receiver that faces it.
     fn of_sun(&self, i: usize, receiver: &LightSampleContext) -> f32 {
         let (sun, irradiance) = &self.suns[i];
-        if receiver.normal == glam::Vec3::ZERO || sun.rises_over(receiver.normal) {
-            *irradiance * (1.0 + receiver.glossy(sun.direction(), sun.sin()))
-        } else {
-            0.0
+        *irradiance * (1.0 + receiver.glossy(sun.direction(), sun.sin()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_spectra::Spectrum;
+    use glam::{DVec3, Vec3};
+
+    /// Shares of draws that fall on a sun and on surroundings of a third of its irradiance, and their probabilities, at a receiver.
+    #[test]
+    fn a_sun_behind_the_surface_keeps_its_share_of_the_draws() {
+        let sun = Sun::of_radiance(DVec3::Z, 0.5, Spectrum::constant(1.0)).expect("a sun");
+        let choice = Choice::new(&[], vec![(sun, 3.0)], 1.0);
+        for (normal, of_sun) in [(Vec3::Z, 0.75), (Vec3::ZERO, 0.75), (Vec3::NEG_Z, 0.0)] {
+            let receiver =
+                LightSampleContext { position: Vec3::ZERO, normal, gloss: None, in_view: false, time_s: 0.0 };
+            let question = TreeQuery { receiver: &receiver, lamp: |_| LampIrradiance::default() };
+            let mut counts = [0; 3];
+            for i in 0..1000 {
+                match choice.pick(&question, (f64::from(i) + 0.5) / 1000.0) {
+                    Some((Chosen::Sun(0), probability)) => counts[0] += usize::from(probability == 0.75),
+                    Some((Chosen::Environment, probability)) => counts[1] += usize::from(probability == 0.25),
+                    other => counts[2] += usize::from(other.is_none()),
+                }
+            }
+            let sun_draws = (of_sun * 1000.0) as usize;
+            assert_eq!(counts, [sun_draws, 250, 750 - sun_draws], "{normal}");
+            assert_eq!(choice.probability(&question, Chosen::Sun(0)), of_sun);
+            assert_eq!(choice.probability(&question, Chosen::Environment), 0.25);
         }
     }
 }

@@ -13,6 +13,7 @@ use etendue_core::{Spectral, Wavelengths, maths};
 use etendue_spectra::{Spectrum, upsample};
 use glam::{DVec3, Vec2, Vec3};
 
+use super::patches::patches;
 use super::sky::SkyEnvironment;
 use super::{BRIGHTEST, LightSample};
 
@@ -28,13 +29,15 @@ pub enum Environment {
 }
 
 impl Environment {
-    /// Irradiance that the surroundings give in the mean where they are drawn, W·m⁻²·nm⁻¹; 0 where they are not.
-    pub(super) fn drawn_irradiance(&self, low_nm: f64, high_nm: f64) -> f64 {
-        match self {
-            Self::Uniform(_) => 0.0,
-            Self::Image(image) => image.mean_irradiance(low_nm, high_nm),
-            Self::Sky(sky) => sky.mean_irradiance(low_nm, high_nm),
-        }
+    /// Irradiance by which the surroundings are drawn beside suns that give `of_suns`, W·m⁻²·nm⁻¹; 0 where they are not: that of their bright patches,
+    /// and of all else what is beyond that of the suns. Scattered rays meet what is even as well as draws do.
+    pub(super) fn drawn_irradiance(&self, (low_nm, high_nm): (f64, f64), of_suns: f64) -> f64 {
+        let (mean, patches) = match self {
+            Self::Uniform(_) => return 0.0,
+            Self::Image(image) => (image.mean_irradiance(low_nm, high_nm), image.patches),
+            Self::Sky(sky) => (sky.mean_irradiance(low_nm, high_nm), sky.patches),
+        };
+        mean * patches + (mean * (1.0 - patches) - of_suns).max(0.0)
     }
 
     /// Radiance from a direction, and the density by which it would be drawn, 1/sr, which is asked for only where it is
@@ -113,6 +116,8 @@ pub struct ImageEnvironment {
     rotation_turns: f32,
     distribution: Distribution2,
     mean_luminance: f64,
+    /// Share of bright patches in its light.
+    patches: f64,
 }
 
 impl core::fmt::Debug for ImageEnvironment {
@@ -158,7 +163,10 @@ impl ImageEnvironment {
         let mean_luminance = luminance_scale * distribution.mean() / solid_angle_mean;
         let rotation_turns = (rotation_rad / core::f64::consts::TAU).rem_euclid(1.0) as f32;
         let scale = luminance_scale as f32;
-        Ok(Self { width, height, texels, scale, rotation_turns, distribution, mean_luminance })
+        let patches = patches(
+            weights.iter().enumerate().map(|(k, w)| (f64::from(*w), solid_angle(k / width, height) / width as f64)),
+        );
+        Ok(Self { width, height, texels, scale, rotation_turns, distribution, mean_luminance, patches })
     }
 
     /// Spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) from the unit `direction` (away from the viewer).

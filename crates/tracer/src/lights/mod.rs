@@ -30,6 +30,7 @@ mod limit;
 mod moving;
 mod near;
 mod opening;
+mod patches;
 mod power;
 mod primitives;
 mod profile;

@@ -54,8 +54,10 @@ impl Lights {
         }
         let points = (0..gathered.lights.len()).filter(|i| gathered.lights[*i].is_point()).collect();
         let has_openings = gathered.lights.iter().any(Light::is_open);
-        let weighed = suns.iter().map(|sun| (sun.clone(), sun.mean_irradiance(low_nm, high_nm) as f32)).collect();
-        let surroundings = environment.as_ref().map_or(0.0, |e| e.drawn_irradiance(low_nm, high_nm)) as f32;
+        let weighed: Vec<_> =
+            suns.iter().map(|sun| (sun.clone(), sun.mean_irradiance(low_nm, high_nm) as f32)).collect();
+        let of_suns = weighed.iter().map(|(_, irradiance)| f64::from(*irradiance)).sum();
+        let surroundings = environment.as_ref().map_or(0.0, |e| e.drawn_irradiance((low_nm, high_nm), of_suns)) as f32;
         let choice = Choice::new(&gathered.bounds, weighed, surroundings);
         let collect::Gathered { lights, primitives, .. } = gathered;
         Ok(Self { lights, choice, primitives, points, has_openings, are_modulated, suns, environment })

@@ -21,6 +21,7 @@ use etendue_spectra::sky::{BANDS, FIRST_NM, STEP_NM, SkyModel};
 use glam::{DVec3, Vec2, Vec3};
 
 use super::LightSample;
+use super::patches::patches;
 
 /// Intervals of the tables.
 const STEPS: usize = 4096;
@@ -31,6 +32,9 @@ const ROWS: usize = 128;
 
 /// Bands whose mean weighs directions: 440 to 640 nm.
 const SEEN: core::ops::RangeInclusive<usize> = 3..=8;
+
+/// Height and width of a cell, rad.
+const CELL: (f64, f64) = (core::f64::consts::FRAC_PI_2 / ROWS as f64, core::f64::consts::TAU / COLUMNS as f64);
 
 /// Least weight of a cell, as a share of the mean one.
 const FLOOR: f64 = 1e-3;
@@ -52,6 +56,8 @@ pub struct SkyEnvironment {
     ground: Spectrum,
     irradiance: Spectrum,
     distribution: Distribution2,
+    /// Share of bright patches in its light.
+    pub(super) patches: f64,
 }
 
 impl core::fmt::Debug for SkyEnvironment {
@@ -75,6 +81,8 @@ impl SkyEnvironment {
         let ground = Spectrum::from_fn(|nm| share * f64::from(irradiance.at(nm as f32) + sun_on_ground.at(nm as f32)));
         let glow = towards(azimuth_rad, model.glow_elevation_rad());
         let [gradient, around] = tables(model);
+        let weights = weights(model);
+        let cells = weights.iter().enumerate().map(|(k, weight)| (f64::from(*weight), solid_angle(k / COLUMNS)));
         Some(Self {
             glow: glow.as_vec3(),
             azimuth_turns: (azimuth_rad / core::f64::consts::TAU).rem_euclid(1.0) as f32,
@@ -84,7 +92,8 @@ impl SkyEnvironment {
             beyond: Spectrum::from_fn(|nm| SkyModel::mix(nm).weights.iter().sum()),
             ground,
             irradiance,
-            distribution: Distribution2::new(COLUMNS, &weights(model))?,
+            patches: patches(cells),
+            distribution: Distribution2::new(COLUMNS, &weights)?,
         })
     }
 
@@ -175,7 +184,7 @@ fn tables(model: &SkyModel) -> [Vec<Bands>; 2] {
 
 /// Mean radiance of each cell, of its corners and middle, times the cell's solid angle.
 fn weights(model: &SkyModel) -> Vec<f32> {
-    let (height, width) = (core::f64::consts::FRAC_PI_2 / ROWS as f64, core::f64::consts::TAU / COLUMNS as f64);
+    let (height, width) = CELL;
     let glow = towards(0.0, model.glow_elevation_rad());
     let seen = |row: f64, column: f64| {
         let direction = towards(column * width, (row * height).min(core::f64::consts::FRAC_PI_2));
@@ -191,8 +200,14 @@ fn weights(model: &SkyModel) -> Vec<f32> {
     };
     let means: Vec<f64> = (0..ROWS).flat_map(|j| (0..COLUMNS).map(move |i| (j, i))).map(|(j, i)| cell(j, i)).collect();
     let floor = FLOOR * means.iter().sum::<f64>() / means.len() as f64;
-    let band = |j: usize| maths::f64::sin((j + 1) as f64 * height) - maths::f64::sin(j as f64 * height);
-    means.iter().enumerate().map(|(k, mean)| ((mean + floor) * band(k / COLUMNS) * width * 1e6) as f32).collect()
+    let weight = |(k, mean): (usize, &f64)| ((mean + floor) * solid_angle(k / COLUMNS) * 1e6) as f32;
+    means.iter().enumerate().map(weight).collect()
+}
+
+/// Solid angle of a cell of row `j`, in units of the whole sphere.
+fn solid_angle(j: usize) -> f64 {
+    let (height, _) = CELL;
+    (maths::f64::sin((j + 1) as f64 * height) - maths::f64::sin(j as f64 * height)) / (2.0 * COLUMNS as f64)
 }
 
 #[cfg(test)]

@@ -44,6 +44,34 @@ fn drawn_light_and_met_light_agree() {
     }
 }
 
+/// Surroundings beside a sun that outshines them, and one that does not: even ones, which are then not drawn at all, and some with a bright patch.
+#[test]
+fn surroundings_beside_a_sun_are_found_however_they_are_drawn() {
+    for (texel, radiance) in [(1.0, 2e3), (1.0, 2.0), (400.0, 2e3), (400.0, 2.0)] {
+        let mut texels = vec![[1.0; 3]; 32 * 16];
+        texels[3 * 32 + 5] = [texel; 3];
+        let picture = ImageEnvironment::new((32, 16), texels, 1.0, 0.0).expect("a picture");
+        let sun = Sun::of_radiance(DVec3::new(1.0, 0.0, 1.0), 2.0, Spectrum::constant(radiance * 1e-3)).expect("a sun");
+        let sources = Sources { suns: vec![sun], lamps: vec![], environment: Some(Environment::Image(picture)) };
+        let mut scene = Scene { sources, ..Scene::default() };
+        let (floor, ball) = (scene.material(matt(0.8), None), scene.material(paint(0.5, 0.3), None));
+        scene.square(Vec3::ZERO, 5.0, floor);
+        scene.sphere(DVec3::new(0.0, 0.0, 0.6), 0.5, ball);
+        let ready = scene.ready();
+        // Below the ball, and its side that faces away from the sun.
+        for to in [[0.1, 0.2, 0.0], [-0.4, -0.1, 0.5]] {
+            let look = |strategies, samples| {
+                let settings = PathSettings { max_bounces: 3, strategies, ..PathSettings::default() };
+                ready.look(&ray([-2.0, -1.0, 1.0], to), samples, settings)
+            };
+            let both = look(Strategies::Both, 1024);
+            agree(&look(Strategies::Scattering, 4096), &both);
+            agree(&look(Strategies::Lights, 4096), &both);
+            assert!(both.standard_error() < 0.02 * both.mean, "{texel} {radiance}: {both:?}");
+        }
+    }
+}
+
 #[test]
 fn roulette_leaves_the_mean() {
     let ready = mixed(matt(0.8));

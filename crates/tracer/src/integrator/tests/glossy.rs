@@ -107,7 +107,7 @@ fn what_gloss_shows_of_a_mirror_is_left_out_in_both_ways_of_finding_it() {
     let without = look(false, Strategies::Both, 2048);
     agree(&look(false, Strategies::Scattering, 8192), &without);
     agree(&look(false, Strategies::Lights, 8192), &without);
-    let with = look(true, Strategies::Both, 8192);
+    let with = look(true, Strategies::Both, 32768);
     let uncertainty = with.standard_error() + without.standard_error();
     assert!(with.mean > without.mean + 5.0 * uncertainty, "{with:?} {without:?}");
 }

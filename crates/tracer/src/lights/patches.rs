@@ -1,0 +1,47 @@
+//! Which part of surroundings is worth drawing: bright patches, which scattered rays seldom meet.
+
+/// How many times as bright as the mean of all directions bright patches are.
+const BRIGHT: f64 = 8.0;
+
+/// Share of light that comes from bright patches beyond [`BRIGHT`] times the mean: of cells of a weight in proportion to radiance and solid angle, and
+/// of a solid angle in units of the whole sphere.
+pub(super) fn patches(cells: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
+    let all: f64 = cells.clone().map(|(weight, _)| weight).sum();
+    cells.map(|(weight, solid_angle)| (weight - BRIGHT * all * solid_angle).max(0.0)).sum::<f64>() / all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lights::{Environment, ImageEnvironment};
+
+    #[test]
+    fn patches_are_what_is_beyond_eight_times_the_mean() {
+        let sphere = |weights: [f64; 4], shares: [f64; 4]| patches(weights.into_iter().zip(shares));
+        assert_eq!(sphere([1.0, 1.0, 1.0, 1.0], [0.25; 4]), 0.0);
+        // Half the sphere dark, and a fortieth of it forty times as bright as the rest.
+        let (shares, bright) = ([0.5, 0.475, 0.0125, 0.0125], 0.5 / 0.975);
+        let weights = [0.0, 0.475, 0.25, 0.25];
+        assert!((sphere(weights, shares) - (bright - 8.0 * 0.025)).abs() < 1e-12);
+    }
+
+    /// Surroundings without suns are drawn by all their light, beside suns by their patches and what is beyond the suns'.
+    #[test]
+    fn surroundings_are_drawn_by_what_suns_and_scattered_rays_leave() {
+        let mut texels = vec![[1.0; 3]; 64 * 32];
+        let picture = |texels: Vec<[f32; 3]>| {
+            Environment::Image(ImageEnvironment::new((64, 32), texels, 1.0, 0.0).expect("a picture"))
+        };
+        let drawn = |surroundings: &Environment, of_suns: f64| surroundings.drawn_irradiance((400.0, 700.0), of_suns);
+        let even = picture(texels.clone());
+        let all = drawn(&even, 0.0);
+        assert!(all > 0.0 && (drawn(&even, 0.75 * all) / all - 0.25).abs() < 1e-6 && drawn(&even, all) == 0.0);
+        texels[8 * 64 + 20] = [3000.0; 3];
+        let patchy = picture(texels);
+        let all = drawn(&patchy, 0.0);
+        let patches = drawn(&patchy, all) / all;
+        // The texel has 1.0e-3 of the sphere and so half of the light, of which eight times the mean is left out.
+        assert!(patches > 0.4 && patches < 0.6, "{patches}");
+        assert!((drawn(&patchy, 0.1 * all) / all - 0.9).abs() < 1e-6);
+    }
+}
