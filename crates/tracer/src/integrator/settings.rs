@@ -30,7 +30,7 @@ pub struct PathSettings {
     pub level: Level,
     /// Greatest number of scattering events; of the level [`Level::Path`] alone.
     pub max_bounces: u32,
-    /// Scattering events after which paths may end at random.
+    /// Scattering events after which paths may end at random; those that mirrors alone have scattered never do.
     pub roulette_start: u32,
     /// Samples of a replicate, or of a run of them where their number is not known before: paths that share their tails take turns over them.
     pub samples: u32,
