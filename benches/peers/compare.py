@@ -18,8 +18,9 @@ import scenes
 from spectra import ROOT
 
 HERE = Path(__file__).resolve().parent
-# Etendue as it is, with guided paths, with path reuse, and with both, by the name of its job.
-OURS = {"etendue": "job.toml", "etendue-guided": "job-guided.toml", "etendue-reuse": "job-reuse.toml",
+# Etendue as it is, with guided paths, with four branches, with path reuse, and with guided paths of both kinds, by the name of its job.
+OURS = {"etendue": "job.toml", "etendue-guided": "job-guided.toml", "etendue-branched": "job-branched.toml",
+        "etendue-guided-branched": "job-guided-branched.toml", "etendue-reuse": "job-reuse.toml",
         "etendue-guided-reuse": "job-guided-reuse.toml"}
 PEERS = ("mitsuba", "cycles")
 RENDERERS = (*OURS, *PEERS)
@@ -120,7 +121,7 @@ def arguments():
     parser.add_argument("--binary", default=str(ROOT / "target/release/etendue-benches"))
     parser.add_argument("--target", default=str(ROOT / "target/peers"))
     parser.add_argument("--renderers", nargs="+", default=list(PEERS), choices=PEERS,
-                        help="peers beside Etendue, which always renders without and with guided paths and path reuse")
+                        help="peers beside Etendue, which always renders without and with guided paths, branches and path reuse")
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--runs", type=int, default=5, help="pictures of each renderer, which take turns; 2 or more")
     parser.add_argument("--threads", type=int, default=os.cpu_count())

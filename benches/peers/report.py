@@ -1,6 +1,7 @@
 """Tables of a comparison, in Markdown."""
 
-NAMES = {"etendue": "Étendue", "etendue-guided": "Étendue, guided", "etendue-reuse": "Étendue, path reuse",
+NAMES = {"etendue": "Étendue", "etendue-guided": "Étendue, guided", "etendue-branched": "Étendue, branched",
+         "etendue-guided-branched": "Étendue, guided, branched", "etendue-reuse": "Étendue, path reuse",
          "etendue-guided-reuse": "Étendue, guided, path reuse", "mitsuba": "Mitsuba", "cycles": "Cycles"}
 
 

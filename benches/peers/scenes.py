@@ -24,8 +24,9 @@ import sky
 from spectra import DATA, NM, OBSERVER, ROOT, black_body, on_grid, table, with_luminance
 
 WIDTH, HEIGHT = 512, 384
-# Etendue's jobs, and the side of the blocks of pixels whose paths share their tails in each, px.
-JOBS = {"job.toml": (1, False), "job-guided.toml": (1, True), "job-reuse.toml": (8, False), "job-guided-reuse.toml": (8, True)}
+# Etendue's jobs: the side of the blocks of pixels whose paths share their tails in each, px, whether paths are guided, and their branches.
+JOBS = {"job.toml": (1, False, 1), "job-guided.toml": (1, True, 1), "job-branched.toml": (1, False, 4), "job-guided-branched.toml": (1, True, 4),
+        "job-reuse.toml": (8, False, 1), "job-guided-reuse.toml": (8, True, 1)}
 BOUNCES = 8
 # The street's textures are named from where they lie.
 STREET = ROOT / "scenes/street"
@@ -290,7 +291,7 @@ def toml_lights(folder, scene):
     return lines
 
 
-def job(folder, scene, reuse_px, is_guided):
+def job(folder, scene, reuse_px, is_guided, branches):
     """Etendue's job as text: a pinhole whose pixels respond like the eye, so that electrons stand for luminance."""
     write_spectrum(folder, "eye.csv", zip(NM, 400.0 * OBSERVER[:, 1] / NM))
     c = scene["camera"]
@@ -309,7 +310,7 @@ def job(folder, scene, reuse_px, is_guided):
               f"pixel_pitch_um = {c['pixel_pitch_um']}", "exposure_s = 1.0", 'cfa = "mono"',
               'quantum_efficiency = { spectrum = "eye.csv" }', "full_well_e = 1e12", "read_noise_e = 0",
               "dark_current_e_s = 0", "gain_dn_per_e = 1", "black_level_dn = 0", "bits = 16",
-              "", "[render]", "spp = 64", "replicates = 1", f"path_reuse_px = {reuse_px}", f"guiding = {str(is_guided).lower()}", f"max_bounces = {BOUNCES}", "wavelength_range_nm = [360, 830]",
+              "", "[render]", "spp = 64", "replicates = 1", f"path_reuse_px = {reuse_px}", f"branches = {branches}", f"guiding = {str(is_guided).lower()}", f"max_bounces = {BOUNCES}", "wavelength_range_nm = [360, 830]",
               "", "[output]", "electrons = true", "raw = false", "ground_truth = false", ""]
     return "\n".join(lines)
 
@@ -344,8 +345,8 @@ def write(name, folder):
     if "sky" in scene:
         sky.write(folder / scene["sky"], sky.pixels(towards_sun(), SKY_LX, GROUND_CD_M2))
     write_obj(folder / "mesh.obj", arrays, [m["name"] for m in scene["materials"]])
-    for name_of_job, (reuse_px, is_guided) in JOBS.items():
-        (folder / name_of_job).write_text(job(folder, scene, reuse_px, is_guided))
+    for name_of_job, ways in JOBS.items():
+        (folder / name_of_job).write_text(job(folder, scene, *ways))
     (folder / "scene.json").write_text(json.dumps(scene))
     print(f"{name}: {scene['triangles']} triangles")
 

@@ -22,6 +22,8 @@ pub struct RenderSettings {
     pub regularize: bool,
     /// Whether matt surfaces draw directions by what paths before the picture have found.
     pub guiding: bool,
+    /// How many paths go on, and lights are drawn, at the first surface of a sample.
+    pub branches: u32,
     /// What lights are drawn by: "gloss" or "irradiance".
     pub light_sampling: &'static str,
     /// Side of the squares of pixels that share the tails of their paths; 1 where none do.
@@ -58,6 +60,7 @@ impl Job {
             caustics: s.caustics,
             regularize: s.regularize,
             guiding: s.guiding,
+            branches: s.branches,
             light_sampling: s.light_sampling.word(),
             path_reuse_px: s.blocks.side_px(),
             wavelengths: s.wavelengths,

@@ -175,6 +175,7 @@ mod tests {
                 max_bounces: 64,
                 caustics: true,
                 regularize: false,
+                branches: 1,
                 path_reuse_px: 1,
                 light_sampling: "gloss",
                 wavelengths: 4,

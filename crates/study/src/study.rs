@@ -23,7 +23,7 @@ const FEW: u32 = 2;
 const MANY: u32 = 8;
 const SEEDS: u32 = 8;
 /// Ways that a study looks at, about: what its time is shared among.
-const WAYS: f64 = 19.0;
+const WAYS: f64 = 22.0;
 /// The part of the time that pilots may have; the rest is for whole frames and for trying what is recommended.
 const PILOTS_PART: f64 = 0.7;
 /// Samples that are told of a job whose pixels get as many as their noise asks for.
@@ -179,7 +179,7 @@ impl Bench<'_> {
         let bare = WayToRender { caustics: false, ..path };
         let short = |max_bounces| WayToRender { max_bounces, ..bare };
         let widened = WayToRender { regularize: true, ..path };
-        let less = |integrator| WayToRender { integrator, max_bounces: 1, path_reuse_px: 1, ..path };
+        let less = |integrator| WayToRender { integrator, max_bounces: 1, branches: 1, path_reuse_px: 1, ..path };
         self.keep(path, Role::Exact, None)?;
         self.keep(bare, Role::Approximation, Some(path))?;
         self.look_at(widened, Role::Approximation, Some(path))?;
@@ -201,16 +201,17 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// Ways with the means of the job's own: other wavelengths, shared paths, choices of lights, trees.
+    /// Ways with the means of the job's own: other wavelengths, shared and branched paths, choices of lights, trees.
     fn choices_without_bias(&self, stated: WayToRender) -> Result<Vec<WayToRender>, Error> {
         let disperses = self.job.render_settings(self.pilots.camera)?.disperses;
         let wavelengths = [1, 4, 8].into_iter().filter(|n| !disperses || *n == 1);
         let wavelengths = wavelengths.map(|wavelengths| WayToRender { wavelengths, ..stated });
         let shares: &[u32] = if stated.integrator == Integrator::Path { &[1, 2, 4, 8] } else { &[] };
-        let shares = shares.iter().map(|px| WayToRender { path_reuse_px: *px, ..stated });
+        let branches = shares.iter().map(|branches| WayToRender { branches: *branches, path_reuse_px: 1, ..stated });
+        let shares = shares.iter().map(|px| WayToRender { path_reuse_px: *px, branches: 1, ..stated });
         let trees = Accelerator::ALL.into_iter().map(|accelerator| WayToRender { accelerator, ..stated });
         let lights = LIGHT_SAMPLINGS.into_iter().map(|light_sampling| WayToRender { light_sampling, ..stated });
-        Ok(wavelengths.chain(shares).chain(lights).chain(trees).filter(|way| *way != stated).collect())
+        Ok(wavelengths.chain(shares).chain(branches).chain(lights).chain(trees).filter(|way| *way != stated).collect())
     }
 
     /// Looks at a way that others are compared with.
@@ -307,7 +308,13 @@ impl Bench<'_> {
             best.filter(|m| cost(m) < WORTH).map_or(stated, |m| m.way)
         };
         let wavelengths = best(|own, other| WayToRender { wavelengths: other.wavelengths, ..*own }).wavelengths;
-        let path_reuse_px = best(|own, other| WayToRender { path_reuse_px: other.path_reuse_px, ..*own }).path_reuse_px;
+        // Paths share their tails or branch: one of the two.
+        let of_paths = |own: &WayToRender, other: &WayToRender| WayToRender {
+            path_reuse_px: other.path_reuse_px,
+            branches: other.branches,
+            ..*own
+        };
+        let WayToRender { path_reuse_px, branches, .. } = best(of_paths);
         let light_sampling =
             best(|own, other| WayToRender { light_sampling: other.light_sampling, ..*own }).light_sampling;
         let accelerator = best(|own, other| WayToRender { accelerator: other.accelerator, ..*own }).accelerator;
@@ -318,8 +325,9 @@ impl Bench<'_> {
             .map(|recommendation| recommendation.point.way)
             .collect();
         for way in called {
-            let shared = if way.integrator == Integrator::Path { path_reuse_px } else { 1 };
-            let joined = WayToRender { wavelengths, path_reuse_px: shared, light_sampling, accelerator, ..way };
+            let (path_reuse_px, branches) =
+                if way.integrator == Integrator::Path { (path_reuse_px, branches) } else { (1, 1) };
+            let joined = WayToRender { wavelengths, path_reuse_px, branches, light_sampling, accelerator, ..way };
             let base = self.ways.iter().find(|m| m.way == way).and_then(|m| m.bias.as_ref()).map(|b| b.against);
             self.choose(joined, way, base)?;
         }

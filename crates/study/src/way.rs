@@ -41,6 +41,8 @@ pub struct WayToRender {
     pub caustics: bool,
     /// Whether lobes are widened that come after wider ones; of paths only.
     pub regularize: bool,
+    /// How many paths go on, and lights are drawn, at the first surface of a sample; of paths only.
+    pub branches: u32,
     /// Side of the squares of pixels that share the tails of their paths; of paths only.
     pub path_reuse_px: u32,
     /// What lights are drawn by: "gloss" or "irradiance".
@@ -64,6 +66,7 @@ impl WayToRender {
             max_bounces: settings.max_bounces,
             caustics: settings.caustics,
             regularize: settings.regularize,
+            branches: settings.branches,
             path_reuse_px: settings.path_reuse_px,
             light_sampling: settings.light_sampling,
             wavelengths: settings.wavelengths,
@@ -81,6 +84,7 @@ impl WayToRender {
             keys.push(("regularize", self.regularize.to_string()));
             // What it learns belongs to whole pictures, of which a study renders parts.
             keys.push(("guiding", "false".to_owned()));
+            keys.push(("branches", self.branches.to_string()));
             keys.push(("path_reuse_px", self.path_reuse_px.to_string()));
         }
         keys.push(("light_sampling", format!("\"{}\"", self.light_sampling)));
@@ -113,8 +117,9 @@ impl WayToRender {
         }
         let caustics = if self.caustics { "caustics" } else { "no caustics" };
         let lobes = if self.regularize { ", widened lobes" } else { "" };
+        let branches = if self.branches == 1 { String::new() } else { format!(", {} branches", self.branches) };
         let reuse = if self.path_reuse_px == 1 { String::new() } else { format!(", reuse {} px", self.path_reuse_px) };
-        format!("path, {} bounces, {caustics}{lobes}{reuse}, {wavelengths}{accelerator}", self.max_bounces)
+        format!("path, {} bounces, {caustics}{lobes}{branches}{reuse}, {wavelengths}{accelerator}", self.max_bounces)
     }
 
     /// Whether it follows all the light that the exact form follows: it has no bias.
@@ -146,12 +151,13 @@ const BLIND: &str = "irradiance";
 pub(crate) const LIGHT_SAMPLINGS: [&str; 2] = ["gloss", BLIND];
 
 /// Keys of `[render]` that say a way.
-pub(crate) const WAY_KEYS: [&str; 9] = [
+pub(crate) const WAY_KEYS: [&str; 10] = [
     "integrator",
     "max_bounces",
     "caustics",
     "regularize",
     "guiding",
+    "branches",
     "path_reuse_px",
     "light_sampling",
     "wavelengths_per_path",

@@ -11,6 +11,7 @@ mod bad_processing;
 mod bad_results;
 mod bad_sensors;
 mod black_boxes;
+mod branches;
 mod browser;
 mod bytes;
 mod characterise;

@@ -31,6 +31,14 @@ impl PathStream {
         Self { mirrored: sample.reverse_bits(), ..self }
     }
 
+    /// The numbers of one of the equal branches that a sample has from some point on: those that a sample of as many times more
+    /// would have, so that the branches of all samples are spread as evenly as samples are.
+    #[inline]
+    #[must_use]
+    pub fn branch(self, branch: u32, of: u32) -> Self {
+        self.with_sample(self.sample().wrapping_mul(of).wrapping_add(branch))
+    }
+
     /// Which sample of its pixel and replicate.
     #[inline]
     #[must_use]

@@ -72,6 +72,8 @@ pub struct SettingsReport {
     pub regularize: bool,
     /// Whether matt surfaces draw directions by what paths before the picture have found.
     pub guiding: bool,
+    /// How many paths go on, and lights are drawn, at the first surface of a sample.
+    pub branches: u32,
     /// Samples a pixel; the most that a pixel gets where noise decides.
     pub spp: u32,
     /// Samples that every pixel gets where noise decides; else null.
@@ -232,6 +234,7 @@ impl SettingsReport {
             caustics: s.caustics && s.level == Level::Path,
             regularize: s.regularize,
             guiding: s.guiding,
+            branches: s.branches,
             spp: s.spp,
             min_spp: s.adaptive.map(|limit| limit.min_spp),
             noise_threshold: s.adaptive.map(|limit| limit.threshold),

@@ -261,6 +261,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
             "max_bounces": settings.max_bounces,
             "regularize": settings.regularize,
             "guiding": settings.guiding,
+            "branches": settings.branches,
             "light_sampling": settings.light_sampling.word(),
             "wavelengths_per_path": settings.wavelengths,
             "wavelength_density": settings.wavelength_sampling.word(),

@@ -209,6 +209,7 @@ pub(super) fn settings(
         caustics: level != Level::Path || render.caustics.as_ref().is_none_or(|c| c.value),
         regularize: level == Level::Path && render.regularize.as_ref().is_some_and(|r| r.value),
         guiding: guiding(level, render, choices, context),
+        branches: render.branches.as_ref().filter(|_| level == Level::Path).map_or(1, |b| b.value as u32),
         light_sampling: match render.light_sampling.as_ref().map(|sampling| sampling.value) {
             Some(render::LightSampling::Irradiance) => LightSampling::Irradiance,
             Some(render::LightSampling::Gloss) | None => LightSampling::Gloss,

@@ -3,7 +3,7 @@
 //! Paths are those of the street scene (docs/performance.md): other scenes' take from a tenth of it to three times as long.
 
 use super::film_cost::{self, Share};
-use super::path_cost::path_cpu_s;
+use super::path_cost::{branches_cpu_s, path_cpu_s};
 use crate::plan::{CameraPlan, FilmBytes, Plan};
 use crate::render::training;
 
@@ -35,7 +35,7 @@ impl FrameCost {
         let paths = if is_served { 0.0 } else { own + guiding };
         Self {
             paths,
-            paths_cpu_s: paths * path_cpu_s(camera),
+            paths_cpu_s: paths * (path_cpu_s(camera) + branches_cpu_s(camera)),
             parts: film_cost::shares(plan, camera),
             film: plan.film_bytes(camera),
             is_lower_bound: settings.adaptive.is_some(),

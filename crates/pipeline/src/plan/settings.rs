@@ -44,6 +44,8 @@ pub struct Settings {
     pub regularize: bool,
     /// Whether matt surfaces draw directions by what paths before the picture have found; of paths only.
     pub guiding: bool,
+    /// How many paths go on, and lights are drawn, at the first surface; 1 where no paths are traced.
+    pub branches: u32,
     /// What lights are drawn by.
     pub light_sampling: LightSampling,
     /// Wavelengths a path: 1, 4 or 8.

@@ -315,6 +315,7 @@ pub(super) fn path_settings(camera: &CameraPlan, pass: PassAt) -> PathSettings {
         cone_spread_rad: pitch_tan(camera) as f32 * sample_width(covering / replicates),
         caustics: camera.settings.caustics,
         regularize: camera.settings.regularize,
+        branches: camera.settings.branches,
         light_sampling: camera.settings.light_sampling,
         ..PathSettings::default()
     }

@@ -51,6 +51,10 @@ record! {
         /// Whether matt surfaces scatter paths to where light was found to come from (path guiding): before each pass a sixteenth as many paths as it has (with "noise_threshold", as "min_spp" makes),
         /// at most 524 288, are followed. Noise of indirect light depends on it, no mean does. Belongs to integrator = "path". Default: false.
         optional guiding: Placed<bool> = flag();
+        /// Paths that go on, and lights that are drawn, at the first surface that is no mirror, for each sample, 1 … 64 (branched path tracing): the way there is paid once, and
+        /// light has the noise of as many more samples, for less time where that way is long. Edges, depth of field and motion
+        /// have the noise of "spp". No mean changes. Excludes "path_reuse_px" above 1; belongs to integrator = "path". Default: 1.
+        optional branches: Placed<u64> = whole(1, 64);
         /// Paths of blocks of this many by this many pixels of one colour share their tails: 1 (none do), 2, 4 or 8. It takes
         /// much less time for the same error where light is scattered from surface to surface, but errors of the pixels of
         /// a block are then alike. Belongs to integrator = "path". Default: 1.
@@ -240,6 +244,7 @@ impl Render {
             caustics: None,
             regularize: None,
             guiding: None,
+            branches: None,
             path_reuse_px: None,
             light_sampling: None,
             wavelengths_per_path: None,
@@ -286,6 +291,7 @@ impl Render {
             ("caustics", self.caustics.as_ref().map(|c| &c.place)),
             ("regularize", self.regularize.as_ref().map(|r| &r.place)),
             ("guiding", self.guiding.as_ref().map(|g| &g.place)),
+            ("branches", self.branches.as_ref().map(|b| &b.place)),
             ("path_reuse_px", self.path_reuse_px.as_ref().map(|t| &t.place)),
         ];
         keys.into_iter().filter_map(|(key, place)| Some((key, place?)))
@@ -314,6 +320,7 @@ impl Render {
             caustics: a.caustics.or(b.caustics),
             regularize: a.regularize.or(b.regularize),
             guiding: a.guiding.or(b.guiding),
+            branches: a.branches.or(b.branches),
             path_reuse_px: a.path_reuse_px.or(b.path_reuse_px),
             light_sampling: a.light_sampling.or(b.light_sampling),
             wavelengths_per_path: a.wavelengths_per_path.or(b.wavelengths_per_path),
@@ -355,9 +362,19 @@ pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone
     }
 }
 
+/// Paths that branch share no tails.
+fn check_branches(render: &Render, faults: &mut Faults) {
+    let [branches, reuse] = [&render.branches, &render.path_reuse_px].map(|key| key.as_ref().filter(|k| k.value > 1));
+    if let (Some(branches), Some(reuse)) = (branches, reuse) {
+        let problem = format!("paths that branch (\"branches\" = {}) cannot share their tails", branches.value);
+        faults.add(&reuse.place, problem, "give one of \"branches\" and \"path_reuse_px\", or 1 for the other");
+    }
+}
+
 /// Checks a record into which the job's has been merged. The default route is through the lens.
 pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
     render.sample_keys().check(faults);
+    check_branches(render, faults);
     if render.route.as_ref().is_some_and(|r| r.value == Route::Pupil) {
         return;
     }

@@ -52,6 +52,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
 
     /// Follows the path to its end.
     fn train(mut self, training: &Training) {
+        self.branches = false;
         let mut departures = [None; GUIDED_BOUNCES as usize];
         while self.met < MAX_MET && matches!(self.train_step(&mut departures), PathStep::Goes) {
             self.met += 1;

@@ -11,9 +11,11 @@
 //!
 //! All wavelengths of a path share its directions, drawn by densities common to them.
 
+mod branching;
 mod carried;
 mod caustic;
 mod cone;
+mod direct;
 mod effects;
 mod guided;
 mod level;

@@ -17,7 +17,7 @@ use super::{Level, LightSampling, PathTracer};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::guiding::DirectionDistribution;
-use crate::lights::{LightSample, LightSampleContext, ReceiverGloss};
+use crate::lights::{LightSampleContext, ReceiverGloss};
 use crate::materials::{Bsdf, BsdfSample, BsdfValue, Event, GlossLobe, ShadingFrame};
 use crate::media::Phase;
 use crate::precipitation::NearHit;
@@ -36,13 +36,15 @@ pub(super) struct Path<'a, const N: usize, E> {
     pub(super) asked: &'a FieldRay,
     pub(super) ray: Ray,
     pub(super) cone: Cone,
+    /// Whether it branches at the first surface that is no mirror.
+    pub(super) branches: bool,
     /// Scattering events so far.
     pub(super) bounces: u32,
     /// Surfaces met so far, with those that were passed: the vertex's number for random draws.
     pub(super) met: u32,
     /// Way since the last scattering, m: longer than the ray's where it has passed surfaces.
     pub(super) travelled_m: f32,
-    /// Density of the ray's direction, 1/sr; `None` where it came from the camera or a mirror.
+    /// Density of the ray's direction, 1/sr, times the branches of the path at the surface that scattered it; `None` where it came from the camera or a mirror.
     pub(super) scattered: Option<f32>,
     /// Where the ray was last scattered; `None` where it came from the camera or a mirror.
     pub(super) receiver: Option<LightSampleContext>,
@@ -102,6 +104,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             asked,
             ray: asked.ray,
             cone: Cone::new(tracer.settings.cone_spread_rad),
+            branches: tracer.settings.branches > 1,
             bounces: 0,
             met: 0,
             travelled_m: 0.0,
@@ -254,12 +257,19 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         let normal = if transmits { Vec3::ZERO } else { vertex.frame.normal() };
         let gloss = if !E::SURFACES || transmits { None } else { self.gloss(vertex) };
         let (position, time_s) = (vertex.point.position, vertex.point.time_s);
-        let receiver = LightSampleContext { position, normal, gloss, in_view: self.history.is_seen(), time_s };
+        let draws = self.branches(vertex);
+        let receiver = LightSampleContext { position, normal, gloss, in_view: self.history.is_seen(), draws, time_s };
         self.sample_direct(vertex, &receiver);
+        if draws > 1 { self.branch(vertex, &receiver) } else { self.scatter_on(vertex, &receiver) }
+    }
+
+    /// On from a surface in a drawn direction.
+    #[inline(always)]
+    pub(super) fn scatter_on(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) -> PathStep {
         match self.sample(vertex) {
             None => PathStep::Ends,
             Some(sample) if E::SURFACES && sample.event == Event::Null => self.go_through(vertex, &sample),
-            Some(sample) => self.go_on(vertex, &sample, &receiver),
+            Some(sample) => self.go_on(vertex, &sample, receiver),
         }
     }
 
@@ -309,44 +319,6 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         ShadingFrame::new(point, normal, -direction)
     }
 
-    /// Next-event estimation: light of one drawn light, as far as it comes through.
-    fn sample_direct(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) {
-        let lights = self.tracer.lights;
-        if !lights.can_be_drawn() || (E::SURFACES && vertex.bsdf.is_delta()) {
-            return;
-        }
-        let choice = if lights.are_many() { self.asked.stream.one(Draw::LightChoice, self.met) } else { 0.0 };
-        let u = self.asked.stream.two(Draw::LightPoint, self.met);
-        let spread = self.cone.spread_rad;
-        let asked = (self.wavelengths, self.lit());
-        let Some(light) = lights.sample(receiver, (choice, u), spread, self.tracer.material_table, asked) else {
-            return;
-        };
-        let Some(wi) = vertex.frame.inward(light.direction) else { return };
-        let value = self.evaluate(vertex, wi);
-        if !(light.surrounds || self.follows(self.history.would_be_caustic(value.pdf))) {
-            return;
-        }
-        let arriving = self.throughput
-            * value.value_cos
-            * light.radiance
-            * self.drawn_weight(&light, vertex.density(wi, value.pdf));
-        let following = self.following(self.history.would_be_matt(value.pdf));
-        if !arriving.is_zero()
-            && let Some(share) = self.share(vertex, &light, (self.medium_towards(vertex, wi), following))
-        {
-            self.radiance += arriving * share;
-        }
-    }
-
-    /// What drawn light counts beside the other way of finding it, over its density. A lamp without an opening is found in no
-    /// other way, and nor are surfaces where no ray is sent out to meet them.
-    pub(super) fn drawn_weight(&self, light: &LightSample<N>, scattered: f32) -> f32 {
-        let settings = &self.tracer.settings;
-        let only = light.delta || (settings.level == Level::Flat && light.target.is_some());
-        if only { 1.0 / light.pdf } else { settings.strategies.drawn(light.pdf, scattered) / light.pdf }
-    }
-
     /// Value and density of light that arrives at a surface from `wi`.
     #[inline(always)]
     pub(super) fn evaluate(&self, vertex: &Vertex<'_, N>, wi: Vec3) -> BsdfValue<N> {
@@ -393,7 +365,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     }
 
     /// What light crosses that arrives at a surface from `wi`.
-    fn medium_towards(&self, vertex: &Vertex<'a, N>, wi: Vec3) -> Medium<'a> {
+    pub(super) fn medium_towards(&self, vertex: &Vertex<'a, N>, wi: Vec3) -> Medium<'a> {
         if E::SURFACES && wi.z < 0.0 {
             let table = self.tracer.material_table;
             Medium::beyond(
@@ -424,7 +396,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
             self.cone.scatter(pdf);
         }
         let relative = vertex.relative_density(sample.wi);
-        self.scattered = bsdf_density.map(|pdf| pdf * relative);
+        self.scattered = bsdf_density.map(|pdf| pdf * relative * receiver.draws as f32);
         self.carried.scale(relative);
         self.receiver = self.scattered.map(|_| *receiver);
         self.medium = self.medium_towards(vertex, sample.wi);

@@ -32,6 +32,8 @@ pub struct PathSettings {
     pub max_bounces: u32,
     /// Scattering events after which paths may end at random; those that mirrors alone have scattered never do.
     pub roulette_start: u32,
+    /// How many lights are drawn and how many paths go on at the first surface that is no mirror, 1 or more (`branching.rs`).
+    pub branches: u32,
     /// Samples of a replicate, or of a run of them where their number is not known before: paths that share their tails take turns over them.
     pub samples: u32,
     /// Full angle of the cone that a camera ray stands for, rad: that of a pixel over the root of its samples. Chooses the
@@ -56,6 +58,7 @@ impl Default for PathSettings {
             level: Level::Path,
             max_bounces: 16,
             roulette_start: 2,
+            branches: 1,
             samples: 1,
             cone_spread_rad: 0.0,
             strategies: Strategies::Both,

@@ -86,7 +86,10 @@ impl PathTracer<'_> {
     pub(super) fn shares(&self) -> bool {
         let settings = &self.settings;
         // Between surfaces no path sees what another has found there.
-        self.effects != SceneEffects::Every && settings.level == Level::Path && settings.max_bounces > 1
+        self.effects != SceneEffects::Every
+            && settings.level == Level::Path
+            && settings.max_bounces > 1
+            && settings.branches == 1
     }
 }
 

@@ -58,17 +58,17 @@ impl Choice {
         near + self.suns.len() + usize::from(self.environment > 0.0) > 1
     }
 
-    /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver.
+    /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver. What the receiver
+    /// starts with ([`Choice::start`], [`Choice::local_share`]) serves all its draws.
     pub(super) fn pick<F: Fn(u32) -> LampIrradiance>(
         &self,
         question: &TreeQuery<'_, F>,
+        (start, local): (&Start, f32),
         u: f64,
     ) -> Option<(Chosen, f32)> {
-        let start = self.start(question);
-        let local = self.local_share(question, &start);
         let (share, chosen) = match &self.tree {
             Some(tree) if u < f64::from(local) => {
-                let (light, probability) = tree.pick(question, &start, u / f64::from(local))?;
+                let (light, probability) = tree.pick(question, start, u / f64::from(local))?;
                 (local, (Chosen::Local(light), probability))
             }
             _ => {
@@ -130,15 +130,16 @@ impl Choice {
 
     /// Where the receiver starts in the tree: large, so that it is made where it stays.
     #[inline(always)]
-    fn start<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Start {
+    pub(super) fn start<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Start {
         match &self.tree {
             Some(tree) => tree.start(question),
             None => Start::Only,
         }
     }
 
+    /// The share of the draws that lights in the scene get.
     #[inline(always)]
-    fn local_share<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f32 {
+    pub(super) fn local_share<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f32 {
         let Some(tree) = &self.tree else { return 0.0 };
         if !(ALL_EFFECTS && self.has_distant) {
             return 1.0;
@@ -184,12 +185,13 @@ mod tests {
         let sun = Sun::of_radiance(DVec3::Z, 0.5, Spectrum::constant(1.0)).expect("a sun");
         let choice = Choice::new(&[], vec![(sun, 3.0)], 1.0);
         for (normal, of_sun) in [(Vec3::Z, 0.75), (Vec3::ZERO, 0.75), (Vec3::NEG_Z, 0.0)] {
-            let receiver =
-                LightSampleContext { position: Vec3::ZERO, normal, gloss: None, in_view: false, time_s: 0.0 };
+            let receiver = LightSampleContext::matt(Vec3::ZERO, normal);
             let question = TreeQuery { receiver: &receiver, lamp: |_| LampIrradiance::default() };
+            let start = choice.start(&question);
+            let start = (&start, choice.local_share(&question, &start));
             let mut counts = [0; 3];
             for i in 0..1000 {
-                match choice.pick(&question, (f64::from(i) + 0.5) / 1000.0) {
+                match choice.pick(&question, start, (f64::from(i) + 0.5) / 1000.0) {
                     Some((Chosen::Sun(0), probability)) => counts[0] += usize::from(probability == 0.75),
                     Some((Chosen::Environment, probability)) => counts[1] += usize::from(probability == 0.25),
                     other => counts[2] += usize::from(other.is_none()),

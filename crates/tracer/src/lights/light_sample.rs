@@ -15,7 +15,7 @@ pub struct LightSample<const N: usize> {
     /// Spectral radiance towards the point; of a lamp without an opening the spectral irradiance of a surface that faces it.
     pub radiance: Spectral<N>,
     /// Density of the direction, with that of the choice, 1/sr; of a lamp without an opening the probability of the choice.
-    /// Positive.
+    /// Times the number of the receiver's draws ([`LightSampleContext::draws`]). Positive.
     pub pdf: f32,
     /// Whether it is a lamp without an opening: nothing but a draw can find it.
     pub delta: bool,
@@ -36,7 +36,7 @@ impl<const N: usize> LightSample<N> {
 pub struct DistantLight<const N: usize> {
     /// Spectral radiance.
     pub radiance: Spectral<N>,
-    /// Density by which `Lights::sample` would have given the direction for it, 1/sr.
+    /// Density by which the receiver's draws would have given the direction for it, 1/sr.
     pub pdf: f32,
     /// Whether it is light of the surroundings, and of no sun.
     pub surrounds: bool,

@@ -18,6 +18,8 @@ pub struct LightSampleContext {
     /// Whether the camera sees the point itself, straight or by mirrors, so that no scattering averages its error: a light is then
     /// chosen with more care, for more time. Without effect where there is `gloss`.
     pub in_view: bool,
+    /// How many lights it draws, 1 or more. Densities of what is drawn are those of all its draws together.
+    pub draws: u32,
     /// When light is asked for, s: as [`etendue_core::Ray::time_s`].
     pub time_s: f32,
 }
@@ -26,7 +28,7 @@ impl LightSampleContext {
     /// A matt receiver out of view, at the start of the view's interval.
     #[must_use]
     pub fn matt(position: Vec3, normal: Vec3) -> Self {
-        Self { position, normal, gloss: None, in_view: false, time_s: 0.0 }
+        Self { position, normal, gloss: None, in_view: false, draws: 1, time_s: 0.0 }
     }
 
     /// A point in a medium, which light counts for from every side.

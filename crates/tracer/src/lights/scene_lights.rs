@@ -12,7 +12,7 @@ use super::primitives::Primitives;
 use super::sample_context::LightSampleContext;
 use super::sources::Sources;
 use super::sun::Sun;
-use super::tree::TreeQuery;
+use super::tree::{Start, TreeQuery};
 use crate::geometry::SurfacePoint;
 use crate::materials::MaterialTable;
 use crate::render_space::RenderSpace;
@@ -105,14 +105,33 @@ impl Lights {
     pub fn sample<const N: usize>(
         &self,
         receiver: &LightSampleContext,
-        (choice, u): (f32, Vec2),
+        u: (f32, Vec2),
         spread_rad: f32,
         material_table: &MaterialTable,
         asked: (&Wavelengths<N>, &TimeInterval),
     ) -> Option<LightSample<N>> {
-        // Deep in a tree more digits are needed than the one number has; the other's place on the light is not felt.
-        let fine = f64::from(choice) + f64::from(u.x) * DIGIT;
-        let (chosen, probability) = self.choice.pick(&self.question(receiver), fine)?;
+        self.drawing(receiver).sample(u, spread_rad, material_table, asked)
+    }
+
+    /// What the receiver draws lights from: made once for all its draws.
+    #[inline(always)]
+    pub(crate) fn drawing<'a>(&'a self, receiver: &'a LightSampleContext) -> LightDrawing<'a> {
+        let question = self.question(receiver);
+        let start = self.choice.start(&question);
+        let local = self.choice.local_share(&question, &start);
+        LightDrawing { lights: self, receiver, start, local }
+    }
+
+    /// A drawn light and a direction towards it.
+    #[inline(always)]
+    fn sample_of<const N: usize>(
+        &self,
+        (chosen, probability): (Chosen, f32),
+        receiver: &LightSampleContext,
+        u: Vec2,
+        spread_rad: f32,
+        (material_table, asked): (&MaterialTable, (&Wavelengths<N>, &TimeInterval)),
+    ) -> Option<LightSample<N>> {
         let from = receiver.position;
         let sample = if let Chosen::Local(i) = chosen
             && let Light::Triangle(t) = &self.lights[i]
@@ -122,7 +141,7 @@ impl Lights {
             is_optional();
             self.sample_of_other(chosen, receiver, u, spread_rad, (material_table, asked))?
         };
-        let pdf = sample.pdf * probability;
+        let pdf = sample.pdf * probability * receiver.draws as f32;
         (pdf > 0.0).then_some(LightSample { pdf, ..sample })
     }
 
@@ -178,7 +197,8 @@ impl Lights {
             Light::Carried(lamp) => lamp.pdf(met),
             Light::Lamp(_) => 0.0,
         };
-        pdf * self.choice.probability(&self.question(met.receiver), Chosen::Local(i))
+        let probability = self.choice.probability(&self.question(met.receiver), Chosen::Local(i));
+        pdf * probability * met.receiver.draws as f32
     }
 
     /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, of a lamp's opening that a ray of unit `direction` has met at `point`; `None` where
@@ -208,7 +228,9 @@ impl Lights {
         wavelengths: &'a Wavelengths<N>,
     ) -> impl Iterator<Item = DistantLight<N>> + 'a {
         let drawn = move |light: Chosen| {
-            receiver.map_or(0.0, |receiver| self.choice.probability(&self.question(receiver), light))
+            receiver.map_or(0.0, |receiver| {
+                self.choice.probability(&self.question(receiver), light) * receiver.draws as f32
+            })
         };
         let suns =
             self.suns.iter().filter(|_| ALL_EFFECTS).enumerate().filter(move |(_, sun)| sun.covers(direction)).map(
@@ -223,6 +245,33 @@ impl Lights {
             DistantLight { radiance, pdf, surrounds: true }
         });
         suns.chain(environment)
+    }
+}
+
+/// A receiver with what it draws lights from. Large: it stays where it is made.
+pub(crate) struct LightDrawing<'a> {
+    lights: &'a Lights,
+    receiver: &'a LightSampleContext,
+    start: Start,
+    /// The share of the draws that lights in the scene get.
+    local: f32,
+}
+
+impl LightDrawing<'_> {
+    /// One draw, as [`Lights::sample`].
+    #[inline(always)]
+    pub(crate) fn sample<const N: usize>(
+        &self,
+        (choice, u): (f32, Vec2),
+        spread_rad: f32,
+        material_table: &MaterialTable,
+        asked: (&Wavelengths<N>, &TimeInterval),
+    ) -> Option<LightSample<N>> {
+        let Self { lights, receiver, start, local } = self;
+        // Deep in a tree more digits are needed than the one number has; the other's place on the light is not felt.
+        let fine = f64::from(choice) + f64::from(u.x) * DIGIT;
+        let chosen = lights.choice.pick(&lights.question(receiver), (start, *local), fine)?;
+        lights.sample_of(chosen, receiver, u, spread_rad, (material_table, asked))
     }
 }
 

@@ -49,7 +49,7 @@ fn other_hours() -> Vec<File> {
     let wet = hours::job("The street at night after rain.", "scene-wet-night.toml", "automotive-night.toml");
     let wet = wet.replace(
         "caustics = false\n",
-        "caustics = false\n# Car paint sees the wet road, and the wet road car paint.\nregularize = true\n",
+        "caustics = false\n# Car paint sees the wet road, and the wet road car paint.\nregularize = true\n# Dim walls are lit by way of the road: four lights and four paths for each ray through the lens.\nbranches = 4\n",
     );
     let files = [
         ("scene-sunset.toml", hours::sunset_scene()),

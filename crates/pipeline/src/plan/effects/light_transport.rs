@@ -2,7 +2,7 @@
 
 use super::key_changes::of_camera;
 use super::planned_effect::{EffectGroup, PlannedEffect, where_there};
-use crate::plan::path_cost::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, TWO_BOUNCES_CPU_S, path_cpu_s};
+use crate::plan::path_cost::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, TWO_BOUNCES_CPU_S, branches_cpu_s, path_cpu_s};
 use crate::plan::{CameraPlan, FrameCost, Plan, Settings};
 use crate::render::block::Blocks;
 use crate::render::training;
@@ -23,6 +23,7 @@ pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
         regularization(camera),
         light_sampling(camera),
         guiding(camera),
+        branches(camera, paths),
         path_reuse(camera),
         adaptive_sampling(camera),
         never("polarisation"),
@@ -45,7 +46,7 @@ fn shadows(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     );
     let cpu_s = paths * (DIRECT_PATH_CPU_S - FLAT_PATH_CPU_S);
     let effect = PlannedEffect::new(GROUP, "shadows", status).described_by("render.integrator").taking(cpu_s);
-    let saved_s = paths * (path_cpu_s(camera) - FLAT_PATH_CPU_S);
+    let saved_s = paths * (path_cpu_s(camera) + branches_cpu_s(camera) - FLAT_PATH_CPU_S);
     effect.dropped_by([of_camera(camera, "render.integrator", "flat")]).saving(saved_s)
 }
 
@@ -123,6 +124,17 @@ fn guiding(camera: &CameraPlan) -> PlannedEffect {
     );
     let effect = PlannedEffect::new(GROUP, "path guiding", status).described_by("render.guiding");
     effect.dropped_by([of_camera(camera, "render.guiding", "false")]).taking(paths as f64 * path_cpu_s(camera))
+}
+
+fn branches(camera: &CameraPlan, paths: f64) -> PlannedEffect {
+    let branches = camera.settings.branches;
+    let status = where_there(
+        branches > 1,
+        format!("{branches} lights are drawn and {branches} paths go on at the first surface of a sample"),
+        "one light is drawn and one path goes on at the first surface of a sample",
+    );
+    let effect = PlannedEffect::new(GROUP, "branched paths", status).described_by("render.branches");
+    effect.dropped_by([of_camera(camera, "render.branches", "1")]).taking(paths * branches_cpu_s(camera))
 }
 
 fn light_sampling(camera: &CameraPlan) -> PlannedEffect {

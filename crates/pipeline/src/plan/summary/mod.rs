@@ -207,6 +207,13 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         let paths = count(training::paths_of(camera) as usize, "path");
         line(f, "guided", format!("directions at matt surfaces, by what {paths} find before the picture"))?;
     }
+    if s.branches > 1 {
+        line(
+            f,
+            "branched",
+            format!("{0} lights are drawn and {0} paths go on at each sample's first surface", s.branches),
+        )?;
+    }
     if s.regularize {
         line(f, "widened", "lobes of metals, coats, glass and paint behind wider ones (a bias), as asked")?;
     }

@@ -4,6 +4,7 @@
 //! 31 degrees of freedom (0.5 %), plus 1e-5 for the rounding of f32.
 
 mod agreement;
+mod branching;
 mod carried;
 mod closed_forms;
 mod glossy;

@@ -1,0 +1,45 @@
+//! Paths that branch: what is told of them, what they exclude and what they may not change.
+
+use crate::support::{BALL, assert_same, contents, etendue, rendered, text};
+use std::path::Path;
+
+fn job(folder: &Path, render: &str) -> String {
+    let path = folder.join("job.toml");
+    let written = format!("{BALL}\n[render]\nspp = 8\nreplicates = 4\nmax_bounces = 4\nseed = 5\n{render}");
+    std::fs::write(&path, written).expect("written");
+    text(&path)
+}
+
+#[test]
+fn threads_tiles_and_shards_do_not_change_what_branches_find() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let branched = job(place.path(), "branches = 3\n");
+    let whole = rendered(&branched, &["--threads", "1"]);
+    assert_same(&whole, &rendered(&branched, &["--set", "render.tile_px=8"]), "small tiles");
+    let folder = |name: &str| text(&place.path().join(name));
+    for index in ["0/2", "1/2"] {
+        etendue(["render", &branched, "-o", &folder(&index[..1]), "--shard", index]).ok();
+    }
+    etendue(["merge", &folder("0"), &folder("1"), "-o", &folder("all")]).ok();
+    assert_same(&whole, &contents(Path::new(&folder("all"))), "two shards");
+    let one = rendered(&branched, &["--set", "render.branches=1"]);
+    assert_ne!(whole["front/radiance.exr"], one["front/radiance.exr"], "branches find other light");
+}
+
+#[test]
+fn the_plan_tells_branches_and_refuses_what_they_exclude() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let plan = etendue(["plan", &job(place.path(), "branches = 4\n")]).ok().out;
+    assert!(plan.contains("4 lights are drawn and 4 paths go on at each sample's first surface"), "{plan}");
+    let refused = |render: &str, told: &[&str]| {
+        etendue(["plan", &job(place.path(), render)]).refused(told);
+    };
+    let both = ["job.toml", "path_reuse_px", "(\"branches\" = 4) cannot share their tails", "give one of"];
+    refused("branches = 4\npath_reuse_px = 2\n", &both);
+    refused("branches = 0\n", &["job.toml", "branches: found 0"]);
+    refused("branches = 65\n", &["job.toml", "branches: found 65"]);
+    let direct = ["job.toml", "\"branches\" has no effect here, it belongs to integrator = \"path\""];
+    refused("branches = 4\nintegrator = \"direct\"\n", &direct[1..]);
+    etendue(["plan", &job(place.path(), "branches = 1\npath_reuse_px = 2\n")]).ok();
+    etendue(["plan", &job(place.path(), "branches = 4\npath_reuse_px = 1\n")]).ok();
+}

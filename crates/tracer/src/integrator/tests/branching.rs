@@ -1,0 +1,126 @@
+//! Paths that branch at their first surface against paths that do not.
+
+use super::media::fog;
+use super::sharing::{TARGETS, corner, estimates};
+use super::*;
+use crate::guiding::Training;
+use crate::lights::LightSampleContext;
+use crate::materials::Leaf;
+use crate::media::{Media, Phase, Shape as Region};
+use glam::Vec2;
+
+fn settings(branches: u32, strategies: Strategies) -> PathSettings {
+    PathSettings { max_bounces: 6, branches, strategies, ..PathSettings::default() }
+}
+
+/// Means of 32 replicates towards each target.
+fn looks(ready: &Ready, targets: &[[f32; 3]], samples: u32, settings: PathSettings) -> Vec<ReplicateEstimate> {
+    let view = ready.world.render_space(DVec3::ZERO);
+    let lights = ready.lights(&view);
+    estimates(&PathTracer::new(&view, &ready.material_table, &lights, settings), targets, samples, false)
+}
+
+/// Matt, coated (smooth and rough), translucent and mirroring floors, with a sky, a glowing ball, a mirror, gaps and a pane, and all matt in the sun; light drawn and
+/// met, only drawn and only met: the weights hold all draws and branches.
+#[test]
+fn branches_leave_every_mean() {
+    let half = || Reflectance::Spectrum(Spectrum::constant(0.45));
+    let leaf = || Surface::Leaf(Box::new(Leaf { reflectance: half(), transmittance: half() }));
+    let floors = [(matt(0.7), true), (matt(0.7), false), (paint(0.6, 0.2), true), (paint(0.6, 0.0), true)];
+    for (floor, glows) in floors.into_iter().chain([(leaf(), true), (aluminium(0.0), true)]) {
+        let ready = corner(floor, glows);
+        for strategies in [Strategies::Both, Strategies::Lights] {
+            let one = looks(&ready, &TARGETS, 256, settings(1, strategies));
+            let three = looks(&ready, &TARGETS, 128, settings(3, strategies));
+            three.iter().zip(&one).for_each(|(a, b)| agree(a, b));
+        }
+    }
+}
+
+/// Without a sun, which is met by chance in few samples, light that is only met has the mean of light that is drawn, too.
+#[test]
+fn light_that_branches_meet_is_weighed_by_all_of_them() {
+    let mut ready = corner(matt(0.7), true);
+    ready.sources.suns.clear();
+    let close: Vec<_> = (0..4).map(|i| [0.9 + 0.05 * i as f32, 0.5, 0.0]).collect();
+    let one = looks(&ready, &close, 512, settings(1, Strategies::Both));
+    for strategies in [Strategies::Both, Strategies::Scattering] {
+        let four = looks(&ready, &close, 256, settings(4, strategies));
+        four.iter().zip(&one).for_each(|(a, b)| agree(a, b));
+        four.iter().for_each(|e| assert!(e.standard_error() < 0.01 * e.mean, "{strategies:?} {e:?}"));
+    }
+}
+
+#[test]
+fn branches_leave_every_mean_in_fog_and_under_a_guide() {
+    let ready = corner(matt(0.7), false);
+    let view = ready.world.render_space(DVec3::ZERO);
+    let lights = ready.lights(&view);
+    let fog = [fog(0.1, 0.9, Phase::Isotropic, Region::Ball { radius_m: 6.0 })];
+    let media = Media::new(&fog, DVec3::ZERO, TimeInterval::default());
+    let of = |branches| PathTracer::new(&view, &ready.material_table, &lights, settings(branches, Strategies::Both));
+    let training = Training::default();
+    for path in 0..1_u32 << 12 {
+        let pixel = Pixel { x: path % 64, y: path / 64 };
+        let address = PixelAddress { frame: FrameAddress::default(), pixel, replicate: u32::MAX };
+        let ray = ray([-2.0, -2.0, 2.0], TARGETS[path as usize % TARGETS.len()]);
+        let asked = FieldRay { ray, stream: PathStream::new(&address, path), lit: TimeInterval::default() };
+        of(4).train(&asked, &WAVELENGTHS, &training);
+    }
+    let guide = training.guide();
+    assert!(guide.places() > 8, "paths that would branch teach the guide as well");
+    let alone = |tracer: PathTracer<'_>| estimates(&tracer, &TARGETS, 256, false);
+    for [one, four] in [[1, 4].map(|n| of(n).with_media(&media)), [1, 4].map(|n| of(n).with_guide(Some(&guide)))] {
+        alone(four).iter().zip(&alone(one)).for_each(|(a, b)| agree(a, b));
+    }
+}
+
+/// In the sun, clear of all shadows, a pixel's error comes from the second surface on.
+#[test]
+fn branches_lower_the_error_as_more_samples_do() {
+    let ready = corner(matt(0.7), false);
+    let close: Vec<_> = (0..16).map(|i| [1.6 + 0.01 * (i % 4) as f32, -1.4 + 0.01 * (i / 4) as f32, 0.0]).collect();
+    let relative = |e: &ReplicateEstimate| e.variance_of_mean / (e.mean * e.mean);
+    let error = |samples, branches| {
+        let looks = looks(&ready, &close, samples, settings(branches, Strategies::Both));
+        looks.iter().map(relative).sum::<f64>()
+    };
+    let (few, branched, many) = (error(16, 1), error(16, 4), error(64, 1));
+    // Variances of 16 rays by 32 replicates are good to 6 % (√(2/(16·31))); their ratio, to 9 %: three times that.
+    assert!(branched < 0.4 * few && (branched / many - 1.0).abs() < 0.27, "{few} {branched} {many}");
+}
+
+/// What n draws tell of a light is n times the density of one.
+#[test]
+fn densities_are_those_of_all_draws() {
+    let ready = corner(matt(0.7), true);
+    let view = ready.world.render_space(DVec3::ZERO);
+    let lights = ready.lights(&view);
+    let one = LightSampleContext { in_view: true, ..LightSampleContext::matt(Vec3::new(0.2, -0.5, 0.0), Vec3::Z) };
+    let five = LightSampleContext { draws: 5, ..one };
+    let asked = (&WAVELENGTHS, &TimeInterval::default());
+    for k in 0..64 {
+        let u = ((k as f32 + 0.5) / 64.0, Vec2::new(0.3, 0.6));
+        let [a, b] = [&one, &five].map(|receiver| lights.sample(receiver, u, 0.0, &ready.material_table, asked));
+        let (Some(a), Some(b)) = (a, b) else { panic!("the floor sees every light") };
+        assert!((b.pdf / a.pdf - 5.0).abs() < 1e-5 && b.direction == a.direction && b.radiance == a.radiance);
+        let met =
+            |receiver| lights.distant(a.direction, Some(receiver), &WAVELENGTHS).map(|light| light.pdf).sum::<f32>();
+        assert!((met(&five) - 5.0 * met(&one)).abs() <= 1e-5 * met(&five), "{k}");
+    }
+}
+
+/// The same bits without branches, and for the same branches again.
+#[test]
+fn one_branch_is_the_path_itself() {
+    let ready = corner(paint(0.6, 0.2), true);
+    let values = |branches| {
+        looks(&ready, &TARGETS, 16, settings(branches, Strategies::Both))
+            .iter()
+            .map(|e| e.mean.to_bits())
+            .collect::<Vec<_>>()
+    };
+    let plain = looks(&ready, &TARGETS, 16, PathSettings { max_bounces: 6, ..PathSettings::default() });
+    assert_eq!(values(1), plain.iter().map(|e| e.mean.to_bits()).collect::<Vec<_>>());
+    assert!(values(4) == values(4) && values(4) != values(1));
+}
