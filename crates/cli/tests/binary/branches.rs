@@ -23,7 +23,8 @@ fn threads_tiles_and_shards_do_not_change_what_branches_find() {
     etendue(["merge", &folder("0"), &folder("1"), "-o", &folder("all")]).ok();
     assert_same(&whole, &contents(Path::new(&folder("all"))), "two shards");
     let one = rendered(&branched, &["--set", "render.branches=1"]);
-    assert_ne!(whole["front/radiance.exr"], one["front/radiance.exr"], "branches find other light");
+    let is_picture = |name: &str| name.ends_with(".png");
+    assert!(whole.iter().any(|(name, bytes)| is_picture(name) && one[name] != *bytes), "branches find other light");
 }
 
 #[test]
