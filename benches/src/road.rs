@@ -14,11 +14,12 @@ const NOTE: &str = "The lane 8 to 23 m ahead in the jobs' own pictures (columns 
     the box, nothing left out; of the means over 16 × 16 px likewise. Brightest: the largest pixel of all seeds over the mean.";
 
 /// What is cut out of the picture of 960 × 600 px, whose optical axis is in its middle.
-const BOX: [&str; 4] = [
+const BOX: [&str; 5] = [
     "cameras.0.sensor.width_px=112",
     "cameras.0.sensor.height_px=80",
     "cameras.0.sensor.principal_point_px=[56, -40]",
     "render.replicates=1",
+    "render.branches=1",
 ];
 const WIDTH: usize = 112;
 /// Side of the squares whose means are looked at, px.

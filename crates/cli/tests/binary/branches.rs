@@ -35,12 +35,22 @@ fn the_plan_tells_branches_and_refuses_what_they_exclude() {
     let refused = |render: &str, told: &[&str]| {
         etendue(["plan", &job(place.path(), render)]).refused(told);
     };
-    let both = ["job.toml", "path_reuse_px", "(\"branches\" = 4) cannot share their tails", "give one of"];
-    refused("branches = 4\npath_reuse_px = 2\n", &both);
+    let exclude = "\"path_reuse_px\" and \"branches\" = 4 exclude each other";
+    let both = job(place.path(), "branches = 4\npath_reuse_px = 2\n");
+    etendue(["plan", &both]).refused(&["job.toml", exclude, "give one of the two"]);
     refused("branches = 0\n", &["job.toml", "branches: found 0"]);
     refused("branches = 65\n", &["job.toml", "branches: found 65"]);
     let direct = ["job.toml", "\"branches\" has no effect here, it belongs to integrator = \"path\""];
     refused("branches = 4\nintegrator = \"direct\"\n", &direct[1..]);
+    // What the command line says supersedes what a file says.
+    let branched = job(place.path(), "branches = 4\n");
+    let ran = etendue(["plan", &branched, "--set", "render.path_reuse_px=2"]).ok();
+    assert!(ran.err.contains("supersedes") && ran.err.contains("branches"), "{}", ran.err);
+    assert!(ran.out.contains("tails of the paths of 4 pixels") && !ran.out.contains("lights are drawn"), "{}", ran.out);
+    let sharing = job(place.path(), "path_reuse_px = 2\n");
+    let ran = etendue(["plan", &sharing, "--set", "render.branches=4"]).ok();
+    assert!(ran.err.contains("supersedes") && ran.err.contains("path_reuse_px"), "{}", ran.err);
+    assert!(!ran.out.contains("tails of the paths") && ran.out.contains("4 lights are drawn"), "{}", ran.out);
     etendue(["plan", &job(place.path(), "branches = 1\npath_reuse_px = 2\n")]).ok();
     etendue(["plan", &job(place.path(), "branches = 4\npath_reuse_px = 1\n")]).ok();
 }

@@ -130,6 +130,8 @@ fn directly_lit(render: Render, spp: u32) -> Render {
         max_spp: None,
         max_bounces: None,
         caustics: None,
+        regularize: None,
+        guiding: None,
         branches: None,
         path_reuse_px: None,
         ..render

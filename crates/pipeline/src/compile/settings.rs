@@ -209,7 +209,7 @@ pub(super) fn settings(
         caustics: level != Level::Path || render.caustics.as_ref().is_none_or(|c| c.value),
         regularize: level == Level::Path && render.regularize.as_ref().is_some_and(|r| r.value),
         guiding: guiding(level, render, choices, context),
-        branches: render.branches.as_ref().filter(|_| level == Level::Path).map_or(1, |b| b.value as u32),
+        branches: if level == Level::Path { render.branches_in_force() as u32 } else { 1 },
         light_sampling: match render.light_sampling.as_ref().map(|sampling| sampling.value) {
             Some(render::LightSampling::Irradiance) => LightSampling::Irradiance,
             Some(render::LightSampling::Gloss) | None => LightSampling::Gloss,
@@ -273,10 +273,12 @@ fn max_bounces(level: Level, render: &Render, choices: &Choices) -> u32 {
 
 /// Pixels that share tails. They carry the same wavelengths: where these are drawn `by_colour`, they have one colour.
 fn blocks(level: Level, render: &Render, body: &CameraBody, by_colour: bool) -> Blocks {
-    let Some(side) = render.path_reuse_px.as_ref().filter(|_| level == Level::Path) else { return Blocks::SINGLE };
+    if level != Level::Path {
+        return Blocks::SINGLE;
+    }
     let filter = body.sensor.as_ref().filter(|_| by_colour).map(|sensor| &sensor.parameters().cfa);
     let stride = filter.map_or((1, 1), |cfa| (cfa.width() as u32, (cfa.channels().len() / cfa.width()) as u32));
-    Blocks::new(side.value as u32, stride)
+    Blocks::new(render.path_reuse_in_force() as u32, stride)
 }
 
 /// The most that a film may take, bytes.

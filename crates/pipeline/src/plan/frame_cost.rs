@@ -3,7 +3,7 @@
 //! Paths are those of the street scene (docs/performance.md): other scenes' take from a tenth of it to three times as long.
 
 use super::film_cost::{self, Share};
-use super::path_cost::{branches_cpu_s, path_cpu_s};
+use super::path_cost::{branches_share, path_cpu_s};
 use crate::plan::{CameraPlan, FilmBytes, Plan};
 use crate::render::training;
 
@@ -32,10 +32,11 @@ impl FrameCost {
         let samples = settings.adaptive.map_or(settings.spp, |limit| limit.min_spp);
         let guiding = if settings.guiding { training::paths_of(camera) as f64 } else { 0.0 };
         let own = f64::from(width) * f64::from(height) * f64::from(samples);
-        let paths = if is_served { 0.0 } else { own + guiding };
+        let (own, guiding) = if is_served { (0.0, 0.0) } else { (own, guiding) };
         Self {
-            paths,
-            paths_cpu_s: paths * (path_cpu_s(camera) + branches_cpu_s(camera)),
+            paths: own + guiding,
+            // Paths that learn do not branch.
+            paths_cpu_s: (own * (1.0 + branches_share(camera)) + guiding) * path_cpu_s(camera),
             parts: film_cost::shares(plan, camera),
             film: plan.film_bytes(camera),
             is_lower_bound: settings.adaptive.is_some(),

@@ -21,10 +21,10 @@ pub(crate) fn path_cpu_s(camera: &CameraPlan) -> f64 {
     }
 }
 
-/// What one branch more takes, as a share of the path: 0.58 to 0.69 in the Cornell box and the wet night (docs/decisions/branching.md).
+/// What one branch more takes, as a share of the path: 0.52 to 0.57 in the wet night, 0.69 in the Cornell box (docs/decisions/branching.md).
 const BRANCH: f64 = 0.6;
 
-/// Processor time of all branches of a path beside its first, s.
-pub(crate) fn branches_cpu_s(camera: &CameraPlan) -> f64 {
-    f64::from(camera.settings.branches - 1) * BRANCH * path_cpu_s(camera)
+/// What all branches of a path beside its first take, as a share of the path.
+pub(crate) fn branches_share(camera: &CameraPlan) -> f64 {
+    f64::from(camera.settings.branches - 1) * BRANCH
 }

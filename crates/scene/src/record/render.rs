@@ -267,6 +267,25 @@ impl Render {
         self.noise_threshold.as_ref().filter(|_| self.sample_keys().has_threshold_in_force())
     }
 
+    /// How many paths go on from a first surface.
+    #[must_use]
+    pub fn branches_in_force(&self) -> u64 {
+        above_one(&self.branches).filter(|_| !self.reuse_counts()).map_or(1, |branches| branches.value)
+    }
+
+    /// Side of the squares of pixels whose paths share their tails, px.
+    #[must_use]
+    pub fn path_reuse_in_force(&self) -> u64 {
+        let counts = self.reuse_counts() || above_one(&self.branches).is_none();
+        above_one(&self.path_reuse_px).filter(|_| counts).map_or(1, |side| side.value)
+    }
+
+    /// Whether the command line's "path_reuse_px" supersedes the "branches" of a file.
+    fn reuse_counts(&self) -> bool {
+        let is_of_command = |key: &Option<Placed<u64>>| above_one(key).is_some_and(|key| key.place.is_command_line());
+        is_of_command(&self.path_reuse_px) && !is_of_command(&self.branches)
+    }
+
     /// The passes, where they are stated and count.
     #[must_use]
     pub fn passes_in_force(&self) -> Option<&[Placed<f64>]> {
@@ -362,13 +381,23 @@ pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone
     }
 }
 
-/// Paths that branch share no tails.
+/// Paths that branch share no tails: of the two keys that of the command line counts.
 fn check_branches(render: &Render, faults: &mut Faults) {
-    let [branches, reuse] = [&render.branches, &render.path_reuse_px].map(|key| key.as_ref().filter(|k| k.value > 1));
-    if let (Some(branches), Some(reuse)) = (branches, reuse) {
-        let problem = format!("paths that branch (\"branches\" = {}) cannot share their tails", branches.value);
-        faults.add(&reuse.place, problem, "give one of \"branches\" and \"path_reuse_px\", or 1 for the other");
+    let (Some(branches), Some(reuse)) = (above_one(&render.branches), above_one(&render.path_reuse_px)) else { return };
+    let mut idle = |(key, of): (&str, &Placed<u64>), (other, cause): (&str, &Placed<u64>)| {
+        let problem =
+            format!("\"{key}\" and \"{other}\" = {} exclude each other: paths that branch share no tails", cause.value);
+        faults.add_idle((key, &of.place), Some(&cause.place), problem, "give one of the two, or 1 for the other");
+    };
+    if render.reuse_counts() {
+        idle(("branches", branches), ("path_reuse_px", reuse));
+    } else {
+        idle(("path_reuse_px", reuse), ("branches", branches));
     }
+}
+
+fn above_one(key: &Option<Placed<u64>>) -> Option<&Placed<u64>> {
+    key.as_ref().filter(|key| key.value > 1)
 }
 
 /// Checks a record into which the job's has been merged. The default route is through the lens.

@@ -1,7 +1,7 @@
 //! The path tracer: spectral radiance along a ray.
 //!
 //! Unidirectional paths from the camera (Kajiya 1986). At each vertex a light is drawn and asked (next-event
-//! estimation), then the surface draws where the path goes on; light found in both ways is weighed by its densities
+//! estimation; at the first surface several where paths branch), then the surface draws where the path goes on; light found in both ways is weighed by its densities
 //! (multiple importance sampling). Paths end at random by what is left of what they carried (Russian roulette), which
 //! leaves the mean unchanged. Nothing is clamped.
 //!

@@ -89,7 +89,7 @@ impl PathTracer<'_> {
         self.effects != SceneEffects::Every
             && settings.level == Level::Path
             && settings.max_bounces > 1
-            && settings.branches == 1
+            && settings.branches <= 1
     }
 }
 

@@ -183,7 +183,7 @@ impl Lights {
         TreeQuery { receiver, lamp }
     }
 
-    /// Density by which [`Lights::sample`] would have given the direction to a surface point that was met, 1/sr; 0
+    /// Density by which the receiver's draws would have given the direction to a surface point that was met, 1/sr; 0
     /// where the surface is no light.
     #[must_use]
     pub fn light_pdf(&self, met: &LightHit<'_>) -> f32 {

@@ -2,7 +2,7 @@
 
 use super::key_changes::of_camera;
 use super::planned_effect::{EffectGroup, PlannedEffect, where_there};
-use crate::plan::path_cost::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, TWO_BOUNCES_CPU_S, branches_cpu_s, path_cpu_s};
+use crate::plan::path_cost::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, TWO_BOUNCES_CPU_S, branches_share, path_cpu_s};
 use crate::plan::{CameraPlan, FrameCost, Plan, Settings};
 use crate::render::block::Blocks;
 use crate::render::training;
@@ -46,8 +46,7 @@ fn shadows(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     );
     let cpu_s = paths * (DIRECT_PATH_CPU_S - FLAT_PATH_CPU_S);
     let effect = PlannedEffect::new(GROUP, "shadows", status).described_by("render.integrator").taking(cpu_s);
-    let saved_s = paths * (path_cpu_s(camera) + branches_cpu_s(camera) - FLAT_PATH_CPU_S);
-    effect.dropped_by([of_camera(camera, "render.integrator", "flat")]).saving(saved_s)
+    effect.dropped_by([of_camera(camera, "render.integrator", "flat")]).saving(saved_by(camera, paths, FLAT_PATH_CPU_S))
 }
 
 fn indirect_light(camera: &CameraPlan, paths: f64) -> PlannedEffect {
@@ -64,6 +63,12 @@ fn indirect_light(camera: &CameraPlan, paths: f64) -> PlannedEffect {
         .described_by("render.integrator")
         .dropped_by([of_camera(camera, "render.integrator", "direct")])
         .taking(paths * (path_cpu_s(camera) - DIRECT_PATH_CPU_S))
+        .saving(saved_by(camera, paths, DIRECT_PATH_CPU_S))
+}
+
+/// What an integrator of so much time a sample would save: branches, and paths that learn before the picture, go with the paths.
+fn saved_by(camera: &CameraPlan, paths: f64, sample_s: f64) -> f64 {
+    paths * path_cpu_s(camera) + branches_cpu_s(camera, paths) - branched_paths(camera, paths) * sample_s
 }
 
 /// A limit of two surfaces: what a lamp lights, and what that lights.
@@ -77,10 +82,12 @@ fn later_bounces(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     } else {
         EffectStatus::LeftOut("a path meets two surfaces at most".to_owned())
     };
+    let of_path_s = path_cpu_s(camera) - TWO_BOUNCES_CPU_S;
     PlannedEffect::new(GROUP, "bounces beyond the second", status)
         .described_by("render.max_bounces")
         .dropped_by([of_camera(camera, "render.max_bounces", "2")])
-        .taking(paths * (path_cpu_s(camera) - TWO_BOUNCES_CPU_S))
+        .taking(paths * of_path_s)
+        .saving(of_path_s * (paths + branched_paths(camera, paths) * branches_share(camera)))
 }
 
 fn beyond_the_limit(settings: &Settings) -> PlannedEffect {
@@ -126,6 +133,17 @@ fn guiding(camera: &CameraPlan) -> PlannedEffect {
     effect.dropped_by([of_camera(camera, "render.guiding", "false")]).taking(paths as f64 * path_cpu_s(camera))
 }
 
+/// Of a camera's paths those that may branch: all but those that learn before the picture.
+fn branched_paths(camera: &CameraPlan, paths: f64) -> f64 {
+    let learning = if camera.settings.guiding { training::paths_of(camera) as f64 } else { 0.0 };
+    (paths - learning).max(0.0)
+}
+
+/// Processor time of all branches beside the first of each path, s.
+fn branches_cpu_s(camera: &CameraPlan, paths: f64) -> f64 {
+    branched_paths(camera, paths) * branches_share(camera) * path_cpu_s(camera)
+}
+
 fn branches(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let branches = camera.settings.branches;
     let status = where_there(
@@ -134,7 +152,7 @@ fn branches(camera: &CameraPlan, paths: f64) -> PlannedEffect {
         "one light is drawn and one path goes on at the first surface of a sample",
     );
     let effect = PlannedEffect::new(GROUP, "branched paths", status).described_by("render.branches");
-    effect.dropped_by([of_camera(camera, "render.branches", "1")]).taking(paths * branches_cpu_s(camera))
+    effect.dropped_by([of_camera(camera, "render.branches", "1")]).taking(branches_cpu_s(camera, paths))
 }
 
 fn light_sampling(camera: &CameraPlan) -> PlannedEffect {

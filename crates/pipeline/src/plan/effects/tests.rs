@@ -72,9 +72,13 @@ fn savings_are_differences_of_whole_frames() {
         "effects = { margin = 0.1, psf = { blades = 6 }, glare = { scatter = 0.02, core_um = 25, exponent = 2.5 } }";
     let thin = "lens = { type = \"thin\", focal_length_mm = 6, f_number = 4.0, focus_distance_m = 5 }";
     let glare = "effects = { glare = { scatter = 0.02, core_um = 25, exponent = 2.5 } }";
-    for (camera, render) in
-        [(effects, "band_width_nm = 20\nmax_bounces = 5"), (glare, "band_width_nm = 20"), ("", "max_bounces = 2")]
-    {
+    for (camera, render) in [
+        (effects, "band_width_nm = 20\nmax_bounces = 5"),
+        ("", "branches = 4\nmax_bounces = 5"),
+        ("", "branches = 4\nguiding = true"),
+        (glare, "band_width_nm = 20"),
+        ("", "max_bounces = 2"),
+    ] {
         let plan = plan_of(thin, camera, render, "");
         let whole_s = FrameCost::of(&plan, &plan.cameras[0]).cpu_s();
         let mut compared = 0;

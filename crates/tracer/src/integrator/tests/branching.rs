@@ -37,6 +37,17 @@ fn branches_leave_every_mean() {
     }
 }
 
+/// As wet streets are rendered: smooth and glossy surfaces that send no light of lamps to matt ones, with widened lobes.
+#[test]
+fn branches_leave_what_is_left_out() {
+    for floor in [paint(0.6, 0.2), paint(0.6, 0.0), aluminium(0.1)] {
+        let ready = corner(floor, true);
+        let of = |branches| PathSettings { caustics: false, regularize: true, ..settings(branches, Strategies::Both) };
+        let (one, three) = (looks(&ready, &TARGETS, 256, of(1)), looks(&ready, &TARGETS, 128, of(3)));
+        three.iter().zip(&one).for_each(|(a, b)| agree(a, b));
+    }
+}
+
 /// Without a sun, which is met by chance in few samples, light that is only met has the mean of light that is drawn, too.
 #[test]
 fn light_that_branches_meet_is_weighed_by_all_of_them() {

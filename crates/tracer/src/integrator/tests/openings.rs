@@ -201,13 +201,15 @@ fn many() -> Ready {
 fn many_openings_agree_in_both_ways_of_finding_them() {
     let ready = many();
     for at in [[0.3, 0.2, 0.0], [-1.0, 1.1, 0.0]] {
-        let look = |strategies, samples| {
-            let settings = PathSettings { max_bounces: 2, strategies, ..PathSettings::default() };
+        let look = |strategies, samples, branches| {
+            let settings = PathSettings { max_bounces: 2, strategies, branches, ..PathSettings::default() };
             ready.look(&ray([at[0] - 0.6, at[1] - 0.4, 0.3], at), samples, settings)
         };
-        let both = look(Strategies::Both, 1024);
-        agree(&look(Strategies::Scattering, 8192), &both);
-        agree(&look(Strategies::Lights, 2048), &both);
+        let both = look(Strategies::Both, 1024, 1);
+        agree(&look(Strategies::Scattering, 8192, 1), &both);
+        agree(&look(Strategies::Lights, 2048, 1), &both);
+        agree(&look(Strategies::Both, 512, 3), &both);
+        agree(&look(Strategies::Scattering, 2048, 4), &both);
     }
 }
 
