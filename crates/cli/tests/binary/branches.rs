@@ -1,6 +1,6 @@
-//! Paths that branch: what is told of them, what they exclude and what they may not change.
+//! Paths that branch: what is told of them and what they exclude. That no cut changes their bytes is in `bytes.rs`.
 
-use crate::support::{BALL, assert_same, contents, etendue, rendered, text};
+use crate::support::{BALL, etendue, text};
 use std::path::Path;
 
 fn job(folder: &Path, render: &str) -> String {
@@ -8,23 +8,6 @@ fn job(folder: &Path, render: &str) -> String {
     let written = format!("{BALL}\n[render]\nspp = 8\nreplicates = 4\nmax_bounces = 4\nseed = 5\n{render}");
     std::fs::write(&path, written).expect("written");
     text(&path)
-}
-
-#[test]
-fn threads_tiles_and_shards_do_not_change_what_branches_find() {
-    let place = tempfile::tempdir().expect("a temporary folder");
-    let branched = job(place.path(), "branches = 3\n");
-    let whole = rendered(&branched, &["--threads", "1"]);
-    assert_same(&whole, &rendered(&branched, &["--set", "render.tile_px=8"]), "small tiles");
-    let folder = |name: &str| text(&place.path().join(name));
-    for index in ["0/2", "1/2"] {
-        etendue(["render", &branched, "-o", &folder(&index[..1]), "--shard", index]).ok();
-    }
-    etendue(["merge", &folder("0"), &folder("1"), "-o", &folder("all")]).ok();
-    assert_same(&whole, &contents(Path::new(&folder("all"))), "two shards");
-    let one = rendered(&branched, &["--set", "render.branches=1"]);
-    let is_picture = |name: &str| name.ends_with(".png");
-    assert!(whole.iter().any(|(name, bytes)| is_picture(name) && one[name] != *bytes), "branches find other light");
 }
 
 #[test]

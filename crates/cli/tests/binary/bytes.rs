@@ -71,6 +71,17 @@ fn nor_where_paths_share_their_tails() {
 }
 
 #[test]
+fn nor_where_paths_branch() {
+    same_however_it_is_cut(&["--set", "render.branches=3"]);
+    let branched = rendered(&small(), &["--set", "render.branches=3"]);
+    assert_ne!(
+        branched["front/radiance.exr"],
+        rendered(&small(), &[])["front/radiance.exr"],
+        "branches find other light"
+    );
+}
+
+#[test]
 fn nor_where_paths_before_the_picture_guide_its_own() {
     same_however_it_is_cut(&["--set", "render.guiding=true"]);
     let guided = rendered(&small(), &["--set", "render.guiding=true"]);

@@ -1,9 +1,9 @@
 //! Paths that branch at their first surface against paths that do not.
 
+use super::guided::learnt;
 use super::media::fog;
 use super::sharing::{TARGETS, corner, estimates};
 use super::*;
-use crate::guiding::Training;
 use crate::lights::LightSampleContext;
 use crate::materials::Leaf;
 use crate::media::{Media, Phase, Shape as Region};
@@ -21,7 +21,7 @@ fn looks(ready: &Ready, targets: &[[f32; 3]], samples: u32, settings: PathSettin
 }
 
 /// Matt, coated (smooth and rough), translucent and mirroring floors, with a sky, a glowing ball, a mirror, gaps and a pane, and all matt in the sun; light drawn and
-/// met, only drawn and only met: the weights hold all draws and branches.
+/// met, or drawn alone: the weights hold all draws and branches.
 #[test]
 fn branches_leave_every_mean() {
     let half = || Reflectance::Spectrum(Spectrum::constant(0.45));
@@ -70,15 +70,7 @@ fn branches_leave_every_mean_in_fog_and_under_a_guide() {
     let fog = [fog(0.1, 0.9, Phase::Isotropic, Region::Ball { radius_m: 6.0 })];
     let media = Media::new(&fog, DVec3::ZERO, TimeInterval::default());
     let of = |branches| PathTracer::new(&view, &ready.material_table, &lights, settings(branches, Strategies::Both));
-    let training = Training::default();
-    for path in 0..1_u32 << 12 {
-        let pixel = Pixel { x: path % 64, y: path / 64 };
-        let address = PixelAddress { frame: FrameAddress::default(), pixel, replicate: u32::MAX };
-        let ray = ray([-2.0, -2.0, 2.0], TARGETS[path as usize % TARGETS.len()]);
-        let asked = FieldRay { ray, stream: PathStream::new(&address, path), lit: TimeInterval::default() };
-        of(4).train(&asked, &WAVELENGTHS, &training);
-    }
-    let guide = training.guide();
+    let guide = learnt(&of(4), &TARGETS, 0..1 << 12);
     assert!(guide.places() > 8, "paths that would branch teach the guide as well");
     let alone = |tracer: PathTracer<'_>| estimates(&tracer, &TARGETS, 256, false);
     for [one, four] in [[1, 4].map(|n| of(n).with_media(&media)), [1, 4].map(|n| of(n).with_guide(Some(&guide)))] {

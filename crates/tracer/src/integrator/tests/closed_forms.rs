@@ -41,6 +41,11 @@ fn a_glowing_cavity_has_its_geometric_sum() {
     }
 }
 
+/// Paths that do not branch, and such as do.
+fn branched(max_bounces: u32) -> [PathSettings; 2] {
+    [1, 4].map(|branches| PathSettings { branches, ..bounces(max_bounces) })
+}
+
 #[test]
 fn a_bounce_more_adds_its_term() {
     let mut scene = Scene::default();
@@ -48,7 +53,9 @@ fn a_bounce_more_adds_its_term() {
     scene.sphere(DVec3::ZERO, 1.0, glowing);
     let ready = scene.ready();
     for (max_bounces, expected) in [(0, 1.0), (1, 1.5), (2, 1.75), (3, 1.875)] {
-        agrees(&ready.look(&ray([0.1, 0.0, 0.0], [1.0, 0.2, 0.3]), 128, bounces(max_bounces)), expected);
+        for settings in branched(max_bounces) {
+            agrees(&ready.look(&ray([0.1, 0.0, 0.0], [1.0, 0.2, 0.3]), 128, settings), expected);
+        }
     }
 }
 
@@ -65,7 +72,10 @@ fn a_sphere_lights_a_plane_by_its_closed_form() {
         scene.sphere(centre, radius, lamp);
         let d = centre.length();
         let irradiance = PI * 7.0 * (radius / d) * (radius / d) * centre.z / d;
-        agrees(&scene.ready().look(&ray([-1.0, 0.5, 1.0], [0.0; 3]), 256, bounces(1)), 0.6 / PI * irradiance);
+        let ready = scene.ready();
+        for settings in branched(1) {
+            agrees(&ready.look(&ray([-1.0, 0.5, 1.0], [0.0; 3]), 256, settings), 0.6 / PI * irradiance);
+        }
     }
 }
 
@@ -80,7 +90,9 @@ fn a_sun_lights_a_plane_by_its_irradiance() {
     scene.square(Vec3::new(0.0, 0.0, -1.0), 10.0, floor);
     let ready = scene.ready();
     let expected = 0.3 / PI * 1.4 * direction.normalize().z;
-    agrees(&ready.look(&ray([0.0; 3], [0.3, 0.1, -1.0]), 64, bounces(1)), expected);
+    for settings in branched(1) {
+        agrees(&ready.look(&ray([0.0; 3], [0.3, 0.1, -1.0]), 64, settings), expected);
+    }
     agrees(&ready.look(&ray([0.0; 3], towards), 1, bounces(1)), seen);
 }
 

@@ -23,7 +23,7 @@ fn asked(targets: &[[f32; 3]], path: u32) -> FieldRay {
 }
 
 /// What paths towards the targets find, in the order that they are given in.
-fn learnt(tracer: &PathTracer<'_>, targets: &[[f32; 3]], paths: impl Iterator<Item = u32>) -> Guide {
+pub(super) fn learnt(tracer: &PathTracer<'_>, targets: &[[f32; 3]], paths: impl Iterator<Item = u32>) -> Guide {
     let training = Training::default();
     paths.for_each(|path| tracer.train(&asked(targets, path), &WAVELENGTHS, &training));
     training.guide()
