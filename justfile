@@ -65,7 +65,7 @@ faults:
 
 # The ends of every range: writes docs/extremes.md
 extremes:
-    ETENDUE_BLESS=1 ETENDUE_INSTANCES=1 cargo test -p etendue-tests --test extremes -- --test-threads=1
+    ETENDUE_BLESS=1 ETENDUE_INSTANCES=1 cargo test -p etendue-tests --test physics ranges:: -- --test-threads=1
     ETENDUE_BLESS=1 cargo test -p etendue-cli --test binary -- --test-threads=1 extremes:: pictures_that_are_mirrored killed:: concurrent::
 
 # Variance by the density of wavelengths, by sensor and light: writes docs/wavelengths.md

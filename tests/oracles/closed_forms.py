@@ -1,4 +1,4 @@
-"""Closed forms to 60 digits by mpmath for tests/tests/extremes/numerics: figures/closed_forms.json.
+"""Closed forms to 60 digits by mpmath for tests/tests/physics/ranges/numerics: figures/closed_forms.json.
 
 Python 3.11, mpmath 1.4.1 (requirements.txt). Run at the root of the repository (seconds):
     python tests/oracles/closed_forms.py

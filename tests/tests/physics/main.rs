@@ -27,6 +27,7 @@ mod motion;
 mod openings;
 mod photons;
 mod plausible;
+mod ranges;
 mod reconstruction;
 mod routes;
 mod signs;

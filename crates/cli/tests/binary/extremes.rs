@@ -1,5 +1,5 @@
 //! The ends of what the program can be given that only the binary shows: pictures that show nothing, files that are none, runs that cannot go on. The rows
-//! of docs/extremes.md beside those of tests/tests/extremes, each with the message that a user gets (`just extremes`); variants stand in the tests of each part.
+//! of docs/extremes.md beside those of tests/tests/physics/ranges, each with the message that a user gets (`just extremes`); variants stand in the tests of each part.
 
 mod files;
 mod pictures;

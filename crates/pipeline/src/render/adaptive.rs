@@ -12,7 +12,7 @@
 
 use crate::render::block::Blocks;
 use crate::render::gather::{Gather, Layout, PixelLight, Sums};
-use crate::render::light::{Asked, RaySource, RenderJob};
+use crate::render::light::{Asked, RenderJob};
 use crate::render::mosaic::Mosaic;
 use crate::render::tile::Tile;
 use crate::render::tolerance::Tolerance;
@@ -80,7 +80,7 @@ impl Sampled {
     }
 }
 
-impl<S: RaySource> RenderJob<'_, S> {
+impl RenderJob<'_> {
     /// Gathers the pixels of a tile that cuts no cell, each to the tolerance.
     pub(super) fn gather_to_tolerance<const N: usize>(
         &self,
@@ -160,7 +160,7 @@ mod tests {
     use super::*;
     use crate::plan::{AdaptiveSampling, PassAt};
     use crate::render::film::Film;
-    use crate::render::light::{RenderJob, Sampling};
+    use crate::render::light::{RaySource, RenderJob, Sampling};
     use crate::render::observer::Unobserved;
     use crate::render::spectrum_spread::SpectrumSpread;
     use crate::render::test_job::{sampling, still_job};

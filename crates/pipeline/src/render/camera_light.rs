@@ -89,7 +89,7 @@ pub(super) trait SourceJob {
     type Output;
 
     /// Does it.
-    fn run<S: RaySource>(self, source: &S) -> Self::Output;
+    fn run(self, source: &dyn RaySource) -> Self::Output;
 }
 
 /// Does a job with the rays of a camera's picture.
@@ -123,7 +123,7 @@ struct LightJob<'a> {
 impl SourceJob for LightJob<'_> {
     type Output = Result<Film, GatherError>;
 
-    fn run<S: RaySource>(self, source: &S) -> Self::Output {
+    fn run(self, source: &dyn RaySource) -> Self::Output {
         through(&self, source)
     }
 }
@@ -141,7 +141,7 @@ pub(super) fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -
         .expect("a compiled plan names only materials that it has")
 }
 
-fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, GatherError> {
+fn through(job: &LightJob<'_>, source: &dyn RaySource) -> Result<Film, GatherError> {
     let LightJob { plan, camera, request, pass, before, observer } = *job;
     let rows = FilmExposure::of(camera, request.shot);
     let view = plan.world.render_space_with(rows.origin_m(), rows.interval(), request.simd);
@@ -163,21 +163,21 @@ fn through<S: RaySource>(job: &LightJob<'_>, source: &S) -> Result<Film, GatherE
     let job = RenderJob { sampling: Sampling { pass, ..job.sampling }, sample_spread, scratch, ..job };
     let asked = (before, observer);
     match settings.wavelengths {
-        1 => gathered::<S, 1>(&job, tracer, camera, asked),
-        8 => gathered::<S, 8>(&job, tracer, camera, asked),
-        _ => gathered::<S, 4>(&job, tracer, camera, asked),
+        1 => gathered::<1>(&job, tracer, camera, asked),
+        8 => gathered::<8>(&job, tracer, camera, asked),
+        _ => gathered::<4>(&job, tracer, camera, asked),
     }
 }
 
 /// The light of a job, with a guide where the settings ask for one.
-fn gathered<S: RaySource, const N: usize>(
-    job: &RenderJob<'_, S>,
+fn gathered<const N: usize>(
+    job: &RenderJob<'_>,
     tracer: PathTracer<'_>,
     camera: &CameraPlan,
     (before, observer): (Option<&Film>, &dyn Observer),
 ) -> Result<Film, GatherError> {
     let asks = camera.settings.guiding;
-    let guide = asks.then(|| guide::<S, N>(job, &tracer, camera, observer)).transpose()?;
+    let guide = asks.then(|| guide::<N>(job, &tracer, camera, observer)).transpose()?;
     job.gather::<N>(&tracer.with_guide(guide.as_ref()), before, observer)
 }
 
@@ -237,11 +237,11 @@ fn margin_px(camera: &CameraPlan) -> [usize; 2] {
     }
 }
 
-pub(super) fn region_and_change_over<'a, S: RaySource>(
+pub(super) fn region_and_change_over<'a>(
     plan: &'a Plan,
     camera: &CameraPlan,
     rows: &FilmExposure<'_>,
-    source: &S,
+    source: &dyn RaySource,
 ) -> Option<(&'a Precipitation, SeenRegion, ChangeOver)> {
     let precipitation = plan.precipitation.as_ref()?;
     let region = seen_region(source, rows, camera.film_size());
@@ -250,12 +250,12 @@ pub(super) fn region_and_change_over<'a, S: RaySource>(
     Some((precipitation, region, change_over))
 }
 
-pub(super) fn render_job<'a, S>(
+pub(super) fn render_job<'a>(
     (camera, exposure): (&CameraPlan, FilmExposure<'a>),
     request: Request,
-    source: &'a S,
+    source: &'a dyn RaySource,
     mosaic: Option<&'a Mosaic>,
-) -> RenderJob<'a, S> {
+) -> RenderJob<'a> {
     let settings = &camera.settings;
     let (width, height) = camera.film_size();
     RenderJob {

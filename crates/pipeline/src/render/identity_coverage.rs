@@ -65,7 +65,7 @@ struct CoverageJob<'a> {
 impl SourceJob for CoverageJob<'_> {
     type Output = IdentityCoverage;
 
-    fn run<S: RaySource>(self, source: &S) -> IdentityCoverage {
+    fn run(self, source: &dyn RaySource) -> IdentityCoverage {
         let Self { plan, camera, request } = self;
         let exposure = FilmExposure::of(camera, request.shot);
         let view = plan.world.render_space_with(exposure.origin_m(), exposure.interval(), request.simd);
@@ -92,7 +92,7 @@ impl SourceJob for CoverageJob<'_> {
     }
 }
 
-impl<S: RaySource> RenderJob<'_, S> {
+impl RenderJob<'_> {
     /// Hands over the rays of a pixel's samples with their weights, those that the lens stops left out.
     fn each_ray(&self, pixel: Pixel, mut take: impl FnMut(&FieldRay, f64)) {
         let Sampling { replicates, .. } = self.sampling;

@@ -65,10 +65,9 @@ impl Sampling {
 }
 
 /// What a frame's light is gathered from and into.
-#[derive(Debug)]
-pub struct RenderJob<'a, S> {
+pub struct RenderJob<'a> {
     /// Makes the rays.
-    pub source: &'a S,
+    pub source: &'a dyn RaySource,
     /// Where the camera is when.
     pub exposure: FilmExposure<'a>,
     /// Columns of the film.
@@ -141,7 +140,7 @@ pub(crate) fn has_variance(replicates: u32, shard: Shard) -> bool {
     replicates > 1 || shard != Shard::WHOLE
 }
 
-impl<S: RaySource> RenderJob<'_, S> {
+impl RenderJob<'_> {
     /// Renders the shard's tiles in parallel on the caller's thread pool; joined with what the passes before it gathered, where there are some.
     ///
     /// # Errors
@@ -365,7 +364,7 @@ mod tests {
         }
     }
 
-    fn exposure(tile_px: u32, shard: Shard) -> RenderJob<'static, Half> {
+    fn exposure(tile_px: u32, shard: Shard) -> RenderJob<'static> {
         let layout = Layout { bands: Bands::covering(400.0, 700.0, 50.0), folded: false, watched: false };
         RenderJob { tile_px, shard, ..still_job(&Half, [9, 5], layout, sampling(PassAt::only(64), 2)) }
     }

@@ -26,8 +26,8 @@ const WITHIN_PX: f64 = 1e-6;
 const MIDDLE_NM: f64 = 550.0;
 
 /// What a camera sees during an exposure of a film of a size in px, about the origin of its view.
-pub(super) fn seen_region<S: RaySource>(
-    source: &S,
+pub(super) fn seen_region(
+    source: &dyn RaySource,
     exposure: &FilmExposure<'_>,
     (width, height): (u32, u32),
 ) -> SeenRegion {

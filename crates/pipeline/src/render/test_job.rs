@@ -3,7 +3,7 @@
 use super::block::Blocks;
 use super::exposure::{FilmExposure, Shot};
 use super::gather::Layout;
-use super::light::{RenderJob, Sampling};
+use super::light::{RaySource, RenderJob, Sampling};
 use super::spectrum_spread::SpectrumSpread;
 use super::tile::Shard;
 use crate::plan::PassAt;
@@ -29,12 +29,12 @@ pub(super) fn sampling(pass: PassAt, replicates: u32) -> Sampling {
 }
 
 /// Every pixel by itself with as many samples, all tiles, of 16 px.
-pub(super) fn still_job<S>(
-    source: &S,
+pub(super) fn still_job(
+    source: &dyn RaySource,
     [width, height]: [u32; 2],
     layout: Layout,
     sampling: Sampling,
-) -> RenderJob<'_, S> {
+) -> RenderJob<'_> {
     RenderJob {
         source,
         exposure: FilmExposure::still(&PATH),

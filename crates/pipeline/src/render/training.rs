@@ -4,7 +4,7 @@
 //! rendered: every shard, and every run of the same pass, learns the same. They have random numbers of their own and are not part of the picture.
 
 use crate::plan::{CameraPlan, PassAt};
-use crate::render::light::{GatherError, RaySource, RenderJob};
+use crate::render::light::{GatherError, RenderJob};
 use crate::render::observer::Observer;
 use etendue_core::FieldRay;
 use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
@@ -25,8 +25,8 @@ const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_3];
 ///
 /// # Errors
 /// Where the observer asked to stop.
-pub(super) fn guide<S: RaySource, const N: usize>(
-    job: &RenderJob<'_, S>,
+pub(super) fn guide<const N: usize>(
+    job: &RenderJob<'_>,
     tracer: &PathTracer<'_>,
     camera: &CameraPlan,
     observer: &dyn Observer,
@@ -37,8 +37,7 @@ pub(super) fn guide<S: RaySource, const N: usize>(
         if observer.cancelled() {
             return Err(GatherError::Cancelled);
         }
-        (chunk * A_CHUNK..paths.min((chunk + 1) * A_CHUNK))
-            .for_each(|path| train::<S, N>(job, tracer, path, &training));
+        (chunk * A_CHUNK..paths.min((chunk + 1) * A_CHUNK)).for_each(|path| train::<N>(job, tracer, path, &training));
         Ok(())
     })?;
     Ok(training.guide())
@@ -61,12 +60,7 @@ fn paths((width, height): (u32, u32), spp: u32) -> u64 {
     (u64::from(width) * u64::from(height) * u64::from(spp) / PATHS_FOR_ONE).min(MOST_PATHS)
 }
 
-fn train<S: RaySource, const N: usize>(
-    job: &RenderJob<'_, S>,
-    tracer: &PathTracer<'_>,
-    path: u64,
-    training: &Training,
-) {
+fn train<const N: usize>(job: &RenderJob<'_>, tracer: &PathTracer<'_>, path: u64, training: &Training) {
     let place = |step: f64, size: u32| (((0.5 + path as f64 * step).fract() * f64::from(size)) as u32).min(size - 1);
     let pixel = Pixel { x: place(STEPS[0], job.width), y: place(STEPS[1], job.height) };
     // Apart from all that are part of the picture.

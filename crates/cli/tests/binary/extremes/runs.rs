@@ -33,7 +33,7 @@ fn runs_that_cannot_go_on() {
     let render = [&["render", &job, "-o", &out, "--threads", "1", "--spp", "2"][..], &size].concat();
     let memory = after("ulimit -c 0; ulimit -v 1500000", &render);
     let memory = nothing_left("a film for which there is no memory", &memory, place.path());
-    let about = "With real limits of the system. Smaller allocations that fail and panics of workers have tests of their own (crates/cli/tests/binary/memory\\_that\\_fails.rs, crates/etendue/tests/panics.rs); \
+    let about = "With real limits of the system. Smaller allocations that fail and panics of workers have tests of their own (crates/cli/tests/binary/memory\\_that\\_fails.rs, crates/etendue/tests/library/panics.rs); \
         kills and several runs in one folder are below.";
     check("Runs that cannot go on", about, &[full, memory]);
 }

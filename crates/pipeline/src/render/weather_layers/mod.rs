@@ -56,7 +56,7 @@ struct LayersJob<'a> {
 impl SourceJob for LayersJob<'_> {
     type Output = WeatherLayers;
 
-    fn run<S: RaySource>(self, source: &S) -> WeatherLayers {
+    fn run(self, source: &dyn RaySource) -> WeatherLayers {
         let Self { plan, camera, request } = self;
         let rows = FilmExposure::of(camera, request.shot);
         let view = plan.world.render_space_with(rows.origin_m(), rows.interval(), request.simd);

@@ -1,6 +1,6 @@
 //! Light at the ends of its range: surfaces that swallow nothing, hide nothing or are not there, lamps without number, lines.
 
-use crate::fog::lamps_in_fog;
+use super::fog::lamps_in_fog;
 use etendue_core::{Bands, Spectral, Wavelengths};
 use etendue_pipeline::render::gather::{Gather, Layout, Sums};
 use etendue_spectra::illuminant;

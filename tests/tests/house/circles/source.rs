@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::tokens::{self, Token};
+use super::tokens::{self, Token};
 
 /// `use path as name`, or `use path::*` where the name is missing.
 #[derive(Clone, Debug)]

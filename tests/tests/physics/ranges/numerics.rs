@@ -9,7 +9,7 @@ use etendue_tracer::materials::fresnel;
 use serde_json::Value;
 
 pub(crate) fn figures() -> Value {
-    let text = include_str!("../../oracles/figures/closed_forms.json");
+    let text = include_str!("../../../oracles/figures/closed_forms.json");
     serde_json::from_str(text).expect("JSON")
 }
 

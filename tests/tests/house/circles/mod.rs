@@ -7,8 +7,6 @@ mod source;
 mod tokens;
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use house::{Arrows, House};
 
@@ -21,19 +19,11 @@ const EXCEPTIONS: &[(&[&str], &str)] = &[
     ),
 ];
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the workspace").to_path_buf()
-}
-
 /// Every crate's files by the folder `…/src/`: paths from there, with their text.
 fn crates() -> BTreeMap<String, Vec<(String, String)>> {
-    let arguments = ["ls-files", "-z", "--cached", "--others", "--exclude-standard", "*.rs"];
-    let output = Command::new("git").args(arguments).current_dir(root()).output().expect("git runs");
-    let names = String::from_utf8(output.stdout).expect("names in UTF-8");
     let mut crates: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
-    for name in names.split('\0') {
+    for (name, text) in crate::texts(&[".rs"]) {
         let Some((folder, path)) = name.split_once("/src/") else { continue };
-        let Ok(text) = std::fs::read_to_string(root().join(name)) else { continue };
         crates.entry(format!("{folder}/src/")).or_default().push((path.to_owned(), text));
     }
     crates

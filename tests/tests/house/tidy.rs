@@ -1,7 +1,7 @@
 //! The house rules that a machine can check: the arrows between crates, the length of files, what libraries never do.
 
+use crate::{root, texts};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Which workspace crates a crate may use (docs/architecture.md). A new arrow is a decision, written down there.
@@ -65,10 +65,6 @@ const KEEPERS: &[(&str, &[&str])] = &[
     ("pyo3", &["python"]),
 ];
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the workspace").to_path_buf()
-}
-
 /// Normal (not dev) dependencies of every workspace crate, without the prefix of workspace names.
 fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
     let output = Command::new(env!("CARGO"))
@@ -122,24 +118,12 @@ fn libraries_stay_with_their_keepers() {
     assert!(faults.is_empty(), "{faults:?}");
 }
 
-/// Tracked text files, with their contents.
-fn tracked(suffixes: &[&str]) -> Vec<(String, String)> {
-    let output = Command::new("git").args(["ls-files", "-z"]).current_dir(root()).output().expect("git runs");
-    let names = String::from_utf8(output.stdout).expect("names in UTF-8");
-    let wanted = |name: &&str| suffixes.iter().any(|s| name.ends_with(s));
-    names
-        .split('\0')
-        .filter(wanted)
-        .filter_map(|name| Some((name.to_owned(), std::fs::read_to_string(root().join(name)).ok()?)))
-        .collect()
-}
-
 #[test]
 fn files_stay_readable_and_never_a_drawer() {
     const LONGEST: usize = 450;
     let drawers = ["utils.rs", "util.rs", "common.rs", "helpers.rs", "misc.rs"];
     let mut faults = Vec::new();
-    for (name, text) in tracked(&[".rs"]) {
+    for (name, text) in texts(&[".rs"]) {
         let lines = text.lines().count();
         if lines > LONGEST {
             faults.push(format!("{name}: {lines} lines, more than {LONGEST}: one concept a file"));
@@ -155,7 +139,7 @@ fn files_stay_readable_and_never_a_drawer() {
 fn libraries_do_not_print_read_clocks_or_start_pools() {
     let forbidden = ["println!(", "eprintln!(", "SystemTime::now", "Instant::now", "build_global("];
     let mut faults = Vec::new();
-    for (name, text) in tracked(&[".rs"]) {
+    for (name, text) in texts(&[".rs"]) {
         let is_program = ["crates/cli/", "crates/python/"].iter().any(|folder| name.starts_with(folder));
         let library = name.starts_with("crates/") && !is_program && !name.contains("/examples/");
         if library && !name.contains("/tests/") {
@@ -169,7 +153,7 @@ fn libraries_do_not_print_read_clocks_or_start_pools() {
 fn nothing_names_a_machine() {
     let homes = ["root", "home", "work", "tmp"].map(|folder| format!("/{folder}/"));
     let mut faults = Vec::new();
-    for (name, text) in tracked(&[".rs", ".toml", ".md", ".py", ".json", ".yml", "justfile", "run"]) {
+    for (name, text) in texts(&[".rs", ".toml", ".md", ".py", ".json", ".yml", "justfile", "run"]) {
         faults.extend(homes.iter().filter(|h| text.contains(h.as_str())).map(|h| format!("{name}: {h}")));
     }
     assert!(faults.is_empty(), "{faults:#?}");
@@ -179,7 +163,7 @@ fn nothing_names_a_machine() {
 fn no_merge_is_left_undone() {
     let marks = ["<<<<<<< ", "||||||| ", ">>>>>>> "];
     let mut faults = Vec::new();
-    for (name, text) in tracked(&[".rs", ".toml", ".md", ".py", ".json", ".yml", "justfile"]) {
+    for (name, text) in texts(&[".rs", ".toml", ".md", ".py", ".json", ".yml", "justfile"]) {
         let marked = text.lines().enumerate().filter(|(_, line)| marks.iter().any(|mark| line.starts_with(mark)));
         faults.extend(marked.map(|(i, _)| format!("{name}:{}", i + 1)));
     }
@@ -220,8 +204,8 @@ const REPLACED: &[(&str, &str)] = &[
 fn words_are_the_field_s_own() {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let mut faults = Vec::new();
-    for (name, text) in tracked(&[".rs", ".toml", ".md", ".py", ".txt"]) {
-        if ["tests/tests/tidy.rs", "docs/glossary.md", "CHANGELOG.md"].contains(&name.as_str()) {
+    for (name, text) in texts(&[".rs", ".toml", ".md", ".py", ".txt"]) {
+        if ["tests/tests/house/tidy.rs", "docs/glossary.md", "CHANGELOG.md"].contains(&name.as_str()) {
             continue;
         }
         for (old, new) in REPLACED {
@@ -253,7 +237,7 @@ fn is_path(word: &&str) -> bool {
 /// Pages for those who add to the project.
 fn contributors_pages() -> Vec<(String, String)> {
     let is_one = |name: &str| name == "CONTRIBUTING.md" || name.starts_with("docs/how-to-add/");
-    tracked(&[".md"]).into_iter().filter(|(name, _)| is_one(name)).collect()
+    texts(&[".md"]).into_iter().filter(|(name, _)| is_one(name)).collect()
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::source::{Import, Source};
+use super::source::{Import, Source};
 
 /// A module's path from the root of its crate; the root itself is empty.
 type Module = Vec<String>;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::house::Arrows;
+use super::house::Arrows;
 
 /// Groups of two files or more, each of which leads to every other.
 pub(crate) fn circles(arrows: &Arrows) -> Vec<Vec<String>> {

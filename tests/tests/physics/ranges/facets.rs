@@ -1,6 +1,6 @@
 //! GGX against mpmath: distribution, masking, reflection, and the facets that are drawn.
 
-use crate::numerics::{Known, figures, known, ulp_single, worst};
+use super::numerics::{Known, figures, known, ulp_single, worst};
 use etendue_testkit::page::{Row, check, worst as greatest};
 use etendue_tracer::materials::Ggx;
 use glam::{DVec3, Vec2, Vec3};

@@ -1,12 +1,8 @@
 //! What the project takes from others, held to the policy in `deny.toml`: licences, sources, one version of each. Advisories need a network: `just policy`.
 
+use crate::root;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
 use std::process::Command;
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the workspace").to_path_buf()
-}
 
 fn read(name: &str) -> String {
     std::fs::read_to_string(root().join(name)).expect("a file of the repository")

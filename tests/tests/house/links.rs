@@ -1,20 +1,8 @@
 //! Every link from a page to another, or to a place on one, leads there.
 
+use crate::{files, root};
 use std::collections::HashSet;
 use std::path::{Component, Path, PathBuf};
-use std::process::Command;
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the workspace").to_path_buf()
-}
-
-/// Tracked files, and new ones that nothing ignores.
-fn files(suffixes: &[&str]) -> Vec<String> {
-    let arguments = ["ls-files", "-z", "--cached", "--others", "--exclude-standard"];
-    let output = Command::new("git").args(arguments).current_dir(root()).output().expect("git runs");
-    let names = String::from_utf8(output.stdout).expect("names in UTF-8");
-    names.split('\0').filter(|name| suffixes.iter().any(|s| name.ends_with(s))).map(str::to_owned).collect()
-}
 
 /// The lines of a page outside of its blocks of code.
 fn lines(page: &str) -> impl Iterator<Item = &str> {

@@ -1,18 +1,18 @@
 //! The examples run, and give what their heads promise.
 
-#[path = "../examples/another_lens.rs"]
+#[path = "../../examples/another_lens.rs"]
 #[allow(dead_code)]
 mod another_lens;
-#[path = "../examples/first_picture.rs"]
+#[path = "../../examples/first_picture.rs"]
 #[allow(dead_code)]
 mod first_picture;
-#[path = "../examples/measure_chart.rs"]
+#[path = "../../examples/measure_chart.rs"]
 #[allow(dead_code)]
 mod measure_chart;
-#[path = "../examples/own_camera.rs"]
+#[path = "../../examples/own_camera.rs"]
 #[allow(dead_code)]
 mod own_camera;
-#[path = "../examples/scene_from_arrays.rs"]
+#[path = "../../examples/scene_from_arrays.rs"]
 #[allow(dead_code)]
 mod scene_from_arrays;
 

@@ -1,0 +1,9 @@
+//! Tests of the library through its public functions.
+
+mod annotations;
+mod dropped_effects;
+mod examples;
+mod flicker;
+mod panics;
+mod progress;
+mod rig;
