@@ -11,6 +11,12 @@ test:
 ci:
     .ci/run
 
+# The studies of which CI makes a part, in full: coverage by 200 seeds, all jobs with all integrators, the bytes of a build for this machine's processor
+whole:
+    ETENDUE_WHOLE=1 cargo test -p etendue-metrology
+    ETENDUE_WHOLE=1 cargo test -p etendue-cli --test binary plans::
+    .ci/same_bits whole
+
 # Tests of the Python package (needs Python 3.10 and PyPI)
 python:
     ETENDUE_PYTHON="$(.ci/python)" cargo test --workspace --test package --test binary -- the_package help

@@ -68,6 +68,11 @@ pub(crate) fn bless() -> bool {
     std::env::var_os("ETENDUE_BLESS").is_some_and(|value| value == "1")
 }
 
+/// Whether studies are made in full, of which CI makes a part (`just whole`).
+pub(crate) fn whole() -> bool {
+    std::env::var_os("ETENDUE_WHOLE").is_some_and(|value| value == "1")
+}
+
 /// A path as an argument.
 pub(crate) fn text(path: &Path) -> String {
     path.to_str().expect("the tests' paths are UTF-8").to_owned()
