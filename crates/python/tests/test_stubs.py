@@ -97,8 +97,9 @@ def test_mypy_finds_the_stubs_to_be_those_of_the_module(tmp_path):
     mypy("mypy.stubtest", "etendue", "--concise", "--allowlist", ROOT / "crates/python/tests/stubtest.txt", folder=tmp_path)
 
 
-def test_stubs_and_the_code_of_the_documentation_are_strictly_typed(tmp_path):
+def test_the_code_of_the_documentation_and_the_stubs_that_it_imports_are_strictly_typed(tmp_path):
     blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs/python.md").read_text(), re.S)
+    assert len(blocks) == 3
     for number, block in enumerate(blocks):
         (tmp_path / f"block_{number}.py").write_text(f"import etendue\nimport numpy as np\n{block}")
-    mypy("mypy", "--strict", "--no-incremental", "--python-version", "3.10", tmp_path, "-p", "etendue", folder=tmp_path)
+    mypy("mypy", "--strict", "--no-incremental", "--python-version", "3.10", ".", folder=tmp_path)
