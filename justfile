@@ -33,9 +33,17 @@ notebooks:
 view-test:
     ETENDUE_CHROMIUM="$(command -v chromium)" cargo test --workspace --test binary -- view::
 
-# A wheel of the Python package, in target/wheels
+# A wheel of the Python package as it is released, in target/packages (needs Python 3.11 and PyPI)
 wheel:
-    "$(.ci/python)" -m pip wheel --no-deps --wheel-dir target/wheels ./crates/python
+    packaging/wheel
+
+# The program as it is released, with manual pages and completions, in target/packages (needs Python 3.11)
+dist:
+    packaging/dist
+
+# Both packages, taken by an environment without Rust (after just dist and just wheel)
+packages-test:
+    packaging/test
 
 # Benchmarks: rays, paths, memory
 bench:
@@ -113,3 +121,7 @@ policy:
 # The bill of materials of the program, CycloneDX as JSON on stdout (needs Python 3.11)
 sbom:
     @.ci/sbom
+
+# The licences of all that is linked into the program, as text on stdout (needs Python 3.11)
+licences:
+    @packaging/licences

@@ -1,7 +1,6 @@
 //! What the command line takes, for programs that offer the same verbs: every subcommand with its arguments.
 
-use crate::Arguments;
-use clap::{Arg, ArgAction, Command, CommandFactory as _};
+use clap::{Arg, ArgAction, Command};
 use serde::Serialize;
 use std::any::TypeId;
 use std::path::PathBuf;
@@ -63,7 +62,7 @@ pub struct Argument {
 /// All verbs.
 #[must_use]
 pub fn catalogue() -> Vec<Subcommand> {
-    let mut command = Arguments::command();
+    let mut command = crate::command();
     command.build();
     subcommands(&command)
 }

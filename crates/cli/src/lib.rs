@@ -17,7 +17,7 @@ mod subcommands;
 mod verbs;
 
 pub use catalogue::{Argument, Kind, Subcommand, catalogue};
-use clap::Parser;
+use clap::{CommandFactory as _, Parser};
 pub use console::Console;
 use etendue::Error;
 use etendue_scene::limits;
@@ -48,6 +48,12 @@ impl Arguments {
         }
         self.verb.run(console)
     }
+}
+
+/// The grammar of the command line, from which shell completions and manual pages are made.
+#[must_use]
+pub fn command() -> clap::Command {
+    Arguments::command()
 }
 
 /// The program: `arguments` begin with its name. Answers with its exit status: 0 done, 1 a comparison or run failed, 2 unusable input or arguments.
@@ -103,10 +109,9 @@ fn status(error: &Error) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_command_line_is_well_formed() {
-        Arguments::command().debug_assert();
+        command().debug_assert();
     }
 }

@@ -4,9 +4,13 @@ import ast
 import inspect
 import os
 import pathlib
+import re
+import subprocess
+import sys
 
 import pytest
 import stubs
+from conftest import ROOT
 
 import etendue
 from etendue import _verbs, chart, measure, verbs
@@ -76,3 +80,26 @@ def test_everything_public_is_documented():
         for member in vars(made):
             value = getattr(made, member)
             assert member.startswith("_") or value is None or value.__doc__, (name, member)
+
+
+def test_the_package_has_the_version_of_the_change_log():
+    assert etendue.__version__ == re.search(r"^## (\S+)", (ROOT / "CHANGELOG.md").read_text(), re.M)[1]
+
+
+def mypy(module, *arguments, folder):
+    """Runs mypy beside the package that is tested."""
+    environment = {**os.environ, "MYPYPATH": str(pathlib.Path(etendue.__file__).parents[1])}
+    done = subprocess.run([sys.executable, "-m", module, *map(str, arguments)], cwd=folder, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_mypy_finds_the_stubs_to_be_those_of_the_module(tmp_path):
+    mypy("mypy.stubtest", "etendue", "--concise", "--allowlist", ROOT / "crates/python/tests/stubtest.txt", folder=tmp_path)
+
+
+def test_the_code_of_the_documentation_and_the_stubs_that_it_imports_are_strictly_typed(tmp_path):
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs/python.md").read_text(), re.S)
+    assert len(blocks) == 3
+    for number, block in enumerate(blocks):
+        (tmp_path / f"block_{number}.py").write_text(f"import etendue\nimport numpy as np\n{block}")
+    mypy("mypy", "--strict", "--no-incremental", "--python-version", "3.10", ".", folder=tmp_path)

@@ -44,6 +44,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("python", &["core", "etendue", "cli"]),
     ("testkit", &["core", "stats"]),
     ("scenes", &["core"]),
+    ("packaging", &["cli"]),
 ];
 
 /// Libraries that matter, and the only crates that may use them.
@@ -59,20 +60,27 @@ const KEEPERS: &[(&str, &[&str])] = &[
     ("saphyr-parser", &["io"]),
     ("toml", &["scene"]),
     ("clap", &["cli"]),
+    ("clap_complete", &["packaging"]),
+    ("clap_mangen", &["packaging"]),
     ("indicatif", &["cli"]),
     ("tracing-subscriber", &["cli"]),
     ("libm", &["core"]),
     ("pyo3", &["python"]),
 ];
 
-/// Normal (not dev) dependencies of every workspace crate, without the prefix of workspace names.
-fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
+/// The packages of the workspace, as cargo knows them.
+fn metadata() -> serde_json::Value {
     let output = Command::new(env!("CARGO"))
         .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
         .current_dir(root())
         .output()
         .expect("cargo metadata runs");
-    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).expect("cargo metadata prints JSON");
+    serde_json::from_slice(&output.stdout).expect("cargo metadata prints JSON")
+}
+
+/// Normal (not dev) dependencies of every workspace crate, without the prefix of workspace names.
+fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
+    let metadata = metadata();
     let short = |name: &serde_json::Value| name.as_str().expect("a name").trim_start_matches("etendue-").to_owned();
     let packages = metadata["packages"].as_array().expect("packages");
     packages
@@ -278,4 +286,19 @@ fn how_to_add_counts_its_code_files() {
         }
     }
     assert!(faults.is_empty(), "{faults:#?}");
+}
+
+/// The change log, every package of the workspace and the Python package have one version; the program states it (`crates/cli/tests/binary/help.rs`).
+#[test]
+fn there_is_one_version() {
+    let read = |name: &str| std::fs::read_to_string(root().join(name)).expect("a file of the repository");
+    let changes = read("CHANGELOG.md");
+    let newest = changes.lines().find_map(|line| line.strip_prefix("## ")).expect("a release");
+    let newest = newest.split(' ').next().expect("its version");
+    let metadata = metadata();
+    for package in metadata["packages"].as_array().expect("packages") {
+        assert_eq!(package["version"], newest, "{} and the newest of CHANGELOG.md", package["name"]);
+    }
+    // maturin takes the version from the package of cargo.
+    assert!(read("crates/python/pyproject.toml").contains("\ndynamic = [\"version\"]\n"));
 }

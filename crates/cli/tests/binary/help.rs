@@ -1,6 +1,6 @@
 //! What the program says of itself.
 
-use crate::support::etendue;
+use crate::support::{etendue, root};
 
 /// What it does, one verb each.
 const VERBS: [&str; 17] = [
@@ -32,6 +32,15 @@ fn help_names_every_verb_and_the_exit_statuses() {
     for word in VERBS.into_iter().chain(GROUPS).chain(statuses) {
         assert!(help.contains(word), "{word} is missing in:\n{help}");
     }
+}
+
+/// That all packages of the workspace have it is a rule of the house (`tests/tests/tidy.rs`).
+#[test]
+fn the_version_is_the_newest_of_the_change_log() {
+    let changes = std::fs::read_to_string(root().join("CHANGELOG.md")).expect("the change log");
+    let newest = changes.lines().find_map(|line| line.strip_prefix("## ")).expect("a release");
+    let newest = newest.split(' ').next().expect("its version");
+    assert_eq!(etendue(["--version"]).ok().out, format!("etendue {newest}\n"));
 }
 
 #[test]
