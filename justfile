@@ -61,6 +61,10 @@ scenes:
 oracles:
     tests/oracles/run
 
+# Compare the release binary's behaviour with the stored record: `just freeze compare`, `just freeze store` (needs Python 3.10 and valgrind)
+freeze *arguments:
+    tests/freeze/run {{arguments}}
+
 # The reader of Universal Scene Description, its tests and its fuzz targets (in a folder of their own: it changes how PNGs are compressed)
 usd:
     CARGO_TARGET_DIR=target/usd cargo test -p etendue-io -p etendue -p etendue-cli -p etendue-fuzz --features etendue-io/usd,etendue/usd,etendue-cli/usd,etendue-fuzz/usd -- usd what_was_found
