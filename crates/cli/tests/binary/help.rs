@@ -34,7 +34,7 @@ fn help_names_every_verb_and_the_exit_statuses() {
     }
 }
 
-/// That all packages of the workspace have it is a rule of the house (`tests/tests/tidy.rs`).
+/// That all packages of the workspace have it is a rule of the house (`tests/tests/house/tidy.rs`).
 #[test]
 fn the_version_is_the_newest_of_the_change_log() {
     let changes = std::fs::read_to_string(root().join("CHANGELOG.md")).expect("the change log");
