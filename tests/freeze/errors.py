@@ -7,49 +7,56 @@ from argparse import Namespace
 from pathlib import Path
 
 import record
-from program import ROOT, Program
+from record import ROOT, Program
 
 HEADING = """
-The erroneous inputs of errors.json: exit status, then each error as place (file:line:column, or the argument), key, further
-places, and [code] where the program states one.
+The erroneous inputs of errors.json: exit status, then each error as place (file:line:column, or the argument), key, the place
+that names a broken file, and [code] where the program states one.
 """
 
 TABLE = Path(__file__).resolve().parent / "errors.json"
 
-# An error and the indented lines below it.
 ERROR = re.compile(r"^error(?:\[(?P<code>[\w-]+)\])?: (?P<text>.*(?:\n  .*)*)", re.MULTILINE)
-# What precedes the wording: a file, its line and column, a key.
+"""An error and the indented lines below it."""
+
 PLACE = re.compile(r"^(?P<place>[^\s:]+(?::\d+(?::\d+)?)?): (?:(?P<key>[a-z_][\w./\[\]-]*): )?")
-# The place in a description that names a broken file.
+"""What precedes the wording: a file with line and column, and a key."""
+
 FURTHER = re.compile(r"[^\s:()\"]+\.\w+:\d+:\d+(?:: [a-z_][\w./\[\]-]*\w)?")
+"""A place within the wording."""
+
 ARGUMENT = re.compile(r"--set \S+?(?==|:|\s|$)|--[a-z][a-z0-9-]*")
+
+CODE = re.compile(r" \[[A-Z][\w-]*\]")
 
 
 def measure(program: Program, wanted: Namespace) -> record.Entries:
     table = json.loads(TABLE.read_text(encoding="utf-8"))
     entries: record.Entries = {}
-    for number, case in enumerate(table["cases"]):
-        folder = program.scratch / "errors" / str(number)
-        cwd = prepare(table["bases"], case, folder)
-        run = program.run(case.get("run", ["plan", "small.toml"]), cwd=cwd)
-        if case["name"] in entries:
-            raise SystemExit(f"two cases are named {case['name']}")
-        entries[case["name"]] = entry(run.status, run.err)
-        if wanted.details:
-            file = wanted.details / "errors" / (re.sub(r"\W+", "-", case["name"]) + ".txt")
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(run.err, encoding="utf-8")
-        shutil.rmtree(folder, ignore_errors=True)
+    for case in table["cases"]:
+        name = case["name"]
+        if name in entries:
+            raise SystemExit(f"{TABLE.name}: two cases are named {name}")
+        folder = program.scratch / "errors"
+        prepare(table["bases"], case, folder)
+        run = program.run(case.get("run", ["plan", "small.toml"]), cwd=folder)
+        entries[name] = entry(run.status, run.err)
+        record.write_detail(wanted, f"errors/{name.replace(' ', '-')}.txt", run.err.encode())
+        shutil.rmtree(folder)
     return entries
 
 
-def prepare(bases: dict[str, list[str]], case: dict, folder: Path) -> Path:
-    """The folder in which the command is run: a copy of the base with the case's edits, or the repository for "base": "repository"."""
-    base = case.get("base", "small")
-    if base == "repository":
-        return ROOT
+def prepare(bases: dict[str, list[str]], case: dict, folder: Path) -> None:
+    """Makes the folder in which a case is run.
+
+    base    files that are copied there, by their name in "bases"; the small job unless stated
+    edit    the first occurrence of a text in a file, and what replaces it
+    write   contents of further files
+    cut     the part of a file that is kept
+    remove  files that are removed
+    """
     folder.mkdir(parents=True)
-    for pattern in bases[base]:
+    for pattern in bases[case.get("base", "small")]:
         for source in ROOT.glob(pattern):
             shutil.copy(source, folder / source.name)
     for name, before, after in case.get("edit", []):
@@ -61,7 +68,6 @@ def prepare(bases: dict[str, list[str]], case: dict, folder: Path) -> Path:
         (folder / name).write_bytes(data[: int(len(data) * fraction)])
     for name in case.get("remove", []):
         (folder / name).unlink()
-    return folder
 
 
 def replace(path: Path, before: str, after: str) -> None:
@@ -72,28 +78,26 @@ def replace(path: Path, before: str, after: str) -> None:
 
 
 def entry(status: int, err: str) -> str:
-    found = [place(match["text"], match["code"]) for match in ERROR.finditer(err)]
-    return " | ".join([f"exit {status}", *found])
+    return " | ".join([f"status {status}", *(place(match["text"], match["code"]) for match in ERROR.finditer(err))])
 
 
 def place(text: str, code: str | None) -> str:
     """What an error states besides its wording."""
-    parts = []
     if head := PLACE.match(text):
-        parts += [head["place"], head["key"]]
-        text = text[head.end() :]
-        parts += [further.replace(": ", " ") for further in FURTHER.findall(text)]
+        further = FURTHER.findall(text[head.end() :])
+        parts = [head["place"], head["key"], *(found.replace(": ", " ") for found in further)]
     elif argument := ARGUMENT.search(text):
-        parts.append(argument[0])
+        parts = [argument[0]]
     else:
-        parts.append("no place")
-    parts.append(f"[{code}]" if code else None)
-    return " ".join(part for part in parts if part)
+        parts = ["no place"]
+    return " ".join(part for part in [*parts, code and f"[{code}]"] if part)
 
 
 def describe(stored: str, found: str) -> str:
-    """A code that was not stated when the record was stored is no difference."""
-    bare = [re.sub(r" \[[\w-]+\]", "", value) for value in (stored, found)]
-    if bare[0] == bare[1] and "[" not in stored:
+    """A code where none was stored is no difference."""
+    if not CODE.search(stored) and CODE.sub("", found) == stored:
         return ""
-    return record.describe_values(stored, found)
+    return record.was_and_is(stored, found)
+
+
+SECTION = record.Section(HEADING, measure, describe)
