@@ -15,7 +15,9 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
-{imports}_Path = str | PathLike[str]
+{imports}__all__ = {names}
+
+_Path = str | PathLike[str]
 _Progress = Callable[[str, int, int], object]
 '''
 
@@ -60,7 +62,12 @@ def function(verb):
     return "\n".join(text)
 
 
+def names(verbs):
+    """The names of the functions, as a list of Python."""
+    return "[" + ", ".join(f'"{_verbs.python_name(verb["name"])}"' for verb in verbs) + "]"
+
+
 def module(title, verbs):
     body = [function(verb) for verb in verbs]
     imports = "from . import Report\n\n" if any("-> Report" in text for text in body) else ""
-    return HEAD.format(title=title, imports=imports) + "".join(f"\n{text}\n" for text in body)
+    return HEAD.format(title=title, imports=imports, names=names(verbs)) + "".join(f"\n{text}\n" for text in body)

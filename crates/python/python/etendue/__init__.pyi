@@ -1,10 +1,10 @@
 """Étendue: spectral path tracing joined to a physically based camera."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, final
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,26 @@ import numpy.typing as npt
 from . import chart as chart
 from . import measure as measure
 from .verbs import *
+
+__all__ = [
+    "Camera",
+    "Error",
+    "Estimate",
+    "Fault",
+    "Frame",
+    "InputError",
+    "Job",
+    "Report",
+    "Results",
+    "RunError",
+    "__version__",
+    "chart",
+    "measure",
+    "set_limit",
+    "to_xarray",
+]
+# Written by `ETENDUE_BLESS=1` of `tests/test_stubs.py`.
+__all__ += ["merge", "rig", "tradeoff", "dataset", "expose", "weather", "develop", "flat", "datasheet", "import_", "inspect", "view", "compare", "calibrate", "characterise", "laboratory", "schema"]
 
 __version__: str
 
@@ -37,6 +57,7 @@ class InputError(Error, ValueError):
     """Unusable input (exit status 2 of the program): ``faults`` has all, the others are those of the first."""
 
     faults: list[Fault]
+    def __init__(self, faults: Iterable[tuple[str, str | None, int | None, int | None, str | None]]) -> None: ...
     @property
     def file(self) -> str | None: ...
     @property
@@ -49,6 +70,7 @@ class InputError(Error, ValueError):
 class RunError(Error, RuntimeError):
     """A run that did not succeed although its input is good (exit status 1 of the program)."""
 
+@final
 class Job:
     """A job that was read, checked and compiled: nothing after it fails because of what its user wrote."""
 
@@ -140,6 +162,7 @@ class Job:
         Answers with the paths of what was written.
         """
 
+@final
 class Results:
     """The results of all cameras of a job: their light is held; frames and ground truth are made when they are asked for."""
 
@@ -150,12 +173,13 @@ class Results:
     def names(self) -> list[str]:
         """Names of the cameras, each once."""
     def __len__(self) -> int: ...
-    def __getitem__(self, name: str) -> Camera: ...
+    def __getitem__(self, name: str, /) -> Camera: ...
     def camera(self, name: str, frame: int | None = None) -> Camera:
         """A camera by its name; where light depends on time, of one frame: the first unless another is named."""
     def save(self, folder: _Path, *, overwrite: bool = False) -> list[Path]:
         """Writes the files of ``etendue render``, the same bytes; answers with their paths."""
 
+@final
 class Camera:
     """The results of one camera. Arrays have rows from the top and pixels from the left; they are read-only and share the memory of what is held."""
 
@@ -236,6 +260,7 @@ class Camera:
     def rays(self) -> dict[str, npt.NDArray[Any]]:
         """Each pixel's ray in the camera's frame: "origin", m, and "direction", (height, width, 3), "ray", (height, width), and with a mirror "path", m."""
 
+@final
 class Frame:
     """A photograph of a camera."""
 

@@ -8,6 +8,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
+__all__ = ["dots", "checkerboard", "circles", "flat_field", "backlit", "slanted_edges", "slanted_star", "siemens_star", "dead_leaves", "oecf_steps", "colorchecker", "contrast_patches", "flare", "led_flicker", "points", "depth_wedge"]
+
 _Path = str | PathLike[str]
 _Progress = Callable[[str, int, int], object]
 

@@ -10,6 +10,8 @@ from typing import Any, Literal
 
 from . import Report
 
+__all__ = ["lens", "distortion", "focal", "chromatic", "ptc", "sfr", "oecf", "vignetting", "shading", "noise", "flare", "flicker", "colour", "cdp", "depth", "dark_current", "star", "texture", "compare"]
+
 _Path = str | PathLike[str]
 _Progress = Callable[[str, int, int], object]
 

@@ -10,6 +10,8 @@ from typing import Any, Literal
 
 from . import Report
 
+__all__ = ["merge", "rig", "tradeoff", "dataset", "expose", "weather", "develop", "flat", "datasheet", "import_", "inspect", "view", "compare", "calibrate", "characterise", "laboratory", "schema"]
+
 _Path = str | PathLike[str]
 _Progress = Callable[[str, int, int], object]
 
