@@ -52,6 +52,7 @@ mod measures;
 mod memory_that_fails;
 mod mitsuba;
 mod normal_maps;
+mod object_axes;
 mod plan_json;
 mod plans;
 mod point_lists;

@@ -2,7 +2,7 @@
 //!
 //! A scene is a camera of a sample: sample × cameras + the camera's place in the job; its pictures are numbered by frames. Objects are those of the ground truth that have a class, with their identities as `obj_id`.
 //!
-//! - A model's frame is that of the object's own mesh, its origin in the middle of the object's box; lengths are mm. `models/models_info.json` has that box; its `diameter` is the box's
+//! - A model's frame is that of the object (x forward, y left, z up, whatever axes its file has), its origin in the middle of the object's box; lengths are mm. `models/models_info.json` has that box; its `diameter` is the box's
 //!   diagonal, which the greatest distance of two points of the mesh does not exceed. Models themselves are left out.
 //! - `depth` is the distance along the axis, 0 where there is none or it is beyond 65 535 units of `bop_depth_unit_mm` (`depth_scale`).
 //! - `mask` holds the pixels that would show the object were it alone, `mask_visib` those that do, 255; files are numbered by the place in `scene_gt.json`.

@@ -21,7 +21,7 @@ pub(super) fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxe
             "amodal_box_px": "about the whole object, also beyond the picture; where is_cut about the parts that have an image",
             "visible_fraction": "pixels that show it over those that would if it were alone",
             "truncated_fraction": "part of the amodal box's area outside the picture; null where is_cut",
-            "box_3d": "in the object's own frame at time_s: size along its axes x, y, z; centre and rotation (quaternion w, x, y, z) in the \
+            "box_3d": "along the object's axes (x forward, y left, z up) at time_s: size; centre and rotation (quaternion w, x, y, z) in the \
                        camera's frame (x right, y down, z forward) and in the world (x forward, y left, z up)",
             "id": "as instance.ID of the ground truth, the same in all frames",
         },

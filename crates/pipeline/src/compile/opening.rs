@@ -11,6 +11,7 @@ use etendue_scene::record::light::placement::MainAxis;
 use etendue_tracer::accel::WorldBuilder;
 use etendue_tracer::geometry::{Instance, Shape};
 use etendue_tracer::lights::{Lamp, Opening, OpeningBody, Profile};
+use glam::DMat3;
 
 /// The opening of a lamp that shines along its `main` axis as `profile` says; `None` where it is faulty.
 pub(super) fn opening(
@@ -93,7 +94,7 @@ pub(super) fn placed(
         };
         let material = material_table.of_openings(&place);
         for (name, lamp) in alike {
-            identities.push(Identity { name, class: None });
+            identities.push(Identity { name, class: None, axes: DMat3::IDENTITY });
             let instance = builder.add_instance(Instance {
                 shape,
                 to_world: lamp.opening_to_world(&opening),

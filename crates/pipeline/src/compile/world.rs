@@ -16,7 +16,7 @@ use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{TreeQuality, World, WorldBuilder};
 use etendue_tracer::geometry::{Dropped, Instance, Mesh, MeshError, MeshId, Shape};
 use etendue_tracer::lights::Lamp;
-use glam::{DAffine3, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
@@ -74,6 +74,8 @@ struct Prototype {
     materials: Vec<MaterialId>,
     /// From the shape's own frame to the object's.
     to_object: DAffine3,
+    /// The rotation from the object's axes to the shape's.
+    axes: DMat3,
 }
 
 impl Assembly {
@@ -122,7 +124,8 @@ impl Assembly {
             let numbered =
                 if many { format!("{} {}", object.name.value, number + 1) } else { object.name.value.clone() };
             let name = name.map_or(numbered, |n| n.value.clone());
-            self.identities.push(Identity { name, class: object.class.as_ref().map(|c| c.value.clone()) });
+            let class_name = object.class.as_ref().map(|c| c.value.clone());
+            self.identities.push(Identity { name, class: class_name, axes: prototype.axes });
             let mut instance = Instance {
                 shape: prototype.shape,
                 to_world: to_world.after(&prototype.to_object),
@@ -186,7 +189,7 @@ impl Assembly {
             return None;
         }
         let to_object = DAffine3::from_mat3(record.to_object()) * DAffine3::from_translation(asset.origin.into());
-        Some(Prototype { shape, materials, to_object })
+        Some(Prototype { shape, materials, to_object, axes: record.axes().transpose() })
     }
 
     fn of_shape(
@@ -205,7 +208,7 @@ impl Assembly {
             }
             ShapeRecord::Disc(disc) => self.own_mesh(shape::disc(disc.radius_m.value), object, context)?,
         };
-        Some(Prototype { shape, materials: vec![material], to_object: DAffine3::IDENTITY })
+        Some(Prototype { shape, materials: vec![material], to_object: DAffine3::IDENTITY, axes: DMat3::IDENTITY })
     }
 
     fn own_mesh(

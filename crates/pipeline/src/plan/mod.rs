@@ -32,6 +32,7 @@ use etendue_tracer::accel::World;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::MaterialTable;
 use etendue_tracer::media::Medium;
+use glam::DMat3;
 use std::sync::Arc;
 
 pub use annotations::{Annotations, CorrespondenceFormat, DisparityProduct};
@@ -113,6 +114,8 @@ pub struct Identity {
     pub name: String,
     /// Its semantic class.
     pub class: Option<String>,
+    /// The rotation from the object's axes (x forward, y left, z up) to those of its shape: of a mesh those of its file.
+    pub axes: DMat3,
 }
 
 impl Plan {

@@ -120,9 +120,14 @@ impl Mesh {
     /// From the axes and units of the file to an object's (x forward, y left, z up; m): a rotation times the scale.
     #[must_use]
     pub fn to_object(&self) -> DMat3 {
+        self.axes() * self.scale.as_ref().map_or(1.0, |s| s.value)
+    }
+
+    /// The rotation from the axes of the file to an object's.
+    #[must_use]
+    pub fn axes(&self) -> DMat3 {
         let (forward, up) = (self.forward().vector(), self.up().vector());
-        let rows = DMat3::from_cols(forward, up.cross(forward), up);
-        rows.transpose() * self.scale.as_ref().map_or(1.0, |s| s.value)
+        DMat3::from_cols(forward, up.cross(forward), up).transpose()
     }
 }
 

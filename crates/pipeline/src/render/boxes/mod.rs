@@ -8,7 +8,7 @@
 //! - **Amodal box**: about the images of its vertices and of points on its edges, at least some 500 (of a sphere: of its outline), and about
 //!   the centres of the pixels that it shows alone, which know how distortion bends an edge between; it may reach beyond the picture. Where a part has no image (behind the camera,
 //!   beyond the lens's field) it is about the rest, and `is_cut` says so.
-//! - **Box in space**: that of its mesh in the mesh's own frame, at the middle of the frame's exposure.
+//! - **Box in space**: along the axes of the object (x forward, y left, z up), at the middle of the frame's exposure.
 //!
 //! Left out: amodal boxes by mirrors, where a point may have several images: they are those of the pixels that the object shows alone, and
 //! what is not seen has none. What has no point on its edges with an image, and is hidden, has no entry.

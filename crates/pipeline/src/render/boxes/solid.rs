@@ -26,11 +26,11 @@ pub struct Stance {
 }
 
 impl SolidBox {
-    /// The box of an instance's shape in its own frame at a time. A frame that is scaled unevenly after it was turned has sheared axes: the
-    /// box then stands along the first of them and about all of it.
+    /// The box about an instance's shape at a time, along the axes of its object (x forward, y left, z up; whatever axes a mesh's file has).
+    /// A frame that is scaled unevenly after it was turned has sheared axes: the box then stands along the first of them and about all of it.
     pub(super) fn of(plan: &Plan, instance: &Instance, time_s: f64, pose: &CameraPose) -> Self {
         let (size_m, world) = Self::in_world(plan, instance, time_s);
-        let axes = orthonormalised(&instance.to_world.at(time_s).matrix3);
+        let axes = object_axes(plan, instance, time_s);
         let to_camera = DAffine3::from_mat3_translation(pose.rotation, pose.position_m).inverse();
         let camera = Stance {
             centre_m: to_camera.transform_point3(world.centre_m),
@@ -42,7 +42,7 @@ impl SolidBox {
     /// Size, m, and place in the world.
     pub(super) fn in_world(plan: &Plan, instance: &Instance, time_s: f64) -> (DVec3, Stance) {
         let to_world = instance.to_world.at(time_s);
-        let axes = orthonormalised(&to_world.matrix3);
+        let axes = object_axes(plan, instance, time_s);
         let corners =
             corners(plan, instance, time_s).map(|corner| axes.transpose() * to_world.transform_vector3(corner));
         let low = corners.iter().copied().reduce(DVec3::min).unwrap_or_default();
@@ -50,6 +50,13 @@ impl SolidBox {
         let centre_m = to_world.translation + axes * ((low + high) * 0.5);
         (high - low, Stance { centre_m, rotation: quaternion(axes) })
     }
+}
+
+/// The rotation from an object's axes to the world at a time.
+fn object_axes(plan: &Plan, instance: &Instance, time_s: f64) -> DMat3 {
+    let identity = (instance.instance_id as usize).checked_sub(1).and_then(|place| plan.identities.get(place));
+    let axes = identity.map_or(DMat3::IDENTITY, |identity| identity.axes);
+    orthonormalised(&(instance.to_world.at(time_s).matrix3 * axes))
 }
 
 /// The corners of the box about a shape at a time, in its own frame.

@@ -1,0 +1,91 @@
+//! Boxes stand along the axes of their object, x forward and z up, whatever axes the file of its mesh has.
+
+use crate::support::{etendue, text};
+use glam::{DMat3, DVec3};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// Length, width and height of a car, m.
+const SIZE_M: DVec3 = DVec3::new(2.8, 1.5, 1.3);
+/// The axes of a file that point forward and upwards: z up, y up as in every glTF, and less usual ones.
+const AXES: [(&str, &str); 5] = [("x", "z"), ("z", "y"), ("-z", "y"), ("-x", "y"), ("y", "-z")];
+
+fn axis(name: &str) -> DVec3 {
+    let vector = match name.trim_start_matches('-') {
+        "x" => DVec3::X,
+        "y" => DVec3::Y,
+        _ => DVec3::Z,
+    };
+    if name.starts_with('-') { -vector } else { vector }
+}
+
+/// The car as a file with these axes; its origin is on the ground.
+fn obj(forward: &str, up: &str) -> String {
+    let (forward, up) = (axis(forward), axis(up));
+    let to_file = DMat3::from_cols(forward, up.cross(forward), up);
+    let corner = |i: u32| DVec3::from([i & 1, i >> 1 & 1, i >> 2].map(f64::from)) - DVec3::new(0.5, 0.5, 0.0);
+    let vertex = |v: DVec3| format!("v {} {} {}\n", v.x, v.y, v.z);
+    let vertices: String = (0..8).map(|i| vertex(to_file * (corner(i) * SIZE_M))).collect();
+    vertices + "f 1 2 4 3\nf 5 6 8 7\nf 1 2 6 5\nf 3 4 8 7\nf 1 3 7 5\nf 2 4 8 6\n"
+}
+
+/// A camera that looks along x at the car, which is turned about the vertical by `turn_deg`.
+fn job(forward: &str, up: &str, turn_deg: f64) -> String {
+    format!(
+        "format = 1\n[sequence]\nframe_rate_hz = 10\n[[cameras]]\nname = \"front\"\nposition_m = [0, 0, 1.5]\nlook_at_m = [10, 0, 1.5]\n\
+         lens = {{ type = \"pinhole\", focal_length_mm = 4, f_number = 4 }}\n\
+         sensor = {{ width_px = 80, height_px = 48, pixel_pitch_um = 48, exposure_s = 0.001, dark_current_e_s = 0, cfa = \"mono\", \
+         quantum_efficiency = 0.5, full_well_e = 60000, read_noise_e = 3, gain_dn_per_e = 0.06, black_level_dn = 64, bits = 12 }}\n\
+         [render]\nspp = 1\nreplicates = 1\nintegrator = \"flat\"\n[output]\nboxes = true\n[scene]\nclasses = {{ car = 26 }}\n\
+         environment = {{ type = \"uniform\", luminance_cd_m2 = 1000, illuminant = \"D65\" }}\n\
+         [[scene.materials]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
+         [[scene.meshes]]\nname = \"car\"\nfile = \"car.obj\"\nup_axis = \"{up}\"\nforward_axis = \"{forward}\"\n\
+         [[scene.objects]]\nname = \"car\"\nmesh = \"car\"\nclass = \"car\"\nmaterial = \"grey\"\nposition_m = [10, 2, 0]\n\
+         rotation_deg = [{turn_deg}, 0, 0]\n"
+    )
+}
+
+/// The numbers of a KITTI label behind its type.
+fn label(folder: &Path) -> Vec<f64> {
+    let file = folder.join("kitti/front/training/label_2/000000.txt");
+    let text = fs::read_to_string(file).expect("a label");
+    text.split_whitespace().skip(1).map(|word| word.parse().expect("a number")).collect()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().expect("an array").iter().map(|number| number.as_f64().expect("a number")).collect()
+}
+
+fn assert_near(found: &[f64], expected: &[f64], about: &str) {
+    let is_near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5);
+    assert!(found.len() == expected.len() && is_near, "{about}: {found:?}, expected {expected:?}");
+}
+
+#[test]
+fn boxes_do_not_depend_on_the_axes_of_the_file() {
+    for (forward, up) in AXES {
+        for turn_deg in [0.0_f64, 40.0] {
+            let place = tempfile::tempdir().expect("a folder");
+            let about = format!("forward {forward}, up {up}, turned by {turn_deg}°");
+            fs::write(place.path().join("car.obj"), obj(forward, up)).expect("written");
+            let file = place.path().join("job.toml");
+            fs::write(&file, job(forward, up, turn_deg)).expect("written");
+            let out = place.path().join("set");
+            etendue(["dataset", &text(&file), "-o", &text(&out), "--format", "kitti", "--samples", "0..1"]).ok();
+            // Height, width, length; the middle of the bottom, x right, y down, z forward; the turn about y of the forward axis from x.
+            let heading = (-90.0 - turn_deg).to_radians();
+            assert_near(&label(&out)[7..14], &[1.3, 1.5, 2.8, -2.0, 1.5, 10.0, heading], &about);
+
+            let rendered = place.path().join("out");
+            etendue(["render", &text(&file), "-o", &text(&rendered)]).ok();
+            let boxes = fs::read(rendered.join("front/boxes.0000.json")).expect("boxes");
+            let boxes: Value = serde_json::from_slice(&boxes).expect("JSON");
+            let solid = &boxes["objects"][0]["box_3d"];
+            assert_near(&numbers(&solid["size_m"]), &SIZE_M.to_array(), &about);
+            let half = turn_deg.to_radians() / 2.0;
+            let expected = [half.cos(), 0.0, 0.0, half.sin()];
+            assert_near(&numbers(&solid["world"]["rotation_wxyz"]), &expected, &about);
+        }
+    }
+}
