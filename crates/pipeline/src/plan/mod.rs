@@ -108,14 +108,19 @@ pub struct SkyFacts {
 }
 
 /// What an instance id stands for.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Identity {
     /// The instance's name.
     pub name: String,
     /// Its semantic class.
     pub class: Option<String>,
     /// The rotation from the object's axes (x forward, y left, z up) to those of its shape: of a mesh those of its file.
+    #[serde(skip_serializing_if = "is_identity")]
     pub axes: DMat3,
+}
+
+fn is_identity(axes: &DMat3) -> bool {
+    *axes == DMat3::IDENTITY
 }
 
 impl Plan {
