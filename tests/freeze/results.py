@@ -38,6 +38,8 @@ def run_job(program: Program, wanted: Namespace, job: dict) -> record.Entries:
     entries: record.Entries = {}
     folder = program.scratch / "results" / job["name"]
     folder.mkdir(parents=True)
+    for source in job.get("copy", []):
+        shutil.copy(ROOT / source, folder)
     for number, step in enumerate(job["steps"]):
         if failure := run_step(program, step, folder):
             entries[f"{job['name']}/step {number}"] = failure
