@@ -38,9 +38,12 @@ def run_job(program: Program, wanted: Namespace, job: dict) -> record.Entries:
     entries: record.Entries = {}
     folder = program.scratch / "results" / job["name"]
     folder.mkdir(parents=True)
+    for source in job.get("copy", []):
+        shutil.copy(ROOT / source, folder)
     for number, step in enumerate(job["steps"]):
         if failure := run_step(program, step, folder):
             entries[f"{job['name']}/step {number}"] = failure
+            break
     for path in sorted(path for path in folder.rglob("*") if path.is_file()):
         name, data = f"{job['name']}/{path.relative_to(folder).as_posix()}", path.read_bytes()
         entries[name] = entry(data)
@@ -69,7 +72,9 @@ def run_step(program: Program, step: dict, folder: Path) -> str:
     if run.status != step.get("status", 0):
         return run.failure(f"etendue {' '.join(arguments)}")
     if "keep" in step:
-        (folder / step["keep"]).write_bytes(run.out.replace(str(folder).encode(), b"."))
+        kept = folder / step["keep"]
+        kept.parent.mkdir(exist_ok=True)
+        kept.write_bytes(run.out.replace(str(folder).encode(), b"."))
     return ""
 
 
