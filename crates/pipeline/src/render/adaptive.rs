@@ -84,7 +84,7 @@ impl RenderJob<'_> {
     /// Gathers the pixels of a tile that cuts no cell, each to the tolerance.
     pub(super) fn gather_to_tolerance<const N: usize>(
         &self,
-        field: &impl RadianceField<N>,
+        field: &dyn RadianceField<N>,
         tile: Tile,
         tolerance: &Tolerance,
     ) -> Vec<(Pixel, PixelLight)> {
@@ -94,7 +94,7 @@ impl RenderJob<'_> {
 
     fn gather_cell<const N: usize>(
         &self,
-        field: &impl RadianceField<N>,
+        field: &dyn RadianceField<N>,
         cell: Tile,
         tolerance: &Tolerance,
     ) -> Vec<(Pixel, PixelLight)> {
@@ -118,7 +118,7 @@ impl RenderJob<'_> {
     /// Adds samples to the replicates of a block: each has `from`, and goes on to its own number.
     fn add<const N: usize>(
         &self,
-        field: &impl RadianceField<N>,
+        field: &dyn RadianceField<N>,
         sampled: &mut Sampled,
         from: u32,
         to: &[u32],
@@ -197,7 +197,7 @@ mod tests {
         }
     }
 
-    fn film(field: &impl RadianceField<1>, factor: f64, tile_px: u32) -> Film {
+    fn film(field: &dyn RadianceField<1>, factor: f64, tile_px: u32) -> Film {
         let tolerance = Tolerance::new(AdaptiveSampling { threshold: factor, min_spp: 16 }, None);
         let layout = Layout { bands: None, folded: false, watched: true };
         let spread = SpectrumSpread::Drawn;

@@ -20,7 +20,7 @@ use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
 use etendue_sensor::Sensor;
 use etendue_tracer::accel::Simd;
-use etendue_tracer::integrator::{PathSettings, PathTracer};
+use etendue_tracer::integrator::{PathSettings, PathTracer, SpectralPaths};
 use etendue_tracer::lights::{LightCounts, Lights};
 use etendue_tracer::media::Media;
 use etendue_tracer::precipitation::{ChangeOver, SeenRegion};
@@ -175,7 +175,10 @@ fn gathered<const N: usize>(
     tracer: PathTracer<'_>,
     camera: &CameraPlan,
     (before, observer): (Option<&Film>, &dyn Observer),
-) -> Result<Film, GatherError> {
+) -> Result<Film, GatherError>
+where
+    for<'t> PathTracer<'t>: SpectralPaths<N>,
+{
     let asks = camera.settings.guiding;
     let guide = asks.then(|| guide::<N>(job, &tracer, camera, observer)).transpose()?;
     job.gather::<N>(&tracer.with_guide(guide.as_ref()), before, observer)

@@ -147,7 +147,7 @@ impl RenderJob<'_> {
     /// Where the observer asked to stop, or bands cannot be kept on the disk.
     pub fn gather<const N: usize>(
         &self,
-        field: &impl RadianceField<N>,
+        field: &dyn RadianceField<N>,
         before: Option<&Film>,
         observer: &dyn Observer,
     ) -> Result<Film, GatherError> {
@@ -195,7 +195,7 @@ impl RenderJob<'_> {
     /// The light of the pixels of a tile, which this pass takes.
     fn gather_tile<const N: usize>(
         &self,
-        field: &impl RadianceField<N>,
+        field: &dyn RadianceField<N>,
         tile: Tile,
         observer: &dyn Observer,
     ) -> Result<Vec<(Pixel, PixelLight)>, GatherError> {
@@ -236,7 +236,7 @@ impl RenderJob<'_> {
     }
 
     /// Gathers the pixels of a block, sample by sample.
-    fn gather_block<const N: usize>(&self, field: &impl RadianceField<N>, block: &[Pixel]) -> Vec<(Pixel, PixelLight)> {
+    fn gather_block<const N: usize>(&self, field: &dyn RadianceField<N>, block: &[Pixel]) -> Vec<(Pixel, PixelLight)> {
         let layout = self.gathered();
         let mut sums = vec![Sums::new(layout); block.len()];
         let mut gathers = vec![Gather::new(&layout); block.len()];
@@ -253,7 +253,7 @@ impl RenderJob<'_> {
     /// Adds samples of one replicate of the pixels of a block.
     pub(super) fn add_replicate<const N: usize>(
         &self,
-        field: &impl RadianceField<N>,
+        field: &dyn RadianceField<N>,
         (block, replicate): (&[Pixel], u32),
         samples: Range<u32>,
         asked: &mut Asked<N>,
@@ -282,7 +282,7 @@ impl RenderJob<'_> {
     /// One sample of each pixel of a block.
     fn add_samples<const N: usize>(
         &self,
-        field: &impl RadianceField<N>,
+        field: &dyn RadianceField<N>,
         block: &[Pixel],
         (streams, heroes): (&[PathStream], &Heroes),
         sample: u32,

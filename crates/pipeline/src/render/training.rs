@@ -9,7 +9,7 @@ use crate::render::observer::Observer;
 use etendue_core::FieldRay;
 use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
 use etendue_tracer::guiding::{Guide, Training};
-use etendue_tracer::integrator::PathTracer;
+use etendue_tracer::integrator::{PathTracer, SpectralPaths};
 use rayon::prelude::*;
 
 /// Paths of a picture for each that is followed before it.
@@ -30,7 +30,10 @@ pub(super) fn guide<const N: usize>(
     tracer: &PathTracer<'_>,
     camera: &CameraPlan,
     observer: &dyn Observer,
-) -> Result<Guide, GatherError> {
+) -> Result<Guide, GatherError>
+where
+    for<'t> PathTracer<'t>: SpectralPaths<N>,
+{
     let training = Training::default();
     let paths = paths((job.width, job.height), spp(camera, job.sampling.pass));
     (0..paths.div_ceil(A_CHUNK)).into_par_iter().try_for_each(|chunk| {
@@ -60,7 +63,7 @@ fn paths((width, height): (u32, u32), spp: u32) -> u64 {
     (u64::from(width) * u64::from(height) * u64::from(spp) / PATHS_FOR_ONE).min(MOST_PATHS)
 }
 
-fn train<const N: usize>(job: &RenderJob<'_>, tracer: &PathTracer<'_>, path: u64, training: &Training) {
+fn train<const N: usize>(job: &RenderJob<'_>, tracer: &dyn SpectralPaths<N>, path: u64, training: &Training) {
     let place = |step: f64, size: u32| (((0.5 + path as f64 * step).fract() * f64::from(size)) as u32).min(size - 1);
     let pixel = Pixel { x: place(STEPS[0], job.width), y: place(STEPS[1], job.height) };
     // Apart from all that are part of the picture.

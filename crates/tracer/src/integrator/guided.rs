@@ -4,7 +4,7 @@ use etendue_core::{FieldRay, Wavelengths};
 use glam::{Vec2, Vec3};
 
 use super::PathTracer;
-use super::effects::{Clear, Effects, Every, Matt, SceneEffects};
+use super::effects::{Effects, Every, Matt};
 use super::path::{Intersection, MAX_MET, Path, PathStep, Vertex};
 use crate::ALL_EFFECTS;
 use crate::geometry::SurfacePoint;
@@ -12,13 +12,17 @@ use crate::guiding::{DirectionDistribution, GUIDED_BOUNCES, Place, Training, bin
 use crate::materials::{Bsdf, BsdfSample, DiffuseBsdf, Event, ShadingFrame};
 
 impl PathTracer<'_> {
-    /// Follows a path and adds what it finds behind its first matt surfaces to `training`. To be asked without a guide.
-    pub fn train<const N: usize>(&self, asked: &FieldRay, wavelengths: &Wavelengths<N>, training: &Training) {
-        match self.effects {
-            SceneEffects::Matt => Path::<N, Matt>::new(self, asked, wavelengths).train(training),
-            _ if !ALL_EFFECTS => unreachable!("a scene without optional effects"),
-            SceneEffects::Clear => Path::<N, Clear>::new(self, asked, wavelengths).train(training),
-            SceneEffects::Every => Path::<N, Every>::new(self, asked, wavelengths).train(training),
+    /// Follows a path with the code for all effects: training paths are few.
+    pub(super) fn train_along<const N: usize>(
+        &self,
+        asked: &FieldRay,
+        wavelengths: &Wavelengths<N>,
+        training: &Training,
+    ) {
+        if ALL_EFFECTS {
+            Path::<N, Every>::new(self, asked, wavelengths).train(training);
+        } else {
+            Path::<N, Matt>::new(self, asked, wavelengths).train(training);
         }
     }
 }

@@ -40,5 +40,6 @@ mod tests;
 pub use level::Level;
 pub use mis::Strategies;
 pub use path_tracer::PathTracer;
+pub use radiance::SpectralPaths;
 pub use settings::{LightSampling, PathSettings};
 pub use surroundings::Surroundings;
