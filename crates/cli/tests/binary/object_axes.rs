@@ -91,3 +91,31 @@ fn boxes_do_not_depend_on_the_axes_of_the_file() {
         }
     }
 }
+
+/// A car beside the camera, 1.7 m to its right, that leaves the picture to the right: its label is about the part within the picture.
+#[test]
+fn a_car_beside_the_camera_is_cut_at_the_border_of_the_picture() {
+    let place = tempfile::tempdir().expect("a folder");
+    let car = "shape = { type = \"box\", size_m = [4.5, 1.8, 1.5] }\nclass = \"car\"\nmaterial = \"grey\"\nposition_m = [2.8, -2.6, 0.75]\n";
+    let (before, _) =
+        job("x", "z", 0.0).split_once("[[scene.meshes]]").map(|(a, b)| (a.to_owned(), b.to_owned())).expect("a mesh");
+    let before = before
+        .replace(
+            "width_px = 80, height_px = 48, pixel_pitch_um = 48",
+            "width_px = 200, height_px = 120, pixel_pitch_um = 20",
+        )
+        .replace(
+            "position_m = [0, 0, 1.5]\nlook_at_m = [10, 0, 1.5]",
+            "position_m = [0, 0, 1.2]\nrotation_deg = [0, 0, 0]",
+        );
+    let file = place.path().join("job.toml");
+    fs::write(&file, format!("{before}[[scene.objects]]\nname = \"car\"\n{car}")).expect("written");
+    let out = place.path().join("set");
+    etendue(["dataset", &text(&file), "-o", &text(&out), "--format", "kitti", "--samples", "0..1"]).ok();
+    // 200 px of focal length about (100, 60): the near upper edge, 1.7 m to the right and 0.3 m above, meets the border in a depth of 3.4 m. The
+    // image's left edge is that of the far end, 5.05 m ahead. Coordinates are those of pixel centres, and the last of the picture are 199 and 119.
+    let left = 100.0 + 200.0 * 1.7 / 5.05 - 0.5;
+    let top = 60.0 - 200.0 * 0.3 / 3.4 - 0.5;
+    let found = &label(&out)[3..7];
+    assert!(found.iter().zip([left, top, 199.0, 119.0]).all(|(a, b)| (a - b).abs() < 0.0051), "{found:?}");
+}

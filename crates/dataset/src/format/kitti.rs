@@ -10,7 +10,7 @@
 //! | truncated | the part of the amodal box outside the picture; 1 where parts of the object have no image |
 //! | occluded | 0: 95 % of what is in the picture is seen, 1: half, 2: less |
 //! | alpha | `rotation_y` less the direction of the object's centre, rad |
-//! | bbox | the amodal box within the picture, cut to pixel centres |
+//! | bbox | about the part of the whole object within the picture, cut to pixel centres |
 //! | dimensions, location, rotation_y | the least box about the object's box in space whose height is along the camera's y: height, width, length (m), the middle of its bottom (m), and the turn of the object's x axis about y, rad |
 //!
 //! Left out: a laser scanner and an inertial sensor. `Tr_velo_to_cam` places a scanner at the camera, x forward, y left, z up; no scans are written.

@@ -19,6 +19,7 @@ pub(super) fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxe
             "boxes": "left, top, right, bottom; raster coordinates, px: a pixel (x, y) fills x to x + 1 and y to y + 1",
             "visible_box_px": "about the pixels that show the object; null: none",
             "amodal_box_px": "about the whole object, also beyond the picture; where is_cut about the parts that have an image",
+            "amodal_box_in_picture_px": "about the part of the whole object's image within the picture, whatever hides it; null: none",
             "visible_fraction": "pixels that show it over those that would if it were alone",
             "truncated_fraction": "part of the amodal box's area outside the picture; null where is_cut",
             "box_3d": "along the object's axes (x forward, y left, z up) at time_s: size; centre and rotation (quaternion w, x, y, z) in the \
@@ -31,14 +32,13 @@ pub(super) fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxe
 
 fn object_json(plan: &Plan, (width, height): (usize, usize), object: &ObjectBoxes) -> Value {
     let identity = plan.identities.get(object.id as usize - 1);
-    let clipped = object.amodal.and_then(|whole| whole.within(width, height));
     json!({
         "id": object.id,
         "name": identity.map(|identity| &identity.name),
         "class": identity.and_then(|identity| identity.class.as_ref()),
         "visible_box_px": object.visible.map(edges),
         "amodal_box_px": object.amodal.map(edges),
-        "amodal_box_in_picture_px": clipped.map(edges),
+        "amodal_box_in_picture_px": object.amodal_in_picture.map(edges),
         "is_cut": object.is_cut,
         "visible_pixels": object.visible_pixels,
         "alone_pixels": object.alone_pixels,

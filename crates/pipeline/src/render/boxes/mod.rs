@@ -8,12 +8,16 @@
 //! - **Amodal box**: about the images of its vertices and of points on its edges, at least some 500 (of a sphere: of its outline), and about
 //!   the centres of the pixels that it shows alone, which know how distortion bends an edge between; it may reach beyond the picture. Where a part has no image (behind the camera,
 //!   beyond the lens's field) it is about the rest, and `is_cut` says so.
+//! - **Amodal box in the picture**: about the part of the whole object's image that lies in the picture. Edges are cut at its border, not the box,
+//!   which of an object beside the camera reaches far above and below what is in the picture.
 //! - **Box in space**: along the axes of the object (x forward, y left, z up), at the middle of the frame's exposure.
 //!
 //! Left out: amodal boxes by mirrors, where a point may have several images: they are those of the pixels that the object shows alone, and
 //! what is not seen has none. What has no point on its edges with an image, and is hidden, has no entry.
 
 mod amodal;
+mod clipped;
+mod edges;
 mod pixel_box;
 mod solid;
 #[cfg(test)]
@@ -44,6 +48,8 @@ pub struct ObjectBoxes {
     pub visible: Option<PixelBox>,
     /// About the whole object; `None` where nothing of it has an image, or only by a mirror in which it is not seen.
     pub amodal: Option<PixelBox>,
+    /// About the part of the whole object's image within the picture; `None` where none is.
+    pub amodal_in_picture: Option<PixelBox>,
     /// Whether parts of it have no image, so that the amodal box is about the rest.
     pub is_cut: bool,
     /// Pixels that show it.
@@ -96,6 +102,7 @@ pub fn object_boxes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, s
                 .into_iter()
                 .flatten()
                 .fold(amodal.image, |whole, pixels| PixelBox::union(whole, Some(pixels.of_centres()))),
+            amodal_in_picture: amodal.in_picture(frame, instance, PixelBox::union(shown, visible).as_ref()),
             is_cut: amodal.is_cut,
             visible_pixels,
             alone_pixels,

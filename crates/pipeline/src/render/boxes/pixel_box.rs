@@ -17,9 +17,32 @@ impl PixelBox {
         Self { low, high: low + 1.0 }
     }
 
+    /// About all pixels of a picture.
+    pub(super) fn of_picture(width_px: usize, height_px: usize) -> Self {
+        Self { low: DVec2::ZERO, high: DVec2::new(width_px as f64, height_px as f64) }
+    }
+
+    /// Whether the other box lies within this.
+    pub(super) fn holds(&self, other: &Self) -> bool {
+        (self.low.cmple(other.low) & self.high.cmpge(other.high)).all()
+    }
+
     /// Of a box about pixels, that about their centres.
     pub(super) fn of_centres(&self) -> Self {
         Self { low: self.low + 0.5, high: self.high - 0.5 }
+    }
+
+    /// Of a box about pixels of a picture, that about their centres, but up to the border where the box ends there and `whole` reaches beyond; `None`
+    /// reaches without end.
+    pub(super) fn to_border(&self, whole: Option<&Self>, picture: &Self) -> Self {
+        let centres = self.of_centres();
+        let whole = whole.copied().unwrap_or(Self { low: DVec2::NEG_INFINITY, high: DVec2::INFINITY });
+        let low = self.low.cmple(picture.low) & whole.low.cmple(picture.low);
+        let high = self.high.cmpge(picture.high) & whole.high.cmpge(picture.high);
+        Self {
+            low: DVec2::select(low, picture.low, centres.low),
+            high: DVec2::select(high, picture.high, centres.high),
+        }
     }
 
     /// The least box about both.
@@ -38,8 +61,8 @@ impl PixelBox {
     /// The part within a picture; `None` where it lies outside.
     #[must_use]
     pub fn within(&self, width_px: usize, height_px: usize) -> Option<Self> {
-        let low = self.low.max(DVec2::ZERO);
-        let high = self.high.min(DVec2::new(width_px as f64, height_px as f64));
+        let picture = Self::of_picture(width_px, height_px);
+        let (low, high) = (self.low.max(picture.low), self.high.min(picture.high));
         low.cmplt(high).all().then_some(Self { low, high })
     }
 

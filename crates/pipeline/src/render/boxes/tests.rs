@@ -93,6 +93,39 @@ fn what_reaches_behind_the_camera_is_cut() {
     assert!((floor.amodal.expect("seen").low.y - 13.8).abs() < 0.01, "{floor:?}");
 }
 
+/// A bar along the camera's axis, 0.5 m to 2.3 m to its right, from 1.2 m below the axis to 0.3 m above, that ends 5.05 m before it and leaves the
+/// picture to the right, wholly before the camera or reaching behind it.
+#[test]
+fn what_leaves_the_picture_sideways_ends_at_its_border() {
+    for from_m in [0.55, -2.0] {
+        let (length_m, middle_m) = (5.05 - from_m, 0.5 * (5.05 + from_m));
+        let bar = object(
+            "g",
+            &format!("type = \"box\", size_m = [{length_m}, 1.8, 1.5]"),
+            &format!("position_m = [{middle_m}, -1.4, -0.45]"),
+        );
+        let found = boxes(&plan(PINHOLE, &bar));
+        let in_picture = found[0].amodal_in_picture.expect("seen").edges_px();
+        // The upper inner edge meets the right border, 16 px from the axis, in a depth of 0.5 m · 60 / 16.
+        let expected = [16.0 + 60.0 * 0.5 / 5.05, 12.0 - 60.0 * 0.3 / 1.875, 32.0, 24.0];
+        assert!(close(in_picture, expected), "{from_m}: {in_picture:?}");
+        assert_eq!(found[0].is_cut, from_m < 0.0);
+        // The whole image, of that before the camera, reaches 20.7 px above the picture.
+        let top = 12.0 - 60.0 * 0.3 / 0.55;
+        assert!(found[0].is_cut || (found[0].amodal.expect("seen").low.y - top).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn what_covers_the_picture_has_its_borders() {
+    let found = boxes(&plan(PINHOLE, WALL));
+    assert_eq!(found[0].amodal_in_picture.expect("seen").edges_px(), [0.0, 0.0, 32.0, 24.0]);
+    // A ball about the camera has no outline.
+    let about = object("h", "type = \"sphere\", radius_m = 3", "");
+    let found = boxes(&plan(PINHOLE, &about));
+    assert_eq!((found[0].amodal_in_picture.expect("seen").edges_px(), found[0].is_cut), ([0.0, 0.0, 32.0, 24.0], true));
+}
+
 #[test]
 fn edges_that_a_fisheye_bends_are_inside_the_box() {
     let lens = "type = \"calibrated\", f_number = 2, projection = { type = \"equidistant\", fx_px = 8 }";

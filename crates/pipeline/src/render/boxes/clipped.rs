@@ -1,0 +1,176 @@
+//! The part of a line's image that lies within the picture.
+//!
+//! Images of the line's points are joined by straight segments, which are cut at the picture's border (Liang and Barsky 1984). Segments are halved
+//! until they follow the image: perspective keeps lines straight, distortion and motion bend them. Where one end of a segment has no image, as
+//! behind the camera, the last point that has one is found by halving.
+
+use super::pixel_box::PixelBox;
+use glam::DVec2;
+
+/// How far from a segment the image of its middle may lie, px.
+const STRAIGHT_PX: f64 = 0.01;
+/// How often a segment is halved at most.
+const HALVINGS: u32 = 12;
+/// How often the stretch in which the image ends is halved: to 6e-8 of a segment.
+const END_HALVINGS: u32 = 24;
+
+/// A point of the line and its image.
+#[derive(Clone, Copy)]
+struct Imaged {
+    share: f64,
+    at_px: DVec2,
+}
+
+/// The box about the images, within `picture`, of a line that is divided into `parts`; `image` gives the image of the point at a share of its length. `None`
+/// where no part of it lies in the picture. A line with images only between two neighbouring points of the division has none.
+pub(super) fn within(image: &impl Fn(f64) -> Option<DVec2>, parts: usize, picture: &PixelBox) -> Option<PixelBox> {
+    let share = |i: usize| i as f64 / parts as f64;
+    let point = |share: f64| image(share).map(|at_px| Imaged { share, at_px });
+    let mut from = point(0.0);
+    let mut found = None;
+    for i in 1..=parts {
+        let to = point(share(i));
+        let segment = match (from, to) {
+            (Some(from), Some(to)) => Some((from, to)),
+            (Some(from), None) => Some((from, last(image, from, share(i)))),
+            (None, Some(to)) => Some((last(image, to, share(i - 1)), to)),
+            (None, None) => None,
+        };
+        let segment = segment.and_then(|(from, to)| segment_within(image, from, to, picture, HALVINGS));
+        found = PixelBox::union(found, segment);
+        from = to;
+    }
+    found
+}
+
+/// The last point with an image on the way from one that has one to one that has none.
+fn last(image: &impl Fn(f64) -> Option<DVec2>, from: Imaged, mut without: f64) -> Imaged {
+    let mut with = from;
+    for _ in 0..END_HALVINGS {
+        let share = 0.5 * (with.share + without);
+        match image(share) {
+            Some(at_px) => with = Imaged { share, at_px },
+            None => without = share,
+        }
+    }
+    with
+}
+
+fn segment_within(
+    image: &impl Fn(f64) -> Option<DVec2>,
+    from: Imaged,
+    to: Imaged,
+    picture: &PixelBox,
+    halvings: u32,
+) -> Option<PixelBox> {
+    let share = 0.5 * (from.share + to.share);
+    let middle = (halvings > 0).then(|| image(share)).flatten();
+    match middle {
+        Some(at_px) if !is_between(at_px, from.at_px, to.at_px) => {
+            let middle = Imaged { share, at_px };
+            PixelBox::union(
+                segment_within(image, from, middle, picture, halvings - 1),
+                segment_within(image, middle, to, picture, halvings - 1),
+            )
+        }
+        _ => cut(from.at_px, to.at_px, picture),
+    }
+}
+
+/// Whether a point lies on the segment between two others.
+fn is_between(at: DVec2, from: DVec2, to: DVec2) -> bool {
+    let along = to - from;
+    let length = along.length();
+    if length == 0.0 {
+        return at.distance(from) <= STRAIGHT_PX;
+    }
+    let towards = along / length;
+    let reach = (at - from).dot(towards);
+    // Far outside the picture, rounding moves points by parts of their distance.
+    let tolerance = STRAIGHT_PX.max(1e-9 * length);
+    (at - from).perp_dot(towards).abs() <= tolerance && (-tolerance..=length + tolerance).contains(&reach)
+}
+
+/// The box about the part of a segment that lies in the picture.
+fn cut(from: DVec2, to: DVec2, picture: &PixelBox) -> Option<PixelBox> {
+    let along = to - from;
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for axis in 0..2 {
+        let (low, high) = (picture.low[axis] - from[axis], picture.high[axis] - from[axis]);
+        if along[axis] == 0.0 {
+            if low > 0.0 || high < 0.0 {
+                return None;
+            }
+            continue;
+        }
+        let (a, b) = (low / along[axis], high / along[axis]);
+        enters = enters.max(a.min(b));
+        leaves = leaves.min(a.max(b));
+    }
+    if enters > leaves {
+        return None;
+    }
+    // Rounding may put a point on the border a little beyond it.
+    let at = |share: f64| {
+        let at = if share <= 0.0 {
+            from
+        } else if share >= 1.0 {
+            to
+        } else {
+            from + along * share
+        };
+        at.clamp(picture.low, picture.high)
+    };
+    let (a, b) = (at(enters), at(leaves));
+    Some(PixelBox { low: a.min(b), high: a.max(b) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PICTURE: PixelBox = PixelBox { low: DVec2::ZERO, high: DVec2::new(200.0, 120.0) };
+
+    fn edges(found: Option<PixelBox>) -> [f64; 4] {
+        found.expect("within the picture").edges_px()
+    }
+
+    #[test]
+    fn a_straight_line_is_cut_at_the_border() {
+        let line = |share: f64| Some(DVec2::new(-100.0, 20.0).lerp(DVec2::new(100.0, 60.0), share));
+        assert_eq!(edges(within(&line, 1, &PICTURE)), [0.0, 40.0, 100.0, 60.0]);
+        let beside = |share: f64| Some(DVec2::new(-100.0, 20.0).lerp(DVec2::new(-1.0, 60.0), share));
+        assert_eq!(within(&beside, 4, &PICTURE), None);
+        // It misses a corner, though its box does not.
+        let past = |share: f64| Some(DVec2::new(-10.0, 5.0).lerp(DVec2::new(5.0, -10.0), share));
+        assert_eq!(within(&past, 1, &PICTURE), None);
+    }
+
+    /// A line along the ground from 10 m before a pinhole camera to 10 m behind it: it leaves the picture at the lower border.
+    #[test]
+    fn a_line_that_passes_the_camera_ends_at_the_border() {
+        let image = |share: f64| {
+            let (ahead, below, right) = (10.0 - 20.0 * share, 1.5, -0.5);
+            (ahead > 0.0).then(|| DVec2::new(100.0, 60.0) + DVec2::new(right, below) * (200.0 / ahead))
+        };
+        for parts in [1, 7] {
+            let [left, top, right, bottom] = edges(within(&image, parts, &PICTURE));
+            assert!(
+                (top - 90.0).abs() < 1e-9 && bottom == 120.0 && (right - 90.0).abs() < 1e-9,
+                "{top} {bottom} {right}"
+            );
+            assert!((left - 80.0).abs() < 1e-6, "{left}");
+        }
+    }
+
+    /// Half a circle that only reaches into the picture between its ends.
+    #[test]
+    fn bent_lines_are_followed() {
+        let image = |share: f64| {
+            let (sin, cos) = etendue_core::maths::f64::sin_cos(core::f64::consts::PI * (share - 0.5));
+            Some(DVec2::new(-50.0 + 100.0 * cos, 60.0 + 30.0 * sin))
+        };
+        let [left, _, right, _] = edges(within(&image, 3, &PICTURE));
+        assert!(left == 0.0 && (right - 50.0).abs() < STRAIGHT_PX, "{left} {right}");
+    }
+}
