@@ -7,7 +7,6 @@ use crate::plan::Plan;
 use crate::render::frame_view::FrameView;
 use crate::render::motion::{OwnPoint, image_of};
 use etendue_tracer::geometry::Instance;
-use glam::DVec2;
 use rayon::prelude::*;
 use std::ops::Range;
 

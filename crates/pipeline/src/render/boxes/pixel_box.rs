@@ -34,7 +34,7 @@ impl PixelBox {
 
     /// Of a box about pixels of a picture, that about their centres, but up to the border where the box ends there and `whole` reaches beyond; `None`
     /// reaches without end.
-    pub(super) fn to_border(&self, whole: Option<&Self>, picture: &Self) -> Self {
+    pub(super) fn to_border(self, whole: Option<&Self>, picture: &Self) -> Self {
         let centres = self.of_centres();
         let whole = whole.copied().unwrap_or(Self { low: DVec2::NEG_INFINITY, high: DVec2::INFINITY });
         let low = self.low.cmple(picture.low) & whole.low.cmple(picture.low);
