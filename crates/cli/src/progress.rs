@@ -1,4 +1,4 @@
-//! Progress on a terminal, and messages while a task runs. Ctrl-C stops by the operating system's own way.
+//! Progress and messages while a task runs: bars on a terminal, elsewhere a line a minute. Ctrl-C stops by the operating system's own way.
 
 use crate::console::Console;
 use crate::output::{print, print_message};
@@ -8,16 +8,17 @@ use std::io::IsTerminal as _;
 use std::sync::Mutex;
 use std::time::Instant;
 
-/// Draws a bar of each task on stderr where that is a terminal, and prints messages there.
+/// Draws a bar of each task on stderr where that is a terminal, or prints a line a minute; prints messages there.
 pub struct Terminal {
     bar: Mutex<Option<Bar>>,
+    lines: Mutex<Lines>,
     /// What its clock counts from.
     start: Instant,
 }
 
 impl Default for Terminal {
     fn default() -> Self {
-        Self { bar: Mutex::default(), start: Instant::now() }
+        Self { bar: Mutex::default(), lines: Mutex::default(), start: Instant::now() }
     }
 }
 
@@ -47,15 +48,19 @@ struct Bar {
 impl Bar {
     fn new(progress: Progress<'_>) -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-        let unit = match progress.unit {
-            Unit::Tiles => "tiles",
-            Unit::Pictures => "pictures",
-            Unit::Pilots => "ways",
-        };
+        let unit = unit(progress.unit);
         let style =
             ProgressStyle::with_template(&format!("{{prefix}} {{wide_bar}} {{pos}}/{{len}} {unit}, {{eta}} left"));
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         Self { total: progress.total, bar }
+    }
+}
+
+fn unit(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Tiles => "tiles",
+        Unit::Pictures => "pictures",
+        Unit::Pilots => "pilots",
     }
 }
 
@@ -64,6 +69,43 @@ fn heading(progress: Progress<'_>) -> String {
     match progress.frame {
         None => progress.heading.to_owned(),
         Some(frame) => format!("{}, frame {} ({}/{})", progress.heading, frame.number, frame.place, frame.count),
+    }
+}
+
+/// Time from one line of progress to the next where stderr is no terminal, s.
+const LINE_EVERY_S: f64 = 60.0;
+
+/// When lines of progress are due.
+#[derive(Default)]
+struct Lines {
+    /// Total of the task, and when it began.
+    task: Option<(usize, f64)>,
+    last_s: f64,
+}
+
+impl Lines {
+    /// The line of this progress, where one is due.
+    fn due(&mut self, progress: Progress<'_>, now_s: f64) -> Option<String> {
+        let (total, began_s) =
+            self.task.filter(|(total, _)| *total == progress.total).unwrap_or((progress.total, now_s));
+        self.task = (progress.done < progress.total).then_some((total, began_s));
+        if now_s - self.last_s < LINE_EVERY_S || progress.total == 0 {
+            return None;
+        }
+        self.last_s = now_s;
+        let share = progress.done as f64 / progress.total as f64;
+        let left = match progress.done {
+            0 => String::new(),
+            _ => format!(", about {:.0} s left", (now_s - began_s) * (1.0 - share) / share),
+        };
+        Some(format!(
+            "{}: {:.0} % ({} of {} {}) after {now_s:.0} s{left}\n",
+            heading(progress),
+            100.0 * share,
+            progress.done,
+            progress.total,
+            unit(progress.unit)
+        ))
     }
 }
 
@@ -80,6 +122,12 @@ impl Observer for Terminal {
     }
 
     fn progress(&self, progress: Progress<'_>) {
+        if !std::io::stderr().is_terminal() {
+            let now_s = self.start.elapsed().as_secs_f64();
+            let line = self.lines.lock().unwrap_or_else(std::sync::PoisonError::into_inner).due(progress, now_s);
+            line.iter().for_each(|line| print_message(line));
+            return;
+        }
         // A thread that panicked while it drew leaves nothing half-done here.
         let mut task = self.bar.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if task.as_ref().is_some_and(|task| task.total != progress.total) {
@@ -106,5 +154,24 @@ mod tests {
         let progress = Progress { heading: "left", frame, unit: Unit::Tiles, done: 5, total: 100 };
         assert_eq!(heading(progress), "left, frame 12 (3/20)");
         assert_eq!(heading(Progress { frame: None, ..progress }), "left");
+    }
+
+    #[test]
+    fn without_a_terminal_there_is_a_line_a_minute() {
+        let mut lines = Lines::default();
+        let progress = |done| Progress { heading: "left", frame: None, unit: Unit::Tiles, done, total: 200 };
+        let told: Vec<String> = (0..=200).filter_map(|done| lines.due(progress(done), done as f64)).collect();
+        let expected = [
+            "left: 30 % (60 of 200 tiles) after 60 s, about 140 s left\n",
+            "left: 60 % (120 of 200 tiles) after 120 s, about 80 s left\n",
+            "left: 90 % (180 of 200 tiles) after 180 s, about 20 s left\n",
+        ];
+        assert_eq!(told, expected);
+        // The next task has a clock of its own.
+        assert_eq!(lines.due(progress(0), 230.0), None);
+        assert_eq!(
+            lines.due(progress(100), 250.0).as_deref(),
+            Some("left: 50 % (100 of 200 tiles) after 250 s, about 20 s left\n")
+        );
     }
 }

@@ -371,7 +371,7 @@ impl Job {
             Ok(())
         })?;
         let sequence = sequence.into_inner();
-        sequence.finish(&mut folder)?;
+        sequence.finish(&mut folder, observer)?;
         rig::write(&rig::asked_files(&self.plan, &options.frames), &mut folder, observer)?;
         written.extend(folder.commit().map_err(Error::run)?);
         progress.into_inner().finish(root)?;

@@ -48,7 +48,7 @@ pub fn merge(
     deliver(job.shared_plan(), &options, &DoneFrames::default(), film_of, |camera| {
         sequence.write(&camera, &mut folder, observer)
     })?;
-    sequence.finish(&mut folder)?;
+    sequence.finish(&mut folder, observer)?;
     rig::write(&rig::asked_files(job.plan(), &manifest.frames), &mut folder, observer)?;
     let written = folder.commit().map_err(Error::run)?;
     kept.all();

@@ -1,7 +1,9 @@
 //! A photograph.
 
 use crate::samples::plane;
+use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
+use pyo3::types::{PyIterator, PyList};
 use std::sync::Arc;
 
 /// A photograph of a camera.
@@ -61,6 +63,56 @@ impl Frame {
     fn linear_picture<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let picture = self.frame.picture.as_ref();
         picture.map(|picture| plane(py, &picture.linear, Arc::clone(&self.frame) as _)).transpose()
+    }
+
+    fn __len__(&self) -> usize {
+        self.keys().len()
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        PyList::new(py, self.keys())?.try_iter()
+    }
+
+    fn __contains__(&self, name: &Bound<'_, PyAny>) -> bool {
+        name.extract::<String>().is_ok_and(|name| self.keys().contains(&name.as_str()))
+    }
+
+    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let found = self.get(py, name, None)?;
+        found.ok_or_else(|| PyKeyError::new_err(format!("no array {name:?}; there are {}", self.keys().join(", "))))
+    }
+
+    /// Names of the arrays that the frame has: raw, and of a camera that makes pictures picture and linear_picture.
+    fn keys(&self) -> Vec<&'static str> {
+        let all = ["raw", "picture", "linear_picture"];
+        all[..if self.frame.picture.is_some() { 3 } else { 1 }].to_vec()
+    }
+
+    /// The arrays, in the order of `keys`.
+    fn values<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        self.keys().into_iter().map(|name| self.__getitem__(py, name)).collect()
+    }
+
+    /// Names and arrays, as `keys` and `values`.
+    fn items<'py>(&self, py: Python<'py>) -> PyResult<Vec<(&'static str, Bound<'py, PyAny>)>> {
+        Ok(self.keys().into_iter().zip(self.values(py)?).collect())
+    }
+
+    /// The array of a name, or `default` where there is none.
+    #[pyo3(signature = (name, default = None))]
+    fn get<'py>(
+        &self,
+        py: Python<'py>,
+        name: &str,
+        default: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let found = match name {
+            "raw" => Some(self.raw(py)?),
+            "picture" => self.picture(py)?,
+            "linear_picture" => self.linear_picture(py)?,
+            _ => None,
+        };
+        Ok(found.or(default))
     }
 
     fn __repr__(&self) -> String {

@@ -5,6 +5,7 @@ use crate::watch::run;
 use etendue::Existing;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
+use pyo3::types::{PyIterator, PyList};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -46,7 +47,39 @@ impl Results {
     }
 
     fn __len__(&self) -> usize {
-        self.cameras.len()
+        self.names().len()
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        PyList::new(py, self.names())?.try_iter()
+    }
+
+    fn __contains__(&self, name: &Bound<'_, PyAny>) -> bool {
+        name.extract::<String>().is_ok_and(|name| self.names().contains(&name))
+    }
+
+    /// Names of the cameras, as `names`.
+    fn keys(&self) -> Vec<String> {
+        self.names()
+    }
+
+    /// The camera of each name; where light depends on time, of the first frame: `cameras` has all.
+    fn values(&self, py: Python<'_>) -> PyResult<Vec<Py<Camera>>> {
+        self.names().iter().map(|name| self.camera(py, name, None)).collect()
+    }
+
+    /// Names and cameras, as `keys` and `values`.
+    fn items(&self, py: Python<'_>) -> PyResult<Vec<(String, Py<Camera>)>> {
+        Ok(self.names().into_iter().zip(self.values(py)?).collect())
+    }
+
+    /// The camera of a name, or `default` where there is none.
+    #[pyo3(signature = (name, default = None))]
+    fn get(&self, py: Python<'_>, name: &str, default: Option<Py<PyAny>>) -> PyResult<Option<Py<PyAny>>> {
+        if self.names().iter().any(|known| known == name) {
+            return Ok(Some(self.camera(py, name, None)?.into_any()));
+        }
+        Ok(default)
     }
 
     fn __getitem__(&self, py: Python<'_>, name: &str) -> PyResult<Py<Camera>> {

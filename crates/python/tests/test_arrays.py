@@ -1,5 +1,6 @@
 """Arrays: shapes, types, and that they share the memory of the results."""
 
+import collections.abc
 import gc
 
 import numpy as np
@@ -61,6 +62,8 @@ def test_arrays_outlive_the_results():
 def test_frames_are_taken_with_the_same_bits(results):
     front = results.cameras[0]
     (frame,) = front.frames()
+    assert isinstance(frame, collections.abc.Mapping) and list(frame) == ["raw", "picture", "linear_picture"] and len(frame) == 3
+    assert np.shares_memory(frame["raw"], frame.raw) and "depth" not in frame and frame.get("depth") is None
     assert frame.number == 0 and list(front.frame_numbers) == [0]
     assert np.array_equal(frame.raw, front.raw) and np.array_equal(frame.picture, front.picture)
     assert frame.raw.max() < 2**frame.bits and 0 <= frame.black_level_dn < frame.white_level_dn
@@ -79,8 +82,12 @@ def test_boxes_and_motion_are_those_of_the_ground_truth(results):
 
 
 def test_cameras_are_found_by_name(results):
-    assert results.names and len(results) == len(results.cameras)
+    assert results.names and len(results) == len(results.names) == len({camera.name for camera in results.cameras})
+    assert isinstance(results, collections.abc.Mapping) and list(results) == results.names == results.keys()
     name = results.names[0]
+    assert name in results and "no such camera" not in results and 1 not in results
+    assert dict(results)[name].name == name == results.get(name).name and results.get("no such camera") is None
+    assert [camera.name for camera in results.values()] == results.names == [name for name, _ in results.items()]
     assert results[name] is results.camera(name, frame=0)
     with pytest.raises(KeyError, match="no camera 'rear'|no camera \"rear\""):
         results["rear"]

@@ -57,6 +57,11 @@ pub struct Faults {
     superseded: Vec<Superseded>,
 }
 
+/// The problem of a table without a key.
+fn missing(key: &str) -> String {
+    format!("the key \"{key}\" is missing")
+}
+
 /// A key of a file that the command line makes meaningless.
 #[derive(Clone, Debug, PartialEq)]
 struct Superseded {
@@ -86,6 +91,17 @@ impl Faults {
     #[must_use]
     pub fn list(&self) -> &[Fault] {
         &self.list
+    }
+
+    /// Notes that a key of the table at `place` is missing.
+    pub(crate) fn add_missing(&mut self, place: &Place, key: &str, remedy: impl Into<String>) {
+        self.add(place, missing(key), remedy);
+    }
+
+    /// Takes back that a key of the table at `place` is missing: another is taken for it.
+    pub(crate) fn take_back_missing(&mut self, place: &Place, key: &str) {
+        let problem = missing(key);
+        self.list.retain(|fault| fault.place != *place || fault.problem != problem);
     }
 
     /// Notes a fault.

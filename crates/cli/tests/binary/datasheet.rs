@@ -110,6 +110,13 @@ fn what_differs_by_a_little_is_told_and_taken() {
     sheet.run().ok().says(&["warning", "snr_max_db", "42.1 dB", "41.76 dB"]);
 }
 
+/// Many sheets state the wavelength without a figure in photons.
+#[test]
+fn a_wavelength_that_nothing_needs_is_a_warning() {
+    let sheet = Sheet::with(&[("saturation_capacity_p = 24194\n", ""), ("sensitivity_threshold_p = 5.25\n", "")]);
+    sheet.run().ok().says(&["warning", "\"measured_at_nm\" is not used", "saturation_capacity_p"]);
+}
+
 #[test]
 fn nonsense_is_refused() {
     let less = Sheet::with(&[("temporal_dark_noise_e = 2.50\n", ""), ("noise_dn = 0.69", "noise_dn = 0.2")]);

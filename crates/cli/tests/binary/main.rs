@@ -42,6 +42,7 @@ mod hostile_outputs;
 mod identity;
 mod import;
 mod import_opacity;
+mod import_textures;
 mod interrupted;
 mod kenney;
 mod killed;

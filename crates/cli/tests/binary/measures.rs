@@ -95,8 +95,19 @@ fn photon_transfer_refuses_what_it_cannot_measure() {
     let colour = Plane::<Display>::filled(48, 40, [0.9, 0.8, 0.7]);
     let file = folder.path().join("colour.png");
     std::fs::write(&file, encode_display(&colour, &Encoding::Srgb).expect("a picture")).expect("a temporary file");
-    let coloured = stored.replacen(&(images + "image4.png"), &text(&file), 1);
+    let coloured = stored.replacen(&format!("{images}image4.png"), &text(&file), 1);
     describe(coloured).refused(&["colour.png", "linear raw is needed"]);
+    // Readings beyond the bits stated, as of grabbers that store 12 bits in the upper part of 16.
+    describe(stored.replace("n 12 48 40", "n 8 48 40")).refused(&["the descriptor says 8 bits, which end at 255"]);
+    let upper: Vec<u32> = (0..48 * 40).map(|i| 16 * (2000 + i % 2000)).collect();
+    let upper = Plane::<DigitalNumber>::from_samples(48, 40, upper).expect("a rectangle");
+    let file_of_upper = folder.path().join("upper.png");
+    std::fs::write(&file_of_upper, encode_raw16(&upper).expect("a picture")).expect("a temporary file");
+    describe(stored.replacen(&format!("{images}image0.png"), &text(&file_of_upper), 1)).refused(&[
+        "upper.png",
+        "all are multiples of 16",
+        "the descriptor says 12 bits",
+    ]);
     describe(stored.replace("i ", "j ")).refused(&["line 4", "v, n, b, d or i"]);
     // Frames of one channel without a side-car: which pixels are green is not known, and nobody says it.
     std::fs::write(folder.path().join("descriptor.txt"), &stored).expect("a temporary file");

@@ -1,6 +1,7 @@
 //! What there is to see.
 
 use etendue_pipeline::Plan;
+use etendue_pipeline::plan::{MeshSize, mesh_sizes};
 use etendue_tracer::geometry::Shape;
 
 /// What there is to see.
@@ -12,6 +13,8 @@ pub struct SceneReport {
     pub triangles: usize,
     /// Triangles that are stored: those of each mesh once.
     pub stored_triangles: usize,
+    /// Meshes that are the shape of named objects; boxes and flat shapes are left out.
+    pub meshes: Vec<MeshReport>,
     /// Spheres.
     pub spheres: usize,
     /// Materials.
@@ -26,6 +29,19 @@ pub struct SceneReport {
     pub lights_change: bool,
     /// A clear sky; `None` where the surroundings are none.
     pub sky: Option<SkyReport>,
+}
+
+/// A mesh as it stands in the scene.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct MeshReport {
+    /// The first object that it is the shape of.
+    pub object: String,
+    /// Objects that it is the shape of.
+    pub objects: usize,
+    /// Its triangles.
+    pub triangles: usize,
+    /// Length, width and height of the first object along its own axes (x forward, y left, z up), m.
+    pub size_m: [f64; 3],
 }
 
 /// A clear sky.
@@ -54,6 +70,15 @@ impl SceneReport {
             instances: instances.len(),
             triangles: instances.iter().map(|instance| triangles(&instance.shape)).sum(),
             stored_triangles: plan.world.meshes().iter().map(|mesh| mesh.triangles().len()).sum(),
+            meshes: mesh_sizes(plan)
+                .into_iter()
+                .map(|MeshSize { object, objects, triangles, size_m }| MeshReport {
+                    object,
+                    objects,
+                    triangles,
+                    size_m,
+                })
+                .collect(),
             spheres: instances.iter().filter(|instance| matches!(instance.shape, Shape::Sphere { .. })).count(),
             materials: plan.materials.len(),
             textures: plan.material_table.textures().len(),

@@ -9,6 +9,7 @@ mod file_names;
 pub(crate) mod files;
 pub(crate) mod frames;
 mod kept;
+pub(crate) mod levels;
 pub(crate) mod metadata;
 mod save;
 mod sequence;

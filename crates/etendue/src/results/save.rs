@@ -65,7 +65,7 @@ impl Results {
         }
         let mut sequence = Sequence::default();
         self.cameras.iter().try_for_each(|camera| sequence.write(camera, &mut folder, observer))?;
-        sequence.finish(&mut folder)?;
+        sequence.finish(&mut folder, observer)?;
         if let Some(first) = self.cameras.first() {
             let frames = self.cameras.iter().map(CameraResults::frame_numbers);
             let frames = frames.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or_default();

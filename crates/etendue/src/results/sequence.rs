@@ -2,6 +2,7 @@
 
 use super::camera::CameraResults;
 use super::files::Files;
+use super::levels;
 use super::metadata;
 use super::tracks::write_tracks;
 use super::video::write_video;
@@ -74,8 +75,8 @@ impl Sequence {
         self.of(plan, camera, &(frame..frame + 1)).facts.insert(frame, facts);
     }
 
-    /// Writes what is made of all frames, and the side-cars.
-    pub(crate) fn finish(&self, folder: &mut OutputFolder) -> Result<(), Error> {
+    /// Writes what is made of all frames, and the side-cars; tells each camera's levels.
+    pub(crate) fn finish(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
         for known in &self.cameras {
             let camera = known.camera();
             let files = Files::of_camera(camera, &known.frames);
@@ -91,6 +92,7 @@ impl Sequence {
             }
             let mut writer = ResultWriter { prefix: camera.name.clone(), folder: &mut *folder };
             writer.json(Files::SIDECAR, &facts)?;
+            levels::tell(&camera.name, known.facts.values(), observer);
         }
         Ok(())
     }

@@ -20,6 +20,7 @@ pub struct PulseLight {
 }
 
 /// Pulses that were fitted.
+#[derive(Clone, Copy)]
 pub(super) struct FittedPulses {
     pub(super) light: PulseLight,
     pub(super) frequency_hz: Estimate,
@@ -46,7 +47,10 @@ struct PulseProblem<'a> {
     start: Vec<f64>,
 }
 
-/// Fits pulses, beginning with the frequency and phase of a Fourier series.
+/// How far beyond 1 the share of pulses may lie where the duty is not yet fitted.
+const SHARE_SLACK: f64 = 0.1;
+
+/// Fits pulses, beginning with the frequency and phase of a Fourier series; `None` where none fit, or two kinds fit alike.
 pub(super) fn fitted(series: &TimeSeries, fourier: &FourierFit, exposure_s: f64) -> Option<FittedPulses> {
     let frequency_hz = fourier.frequency_hz.value;
     let x = PI * frequency_hz * exposure_s;
@@ -59,15 +63,29 @@ pub(super) fn fitted(series: &TimeSeries, fourier: &FourierFit, exposure_s: f64)
         PulseProblem { series, values, times: series.times().collect(), shading, exposure_s, start: Vec::new() };
     let of = |i: u32| problem.begun(frequency_hz, middle, f64::from(i + 1) / f64::from(DUTIES + 1));
     let (start, _) = (0..DUTIES).filter_map(of).min_by(|a, b| a.1.total_cmp(&b.1))?;
-    problem.start = start;
-    let start = problem.start.clone();
-    let found = fit(&problem, &start).ok()?;
-    let [share, duty] = [SHARE, DUTY].map(|i| found.estimate(i));
-    let squares = found.residuals.iter().flatten().map(|r| r * r).sum();
-    let known = [share, duty].iter().all(|e| e.standard_uncertainty.is_finite()) && share.value > 0.0;
-    let modulation = modulation_of(&found, exposure_s);
-    let light = PulseLight { duty, share, modulation };
-    known.then(|| FittedPulses { light, frequency_hz: found.estimate(FREQUENCY), squares })
+    // Exposures of half a period see pulses of duty d as those of duty 1 − d about the same middle, less a steady light.
+    let [middle, duty] = [PHASE, DUTY].map(|i| start[i]);
+    let dual = problem.begun(frequency_hz, middle, 1.0 - duty).map(|(dual, _)| dual);
+    let found: Vec<FittedPulses> =
+        [Some(start), dual].into_iter().flatten().filter_map(|start| problem.from_start(start)).collect();
+    match &found[..] {
+        [] => None,
+        [only] => Some(*only),
+        [a, b, ..] if a.is_another(b) && a.fits_alike(b, problem.values.len()) => None,
+        [a, b, ..] => Some(if a.squares <= b.squares { *a } else { *b }),
+    }
+}
+
+impl FittedPulses {
+    /// Whether two fits are of different pulses, and not twice the same minimum.
+    fn is_another(&self, other: &Self) -> bool {
+        (self.light.duty.value - other.light.duty.value).abs() > 1e-3
+    }
+
+    /// Whether the readings, `count` of them, do not prefer one fit by two standard deviations.
+    fn fits_alike(&self, other: &Self, count: usize) -> bool {
+        (self.squares - other.squares).abs() < 4.0 * self.squares.min(other.squares) / count as f64
+    }
 }
 
 /// What exposures of k T + r see of pulses of mean 1: of their light from k d T + max(0, r − (1 − d) T) to k d T + min(r, d T).
@@ -98,6 +116,19 @@ fn modulation_of(found: &Fit, exposure_s: f64) -> Estimate {
 }
 
 impl PulseProblem<'_> {
+    /// The fit from a start; `None` where it finds none, or a light below nothing between the pulses (a share above 1 by more than three standard
+    /// uncertainties).
+    fn from_start(&mut self, start: Vec<f64>) -> Option<FittedPulses> {
+        self.start = start;
+        let found = fit(&*self, &self.start).ok()?;
+        let [share, duty] = [SHARE, DUTY].map(|i| found.estimate(i));
+        let known = [share, duty].iter().all(|e| e.standard_uncertainty.is_finite());
+        let legal = share.value > 0.0 && share.value <= 1.0 + 3.0 * share.standard_uncertainty;
+        let squares = found.residuals.iter().flatten().map(|r| r * r).sum();
+        let light = PulseLight { duty, share, modulation: modulation_of(&found, self.exposure_s) };
+        (known && legal).then(|| FittedPulses { light, frequency_hz: found.estimate(FREQUENCY), squares })
+    }
+
     fn waveform(frequency_hz: f64, middle: f64, duty: f64) -> Option<Waveform> {
         let pulses = Pulses { frequency_hz, duty, edges_s: [0.0; 2], peak: 1.0 / duty };
         Waveform::pulses(&pulses).ok().map(|waveform| waveform.later((middle - 0.5 * duty) / frequency_hz))
@@ -110,14 +141,15 @@ impl PulseProblem<'_> {
         self.times.iter().map(over).collect()
     }
 
-    /// Parameters of a duty, and the sum of squares that they leave; `None` where the pulses would take light away.
+    /// Parameters of a duty, and the sum of squares that they leave; `None` where the pulses would take light away, or the rest would be below nothing.
     fn begun(&self, frequency_hz: f64, middle: f64, duty: f64) -> Option<(Vec<f64>, f64)> {
         let seen = self.seen(&Self::waveform(frequency_hz, middle, duty)?)?;
         let columns = [&[vec![1.0; seen.len()], seen], &self.shading[..]].concat();
         let (coefficients, squares) = explained(self.series, &columns)?;
         let level = coefficients[0] + coefficients[1];
-        let legal = level > 0.0 && coefficients[1] > 0.0;
-        let head = [level, coefficients[1] / level, frequency_hz, middle, duty];
+        let share = coefficients[1] / level;
+        let legal = level > 0.0 && share > 0.0 && share <= 1.0 + SHARE_SLACK;
+        let head = [level, share, frequency_hz, middle, duty];
         let all = [&head[..], &coefficients[2..]].concat();
         legal.then_some((all, squares))
     }

@@ -124,6 +124,19 @@ fn pulses_have_their_duty_whether_shorter_or_longer_than_the_exposure() {
     }
 }
 
+/// Exposures of half a period see pulses of duty 0.3 as they would see those of 0.7 about the same middles on a light below nothing.
+#[test]
+fn exposures_of_half_a_period_do_not_find_light_below_nothing() {
+    let shot = Shot { exposure_s: 1.0 / 400.0, ..SHOT };
+    for duty in [0.3, 0.45] {
+        let light = bands(&shot.measured(5, pulses(200.0, duty, 1.0))).pulses.expect("pulses");
+        knows(light.duty, duty, 0.1);
+        knows(light.share, 1.0, 0.1);
+    }
+    // Of a weaker share both are possible: nothing is stated.
+    assert!(bands(&shot.measured(5, pulses(200.0, 0.3, 0.4))).pulses.is_none());
+}
+
 #[test]
 fn frames_of_a_known_rate_tell_the_frequency_by_the_whole_sequence() {
     let shot = Shot { rows: 200, frames: 24, row_time_s: 120e-6, ..SHOT };

@@ -1,17 +1,29 @@
 //! What of a plan a rendering repeats: why the picture may not be what was meant.
 
-use crate::plan::Plan;
 use crate::plan::remark::{Weight, grouped};
-use crate::render::light_counts;
+use crate::plan::summary::lens::field_of_view_rad;
+use crate::plan::{CameraPlan, Plan, mesh_sizes};
+use crate::render::{light_counts, surrounding_object};
+use etendue_optics::Lens;
 
 impl Plan {
-    /// Warnings that concern the picture, each a sentence without a full stop: those of the remarks, and of each camera that
-    /// nothing gives light.
+    /// Warnings that concern the picture, each a sentence without a full stop: those of the remarks, of each camera that nothing gives light, of extreme
+    /// fields of view, of each camera inside an object, and of road users of implausible size.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let groups = grouped(&self.remarks).into_iter().filter(|group| group.weight == Weight::Warning);
         let said = groups.map(|group| group.to_string());
-        said.chain(self.dark_cameras()).collect()
+        let extreme = self.cameras.iter().filter_map(extreme_field);
+        let inside = self.cameras.iter().filter_map(|camera| self.inside(camera));
+        said.chain(self.dark_cameras()).chain(extreme).chain(inside).chain(mesh_sizes::warnings(self)).collect()
+    }
+
+    fn inside(&self, camera: &CameraPlan) -> Option<String> {
+        let object = surrounding_object(self, camera)?;
+        Some(format!(
+            "camera {}: it stands inside the object {object} and sees only the inside of its surface",
+            camera.name
+        ))
     }
 
     fn dark_cameras(&self) -> Option<String> {
@@ -20,4 +32,22 @@ impl Plan {
         let told = format!("camera {}: nothing gives light, so that the picture will be black", names.join(", "));
         (!names.is_empty()).then_some(told)
     }
+}
+
+/// Fields of view of perspective lenses that are hardly meant, degrees: below the first or above the second.
+const PLAUSIBLE_FIELD_DEG: [f64; 2] = [0.2, 175.0];
+
+/// Warns of a perspective field of view that comes from a focal length or pitch in another unit.
+fn extreme_field(camera: &CameraPlan) -> Option<String> {
+    if !matches!(camera.body.lens, Lens::Pinhole(_) | Lens::Thin(_)) {
+        return None;
+    }
+    let angle_deg = field_of_view_rad(camera)?.to_degrees();
+    let [least, most] = PLAUSIBLE_FIELD_DEG;
+    (angle_deg < least || angle_deg > most).then(|| {
+        let name = &camera.name;
+        format!(
+            "camera {name}: a field of view of {angle_deg:.4}°: check the focal length (mm) and the pixel pitch (µm)"
+        )
+    })
 }

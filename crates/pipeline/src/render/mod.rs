@@ -41,6 +41,7 @@ pub mod pixel_density;
 pub mod pupil_depth;
 pub mod rays;
 pub mod spectrum_spread;
+mod surrounded;
 #[cfg(test)]
 mod test_job;
 #[cfg(test)]
@@ -57,4 +58,5 @@ pub use camera_light::{FilmKeeping, Request, change_over, layout, light, light_c
 pub use exposure::Shot;
 pub use light::GatherError;
 pub(crate) use near_precipitation::region_of_projection;
+pub(crate) use surrounded::surrounding_object;
 pub use tolerance::Tolerance;

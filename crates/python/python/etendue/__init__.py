@@ -8,6 +8,8 @@
 Arrays have rows from the top and pixels from the left; they are read-only and share the memory of the results: ``.copy()`` gives one to change.
 """
 
+from collections.abc import Mapping as _Mapping
+
 from . import chart, measure
 from ._errors import Error, Fault, InputError, RunError
 from ._etendue import Camera, Frame, Job, Results, __version__, set_limit
@@ -34,3 +36,6 @@ __all__ = [
     "to_xarray",
     *_verb_names,
 ]
+
+for _class in (Results, Frame):
+    _Mapping.register(_class)

@@ -1,10 +1,10 @@
 """Étendue: spectral path tracing joined to a physically based camera."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, final
+from typing import Any, Literal, NamedTuple, TypeVar, final, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -39,6 +39,7 @@ _Path = str | PathLike[str]
 _Progress = Callable[[str, int, int], object]
 _Floats = npt.NDArray[np.float32]
 _Integers = npt.NDArray[np.uint32]
+_Default = TypeVar("_Default")
 
 @dataclass(frozen=True)
 class Fault:
@@ -164,7 +165,7 @@ class Job:
 
 @final
 class Results:
-    """The results of all cameras of a job: their light is held; frames and ground truth are made when they are asked for."""
+    """The results of all cameras of a job, a mapping from their names: light is held; frames and ground truth are made when they are asked for."""
 
     @property
     def cameras(self) -> list[Camera]:
@@ -173,7 +174,20 @@ class Results:
     def names(self) -> list[str]:
         """Names of the cameras, each once."""
     def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __contains__(self, name: object, /) -> bool: ...
     def __getitem__(self, name: str, /) -> Camera: ...
+    def keys(self) -> list[str]:
+        """Names of the cameras, as ``names``."""
+    def values(self) -> list[Camera]:
+        """The camera of each name; where light depends on time, of the first frame: ``cameras`` has all."""
+    def items(self) -> list[tuple[str, Camera]]:
+        """Names and cameras, as ``keys`` and ``values``."""
+    @overload
+    def get(self, name: str, default: None = None) -> Camera | None:
+        """The camera of a name, or ``default`` where there is none."""
+    @overload
+    def get(self, name: str, default: _Default) -> Camera | _Default: ...
     def camera(self, name: str, frame: int | None = None) -> Camera:
         """A camera by its name; where light depends on time, of one frame: the first unless another is named."""
     def save(self, folder: _Path, *, overwrite: bool = False) -> list[Path]:
@@ -262,7 +276,7 @@ class Camera:
 
 @final
 class Frame:
-    """A photograph of a camera."""
+    """A photograph of a camera, a mapping from the names of its arrays."""
 
     @property
     def number(self) -> int:
@@ -285,6 +299,21 @@ class Frame:
     @property
     def linear_picture(self) -> _Floats | None:
         """The same in linear sRGB, not clipped; (height, width, 3). None where the camera makes none."""
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __contains__(self, name: object, /) -> bool: ...
+    def __getitem__(self, name: str, /) -> npt.NDArray[Any]: ...
+    def keys(self) -> list[str]:
+        """Names of the arrays that the frame has: raw, and of a camera that makes pictures picture and linear_picture."""
+    def values(self) -> list[npt.NDArray[Any]]:
+        """The arrays, in the order of ``keys``."""
+    def items(self) -> list[tuple[str, npt.NDArray[Any]]]:
+        """Names and arrays, as ``keys`` and ``values``."""
+    @overload
+    def get(self, name: str, default: None = None) -> npt.NDArray[Any] | None:
+        """The array of a name, or ``default`` where there is none."""
+    @overload
+    def get(self, name: str, default: _Default) -> npt.NDArray[Any] | _Default: ...
 
 class Estimate(NamedTuple):
     """A number with its standard uncertainty (None: not stated, or not finite) and unit ("" for none)."""

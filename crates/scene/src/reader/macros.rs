@@ -348,7 +348,7 @@ pub(crate) fn variant_word<'t>(
         Some(node) => word(node, words, faults),
         None => {
             let remedy = format!("add it: {}", one_of(words));
-            faults.add(reader.place(), format!("the key \"{by}\" is missing"), remedy);
+            faults.add_missing(reader.place(), by, remedy);
             None
         }
     };

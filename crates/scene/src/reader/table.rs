@@ -265,7 +265,7 @@ impl<'t> Reader<'t> {
             Some(node) => rule.read(node, faults),
             None => {
                 let remedy = format!("add it: {}", rule.expected());
-                faults.add(self.place, format!("the key \"{key}\" is missing"), remedy);
+                faults.add_missing(self.place, key, remedy);
                 None
             }
         }
@@ -285,8 +285,9 @@ impl<'t> Reader<'t> {
         for (entry, _) in self.table.entries.iter().zip(&self.taken).filter(|(_, taken)| !**taken) {
             let owners: Vec<_> = forms.iter().filter(|f| f.has(&entry.key)).filter_map(Form::mark).collect();
             if owners.is_empty() {
-                let (problem, remedy) = stray(&entry.key, &forms, self.table);
+                let (problem, remedy, meant) = stray(&entry.key, &forms, self.table);
                 faults.add(&entry.place, problem, remedy);
+                meant.iter().for_each(|key| faults.take_back_missing(self.place, key));
                 continue;
             }
             let problem = format!("\"{}\" has no effect here, it belongs to {}", entry.key, owners.join(" or "));
@@ -296,12 +297,13 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// What is wrong with a key that belongs to no form, and what to do.
-fn stray(key: &str, forms: &[Form], table: &Table) -> (String, String) {
+/// What is wrong with a key that belongs to no form, what to do, and the key that it is taken for.
+fn stray(key: &str, forms: &[Form], table: &Table) -> (String, String, Option<String>) {
     let keys = keys_of(forms.iter().filter(|f| f.fits(table)));
-    let remedy = match nearest(key, &keys) {
+    let meant = nearest(key, &keys);
+    let remedy = match meant {
         Some(word) => format!("did you mean \"{word}\"?"),
         None => format!("remove it; the keys are {}", quoted(&keys)),
     };
-    (format!("\"{key}\" is no key of this table"), remedy)
+    (format!("\"{key}\" is no key of this table"), remedy, meant.map(str::to_owned))
 }

@@ -130,11 +130,6 @@ fn check(sheet: &DataSheet, faults: &mut Faults) {
             faults.add(&key.place, format!("this has no effect without \"{needed}\""), "add it, or remove this");
         }
     }
-    let photons = sheet.saturation_capacity_p.is_some() || sheet.sensitivity_threshold_p.is_some();
-    if let (Some(key), false) = (&sheet.measured_at_nm, photons) {
-        let problem = "this has no effect without \"saturation_capacity_p\" or \"sensitivity_threshold_p\"";
-        faults.add(&key.place, problem, "add one, or remove this");
-    }
     check_curves(sheet, faults);
 }
 

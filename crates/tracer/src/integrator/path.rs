@@ -387,10 +387,13 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
 
     /// On in a new direction.
     fn go_on(&mut self, vertex: &Vertex<'a, N>, sample: &BsdfSample<N>, receiver: &LightSampleContext) -> PathStep {
-        let Some(direction) = vertex.frame.outward(sample.wi) else { return PathStep::Ends };
+        let kept = vertex.frame.outward(sample.wi);
+        let Some(direction) = kept.or_else(|| Self::along_surface(vertex, sample)) else { return PathStep::Ends };
         self.throughput *= sample.weight;
-        // What counts as a caustic, and how wide textures are read, goes by the surface, not by how its directions are drawn.
-        let bsdf_density = (!E::SURFACES || sample.event == Event::Scatter).then_some(sample.pdf);
+        // What counts as a caustic, and how wide textures are read, goes by the surface, not by how its directions are drawn. No light is drawn along a
+        // surface.
+        let has_density = kept.is_some() && (!E::SURFACES || sample.event == Event::Scatter);
+        let bsdf_density = has_density.then_some(sample.pdf);
         self.history.scatter(bsdf_density);
         if let Some(pdf) = bsdf_density {
             self.cone.scatter(pdf);
@@ -401,6 +404,15 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         self.receiver = self.scattered.map(|_| *receiver);
         self.medium = self.medium_towards(vertex, sample.wi);
         self.leave(Ray { time_s: self.ray.time_s, ..vertex.point.leave(direction) })
+    }
+
+    /// Where the shading normal sends light to the wrong side of the true surface: along it for mirrors and glass, which absorb nothing there; `None`
+    /// for all others.
+    #[inline(always)]
+    fn along_surface(vertex: &Vertex<'a, N>, sample: &BsdfSample<N>) -> Option<Vec3> {
+        let keeps_light =
+            E::SURFACES && (sample.event == Event::Specular || matches!(vertex.bsdf, Bsdf::Dielectric(_)));
+        keeps_light.then(|| vertex.frame.outward_to_horizon(sample.wi))
     }
 
     /// On from where the path was scattered.

@@ -3,7 +3,8 @@
 //! Both normals are turned to the viewer's side of the true surface. Where interpolation or a normal map has turned the
 //! shading normal away from the viewer (at silhouettes of coarse meshes), it is bent back until the viewer is just above
 //! its horizon: no black seams. A direction counts only where true surface and shading frame agree on its side: no
-//! light leaks through a wall by an interpolated normal.
+//! light leaks through a wall by an interpolated normal. What a mirror or glass sends to the wrong side leaves along the
+//! true surface instead, so that neither loses light.
 
 use etendue_core::Basis;
 use glam::Vec3;
@@ -71,6 +72,15 @@ impl ShadingFrame {
         // One step of Newton's towards unit length: what is off by a rounding or two is then off by its square.
         let direction = direction * (1.5 - 0.5 * direction.length_squared());
         self.agrees(local, direction).then_some(direction)
+    }
+
+    /// A unit direction of the shading frame, in the render frame, brought to the side of the true surface that it has in the shading frame: where
+    /// they disagree, just off the plane of the true surface.
+    #[must_use]
+    pub fn outward_to_horizon(&self, local: Vec3) -> Vec3 {
+        let normal = self.geometric_normal * 1.0_f32.copysign(local.z);
+        let direction = self.basis.outward(local);
+        (direction + normal * (HORIZON - normal.dot(direction))).normalize_or(normal)
     }
 
     fn agrees(&self, local: Vec3, direction: Vec3) -> bool {

@@ -8,6 +8,7 @@ use crate::import::scenery::{AreaLight, Graphics, Triangles};
 use etendue_io::Error;
 use etendue_io::mitsuba::MitsubaElement;
 use glam::{DAffine3, DVec3};
+use std::f64::consts::TAU;
 use std::rc::Rc;
 
 impl<'a> Importer<'a> {
@@ -74,24 +75,30 @@ impl<'a> Importer<'a> {
                 if radius <= 0.0 {
                     return Err(told(format!("\"radius\" of {radius}; expected a number above 0")));
                 }
-                if has_picture {
-                    self.scenery.report.note("a picture on a sphere lies as on spheres here");
-                }
                 let to_world = graphics.to_world * DAffine3::from_translation(centre);
-                self.scenery.whole_sphere(radius, &Graphics { to_world, ..graphics });
-            }
-            _ => {
+                let graphics = Graphics { to_world, ..graphics };
                 if has_picture {
-                    self.scenery
-                        .report
-                        .note("a picture on a disk lies as on discs here: across it, not about its middle");
+                    self.round(Triangles::of_sphere(radius, [-radius, radius], TAU), &graphics).map_err(told)?;
+                } else {
+                    self.scenery.whole_sphere(radius, &graphics);
                 }
-                self.scenery.whole_disc(1.0, 0.0, &graphics);
             }
+            // Mitsuba's coordinates are the distance from the middle and the turn; ours point upwards.
+            _ if has_picture => {
+                let disc = Triangles::of_ring([1.0, 0.0], 0.0, TAU, |s, t| [1.0 - t, 1.0 - s]);
+                self.round(disc, &graphics).map_err(told)?;
+            }
+            _ => self.scenery.whole_disc(1.0, 0.0, &graphics),
         }
         self.scenery.check_size().map_err(told)?;
         self.note_unused(element);
         Ok(())
+    }
+
+    /// A round shape as one mesh.
+    fn round(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
+        self.scenery.report.note("spheres and disks that carry a picture are meshes of 256 sides");
+        self.scenery.surface(mesh, graphics, 1)
     }
 
     fn instance(&mut self, element: &'a MitsubaElement, graphics: &Graphics, depth: usize) -> Result<(), Error> {

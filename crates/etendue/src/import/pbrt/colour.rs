@@ -13,6 +13,9 @@ pub(super) fn three(name: &str, numbers: &[f64]) -> Result<[f64; 3], String> {
     numbers.try_into().map_err(|_| format!("\"{name}\": {found} numbers, where an rgb has three"))
 }
 
+/// How far beyond its ends a spectrum is 0, nm.
+const END_NM: f64 = 1e-3;
+
 /// Wavelengths in nm and values, one after the other.
 fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
     let pairs: Vec<(f64, f64)> = numbers.as_chunks::<2>().0.iter().map(|[nm, value]| (*nm, *value)).collect();
@@ -23,9 +26,16 @@ fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
     }
 }
 
-/// A spectrum of pairs of wavelength and value, whose ends are held.
-pub(super) fn table(name: &str, numbers: &[f64]) -> Result<Spectrum, String> {
-    Spectrum::from_points(&points(name, numbers)?, Outside::Hold).map_err(|e| format!("\"{name}\": {e}"))
+/// The same of a light or a share of it, which pbrt takes as 0 outside of the wavelengths given.
+fn ended_points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
+    let pairs = points(name, numbers)?;
+    let ends = [pairs[0].0 - END_NM, pairs[pairs.len() - 1].0 + END_NM].map(|nm| (nm, 0.0));
+    Ok(ends[..1].iter().chain(&pairs).chain(&ends[1..]).copied().collect())
+}
+
+/// A spectrum of pairs of wavelength and value.
+pub(super) fn table(name: &str, numbers: &[f64], outside: Outside) -> Result<Spectrum, String> {
+    Spectrum::from_points(&points(name, numbers)?, outside).map_err(|e| format!("\"{name}\": {e}"))
 }
 
 impl Scenery {
@@ -52,7 +62,7 @@ impl Scenery {
                 Ok(LightUnit { colour: LightColour::Temperature(legal.into()), luminance: 1.0 })
             }
             ("spectrum", PbrtValues::Numbers(numbers)) => {
-                let points = points(name, numbers)?;
+                let points = ended_points(name, numbers)?;
                 let file = self.spectrum_file(&points);
                 Ok(LightUnit { colour: LightColour::Spectrum(file.as_str().into()), luminance: 1.0 })
             }
@@ -81,7 +91,7 @@ impl Scenery {
             }
             ("spectrum", PbrtValues::Numbers(numbers)) => {
                 let points: Vec<(f64, f64)> =
-                    points(name, numbers)?.into_iter().map(|(nm, v)| (nm, self.cut(name, v))).collect();
+                    ended_points(name, numbers)?.into_iter().map(|(nm, v)| (nm, self.cut(name, v))).collect();
                 let file = self.spectrum_file(&points);
                 Ok(Colour::Spectrum(file.as_str().into()))
             }
@@ -107,7 +117,7 @@ impl Scenery {
             None => default,
             Some(("rgb" | "color", PbrtValues::Numbers(numbers))) => three(name, numbers)?,
             Some(("spectrum", PbrtValues::Numbers(numbers))) => {
-                return Ok((table(name, numbers)?, None));
+                return Ok((table(name, numbers, Outside::Zero)?, None));
             }
             Some((kind, _)) => return Err(format!("\"{kind} {name}\": expected an rgb or a table of wavelengths")),
         };

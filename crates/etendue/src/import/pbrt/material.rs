@@ -9,7 +9,7 @@ use etendue_scene::record::Colour;
 use etendue_scene::record::material::{
     Coated, Conductor, Dielectric, Diffuse, Factor, Leaf, Material, Metal, Mix, Surface, ThinSheet,
 };
-use etendue_spectra::{Spectrum, metal};
+use etendue_spectra::{Outside, Spectrum, metal};
 use std::rc::Rc;
 
 /// pbrt's α of a roughness.
@@ -29,6 +29,7 @@ impl Scenery {
         parameters: Parameters<'_>,
         named: Option<&str>,
     ) -> Result<Rc<str>, String> {
+        let laid = self.known.pictures_laid;
         let made: Rc<str> = match self.surface_of(kind, parameters)? {
             None => INTERFACE.into(),
             Some(surface) => {
@@ -42,6 +43,9 @@ impl Scenery {
                 own
             }
         };
+        if self.known.pictures_laid > laid {
+            self.known.pictured.insert(made.clone());
+        }
         if let Some(name) = named {
             self.known.materials.insert(name.to_owned(), made.clone());
         }
@@ -51,7 +55,11 @@ impl Scenery {
     /// The material of ours that the file calls so; grey where it has none.
     pub(super) fn named_material(&mut self, name: &str) -> Rc<str> {
         match self.known.materials.get(name) {
-            Some(own) => own.clone(),
+            Some(own) => {
+                let own = own.clone();
+                self.known.pictures_laid += usize::from(self.known.pictured.contains(&own));
+                own
+            }
             None => {
                 self.report.note(format!("no material \"{name}\" stands before its use: grey of 0.5 in its place"));
                 "".into()
@@ -121,7 +129,7 @@ impl Scenery {
             PbrtValues::Numbers(numbers) if numbers.len() == 1 => numbers[0],
             PbrtValues::Numbers(numbers) => {
                 self.report.note("an index over the wavelength is that at 587.6 nm: glass bodies do not disperse");
-                f64::from(table("eta", numbers)?.at(587.56))
+                f64::from(table("eta", numbers, Outside::Hold)?.at(587.56))
             }
             PbrtValues::Texts(texts) => {
                 let name = texts.first().map_or("", String::as_str);
@@ -220,7 +228,8 @@ impl Scenery {
                 // A single number is the same at all wavelengths.
                 let of = |name: &str, numbers: &[f64]| match numbers {
                     [even] => Ok(Spectrum::from_fn(|_| *even)),
-                    pairs => table(name, pairs),
+                    // An index of 0 outside, as pbrt has it, is no material.
+                    pairs => table(name, pairs, Outside::Hold),
                 };
                 let [n, k] = [of("eta", n)?, of("k", k)?];
                 Ok(self.index_file(|nm| f64::from(n.at(nm)), |nm| f64::from(k.at(nm))))

@@ -1,4 +1,4 @@
-//! Shapes: meshes in their places, spheres, discs.
+//! Shapes: meshes in their places, spheres, discs, cylinders.
 
 use super::parameters::Parameters;
 use crate::import::scenery::{Graphics, Scenery, Triangles, above_zero};
@@ -11,10 +11,12 @@ impl Scenery {
         match kind {
             "trianglemesh" => {
                 let mesh = Triangles::of(parameters).map_err(told)?;
+                let mesh = if self.lays_picture(graphics) { mesh.with_uv() } else { mesh };
                 self.mesh(mesh, graphics).map_err(told)?;
             }
             "plymesh" => {
                 let mesh = self.ply(parameters).map_err(told)?;
+                let mesh = if self.lays_picture(graphics) { mesh.with_uv() } else { mesh };
                 self.mesh(mesh, graphics).map_err(told)?;
             }
             "bilinearmesh" => {
@@ -24,6 +26,7 @@ impl Scenery {
             }
             "sphere" => self.sphere(parameters, graphics).map_err(told)?,
             "disk" => self.disc(parameters, graphics).map_err(told)?,
+            "cylinder" => self.cylinder(parameters, graphics).map_err(told)?,
             other => {
                 let why = match other {
                     "loopsubdiv" => {
@@ -72,24 +75,50 @@ impl Scenery {
 
     fn sphere(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
         let radius = above_zero("radius", parameters.number("radius", 1.0)?)?;
-        let is_whole = parameters.number("zmin", -radius)? <= -radius
-            && parameters.number("zmax", radius)? >= radius
-            && parameters.number("phimax", 360.0)? >= 360.0;
-        if !is_whole {
-            self.report.note("a part of a sphere is the whole sphere");
+        let [a, b] = [parameters.number("zmin", -radius)?, parameters.number("zmax", radius)?];
+        let heights = [a.min(b), a.max(b)].map(|z| z.clamp(-radius, radius));
+        let turn_deg = turn_deg(parameters)?;
+        if heights == [-radius, radius] && turn_deg == 360.0 && !self.lays_picture(graphics) {
+            self.whole_sphere(radius, graphics);
+            return Ok(());
         }
-        self.whole_sphere(radius, graphics);
-        Ok(())
+        self.round(Triangles::of_sphere(radius, heights, turn_deg.to_radians()), graphics)
     }
 
     fn disc(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
         let radius = above_zero("radius", parameters.number("radius", 1.0)?)?;
-        if parameters.number("innerradius", 0.0)? > 0.0 || parameters.number("phimax", 360.0)? < 360.0 {
-            self.report.note("a ring or a part of a disc is the whole disc");
+        let (inner, height) = (parameters.number("innerradius", 0.0)?, parameters.number("height", 0.0)?);
+        let turn_deg = turn_deg(parameters)?;
+        if inner == 0.0 && turn_deg == 360.0 && !self.lays_picture(graphics) {
+            self.whole_disc(radius, height, graphics);
+            return Ok(());
         }
-        self.whole_disc(radius, parameters.number("height", 0.0)?, graphics);
-        Ok(())
+        self.round(Triangles::of_ring([radius, inner], height, turn_deg.to_radians(), |s, t| [s, t]), graphics)
     }
+
+    fn cylinder(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
+        let radius = above_zero("radius", parameters.number("radius", 1.0)?)?;
+        let [a, b] = [parameters.number("zmin", -1.0)?, parameters.number("zmax", 1.0)?];
+        let turn_deg = turn_deg(parameters)?;
+        self.round(Triangles::of_cylinder(radius, [a.min(b), a.max(b)], turn_deg.to_radians()), graphics)
+    }
+
+    /// A round shape as one mesh.
+    fn round(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
+        self.report
+            .note("cylinders, and spheres and discs that carry a picture or are not whole, are meshes of 256 sides");
+        self.surface(mesh, graphics, 1)
+    }
+
+    /// Whether a picture is laid by the texture coordinates of a shape.
+    fn lays_picture(&self, graphics: &Graphics) -> bool {
+        matches!(graphics.opacity, Some(Factor::Texture(_))) || self.known.pictured.contains(&graphics.material)
+    }
+}
+
+/// The turn of a round shape about its axis, 0 to 360°.
+fn turn_deg(parameters: Parameters<'_>) -> Result<f64, String> {
+    Ok(parameters.number("phimax", 360.0)?.clamp(0.0, 360.0))
 }
 
 impl Triangles {
@@ -103,8 +132,27 @@ impl Triangles {
     fn of_patches(parameters: Parameters<'_>) -> Result<Self, String> {
         let mesh = Self::points(parameters)?;
         let patches = indices::<4>(parameters, mesh.positions.len())?;
-        let triangles = patches.into_iter().flat_map(|[a, b, c, d]| [[a, b, d], [a, d, c]]).collect();
+        if mesh.uvs.is_empty() {
+            return Ok(mesh.of_own_patches(&patches));
+        }
+        let triangles = patches.into_iter().flat_map(halves).collect();
         Ok(Self { triangles, ..mesh })
+    }
+
+    /// Patches with vertices of their own and the texture coordinates of their corners, as pbrt gives where a file has none.
+    fn of_own_patches(self, patches: &[[u32; 4]]) -> Self {
+        let corners = patches.iter().flatten().map(|i| *i as usize);
+        Self {
+            normals: corners.clone().filter_map(|i| self.normals.get(i)).copied().collect(),
+            positions: corners.map(|i| self.positions[i]).collect(),
+            uvs: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].repeat(patches.len()),
+            triangles: (0..patches.len() as u32).map(|i| [0, 1, 2, 3].map(|k| 4 * i + k)).flat_map(halves).collect(),
+        }
+    }
+
+    /// The same with the texture coordinates of pbrt's corners where it has none of its own.
+    fn with_uv(self) -> Self {
+        if self.uvs.is_empty() { self.with_corners_as_uv() } else { self }
     }
 
     fn points(parameters: Parameters<'_>) -> Result<Self, String> {
@@ -122,6 +170,11 @@ impl Triangles {
         }
         Ok(Self { positions, normals, uvs, triangles: Vec::new() })
     }
+}
+
+/// The triangles of a patch.
+fn halves([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
+    [[a, b, d], [a, d, c]]
 }
 
 /// The corners of faces of `N`: of one face, in their order, where the file does not say them.

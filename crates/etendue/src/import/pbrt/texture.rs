@@ -204,6 +204,7 @@ impl Scenery {
             None => Reflectance::Plain(self.share(parameter)?),
             Some(KnownTexture::Even(rgb)) => Reflectance::Plain(self.share_of_rgb(name, rgb)),
             Some(KnownTexture::Picture { name, scale, .. }) => {
+                self.known.pictures_laid += 1;
                 let scale = self.legal_scale(scale).map(Into::into);
                 Reflectance::Texture { name: name.as_str().into(), scale }
             }
@@ -224,6 +225,7 @@ impl Scenery {
                 None => parameters.number(name, default)?,
                 Some(KnownTexture::Even(rgb)) => rgb[0],
                 Some(KnownTexture::Picture { name: texture, scale, has_alpha }) => {
+                    self.known.pictures_laid += 1;
                     if map(0.25) != 0.25 {
                         self.report.note(format!("a picture of \"{name}\" is taken as α itself, not as its square"));
                     }

@@ -1,7 +1,7 @@
 //! What the names of a file stand for.
 
 use etendue_scene::record::Curve;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 /// What stands in the place of a material's name where a surface only parts two media.
@@ -36,6 +36,10 @@ pub(in crate::import) struct Known {
     pub(in crate::import) textures: HashMap<(bool, String), KnownTexture>,
     /// Names of ours of the file's materials; the empty name is that of the grey one.
     pub(in crate::import) materials: HashMap<String, Rc<str>>,
+    /// Names of ours of the materials that lay a picture by texture coordinates.
+    pub(in crate::import) pictured: HashSet<Rc<str>>,
+    /// How often a material has laid a picture so far.
+    pub(in crate::import) pictures_laid: usize,
     /// Names of copies of which only a share is there, by what they are copies of and the share.
     pub(in crate::import) thinned: HashMap<String, Rc<str>>,
     /// Media that are understood.

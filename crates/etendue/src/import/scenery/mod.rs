@@ -9,6 +9,7 @@ mod media;
 mod numbers;
 mod objects;
 mod report;
+mod round;
 mod share;
 mod spectra;
 mod stage;

@@ -5,11 +5,12 @@ use super::stage::{Graphics, Scenery};
 use super::triangles::Triangles;
 use crate::import::naming::rounded;
 use etendue_io::mesh::{encode_obj, encode_ply};
+use etendue_scene::record::material::Surface;
 use etendue_scene::record::medium::{MediumMesh, MediumShape, MediumSphere};
 use etendue_scene::record::mesh::Axis;
 use etendue_scene::record::shape::{Disc, Quad, Sphere};
 use etendue_scene::record::transform::angles_deg;
-use etendue_scene::record::{Body, Mesh, Object, Shape, Transform};
+use etendue_scene::record::{Body, Material, Mesh, Object, Shape, Transform};
 use glam::{DAffine3, DMat3, DVec3};
 
 impl Scenery {
@@ -20,12 +21,22 @@ impl Scenery {
 
     /// A mesh of the material and the light that hold now.
     pub(in crate::import) fn mesh(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
+        let count = mesh.triangles.len();
+        self.surface(mesh, graphics, count)
+    }
+
+    /// A mesh that is `count` shapes of the file.
+    pub(in crate::import) fn surface(
+        &mut self,
+        mesh: Triangles,
+        graphics: &Graphics,
+        count: usize,
+    ) -> Result<(), String> {
         if mesh.triangles.is_empty() {
             self.report.note("a mesh without triangles is left out");
             return Ok(());
         }
         let placed = mesh.placed(self.placed(graphics), graphics.reverse_orientation);
-        let count = placed.triangles.len();
         let wish = if graphics.name.is_empty() { "mesh" } else { &graphics.name };
         let file = self.file_names.take(wish, "mesh");
         if self.is_seen(graphics) {
@@ -37,7 +48,7 @@ impl Scenery {
         if fills(graphics) {
             let path = self.add_file(format!("meshes/{file}-medium.obj"), encode_obj(&placed));
             let shape = MediumShape::Mesh(MediumMesh::new(path.as_str()));
-            self.fill(&graphics.inside, shape, Transform::default());
+            self.fill_inside(graphics, shape, Transform::default());
         }
         self.check_size()
     }
@@ -66,7 +77,7 @@ impl Scenery {
                 self.report.note("a medium in an ellipsoid is left out");
                 return;
             }
-            self.fill(&graphics.inside, MediumShape::Sphere(MediumSphere::new(radius)), transform);
+            self.fill_inside(graphics, MediumShape::Sphere(MediumSphere::new(radius)), transform);
         }
     }
 
@@ -96,6 +107,20 @@ impl Scenery {
             let scale = DVec3::new(scale.x, scale.y, 1.0);
             self.object(kind, Body::Shape(shape), place(centre, rotation, scale), graphics, 1);
         }
+    }
+
+    /// Fills the inside of a shape with its medium, except inside glass: a solid displaces media here.
+    fn fill_inside(&mut self, graphics: &Graphics, shape: MediumShape, transform: Transform) {
+        let is_glass =
+            |m: &Material| *m.name.value == *graphics.material && matches!(m.surface.0, Surface::Dielectric(_));
+        if self.scene.materials.iter().any(is_glass) {
+            let medium = &graphics.inside;
+            self.report.note(format!(
+                "warning: the medium \"{medium}\" inside glass is left out: light is neither scattered nor absorbed there"
+            ));
+            return;
+        }
+        self.fill(&graphics.inside, shape, transform);
     }
 
     /// Whether a surface is one, and not the border of a medium alone.

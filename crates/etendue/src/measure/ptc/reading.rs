@@ -88,8 +88,36 @@ impl Reading<'_> {
         if whole && size != expected {
             return Err(Error::input(format!("{}: {}", file.display(), TransferError::Size { size, expected })));
         }
+        self.fits_bits(file, &image)?;
         self.pictures.step();
         Ok(image)
+    }
+
+    /// Refuses readings beyond the descriptor's bits, which is 0 where nobody states them.
+    fn fits_bits(&self, file: &Path, image: &Image) -> Result<(), Error> {
+        let bits = self.descriptor.bits;
+        let greatest = image.samples().iter().copied().fold(0.0, f32::max);
+        if bits == 0 || f64::from(greatest) < f64::from(bits).exp2() {
+            return Ok(());
+        }
+        let shifted = (1..=16 - bits.min(16)).rev().find(|shift| {
+            let step = (1_u32 << shift) as f32;
+            image.samples().iter().all(|sample| sample % step == 0.0)
+        });
+        let advice = match shifted {
+            Some(shift) => format!(
+                "all are multiples of {}: store the numbers in the lower {bits} bits, or write \"n {} …\" for numbers of {} bits",
+                1 << shift,
+                bits + shift,
+                bits + shift
+            ),
+            None => "correct the bits of the line \"n\"".to_owned(),
+        };
+        Err(Error::input(format!(
+            "{}: readings up to {greatest}, where the descriptor says {bits} bits, which end at {}; {advice}",
+            file.display(),
+            f64::from(bits).exp2() - 1.0
+        )))
     }
 
     fn fixed_patterns(

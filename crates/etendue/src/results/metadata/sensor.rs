@@ -1,5 +1,6 @@
 //! What a side-car says of the sensor and of its frames.
 
+use crate::results::levels;
 use etendue_core::Shutter;
 use etendue_pipeline::plan::{CameraBody, RowExposure, RowSkipping};
 use etendue_sensor::dynamic_range::Switch;
@@ -80,7 +81,7 @@ fn sensor_effects(sensor: &Sensor) -> BTreeMap<&'static str, String> {
     modelled.map(|(name, status)| (name, status.reason().to_owned())).collect()
 }
 
-/// What a frame says of itself: the file of its raw, exposure and gain, levels, and where overflowing charge went.
+/// What a frame says of itself: the file of its raw, exposure and gain, levels, where overflowing charge went, and mean level and clipped pixels.
 pub(crate) fn frame(number: u32, file: Option<String>, raw: &Raw) -> Value {
     let area = raw.picture;
     let account = |(capture, a): &(usize, ChargeAccount)| {
@@ -103,5 +104,6 @@ pub(crate) fn frame(number: u32, file: Option<String>, raw: &Raw) -> Value {
         "picture_in_raw_px": [area.x, area.y, area.width, area.height],
         "companding_knees_dn": raw.companding.as_ref().map(|c| c.knees.clone()),
         "charge_e": raw.accounts.iter().map(account).collect::<Vec<_>>(),
+        (levels::LEVELS): levels::facts(raw),
     })
 }

@@ -83,6 +83,13 @@ fn remarks(sheet: &DataSheet) -> Vec<String> {
     ];
     remarks
         .extend(missing.iter().filter(|m| m.0).map(|m| format!("{}: no \"{}\": it is taken as 0", sheet.place, m.1)));
+    let photons = sheet.saturation_capacity_p.is_some() || sheet.sensitivity_threshold_p.is_some();
+    if let (Some(key), false) = (&sheet.measured_at_nm, photons) {
+        remarks.push(format!(
+            "{}: \"measured_at_nm\" is not used: there is no \"saturation_capacity_p\" or \"sensitivity_threshold_p\" to compare",
+            key.place
+        ));
+    }
     if let Some(error) = &sheet.linearity_error_percent {
         remarks.push(format!(
             "{}: a linearity error of {} % is not modelled: the response is straight",

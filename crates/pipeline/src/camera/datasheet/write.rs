@@ -37,12 +37,12 @@ fn electronics(sheet: &DataSheet, figures: Figures, stem: &str) -> Electronics {
         efficiency(sheet, stem),
         sheet.saturation_capacity_e.value,
         figures.dark_noise_e,
-        dark_current_e_s,
         figures.gain_dn_e,
         figures.black_level_dn,
         sheet.bits.value,
     );
-    Electronics { non_uniformity: pattern(sheet), dark: dark(sheet), ..needed }
+    let dark_current_e_s = Some(dark_current_e_s.into());
+    Electronics { dark_current_e_s, non_uniformity: pattern(sheet), dark: dark(sheet), ..needed }
 }
 
 /// What each number rests on, by its key.

@@ -31,6 +31,7 @@ pub(super) fn lens(
     let matrix = calibration.matrix();
     let principal = glam::DVec2::new(matrix.cx, matrix.cy);
     let raster = context.accept(place, Raster::new(raster.width(), raster.height(), raster.pitch_mm(), principal))?;
+    warn_of_principal_point(record, &raster, context);
     let falloff = match &record.relative_illumination {
         Some(table) => Some(falloff(table, context)?),
         None => None,
@@ -98,6 +99,28 @@ fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibra
         context.remark_on(file.file.value.display(), note);
     }
     Some(asset.calibration.clone())
+}
+
+/// How far from the middle of the image, of its width or height, a principal point is taken for that of another image size.
+const FAR: f64 = 0.25;
+
+/// Warns of a principal point outside the image, or far from its middle, as of a calibration of another resolution.
+fn warn_of_principal_point(record: &Calibrated, raster: &Raster, context: &mut Context<'_>) {
+    let size = glam::DVec2::new(raster.width() as f64, raster.height() as f64);
+    let principal = raster.principal_px();
+    let off = ((principal - 0.5 * size) / size).abs().max_element();
+    if off <= FAR {
+        return;
+    }
+    let place = if off > 0.5 { "outside the image" } else { "far from the middle of the image" };
+    let text = format!(
+        "the principal point ({:.1}, {:.1}) px lies {place} of {} × {} px: check whether the calibration is for another image size",
+        principal.x, principal.y, size.x, size.y
+    );
+    match &record.view {
+        View::Projection(_) => context.warn_on(&record.place, text),
+        View::Calibration(file) => context.warn_on(file.file.value.display(), text),
+    }
 }
 
 /// A calibration has a principal point of its own.

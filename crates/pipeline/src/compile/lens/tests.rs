@@ -204,6 +204,20 @@ fn the_cone_to_the_image_opens_the_lens_for_its_object() {
     assert!(told.contains("(line 3)") && told.contains("cone of sine"), "{told}");
 }
 
+/// 64 × 48 px: outside the image, and as of a calibration of an image three times as small.
+#[test]
+fn principal_points_far_from_the_middle_are_warned_of() {
+    let warnings = |cx: f64, cy: f64| {
+        let lens = format!(
+            "type = \"calibrated\"\nf_number = 2\nprojection = {{ type = \"opencv\", fx_px = 60, cx_px = {cx}, cy_px = {cy} }}\n"
+        );
+        plan_with(&lens, "", &Assets::default()).unwrap_or_else(|faults| panic!("{faults}")).warnings().join("\n")
+    };
+    assert!(warnings(70.0, 24.0).contains("outside the image"));
+    assert!(warnings(11.0, 8.0).contains("far from the middle of the image of 64 × 48 px"));
+    assert!(!warnings(38.0, 20.0).contains("principal point"));
+}
+
 #[test]
 fn calibrated_cameras_take_their_numbers_as_they_are_written() {
     let lens = "type = \"calibrated\"\nf_number = 2\n\

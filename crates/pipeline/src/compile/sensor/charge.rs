@@ -28,7 +28,7 @@ pub(super) fn charge(e: &record::Electronics) -> ChargeEffects {
 }
 
 fn dark(e: &record::Electronics) -> DarkCurrent {
-    let even = DarkCurrent::even(e.dark_current_e_s.value);
+    let even = DarkCurrent::even(or(e.dark_current_e_s.as_ref(), 0.0));
     let Some(d) = &e.dark else { return even };
     let distribution = match d.distribution.as_ref().map(|t| t.value) {
         Some(description::SpreadDistribution::LogNormal) => SpreadDistribution::LogNormal,

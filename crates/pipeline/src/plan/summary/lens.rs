@@ -104,21 +104,25 @@ fn field_of_view(camera: &CameraPlan) -> String {
     if let Lens::Telecentric(lens) = &camera.body.lens {
         return format!("{} m wide", figure(lens.parameters().metres_per_mm * camera.body.raster.size_mm().x));
     }
+    match field_of_view_rad(camera) {
+        Some(angle) => format!("{:.2}° wide", angle.to_degrees()),
+        None => "wider than the lens sees".to_owned(),
+    }
+}
+
+/// The angle across the picture in its principal row, rad; `None` where the lens does not see all of it.
+pub(in crate::plan) fn field_of_view_rad(camera: &CameraPlan) -> Option<f64> {
     let size = camera.body.raster.size_mm();
     let middle = camera.body.raster.principal_px() * camera.body.raster.pitch_mm();
     let left = glam::DVec2::new(-middle.x, 0.0);
     let right = glam::DVec2::new(size.x - middle.x, 0.0);
     let lens = &camera.body.lens;
     // Beyond a half turn the angle between two directions is not the one across the picture.
-    let across = match lens {
+    match lens {
         Lens::Calibrated(_) => lens
             .angle_between_rad(left, glam::DVec2::ZERO)
             .and_then(|half| Some(half + lens.angle_between_rad(glam::DVec2::ZERO, right)?)),
         _ => lens.angle_between_rad(left, right),
-    };
-    match across {
-        Some(angle) => format!("{:.2}° wide", angle.to_degrees()),
-        None => "wider than the lens sees".to_owned(),
     }
 }
 

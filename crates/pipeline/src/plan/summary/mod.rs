@@ -4,7 +4,7 @@ mod depth_of_field;
 mod drops;
 mod effects_table;
 mod front;
-mod lens;
+pub(super) mod lens;
 mod precipitation;
 mod processing;
 mod shared_light;
@@ -16,7 +16,8 @@ mod words;
 use crate::plan::film_cost::Share;
 use crate::plan::frame_cost::FrameCost;
 use crate::plan::irradiance_effect::irradiance_effect_status;
-use crate::plan::remark::grouped;
+use crate::plan::mesh_sizes::{MeshSize, mesh_sizes};
+use crate::plan::remark::{Weight, grouped};
 use crate::plan::texture_use::TextureUse;
 use crate::plan::{
     AdaptiveSampling, CameraPlan, FilmBytes, Passes, Plan, Products, RawFormat, Route, Settings, SkyFacts,
@@ -49,11 +50,17 @@ impl Display for Summary<'_> {
             self::camera(plan, camera, f)?;
         }
         writeln!(f, "\n{LEGEND}")?;
-        if !plan.remarks.is_empty() {
-            writeln!(f, "\nremarks")?;
-        }
-        grouped(&plan.remarks).iter().try_for_each(|remark| writeln!(f, "  {remark}"))
+        section(f, "warnings", &plan.warnings())?;
+        let notes = grouped(&plan.remarks).into_iter().filter(|remark| remark.weight == Weight::Note);
+        section(f, "remarks", &notes.map(|remark| remark.to_string()).collect::<Vec<_>>())
     }
+}
+
+fn section(f: &mut Formatter<'_>, heading: &str, sentences: &[String]) -> fmt::Result {
+    if !sentences.is_empty() {
+        writeln!(f, "\n{heading}")?;
+    }
+    sentences.iter().try_for_each(|sentence| writeln!(f, "  {sentence}"))
 }
 
 /// What the tables leave open.
@@ -79,6 +86,7 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     };
     let (instances, spheres) = (count(instances, "instance"), count(spheres, "sphere"));
     line(f, "geometry", format!("{instances}, {triangles}, {spheres}{trees}"))?;
+    meshes(plan, f)?;
     let textures = count(plan.material_table.textures().len(), "texture");
     line(f, "materials", format!("{}, {textures}", plan.materials.len()))?;
     if let Some(tiles) = TextureUse::of(&plan.material_table).tiles() {
@@ -104,6 +112,26 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
             line(f, "motion", motion)?;
             line(f, "left out", left_out)
         }
+    }
+}
+
+/// Meshes that are listed at most.
+const LISTED_MESHES: usize = 12;
+
+fn meshes(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
+    let sizes = mesh_sizes(plan);
+    for MeshSize { object, objects, triangles, size_m: [x, y, z] } in sizes.iter().take(LISTED_MESHES) {
+        let of = if *objects > 1 { format!(" ({objects} objects)") } else { String::new() };
+        let (x, y, z) = (figure(*x), figure(*y), figure(*z));
+        line(
+            f,
+            "mesh",
+            format!("{object}{of}: {x} × {y} × {z} m (x forward, y left, z up), {}", count(*triangles, "triangle")),
+        )?;
+    }
+    match sizes.len().saturating_sub(LISTED_MESHES) {
+        0 => Ok(()),
+        more => line(f, "mesh", format!("and {} more: etendue plan JOB --json", count(more, "mesh"))),
     }
 }
 

@@ -40,7 +40,7 @@ impl SolidBox {
     }
 
     /// Size, m, and place in the world.
-    pub(super) fn in_world(plan: &Plan, instance: &Instance, time_s: f64) -> (DVec3, Stance) {
+    pub(crate) fn in_world(plan: &Plan, instance: &Instance, time_s: f64) -> (DVec3, Stance) {
         let to_world = instance.to_world.at(time_s);
         let axes = object_axes(plan, instance, time_s);
         let corners =

@@ -25,8 +25,8 @@ record! {
         required full_well_e: Placed<f64> = number("e⁻").above(0.0);
         /// Standard deviation of the read noise, e⁻, 0 or more.
         required read_noise_e: Placed<f64> = number("e⁻").at_least(0.0);
-        /// Mean dark current, e⁻/s, 0 or more.
-        required dark_current_e_s: Placed<f64> = number("e⁻/s").at_least(0.0);
+        /// Mean dark current, e⁻/s, 0 or more. Default: 0.
+        optional dark_current_e_s: Placed<f64> = number("e⁻/s").at_least(0.0);
         /// Digital numbers per electron at an analogue gain of 1, DN/e⁻, above 0.
         required gain_dn_per_e: Placed<f64> = number("DN/e⁻").above(0.0);
         /// Digital number of no signal, DN, 0 or more and below the largest number of the converter.

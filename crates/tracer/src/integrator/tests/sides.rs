@@ -1,6 +1,7 @@
 //! Sides of surfaces: what glows, what leaks, what is seen.
 
 use super::*;
+use crate::materials::Dielectric;
 
 #[test]
 fn each_side_glows_as_stated() {
@@ -52,4 +53,51 @@ fn a_viewer_below_the_shading_horizon_sees_no_black_seam() {
     // Seen from the side that the normals lean away from.
     let estimate = scene.ready().look(&ray([-3.0, 0.0, 0.2], [0.0; 3]), 256, bounces(4));
     assert!(estimate.mean > 0.4 && estimate.mean <= 1.0, "{estimate:?}");
+}
+
+/// A cylinder of 24 flat sides whose normals are those of the round one, closed by flat ends: near its silhouette the shading normal looks away from
+/// the viewer by up to 7.5°.
+fn coarse_cylinder(scene: &mut Scene, material: MaterialId) {
+    const SIDES: u32 = 24;
+    let around = |i: u32| {
+        let (sin, cos) = maths::f64::sin_cos(f64::from(i) / f64::from(SIDES) * 2.0 * PI);
+        Vec3::new(cos as f32, sin as f32, 0.0)
+    };
+    let (mut at, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
+    for i in 0..SIDES {
+        at.extend([around(i) - Vec3::Z, around(i) + Vec3::Z]);
+        normals.extend([around(i); 2]);
+        let [a, b] = [i, (i + 1) % SIDES].map(|i| 2 * i);
+        triangles.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+    }
+    for (z, first) in [(-1.0, 2 * SIDES), (1.0, 3 * SIDES)] {
+        at.extend((0..SIDES).map(|i| around(i) + Vec3::Z * z));
+        normals.extend([Vec3::Z * z; SIDES as usize]);
+        let fan = |i: u32| if z > 0.0 { [first, first + i, first + i + 1] } else { [first, first + i + 1, first + i] };
+        triangles.extend((1..SIDES - 1).map(fan));
+    }
+    scene.mesh_with_normals(at, normals, triangles, material);
+}
+
+/// In even light of 1 what absorbs nothing is not seen, also where the shading normal sends light to the wrong side of a facet.
+#[test]
+fn coarse_glass_loses_no_light_at_its_silhouette() {
+    let settings = PathSettings { max_bounces: 400, roulette_start: 400, ..PathSettings::default() };
+    // Rough glass loses what its facets would scatter twice.
+    for (alpha, least_mean, least) in [(0.0, 0.999, 0.99), (0.02, 0.997, 0.96)] {
+        let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
+        let mut scene = Scene { sources: Sources { environment, ..Sources::default() }, ..Scene::default() };
+        let glass = Dielectric::new(1.5, alpha, None).expect("glass");
+        let glass = scene.material(Surface::Dielectric(Box::new(glass)), None);
+        coarse_cylinder(&mut scene, glass);
+        let ready = scene.ready();
+        let rays: Vec<Ray> =
+            (0..40).map(|i| ray([-4.0, 0.0, 0.0], [0.0, -1.03 + 2.06 * (i as f32 + 0.5) / 40.0, 0.3])).collect();
+        let found: Vec<f64> = rays.iter().map(|ray| ready.look(ray, 8, settings).mean).collect();
+        let mean = found.iter().sum::<f64>() / found.len() as f64;
+        assert!(
+            mean > least_mean && mean < 1.001 && found.iter().all(|found| *found > least),
+            "{alpha}: {mean} of {found:?}"
+        );
+    }
 }
