@@ -363,3 +363,17 @@ fn a_colour_chart_needs_colours() {
     etendue([&["measure", "colour", grey.as_str()], &corners[..]].concat())
         .refused(&["grey.png", "channels R, G and B"]);
 }
+
+/// Light that one frame does not hold at all has a modulation of 1 without scatter: the frame is named.
+#[test]
+fn flicker_names_frames_that_are_black_or_cut() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let level =
+        |name: &str, level: f64| raw(folder.path(), name, (64, 48), |x, y| level * (1.0 + 0.01 * scatter(x, y, 1)));
+    let frames = [level("a.png", 20_000.0), level("b.png", 0.0)];
+    let ran = etendue(["measure", "flicker", &frames[0], &frames[1], "--frame-rate-hz", "30"]).ok();
+    let told = ran.out + &ran.err;
+    let named =
+        |name: &str| told.lines().any(|line| line.contains(name) && line.contains("it is black or white throughout"));
+    assert!(named("b.png") && !named("a.png"), "{told}");
+}

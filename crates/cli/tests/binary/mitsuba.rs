@@ -278,7 +278,8 @@ fn lights_without_a_surface_are_black_and_blends_of_blends_are_quick() {
     imported(&deep).1.refused(&["surfaces stand more than"]);
     let (place, ran) = imported(
         "<shape type=\"sphere\"><emitter type=\"area\"/></shape>\n<shape type=\"disk\"><emitter type=\"area\"/></shape>\n\
-         <shape type=\"sphere\"><bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"BK7\"/></bsdf>\
+         <shape type=\"sphere\"><bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"BK7\"/></bsdf></shape>\
+         <shape type=\"sphere\"><bsdf type=\"null\"/>\
          <medium name=\"interior\" type=\"homogeneous\"><volume name=\"albedo\" type=\"constvolume\"><float name=\"value\" value=\"0.25\"/></volume>\
          <float name=\"sigma_t\" value=\"2\"/></medium></shape>\n",
     );
