@@ -60,16 +60,27 @@ impl RawSurface {
 /// A glass by the name that a file has for it: hyphens and capitals differ between programs, and a catalogue may follow
 /// after an underscore.
 pub(super) fn named(name: &str) -> Option<GlassAsset> {
-    let plain = |text: &str| text.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase();
-    let wanted = plain(name.split('_').next().unwrap_or(name));
-    let found = glass::catalogue().iter().find(|known| plain(known.name) == wanted)?;
-    Some(GlassAsset::Named(found.name.to_owned()))
+    catalogue_glass(name).map(|name| GlassAsset::Named(name.to_owned()))
 }
 
-/// The glass of today that took the place of a lead glass of Schott's by nearly the same numbers: N-SK16 for SK16.
-pub(super) fn successor(name: &str) -> Option<GlassAsset> {
-    let plain = name.split('_').next().unwrap_or(name);
-    named(&format!("N{plain}"))
+/// The catalogue's own name of such a glass.
+fn catalogue_glass(name: &str) -> Option<&'static str> {
+    let plain = |text: &str| text.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase();
+    let wanted = plain(name.split('_').next().unwrap_or(name));
+    glass::catalogue().iter().find(|known| plain(known.name) == wanted).map(|known| known.name)
+}
+
+/// The catalogue glass that took the place of an older one of that name, with its name: Schott's N-SK16 for the lead glass SK16, Ohara's S-LAH66
+/// for LAH66. Of a name with its catalogue (SK16_SCHOTT) that maker's alone.
+pub(super) fn successor(name: &str) -> Option<(GlassAsset, String)> {
+    let (plain, maker) = name.split_once('_').unwrap_or((name, ""));
+    let prefixes: &[&str] = match maker.to_ascii_uppercase().as_str() {
+        "SCHOTT" => &["N"],
+        "OHARA" => &["S"],
+        _ => &["N", "S"],
+    };
+    let found = prefixes.iter().find_map(|prefix| catalogue_glass(&format!("{prefix}{plain}")))?;
+    Some((GlassAsset::Named(found.to_owned()), found.to_owned()))
 }
 
 /// A glass by its number: digits of n_d − 1, then those of V_d, as six digits or parted by a point.

@@ -146,7 +146,7 @@ impl Reader {
         if let Some(glass) = self.glasses.find(plain).or_else(|| named(plain)).or_else(|| by_number(plain)) {
             return Ok(glass);
         }
-        let Some(GlassAsset::Named(today)) = successor(plain) else {
+        let Some((glass, today)) = successor(plain) else {
             return Err(w.fault(format!(
                 "no glass is called `{plain}`; give a name of the Schott or Ohara catalogue, a number as 517642, or its indices in a private \
                  catalogue (PRV) before the surfaces"
@@ -154,7 +154,7 @@ impl Reader {
         };
         let note = format!("line {}: no catalogue here has {plain}: its successor {today} is taken", w.line);
         self.raw.notes.push(note);
-        Ok(GlassAsset::Named(today))
+        Ok(glass)
     }
 
     /// `STO S5`.

@@ -4,16 +4,16 @@
 //! gives index and Abbe number of a model glass. PARM i of an EVENASPH is the coefficient of r²ⁱ. FTYP holds the kind of
 //! field and the numbers of fields and wavelengths, for YFLN and WAVM are filled up.
 //!
-//! A glass that no catalogue here has is taken by the index and Abbe number of its line, unless those are the 1.5 and 40 that Zemax
-//! writes for glasses of its catalogues; then by Schott's successor of the same name, with N before it. Either is noted.
+//! Glasses are read in `zmx_glass.rs`.
 
 use std::path::Path;
 
-use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
+use etendue_scene::asset::{LensFields, PrescriptionAsset};
 
-use super::build::{Raw, RawSurface, by_number, named, successor};
+use super::build::{Raw, RawSurface};
 use super::opening::Opening;
 use super::text::Words;
+use super::zmx_glass::Glasses;
 use crate::Error;
 
 pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> {
@@ -30,6 +30,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> 
 #[derive(Default)]
 struct Reader {
     raw: Raw,
+    glasses: Glasses,
     field_kind: usize,
     counts: [usize; 2],
     heights: Vec<f64>,
@@ -97,7 +98,7 @@ impl Reader {
     }
 
     fn glass(&mut self, w: &Words<'_>) -> Result<(), Error> {
-        let (glass, note) = glass(w, &self.raw.surfaces)?;
+        let (glass, note) = self.glasses.read(w, &self.raw.surfaces)?;
         self.raw.notes.extend(note.map(|note| format!("line {}: {note}", w.line)));
         if let Some(surface) = self.raw.surfaces.last_mut() {
             surface.glass = glass;
@@ -162,41 +163,5 @@ fn opening(w: &Words<'_>) -> Result<Option<Opening>, Error> {
         ("OBNA", "1") => Opening::object_angle(w).map(Some),
         ("OBNA", _) => Opening::object_cone(w).map(Some),
         _ => Ok(None),
-    }
-}
-
-/// The glass of a GLAS line, and what is to be said of it.
-fn glass(w: &Words<'_>, surfaces: &[RawSurface]) -> Result<(GlassAsset, Option<String>), Error> {
-    let name = w.word(1);
-    if name == "MIRROR" {
-        return Err(w.fault("a mirror; only refracting lenses are modelled"));
-    }
-    let numbers = || Some((w.number(4).ok()?, w.number(5).ok()?)).filter(|(index, abbe)| *index > 1.0 && *abbe > 0.0);
-    match w.word(2) {
-        "1" => return Ok((GlassAsset::Abbe { index: w.number(4)?, abbe: w.number(5)? }, None)),
-        "2" => {
-            let from = surfaces.get(w.number(3)? as usize);
-            let from = from.ok_or_else(|| w.fault("the glass is picked up from a surface that is not given before"))?;
-            return Ok((from.glass.clone(), None));
-        }
-        _ => {}
-    }
-    if let Some(known) = named(name).or_else(|| by_number(name)) {
-        return Ok((known, None));
-    }
-    // Zemax writes these where the glass's own numbers stand in a catalogue.
-    let own = numbers().filter(|pair| *pair != (1.5, 40.0));
-    if let Some((index, abbe)) = own {
-        let note = format!("no catalogue here has {name}: n_d {index} and V_d {abbe} of its line are taken");
-        return Ok((GlassAsset::Abbe { index, abbe }, Some(note)));
-    }
-    match successor(name) {
-        Some(GlassAsset::Named(today)) => {
-            let note = format!("no catalogue here has {name}: its successor {today} is taken");
-            Ok((GlassAsset::Named(today), Some(note)))
-        }
-        _ => Err(w.fault(format!(
-            "no glass is called `{name}`; give a name of the Schott or Ohara catalogue, or n_d and V_d on its line (GLAS {name} 1 0 n_d V_d)"
-        ))),
     }
 }

@@ -104,24 +104,49 @@ fn glass_of(zmx_line: &str) -> (GlassAsset, Vec<String>) {
     (lens.surfaces[0].glass.clone(), lens.notes)
 }
 
+/// Numbers of a model glass that stood there before say nothing of a catalogue glass.
 #[test]
-fn a_glass_of_no_catalogue_here_is_taken_by_its_line_or_its_successor_and_noted() {
-    let (glass, notes) = glass_of("GLAS SK16 0 0 1.62041 60.32");
-    assert_eq!(glass, GlassAsset::Abbe { index: 1.62041, abbe: 60.32 });
-    assert!(notes[0].contains("line 26: no catalogue here has SK16: n_d 1.62041 and V_d 60.32"), "{notes:?}");
-    // 1.5 and 40 stand there for glasses of Zemax's own catalogues.
-    let (glass, notes) = glass_of("GLAS SK16 0 0 1.5 4.0E+1");
-    assert_eq!(glass, GlassAsset::Named("N-SK16".into()));
-    assert!(notes[0].contains("its successor N-SK16 is taken"), "{notes:?}");
+fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over() {
+    for (line, today) in [
+        ("GLAS SK16 0 0 1.5 4.0E+1", "N-SK16"),
+        ("GLAS SK2 0 0 1.61765 5.514E+1", "N-SK2"),
+        ("GLAS LAH66 0 0 1.7762 4.94E+1", "S-LAH66"),
+    ] {
+        let (glass, notes) = glass_of(line);
+        assert_eq!(glass, GlassAsset::Named(today.into()));
+        let told = format!("line 26: no catalogue here has {}: its successor {today} is taken", &line[5..line.find(" 0").expect("a mode")]);
+        assert!(notes[0].starts_with(&told), "{notes:?}");
+        assert_eq!(notes[0].contains("of its line, which a catalogue glass leaves unused"), !line.contains("1.5 "), "{notes:?}");
+    }
     assert_eq!(glass_of("GLAS N-BK7 0 0 1.5 4.0E+1").1, Vec::<String>::new());
     let (glass, notes) = glass_of("GLAS 517642 0 0 1.5 4.0E+1");
     assert!(
         matches!(glass, GlassAsset::Abbe { index, abbe } if (index - 1.517).abs() < 1e-12 && (abbe - 64.2).abs() < 1e-9)
     );
     assert!(notes.is_empty());
-    let old = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", "SK16_SCHOTT")).expect("a lens");
-    assert_eq!(old.surfaces[0].glass, GlassAsset::Named("N-SK16".into()));
-    assert!(old.notes[0].contains("line 11: no catalogue here has SK16_SCHOTT"), "{:?}", old.notes);
+    for (name, today) in [("SK16_SCHOTT", "N-SK16"), ("LAH66_OHARA", "S-LAH66"), ("LAH66", "S-LAH66")] {
+        let old = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", name)).expect("a lens");
+        assert_eq!(old.surfaces[0].glass, GlassAsset::Named(today.into()));
+        assert!(old.notes[0].contains(&format!("line 11: no catalogue here has {name}")), "{:?}", old.notes);
+    }
+    let other = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", "LAH66_SCHOTT")).expect_err("not Schott's");
+    assert!(other.contains("no glass is called `LAH66_SCHOTT`"), "{other}");
+}
+
+#[test]
+fn a_glass_without_successor_is_taken_by_its_line_and_one_name_has_one_index() {
+    let (glass, notes) = glass_of("GLAS FCD505 0 0 1.59282 68.63");
+    assert_eq!(glass, GlassAsset::Abbe { index: 1.59282, abbe: 68.63 });
+    assert!(notes[0].contains("line 26: no catalogue here has FCD505: n_d 1.59282 and V_d 68.63"), "{notes:?}");
+    let twice = |second: &str| {
+        let text = ZMX.replace("GLAS N-BK7 0 0 1.5 4.0E+1", "GLAS FCD505 0 0 1.59282 68.63");
+        read("lens.zmx", &text.replace("GLAS ___BLANK 1 0 1.62004 36.4 0", second))
+    };
+    assert!(twice("GLAS FCD505 0 0 1.59282 68.63").is_ok());
+    // A model glass says what it is by its numbers.
+    assert!(twice("GLAS FCD505 1 0 1.7 40").is_ok());
+    let told = twice("GLAS FCD505 0 0 1.61765 55.14").expect_err("two indices of one glass");
+    assert!(told.contains("FCD505 has n_d 1.61765 and V_d 55.14 here, n_d 1.59282 and V_d 68.63 in line 26"), "{told}");
 }
 
 #[test]
