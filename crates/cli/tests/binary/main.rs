@@ -45,6 +45,7 @@ mod import_opacity;
 mod interrupted;
 mod kenney;
 mod killed;
+mod lens_files;
 mod lens_tables;
 mod lenses;
 mod limits;

@@ -32,6 +32,8 @@ pub(super) struct RawSurface {
     pub(super) conic: f64,
     pub(super) asphere: [f64; 8],
     pub(super) semi_aperture: Option<f64>,
+    /// Whether the opening stops light, and is not a size for drawing.
+    pub(super) rim: bool,
     pub(super) thickness: f64,
     pub(super) glass: GlassAsset,
     pub(super) stop: bool,
@@ -49,6 +51,7 @@ impl RawSurface {
             conic,
             asphere,
             semi_aperture: None,
+            rim: false,
             thickness: 0.0,
             glass,
             stop: false,
@@ -94,7 +97,7 @@ pub(super) fn by_number(text: &str) -> Option<GlassAsset> {
 
 impl Raw {
     /// The prescription of at least object, one surface and image.
-    pub(super) fn finish(self, file: &Path) -> Result<PrescriptionAsset, Error> {
+    pub(super) fn finish(mut self, file: &Path) -> Result<PrescriptionAsset, Error> {
         let unit = self.unit_mm.unwrap_or(1.0);
         let [object, surfaces @ .., image] = &self.surfaces[..] else {
             return Err(Error::new(
@@ -102,10 +105,11 @@ impl Raw {
                 "expected object, surfaces and image; the file has fewer than three surfaces",
             ));
         };
-        let (before_mm, surfaces) = refracting(surfaces, unit);
+        let (before_mm, mut surfaces) = kept(surfaces, unit);
         let object_distance_mm = object.thickness * unit + before_mm;
         self.opening.map_or(Ok(()), |opening| near_enough(file, opening, object_distance_mm))?;
         let shift_mm = image.thickness * unit;
+        self.notes.extend(without_image_mask(&mut surfaces));
         let stated_mm = surfaces.last().map_or(0.0, |surface| surface.thickness_mm + shift_mm);
         let found = self.image_is_found || !stated_mm.is_finite() || stated_mm == 0.0;
         match surfaces.iter().filter(|s| s.stop).count() {
@@ -143,12 +147,21 @@ fn near_enough(file: &Path, opening: Opening, object_distance_mm: f64) -> Result
     }
 }
 
-/// Surfaces in mm without those that do nothing, and the distance from the first of all to the first of them.
-fn refracting(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAsset>) {
+/// Takes a mask in the image plane off, and says so: no plane stands in the sensor's.
+fn without_image_mask(surfaces: &mut Vec<SurfaceAsset>) -> Option<String> {
+    let [.., before, last] = &surfaces[..] else { return None };
+    let mask = last.glass == before.glass && !last.stop && last.thickness_mm == 0.0;
+    let last = if mask { surfaces.pop()? } else { return None };
+    Some(format!("line {}: an aperture in the image plane is not modelled; it would limit the field", last.line))
+}
+
+/// Surfaces in mm without those that do nothing, and the distance from the first of all to the first of them. A surface that does not refract
+/// stays where it is the stop or has a rim: a baffle, a field stop.
+fn kept(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAsset>) {
     let (mut before_mm, mut list) = (0.0, Vec::<SurfaceAsset>::new());
     let mut before = GlassAsset::Air;
     for surface in surfaces {
-        let idle = surface.glass == before && !surface.stop;
+        let idle = surface.glass == before && !surface.stop && !(surface.rim && surface.semi_aperture.is_some());
         before = surface.glass.clone();
         match list.last_mut() {
             Some(last) if idle => last.thickness_mm += surface.thickness * unit,
@@ -171,6 +184,7 @@ fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
         conic: s.conic,
         asphere,
         semi_aperture_mm: s.semi_aperture.map(|a| a * unit),
+        rim: s.rim && s.semi_aperture.is_some(),
         thickness_mm: s.thickness * unit,
         glass: s.glass.clone(),
         stop: s.stop,

@@ -186,7 +186,7 @@ fn property(surface: &mut RawSurface, name: &str, w: &Words<'_>) -> Result<(), E
             // The glass's edge is no clear aperture.
             "EDG" | "HOL" => {}
             "OBS" => return Err(w.fault("an obscuration is not modelled; only round, open apertures are")),
-            _ => surface.semi_aperture = Some(w.number(1)?),
+            _ => (surface.semi_aperture, surface.rim) = (Some(w.number(1)?), true),
         },
         _ => {}
     }

@@ -132,7 +132,9 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
         "DISZ" => surface.thickness = if w.word(1) == "INFINITY" { f64::INFINITY } else { w.number(1)? },
         // A clear aperture overrides the diameter that the program keeps for drawing.
         "CLAP" if w.number(1)? != 0.0 => return Err(w.fault("an obscuration; only round, open apertures are modelled")),
-        "CLAP" => surface.semi_aperture = Some(w.number(2)?),
+        "CLAP" => (surface.semi_aperture, surface.rim) = (Some(w.number(2)?), true),
+        // A floating aperture clips at the diameter.
+        "FLAP" => surface.rim = true,
         "DIAM" if surface.semi_aperture.is_none() => surface.semi_aperture = Some(w.number(1)?).filter(|d| *d > 0.0),
         "STOP" => surface.stop = true,
         "OBDC" if w.numbers(1)?.iter().all(|shift| *shift == 0.0) => {}

@@ -223,6 +223,20 @@ fn object_and_image_stand_where_the_file_has_them() {
 }
 
 #[test]
+fn planes_with_an_aperture_stay_and_a_mask_in_the_image_is_noted() {
+    let baffle = read("lens.zmx", &ZMX.replacen("  DIAM 9 1", "  DIAM 9 1\n  CLAP 0 8 0", 1)).expect("a lens");
+    assert_eq!(baffle.surfaces.len(), 6);
+    let plane = &baffle.surfaces[0];
+    assert_eq!((plane.semi_aperture_mm, plane.rim, plane.thickness_mm, plane.line), (Some(8.0), true, 5.0, 17));
+    let field_stop = read("lens.seq", &SEQ.replace("S 20.0 40.0", "S 20.0 30.0\nS 0 10.0\n CIR 4")).expect("a lens");
+    assert_eq!((field_stop.surfaces.len(), field_stop.surfaces[5].semi_aperture_mm), (6, Some(4.0)));
+    assert_eq!(field_stop.back_focus_mm, 10.0);
+    let mask = read("lens.seq", &SEQ.replace("SI 0.0", "S 0 0\n CIR 4\nSI 0.0")).expect("a lens");
+    assert_eq!((mask.surfaces.len(), mask.back_focus_mm), (5, 40.0));
+    assert!(mask.notes[0].contains("an aperture in the image plane is not modelled"), "{:?}", mask.notes);
+}
+
+#[test]
 fn parameters_of_a_standard_surface_are_no_coefficients() {
     let text = ZMX.replace("TYPE EVENASPH", "TYPE STANDARD");
     let lens = read("lens.zmx", &text).expect("a lens");

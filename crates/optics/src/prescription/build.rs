@@ -12,7 +12,7 @@ impl Prescription {
     /// # Errors
     /// Where the surfaces are no lens, or it cannot be focused as asked.
     pub fn new(parameters: PrescriptionParameters) -> Result<Self, PrescriptionError> {
-        let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm } = parameters;
+        let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm, other_rims } = parameters;
         let stop = check::surfaces(&surfaces)?;
         let (list, places) = media(&surfaces)?;
         let table = IndexTable::new(&list);
@@ -25,7 +25,7 @@ impl Prescription {
         let last_mm = elements.last().map_or(0.0, |e| e.z_mm);
         let sensor_position_mm =
             last_mm + focused.image_mm + check::finite_number(surfaces.len(), "defocus_mm", defocus_mm)?;
-        let lens = Self {
+        let mut lens = Self {
             sensor_position_mm,
             focus_distance_m: focused.distance_m,
             magnification: focused.magnification,
@@ -40,8 +40,10 @@ impl Prescription {
             table,
             stop,
             paraxial,
+            axial_opening: check::AxialOpening::STOP,
         };
-        check::axial_bundle(&lens)?;
+        lens.axial_opening = check::axial_bundle(&lens, other_rims)?;
+        lens.paraxial = paraxial.clipped(lens.axial_opening.share);
         Ok(lens)
     }
 }

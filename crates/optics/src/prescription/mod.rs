@@ -30,6 +30,7 @@ use paraxial::Paraxial;
 use trace::{Element, Fullness, LensRay, Lost, Rims, Through, Way, walk};
 
 pub use error::PrescriptionError;
+pub use check::OtherRims;
 pub use focus::Focus;
 pub use surface::Surface;
 
@@ -42,8 +43,18 @@ pub struct PrescriptionParameters {
     pub f_number: Option<f64>,
     /// What is in focus, and what moves for it.
     pub focus: Focus,
-    /// How far behind the paraxial image at 587.56 nm the sensor stands, mm: best focus of an aberrated lens.
+    /// How far behind the paraxial image at the reference wavelength the sensor stands, mm: best focus of an aberrated lens.
     pub defocus_mm: f64,
+    /// What becomes of a rim other than the stop's that clips the bundle on the axis.
+    pub other_rims: OtherRims,
+}
+
+impl PrescriptionParameters {
+    /// Surfaces as they stand, in focus: fully open, without defocus; a rim that clips before the stop is refused.
+    #[must_use]
+    pub fn new(surfaces: Vec<Surface>, focus: Focus) -> Self {
+        Self { surfaces, f_number: None, focus, defocus_mm: 0.0, other_rims: OtherRims::Refused }
+    }
 }
 
 /// A lens of surfaces, focused.
@@ -54,6 +65,7 @@ pub struct Prescription {
     table: IndexTable,
     stop: usize,
     paraxial: Paraxial,
+    axial_opening: check::AxialOpening,
     sensor_position_mm: f64,
     focus_distance_m: f64,
     magnification: f64,
@@ -82,7 +94,20 @@ impl Prescription {
     /// First-order quantities at a wavelength.
     #[must_use]
     pub fn paraxial_at(&self, nm: f64) -> Paraxial {
-        paraxial::paraxial(&self.elements, self.stop, self.stop_mm(), &self.table.at(nm))
+        let whole = paraxial::paraxial(&self.elements, self.stop, self.stop_mm(), &self.table.at(nm));
+        whole.clipped(self.axial_opening.share)
+    }
+
+    /// The surface other than the stop, from 0, whose rim limits the bundle on the axis; `None` where the stop does.
+    #[must_use]
+    pub fn axial_limit(&self) -> Option<usize> {
+        self.axial_opening.limit
+    }
+
+    /// Radius of the bundle on the axis over that which the stop alone would let through; 1 where no other rim limits it.
+    #[must_use]
+    pub fn axial_share(&self) -> f64 {
+        self.axial_opening.share
     }
 
     /// The sensor's place in the lens frame: mm from the first vertex.

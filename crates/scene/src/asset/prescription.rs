@@ -5,7 +5,7 @@
 pub struct PrescriptionAsset {
     /// What the file calls it; may be empty.
     pub title: String,
-    /// Surfaces; those that neither refract nor stop are left out, their thickness added to the one before.
+    /// Surfaces; those that neither refract nor have an opening that stops light are left out, their thickness added to the one before.
     pub surfaces: Vec<SurfaceAsset>,
     /// Distance of the object before the first surface, mm; infinite for a distant one.
     pub object_distance_mm: f64,
@@ -40,6 +40,8 @@ pub struct SurfaceAsset {
     pub asphere: [f64; 8],
     /// Clear semi-aperture, mm; `None` where the file leaves it to be found from the light.
     pub semi_aperture_mm: Option<f64>,
+    /// Whether that opening stops light by the file's own statement (Zemax CLAP and FLAP, CODE V CIR), and is not a size for drawing (DIAM).
+    pub rim: bool,
     /// Distance to the next surface (from the last one: to the image), mm.
     pub thickness_mm: f64,
     /// What fills that space.

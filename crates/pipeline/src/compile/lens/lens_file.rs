@@ -82,7 +82,7 @@ pub(super) fn narrow_beside(
         Surface { semi_aperture_mm: part * s.semi_aperture_mm, ..*s }
     };
     let surfaces = surfaces.iter().map(close).collect();
-    Prescription::new(PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm })
+    Prescription::new(PrescriptionParameters { defocus_mm, ..PrescriptionParameters::new(surfaces, focus) })
 }
 
 /// Remarks what of a file is not as it stands there, and what it leaves open.
@@ -100,8 +100,21 @@ pub(super) fn remarks(
     if let Some(stop_mm) = stated.stop_mm.filter(|_| record.f_number.is_none())
         && (stop_mm / own_stop_mm - 1.0).abs() > 1e-3
     {
+        let rim = asset.surfaces.iter().find(|surface| surface.stop && surface.rim && stop_mm > own_stop_mm);
+        tell(rim.map_or_else(
+            || format!("its aperture opens the stop to {stop_mm:.4} mm, not to the {own_stop_mm:.4} mm of the stop's surface"),
+            |stop| {
+                let line = stop.line;
+                format!("the aperture of the stop's surface (line {line}) clips at {own_stop_mm:.4} mm the {stop_mm:.4} mm to which the lens would open")
+            },
+        ));
+    }
+    if let Some(i) = lens.axial_limit() {
+        let (n, line) = (lens.paraxial().f_number(), asset.surfaces[i].line);
         tell(format!(
-            "its aperture opens the stop to {stop_mm:.4} mm, not to the {own_stop_mm:.4} mm of the stop's surface"
+            "surface {} (line {line}), not the stop, limits the bundle on the axis: f/{n:.3}, where the stop alone would give f/{:.3}",
+            i + 1,
+            n * lens.axial_share()
         ));
     }
     if let Some(n) = record.f_number.as_ref().filter(|_| asset.opening.is_some()) {

@@ -10,7 +10,7 @@ use etendue_optics::prescription::coating::Coating;
 use etendue_optics::prescription::filter::InterferenceFilter;
 use etendue_optics::prescription::published::{LENSES, named};
 use etendue_optics::prescription::surface::ASPHERE_TERMS;
-use etendue_optics::prescription::{Focus, Surface};
+use etendue_optics::prescription::{Focus, OtherRims, Surface};
 use etendue_optics::{Lens, Prescribed, Prescription, PrescriptionError, PrescriptionParameters};
 use etendue_projection::Raster;
 use etendue_scene::asset::PrescriptionAsset;
@@ -200,16 +200,17 @@ fn made(
     context: &mut Context<'_>,
 ) -> Result<Prescription, PrescriptionError> {
     let Given { mut surfaces, file } = given;
-    let Some(asset) = file else { return focused(record, surfaces, f64::INFINITY, 0.0) };
+    let Some(asset) = file else { return focused(record, surfaces, f64::INFINITY, 0.0, OtherRims::Refused) };
     let stated = Stated::of(asset, &surfaces)?;
     let stop = surfaces.iter().position(|surface| surface.stop);
     let own_mm = stop.map_or(0.0, |i| surfaces[i].semi_aperture_mm);
     if let (Some(i), Some(stop_mm)) = (stop, stated.stop_mm) {
         // An f-number of the description may open the stop as far as either of the file's statements.
-        surfaces[i].semi_aperture_mm = if record.f_number.is_some() { stop_mm.max(own_mm) } else { stop_mm };
+        let open_mm = if record.f_number.is_some() { stop_mm.max(own_mm) } else { stop_mm };
+        surfaces[i].semi_aperture_mm = if asset.surfaces[i].rim { open_mm.min(own_mm) } else { open_mm };
     }
     let defocus_mm = stated.defocus_mm.unwrap_or(asset.defocus_mm);
-    let lens = focused(record, surfaces, stated.distance_m, defocus_mm)?;
+    let lens = focused(record, surfaces, stated.distance_m, defocus_mm, OtherRims::Clip)?;
     lens_file::remarks(record, asset, own_mm, &stated, &lens, context);
     Ok(lens)
 }
@@ -220,6 +221,7 @@ fn focused(
     surfaces: Vec<Surface>,
     distance_m: f64,
     defocus_mm: f64,
+    other_rims: OtherRims,
 ) -> Result<Prescription, PrescriptionError> {
     let distance_m = record.focus_distance_m.as_ref().map_or(distance_m, focus_m);
     let focus = match &record.focus_by {
@@ -231,7 +233,7 @@ fn focused(
     };
     let defocus_mm = record.defocus_mm.as_ref().map_or(defocus_mm, |d| d.value);
     let f_number = record.f_number.as_ref().map(|n| n.value);
-    Prescription::new(PrescriptionParameters { surfaces, f_number, focus, defocus_mm })
+    Prescription::new(PrescriptionParameters { surfaces, f_number, focus, defocus_mm, other_rims })
 }
 
 /// Notes why the surfaces are no lens where the cause stands.

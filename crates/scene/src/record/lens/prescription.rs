@@ -14,8 +14,8 @@ record! {
     pub struct Prescription check(check) {
         /// Where its surfaces are.
         inside source: Source;
-        /// With "file": clear semi-apertures, mm, one a surface of the file that refracts or is the stop, in place of the
-        /// file's. Default: the file's; where it has none, what the light of its fields needs.
+        /// With "file": clear semi-apertures, mm, one a surface of the file that refracts, is the stop or has an aperture of its own, in
+        /// place of the file's. Default: the file's; where it has none, what the light of its fields needs.
         optional semi_apertures_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 1);
         /// Focal length divided by the entrance pupil's diameter, with the focus at infinity, 0.5 or more: how far the stop opens,
         /// no further than its own semi-aperture. Default: what the file says (its entrance pupil, f-number or cone of light, for

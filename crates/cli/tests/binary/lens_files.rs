@@ -1,0 +1,96 @@
+//! Lens files as other programs write them: what `measure lens` makes of each, against the right values of its first order.
+
+use crate::support::{etendue, text};
+use serde_json::Value;
+
+/// A biconvex singlet of N-BK7 as Zemax writes it: 49.04 mm, f/9.81.
+fn zmx(front: &str, glass: &str) -> String {
+    format!(
+        "VERS 140124 258 36214\nMODE SEQ\nUNIT MM X W X CM MR CPMM\nENPD 5\nGCAT SCHOTT\nFTYP 0 0 2 1 0 0 0\nYFLN 0 10\nXFLN 0 0\n\
+         WAVM 1 0.58756 1\nPWAV 1\nSURF 0\n  TYPE STANDARD\n  CURV 0.0\n  DISZ INFINITY\n  DIAM 0 0 0 0 1 \"\"\n{front}\
+         SURF 1\n  STOP\n  TYPE STANDARD\n  CURV 0.02 0 0 0 0 \"\"\n  DISZ 4\n  GLAS {glass} 0 0 0 0 0 0\n  DIAM 6 1 0 0 1 \"\"\n\
+         SURF 2\n  TYPE STANDARD\n  CURV -0.02 0 0 0 0 \"\"\n  DISZ 47\n  DIAM 6 1 0 0 1 \"\"\n\
+         SURF 3\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 0\n  DIAM 10 0 0 0 1 \"\"\n"
+    )
+}
+
+const BK7: &str = "N-BK7 0 0 1.5168 64.17";
+
+struct Measured {
+    report: Value,
+}
+
+impl Measured {
+    fn number(&self, key: &str) -> f64 {
+        self.report[key].as_f64().unwrap_or_else(|| panic!("no {key} in {}", self.report))
+    }
+
+    fn remarks(&self) -> String {
+        let list = self.report["remarks"].as_array().expect("remarks");
+        list.iter().filter_map(Value::as_str).collect::<Vec<_>>().join("\n")
+    }
+
+    /// A key's value to the last digit that is stated.
+    #[track_caller]
+    fn is(&self, key: &str, right: f64, digit: f64) {
+        let found = self.number(key);
+        assert!((found - right).abs() <= 0.51 * digit, "{key}: {found} for {right}");
+    }
+}
+
+fn arguments(name: &str, file: &str, further: &[&str]) -> (tempfile::TempDir, Vec<String>) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(name);
+    std::fs::write(&path, file).expect("written");
+    let words = ["measure".to_owned(), "lens".to_owned(), text(&path), "--fields".to_owned(), "2".to_owned()];
+    (folder, words.into_iter().chain(further.iter().map(|word| (*word).to_owned())).collect())
+}
+
+fn measured(name: &str, file: &str) -> Measured {
+    let (_folder, words) = arguments(name, file, &["--json"]);
+    Measured { report: serde_json::from_str(&etendue(words).ok().out).expect("JSON") }
+}
+
+#[test]
+fn a_catalogue_glass_is_its_successor_and_not_what_is_left_over_on_its_line() {
+    measured("plain.zmx", &zmx("", BK7)).is("focal_length_mm", 49.043, 1e-3);
+    measured("today.zmx", &zmx("", "N-SK2 0 0 1.5 40")).is("focal_length_mm", 41.7920, 1e-4);
+    measured("sk2.zmx", &zmx("", "SK2 0 0 1.61765 5.514E+1")).is("focal_length_mm", 41.7920, 1e-4);
+    let ohara = measured("lah66.zmx", &zmx("", "LAH66 0 0 1.7762 4.94E+1"));
+    ohara.is("focal_length_mm", 32.9367, 1e-4);
+    assert!(ohara.remarks().contains("its successor S-LAH66 is taken, not n_d 1.7762"), "{}", ohara.remarks());
+}
+
+#[test]
+fn an_aperture_on_a_plane_in_air_clips() {
+    let plane = |aperture: &str| {
+        zmx(&format!("SURF 1\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 20\n  DIAM 2 1 0 0 1 \"\"\n{aperture}"), BK7)
+    };
+    // The size that a plane is drawn with is no aperture.
+    let drawn = measured("drawn.zmx", &plane(""));
+    drawn.is("f_number", 9.81, 1e-2);
+    for aperture in ["  CLAP 0 2 0\n", "  FLAP 0 2 0\n"] {
+        let clipped = measured("baffle.zmx", &plane(aperture));
+        clipped.is("f_number", 12.26, 1e-2);
+        clipped.is("focal_length_mm", 49.043, 1e-3);
+        clipped.is("entrance_pupil_diameter_mm", 4.0, 1e-6);
+        let told = "surface 1 (line 16), not the stop, limits the bundle on the axis: f/12.261, where the stop alone would give f/9.809";
+        assert!(clipped.remarks().contains(told), "{}", clipped.remarks());
+    }
+    // A larger one is there, and clips nothing on the axis.
+    let wide = measured("wide.zmx", &plane("  CLAP 0 4 0\n"));
+    wide.is("f_number", 9.81, 1e-2);
+    // The stop's own aperture clips too.
+    let stop = zmx("", BK7).replacen("DIAM 6 1", "CLAP 0 2 0\n  DIAM 6 1", 1);
+    let stop = measured("stop.zmx", &stop);
+    stop.is("f_number", 12.26, 1e-2);
+    assert!(stop.remarks().contains("clips at 2.0000 mm the 2.5000 mm"), "{}", stop.remarks());
+}
+
+#[test]
+fn a_rim_smaller_than_the_bundle_clips_it() {
+    let file = zmx("", BK7).replace("ENPD 5", "ENPD 25").replacen("DIAM 6 ", "DIAM 12.5 ", 1).replacen("DIAM 6 ", "DIAM 12.0 ", 1);
+    let lens = measured("rim.zmx", &file);
+    lens.is("f_number", 1.98, 1e-2);
+    assert!(lens.remarks().contains("surface 2 (line 23), not the stop, limits"), "{}", lens.remarks());
+}
