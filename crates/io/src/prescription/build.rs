@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use etendue_scene::asset::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
+use etendue_scene::asset::{ASPHERE_TERMS, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 use etendue_spectra::glass;
 
 use super::opening::Opening;
@@ -30,7 +30,7 @@ pub(super) struct RawSurface {
     pub(super) line: usize,
     pub(super) curvature: f64,
     pub(super) conic: f64,
-    pub(super) asphere: [f64; 8],
+    pub(super) asphere: [f64; ASPHERE_TERMS],
     pub(super) semi_aperture: Option<f64>,
     /// Whether the opening stops light, and is not a size for drawing.
     pub(super) rim: bool,
@@ -43,7 +43,7 @@ pub(super) struct RawSurface {
 
 impl RawSurface {
     pub(super) fn new(line: usize) -> Self {
-        let (curvature, conic, asphere) = (0.0, 0.0, [0.0; 8]);
+        let (curvature, conic, asphere) = (0.0, 0.0, [0.0; ASPHERE_TERMS]);
         let glass = GlassAsset::Air;
         Self {
             line,
@@ -96,6 +96,18 @@ pub(super) fn by_number(text: &str) -> Option<GlassAsset> {
 }
 
 impl Raw {
+    /// Scales every length as it stands.
+    pub(super) fn scale(&mut self, factor: f64) {
+        for surface in &mut self.surfaces {
+            surface.curvature /= factor;
+            surface.asphere = scaled_asphere(surface.asphere, factor);
+            surface.semi_aperture = surface.semi_aperture.map(|semi| semi * factor);
+            surface.thickness *= factor;
+        }
+        self.opening = self.opening.map(|opening| Opening { stated: scaled(opening.stated, factor), ..opening });
+        self.fields = self.fields.take().map(|fields| scaled_fields(fields, factor));
+    }
+
     /// The prescription of at least object, one surface and image.
     pub(super) fn finish(mut self, file: &Path) -> Result<PrescriptionAsset, Error> {
         let unit = self.unit_mm.unwrap_or(1.0);
@@ -173,16 +185,10 @@ fn kept(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAsset>) {
 }
 
 fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
-    let mut power = 1.0;
-    // αᵢ has the unit of length to the 1 − 2i.
-    let asphere = s.asphere.map(|a| {
-        power *= unit * unit;
-        a * unit / power
-    });
     SurfaceAsset {
         radius_mm: if s.curvature == 0.0 { f64::INFINITY } else { unit / s.curvature },
         conic: s.conic,
-        asphere,
+        asphere: scaled_asphere(s.asphere, unit),
         semi_aperture_mm: s.semi_aperture.map(|a| a * unit),
         rim: s.rim && s.semi_aperture.is_some(),
         thickness_mm: s.thickness * unit,
@@ -190,6 +196,15 @@ fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
         stop: s.stop,
         line: s.line,
     }
+}
+
+/// Coefficients of r², r⁴ … of a surface enlarged by a factor: αᵢ has the unit of length to the 1 − 2i.
+fn scaled_asphere(terms: [f64; ASPHERE_TERMS], factor: f64) -> [f64; ASPHERE_TERMS] {
+    let mut power = 1.0;
+    terms.map(|a| {
+        power *= factor * factor;
+        a * factor / power
+    })
 }
 
 fn scaled(opening: LensOpening, unit: f64) -> LensOpening {

@@ -146,10 +146,13 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
     Ok(())
 }
 
+/// Parameters of an EVENASPH that are coefficients.
+const EVEN_TERMS: f64 = 8.0;
+
 fn coefficient(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
     let (place, value) = (w.number(1)?, w.number(2)?);
     match surface.asphere.get_mut((place - 1.0) as usize) {
-        Some(term) if place >= 1.0 => *term = value,
+        Some(term) if (1.0..=EVEN_TERMS).contains(&place) => *term = value,
         _ if value == 0.0 => {}
         _ => return Err(w.fault(format!("PARM {place}; expected 1 to 8, the terms r² to r¹⁶"))),
     }

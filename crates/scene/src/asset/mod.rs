@@ -28,7 +28,7 @@ pub(crate) use named_files::requests;
 pub use named_files::{of_camera, of_weather};
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 pub use point_spread::{FieldPoint, PointSpreadAsset};
-pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
+pub use prescription::{ASPHERE_TERMS, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 pub use ray_transfer::{PassAsset, RayTransferAsset, TermAsset, TransferAsset};
 pub use request::{AssetKind, AssetRequest, Covered, Values};
 pub use slot_layers::{

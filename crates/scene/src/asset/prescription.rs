@@ -1,5 +1,8 @@
 //! A lens by its surfaces, as lens files give it.
 
+/// Number of aspheric terms: r², r⁴ … r²⁰, as CODE V has them.
+pub const ASPHERE_TERMS: usize = 10;
+
 /// A prescription in a file: surfaces from the scene to the sensor, without object and image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrescriptionAsset {
@@ -36,8 +39,8 @@ pub struct SurfaceAsset {
     pub radius_mm: f64,
     /// Conic constant.
     pub conic: f64,
-    /// Coefficients of r², r⁴ … r¹⁶, mm^(1 − 2i).
-    pub asphere: [f64; 8],
+    /// Coefficients of r², r⁴ … r²⁰, mm^(1 − 2i).
+    pub asphere: [f64; ASPHERE_TERMS],
     /// Clear semi-aperture, mm; `None` where the file leaves it to be found from the light.
     pub semi_aperture_mm: Option<f64>,
     /// Whether that opening stops light by the file's own statement (Zemax CLAP and FLAP, CODE V CIR), and is not a size for drawing (DIAM).

@@ -4,7 +4,7 @@ use crate::compile::{Choices, compile};
 use crate::plan::{CameraPlan, Plan};
 use crate::render::rays::ray_table;
 use etendue_optics::Lens;
-use etendue_scene::asset::{Assets, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
+use etendue_scene::asset::{ASPHERE_TERMS, Assets, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 use etendue_scene::{Description, Overrides};
 use std::path::Path;
 
@@ -86,7 +86,7 @@ fn faults_of_prescriptions_name_their_place() {
 }
 
 fn file_surface(radius_mm: f64, semi_aperture_mm: Option<f64>, glass: GlassAsset, stop: bool) -> SurfaceAsset {
-    let (conic, asphere, thickness_mm, line) = (0.0, [0.0; 8], 3.0, 12);
+    let (conic, asphere, thickness_mm, line) = (0.0, [0.0; ASPHERE_TERMS], 3.0, 12);
     SurfaceAsset { radius_mm, conic, asphere, semi_aperture_mm, rim: false, thickness_mm, glass, stop, line }
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::asset::ASPHERE_TERMS;
 use super::focus::{FocusDistance, focus_distance};
 use super::numbers::f_number;
 use crate::fault::Faults;
@@ -58,7 +59,7 @@ record! {
         optional radius_mm: Placed<f64> = number("mm");
         /// Conic constant: 0 a sphere, −1 a paraboloid. Default: 0.
         optional conic: Placed<f64> = number("");
-        /// Coefficients of r², r⁴, r⁶ …, mm to the power 1 − 2i; at most eight. Default: none.
+        /// Coefficients of r², r⁴, r⁶ …, mm to the power 1 − 2i; at most ten. Default: none.
         optional asphere: Vec<Placed<f64>> = list(number("mm^(1 - 2i)"), 1);
         /// Distance to the next surface along the axis, mm, 0 or more. Of the last surface it has no effect and is left out.
         optional thickness_mm: Placed<f64> = number("mm").at_least(0.0);
@@ -216,16 +217,13 @@ fn check(lens: &Prescription, faults: &mut Faults) {
     for surface in surfaces {
         if let Some(beyond) = surface.asphere.iter().flatten().nth(ASPHERE_TERMS) {
             let problem = format!("found more than {ASPHERE_TERMS} coefficients");
-            faults.add(&beyond.place, problem, "give those of r² to r¹⁶");
+            faults.add(&beyond.place, problem, "give those of r² to r²⁰");
         }
         if let Some(radius) = surface.radius_mm.as_ref().filter(|r| r.value == 0.0) {
             faults.add(&radius.place, "found a radius of 0", "give a radius, or leave the key out for a plane");
         }
     }
 }
-
-/// r² to r¹⁶.
-const ASPHERE_TERMS: usize = 8;
 
 fn check_glass(glass: &GlassNumbers, faults: &mut Faults) {
     match (&glass.known, &glass.abbe, &glass.sellmeier_c_um2) {
