@@ -123,6 +123,41 @@ fn edits_of_codev_files_are_followed() {
     assert!(spot("-1e-9") - spot("0") > 0.5, "{} for {}", spot("-1e-9"), spot("0"));
 }
 
+/// First-order figures are of the file's primary wavelength, say so, and are of another where that is asked for.
+#[test]
+fn first_order_figures_are_of_the_primary_wavelength() {
+    let (front, rear) = ("50 4 NBK7_SCHOTT", "-50 47");
+    // The thick biconvex lens of N-BK7: n by its Sellmeier equation.
+    let focal = |nm: f64| {
+        let (b, c, l) = ([1.03961212, 0.231792344, 1.01046945], [0.00600069867, 0.0200179144, 103.560653], nm * nm * 1e-6);
+        let n = (1.0 + (0..3).map(|i| b[i] * l / (l - c[i])).sum::<f64>()).sqrt();
+        let power = (n - 1.0) * (2.0 / 50.0 - (n - 1.0) * 4.0 / (n * 50.0 * 50.0));
+        1.0 / power
+    };
+    for (reference, nm) in [(1, 656.3), (2, 587.6), (3, 486.1)] {
+        let file = seq(front, rear, "").replace("REF 2", &format!("REF {reference}"));
+        let lens = measured("lens.seq", &file);
+        lens.is("first_order_wavelength_nm", nm, 1e-9);
+        lens.is("focal_length_mm", focal(nm), 2e-8);
+        let (_folder, words) = arguments("lens.seq", &file, &[]);
+        let told = etendue(words).ok().out;
+        assert!(told.contains(&format!("first order at         {nm} nm (fields at 587.56 nm)")), "{told}");
+    }
+    let zemax = zmx("", BK7).replace("WAVM 1 0.58756 1\nPWAV 1", "WAVM 1 0.58756 1\nWAVM 2 0.55 1\nPWAV 2").replace("0 0 2 1 0 0 0", "0 0 2 2 0 0 0");
+    measured("lens.zmx", &zemax).is("focal_length_mm", focal(550.0), 2e-8);
+    // An f-number is of that wavelength too.
+    let fast = measured("lens.zmx", &zemax.replace("ENPD 5", "FNUM 10 0"));
+    fast.is("entrance_pupil_diameter_mm", focal(550.0) / 10.0, 2e-8);
+    let (_folder, words) = arguments("lens.zmx", &zemax, &["--json", "--wavelength-nm", "486.1"]);
+    let asked = Measured { report: serde_json::from_str(&etendue(words).ok().out).expect("JSON") };
+    asked.is("focal_length_mm", focal(486.1), 2e-8);
+    asked.is("first_order_wavelength_nm", 486.1, 1e-9);
+    let (_folder, words) = arguments("lens.zmx", &zemax.replace("PWAV 2", "PWAV 3"), &[]);
+    etendue(words).refused(&["lens.zmx", "the primary wavelength is number 3; expected one of the file's 2"]);
+    let (_folder, words) = arguments("lens.zmx", &zemax, &["--wavelength-nm", "2000"]);
+    etendue(words).refused(&["--wavelength-nm", "300 to 1100"]);
+}
+
 #[test]
 fn what_a_codev_file_changes_in_an_unknown_way_is_refused_with_its_line() {
     for (edit, told) in [("RDY S1 Z2 25", "RDY of a zoom position"), ("INS S2", "INS is not modelled")] {

@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_scene::asset::{ASPHERE_TERMS, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 use etendue_spectra::glass;
 
 use super::opening::Opening;
+use super::text::Words;
 use crate::Error;
 
 /// A lens as it is read: object and image are surfaces too, lengths in the file's unit.
@@ -20,9 +22,44 @@ pub(super) struct Raw {
     /// By field: how much of the pupil is taken off at its upper and its lower end.
     pub(super) vignetting: [Vec<f64>; 2],
     pub(super) wavelengths_nm: Vec<f64>,
+    pub(super) primary: Option<Primary>,
     /// The image is where the program finds it: the last distance is no statement.
     pub(super) image_is_found: bool,
     pub(super) notes: Vec<String>,
+}
+
+/// The wavelength of a file's first-order figures.
+#[derive(Clone, Copy)]
+pub(super) struct Primary {
+    /// Its place among the file's wavelengths, from 1.
+    number: f64,
+    line: usize,
+}
+
+impl Primary {
+    /// PWAV, REF.
+    pub(super) fn read(w: &Words<'_>) -> Result<Self, Error> {
+        Ok(Self { number: w.number(1)?, line: w.line })
+    }
+
+    /// The wavelength, nm; `None` where the file states no wavelengths at all.
+    fn nm(self, file: &Path, wavelengths_nm: &[f64]) -> Result<Option<f64>, Error> {
+        let count = wavelengths_nm.len();
+        let place = self.number as usize;
+        if count == 0 {
+            return Ok(None);
+        }
+        let found = wavelengths_nm.get(place.wrapping_sub(1)).filter(|_| place as f64 == self.number);
+        let nm = *found.ok_or_else(|| {
+            let what = format!("the primary wavelength is number {}; expected one of the file's {count}", self.number);
+            Error::at(file, self.line, what)
+        })?;
+        if (SHORTEST_NM..=MAX_NM).contains(&nm) {
+            return Ok(Some(nm));
+        }
+        let what = format!("the primary wavelength is {nm} nm; light of {SHORTEST_NM} to {MAX_NM} nm is modelled");
+        Err(Error::at(file, self.line, format!("{what}: name another wavelength of the file")))
+    }
 }
 
 #[derive(Clone)]
@@ -120,6 +157,7 @@ impl Raw {
         let (before_mm, mut surfaces) = kept(surfaces, unit);
         let object_distance_mm = object.thickness * unit + before_mm;
         self.opening.map_or(Ok(()), |opening| near_enough(file, opening, object_distance_mm))?;
+        let primary_nm = self.primary.map_or(Ok(None), |primary| primary.nm(file, &self.wavelengths_nm))?;
         let shift_mm = image.thickness * unit;
         self.notes.extend(without_image_mask(&mut surfaces));
         let stated_mm = surfaces.last().map_or(0.0, |surface| surface.thickness_mm + shift_mm);
@@ -136,6 +174,7 @@ impl Raw {
                 opening_line: self.opening.map_or(0, |opening| opening.line),
                 fields: self.fields.map(|fields| scaled_fields(fields, unit)),
                 vignetting: self.vignetting,
+                primary_nm,
                 wavelengths_nm: self.wavelengths_nm,
                 notes: self.notes,
                 hash: [0; 32],

@@ -11,5 +11,5 @@ pub(super) const REFUSED: &[&str] = &[
 /// of input.
 pub(super) const PASSED_OVER: &[&str] = &[
     "GO", "LEN", "INI", "SLB", "DDM", "UID", "CCY", "CCX", "THC", "GLC", "KC", "AC", "BC", "CC", "DC", "EC", "FC", "GC",
-    "HC", "JC", "ASP", "SPH", "CON", "WTW", "WTF", "WTX", "WTY", "VUX", "VLX", "HIN", "EVA", "CA", "END", "REF",
+    "HC", "JC", "ASP", "SPH", "CON", "WTW", "WTF", "WTX", "WTY", "VUX", "VLX", "HIN", "EVA", "CA", "END",
 ];

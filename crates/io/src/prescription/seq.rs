@@ -15,7 +15,7 @@ use std::path::Path;
 
 use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
 
-use super::build::{Raw, RawSurface, by_number, named, successor};
+use super::build::{Primary, Raw, RawSurface, by_number, named, successor};
 use super::names::{PASSED_OVER, REFUSED};
 use super::opening::Opening;
 use super::private::PrivateGlasses;
@@ -99,6 +99,7 @@ impl Reader {
             "NA" => self.raw.opening = Some(Opening::image_cone(w)?),
             "NAO" => self.raw.opening = Some(Opening::object_cone(w)?),
             "WL" => self.raw.wavelengths_nm = w.numbers(1)?,
+            "REF" => self.raw.primary = Some(Primary::read(w)?),
             "YAN" => self.raw.fields = Some(LensFields::AnglesDeg(w.numbers(1)?)),
             "YOB" => self.raw.fields = Some(LensFields::ObjectMm(w.numbers(1)?)),
             "YIM" | "YRI" => self.raw.fields = Some(LensFields::ImageMm(w.numbers(1)?)),

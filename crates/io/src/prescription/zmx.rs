@@ -2,7 +2,7 @@
 //!
 //! A line is a keyword and its values; those of a surface follow its SURF. GLAS names a catalogue glass, or (second value 1)
 //! gives index and Abbe number of a model glass. PARM i of an EVENASPH is the coefficient of r²ⁱ. FTYP holds the kind of
-//! field and the numbers of fields and wavelengths, for YFLN and WAVM are filled up.
+//! field and the numbers of fields and wavelengths, for YFLN and WAVM are filled up. PWAV counts the wavelengths.
 //!
 //! Glasses are read in `zmx_glass.rs`.
 
@@ -10,7 +10,7 @@ use std::path::Path;
 
 use etendue_scene::asset::{LensFields, PrescriptionAsset};
 
-use super::build::{Raw, RawSurface};
+use super::build::{Primary, Raw, RawSurface};
 use super::opening::Opening;
 use super::text::Words;
 use super::zmx_glass::Glasses;
@@ -64,6 +64,10 @@ impl Reader {
             }
             "WAVM" => {
                 self.raw.wavelengths_nm.push(1e3 * w.number(2)?);
+                Ok(())
+            }
+            "PWAV" => {
+                self.raw.primary = Some(Primary::read(w)?);
                 Ok(())
             }
             "SURF" => {

@@ -6,6 +6,7 @@ use super::error::PrescriptionError;
 use super::surface::{Shape, Surface};
 use super::trace::{LensRay, Loss, Lost, Rims, Way, walk};
 use crate::wavelength::PRINCIPAL_NM;
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
 
@@ -23,6 +24,11 @@ pub(super) fn surfaces(surfaces: &[Surface]) -> Result<usize, PrescriptionError>
 pub(super) fn finite_number(surface: usize, name: &'static str, value: f64) -> Result<f64, PrescriptionError> {
     let expected = "it must be a finite number";
     if value.is_finite() { Ok(value) } else { Err(PrescriptionError::Number { surface, name, value, expected }) }
+}
+
+/// A wavelength that the tables of indices know.
+pub(super) fn reference(nm: f64) -> Result<f64, PrescriptionError> {
+    if (SHORTEST_NM..=MAX_NM).contains(&nm) { Ok(nm) } else { Err(PrescriptionError::Wavelength { nm }) }
 }
 
 fn numbers(surface: usize, s: &Surface) -> Result<(), PrescriptionError> {

@@ -24,6 +24,7 @@ pub mod published;
 pub mod surface;
 pub mod trace;
 
+use crate::wavelength::PRINCIPAL_NM;
 use glam::DVec3;
 use indices::{IndexTable, Media};
 use paraxial::Paraxial;
@@ -45,15 +46,17 @@ pub struct PrescriptionParameters {
     pub focus: Focus,
     /// How far behind the paraxial image at the reference wavelength the sensor stands, mm: best focus of an aberrated lens.
     pub defocus_mm: f64,
+    /// The wavelength of first-order quantities, of focusing and of the f-number, nm.
+    pub reference_nm: f64,
     /// What becomes of a rim other than the stop's that clips the bundle on the axis.
     pub other_rims: OtherRims,
 }
 
 impl PrescriptionParameters {
-    /// Surfaces as they stand, in focus: fully open, without defocus; a rim that clips before the stop is refused.
+    /// Surfaces as they stand, in focus at 587.56 nm: fully open, without defocus; a rim that clips before the stop is refused.
     #[must_use]
     pub fn new(surfaces: Vec<Surface>, focus: Focus) -> Self {
-        Self { surfaces, f_number: None, focus, defocus_mm: 0.0, other_rims: OtherRims::Refused }
+        Self { surfaces, f_number: None, focus, defocus_mm: 0.0, reference_nm: PRINCIPAL_NM, other_rims: OtherRims::Refused }
     }
 }
 
@@ -64,6 +67,7 @@ pub struct Prescription {
     elements: Vec<Element>,
     table: IndexTable,
     stop: usize,
+    reference_nm: f64,
     paraxial: Paraxial,
     axial_opening: check::AxialOpening,
     sensor_position_mm: f64,
@@ -85,7 +89,13 @@ impl Prescription {
         self.stop
     }
 
-    /// First-order quantities at 587.56 nm.
+    /// The wavelength of [`Self::paraxial`], of focusing and of the f-number, nm: 587.56, or a lens file's primary wavelength.
+    #[must_use]
+    pub fn reference_nm(&self) -> f64 {
+        self.reference_nm
+    }
+
+    /// First-order quantities at the reference wavelength.
     #[must_use]
     pub fn paraxial(&self) -> &Paraxial {
         &self.paraxial

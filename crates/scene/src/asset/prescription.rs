@@ -26,6 +26,8 @@ pub struct PrescriptionAsset {
     pub vignetting: [Vec<f64>; 2],
     /// The wavelengths of the file, nm.
     pub wavelengths_nm: Vec<f64>,
+    /// The file's primary wavelength, nm: that of its focal length, f-number and paraxial image; `None` where it states none.
+    pub primary_nm: Option<f64>,
     /// What was not taken as it stands in the file, and why: with the line.
     pub notes: Vec<String>,
     /// SHA-256 of the file.

@@ -227,6 +227,7 @@ mod tests {
             fields: None,
             vignetting: [Vec::new(), Vec::new()],
             wavelengths_nm: Vec::new(),
+            primary_nm: None,
             notes: Vec::new(),
             hash,
         }

@@ -106,6 +106,7 @@ fn a_file_without_apertures_is_refused_by_line_and_served_by_a_list() {
         fields: None,
         vignetting: [Vec::new(), Vec::new()],
         wavelengths_nm: Vec::new(),
+        primary_nm: None,
         notes: Vec::new(),
         hash: [0; 32],
     };
@@ -136,6 +137,7 @@ fn open_asset(opening: Option<LensOpening>, fields: Option<LensFields>) -> Presc
         fields,
         vignetting: [Vec::new(), Vec::new()],
         wavelengths_nm: Vec::new(),
+        primary_nm: None,
         notes: Vec::new(),
         hash: [0; 32],
     }

@@ -28,7 +28,7 @@ record! {
         /// What moves to focus: "sensor" (or the lens as a whole), or the first and last surface of a group, counted from 1 at
         /// the scene; the sensor then stays where the lens images infinity. Default: "sensor".
         optional focus_by: FocusBy = focus_by();
-        /// How far behind the paraxial image (at 587.56 nm) the sensor stands, mm: best focus of an aberrated lens. Default: as far
+        /// How far behind the paraxial image (at 587.56 nm, or the primary wavelength of the file) the sensor stands, mm: best focus of an aberrated lens. Default: as far
         /// as the file's image stands behind its paraxial image, otherwise 0.
         optional defocus_mm: Placed<f64> = number("mm");
         /// What those surfaces let through that lie against air and say nothing of their own: as a surface's "coating".
