@@ -21,6 +21,7 @@
 //! | [`encode_plane`] | the quantity's name, `variance.` and the quantity's name |
 
 mod channel;
+mod colour_space;
 mod compress;
 mod cryptomatte;
 mod encode;

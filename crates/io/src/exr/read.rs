@@ -1,4 +1,4 @@
-//! Reading any flat EXR: all channels of all parts, at full resolution.
+//! Reading any flat EXR: all channels of all parts, at full resolution; R, G and B in the primaries of Rec. 709 (`colour_space.rs`).
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -7,6 +7,7 @@ use std::path::Path;
 use ::exr::meta::attribute::AttributeValue;
 use ::exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers};
 
+use super::colour_space;
 use crate::guard::guarded;
 use crate::source::{read_bytes, read_expected_bytes};
 use crate::unpacked;
@@ -154,8 +155,12 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
         compression: String::new(),
     };
     let several = image.layer_data.len() > 1;
+    let chromaticities = image.attributes.chromaticities;
     for layer in image.layer_data {
         add_layer(&mut read, file, layer, several)?;
+    }
+    if let Some(stated) = chromaticities {
+        colour_space::to_rec_709(file, &mut read, &stated)?;
     }
     Ok(read)
 }
@@ -189,6 +194,8 @@ fn add_layer(
     }
     read.compression = layer.encoding.compression.to_string().trim_end_matches(" compression").to_uppercase();
     read.attributes.extend(attribute_texts(&layer.attributes.other));
+    let projection = colour_space::projection(layer.attributes.environment_map);
+    read.attributes.extend(projection.map(|word| (colour_space::ENVMAP.to_owned(), word.to_owned())));
     let part = layer.attributes.layer_name.as_ref().filter(|_| several).map(|name| format!("{name}."));
     for channel in layer.channel_data.list {
         let name = format!("{}{}", part.as_deref().unwrap_or_default(), channel.name);

@@ -12,6 +12,7 @@ pub(super) type Picture = (u32, u32, ImagePixels);
 
 /// R, G, B of an EXR file, or Y for all three; with A where it is there.
 pub(super) fn of_exr(file: &Path, exr: ExrFile) -> Result<Picture, Error> {
+    exr.check_is_no_cube_map(file)?;
     let (width, height) = (size(file, exr.width)?, size(file, exr.height)?);
     let names: Vec<String> = exr.channels.iter().map(|channel| channel.name.clone()).take(8).collect();
     // What the picture does not need goes before it is put together.

@@ -6,7 +6,7 @@
 //! | grey PNG of 16 bits | numbers as stored |
 //! | other PNG of 16 bits | floats, stored value / 65 535, still encoded as in the file; opacity where it is there |
 //! | Radiance HDR | floats |
-//! | OpenEXR with R, G, B or Y, and A where it is there | floats; half floats and every compression of the exr crate (none, RLE, ZIP, PIZ, PXR24, B44, DWA) |
+//! | OpenEXR with R, G, B (of its `chromaticities`, Rec. 709 without) or Y, and A where it is there; cube maps are refused | floats; half floats and every compression of the exr crate (none, RLE, ZIP, PIZ, PXR24, B44, DWA) |
 //!
 //! The kind is told by the first bytes, not by the name. What the numbers mean (sRGB-encoded or linear) is told by the
 //! description that names the file. Numbers that are not finite are refused with their pixel.

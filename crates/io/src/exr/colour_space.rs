@@ -1,0 +1,157 @@
+//! The colour space of an EXR: its `chromaticities`, by which R, G and B become those of Rec. 709.
+//!
+//! A file without the attribute has Rec. 709 primaries and white, as the format says. Channels that are named R, G and B alone are colours; those of
+//! layers may be anything (identities, normals) and stay as they are. White is not adapted.
+
+use std::path::Path;
+
+use ::exr::meta::attribute::{Chromaticities, EnvironmentMap};
+use etendue_spectra::colour::{Primaries, REC_709};
+
+use super::read::{ExrChannel, ExrFile, Samples};
+use crate::Error;
+
+/// Chromaticities that differ by less are those of Rec. 709: files round them, and its white, differently.
+const SAME: f64 = 5e-4;
+
+/// Converts R, G and B, and states it among the attributes.
+pub(super) fn to_rec_709(file: &Path, read: &mut ExrFile, stated: &Chromaticities) -> Result<(), Error> {
+    let pair = |v: ::exr::prelude::Vec2<f32>| [f64::from(v.0), f64::from(v.1)];
+    let Chromaticities { red, green, blue, white } = *stated;
+    let primaries = Primaries { red: pair(red), green: pair(green), blue: pair(blue), white: pair(white) };
+    let mut text = format!("red {red:?}, green {green:?}, blue {blue:?}, white {white:?}").replace("Vec2", "");
+    if !primaries.is_close_to(&REC_709, SAME) {
+        let matrix = primaries.to_linear_srgb().ok_or_else(|| {
+            let what = format!("its chromaticities ({text}) make no colour space");
+            Error::new(file, format!("{what}; correct the attribute, or remove it where the colours are of Rec. 709"))
+        })?;
+        if convert(&mut read.channels, &matrix) {
+            text += "; R, G and B are converted to Rec. 709";
+        }
+    }
+    read.attributes.insert("chromaticities".to_owned(), text);
+    Ok(())
+}
+
+/// Multiplies R, G and B, where all three are there, by a matrix.
+fn convert(channels: &mut [ExrChannel], matrix: &[[f64; 3]; 3]) -> bool {
+    let place = |name: &str| channels.iter().position(|channel| channel.name == name);
+    let (Some(r), Some(g), Some(b)) = (place("R"), place("G"), place("B")) else { return false };
+    let Ok([r, g, b]) = channels.get_disjoint_mut([r, g, b]) else { return false };
+    let (Some(r), Some(g), Some(b)) = (floats(&mut r.samples), floats(&mut g.samples), floats(&mut b.samples)) else {
+        return false;
+    };
+    for ((r, g), b) in r.iter_mut().zip(g).zip(b) {
+        let stored = [*r, *g, *b].map(f64::from);
+        [*r, *g, *b] = matrix.map(|row| (row[0] * stored[0] + row[1] * stored[1] + row[2] * stored[2]) as f32);
+    }
+    true
+}
+
+fn floats(samples: &mut Samples) -> Option<&mut [f32]> {
+    match samples {
+        Samples::Half(values) | Samples::Float(values) => Some(values),
+        Samples::Uint(_) => None,
+    }
+}
+
+/// How a file says that it is projected, in a word; nothing where it says nothing.
+pub(super) fn projection(stated: Option<EnvironmentMap>) -> Option<&'static str> {
+    stated.map(|stated| match stated {
+        EnvironmentMap::LatitudeLongitude => "latitude-longitude",
+        EnvironmentMap::Cube => CUBE,
+    })
+}
+
+/// The attribute that says so.
+pub(super) const ENVMAP: &str = "envmap";
+const CUBE: &str = "cube";
+
+impl ExrFile {
+    /// Refuses a cube map, whose faces are one image under the other, as a picture.
+    pub(crate) fn check_is_no_cube_map(&self, file: &Path) -> Result<(), Error> {
+        if self.attributes.get(ENVMAP).is_none_or(|projection| projection != CUBE) {
+            return Ok(());
+        }
+        Err(Error::new(
+            file,
+            "a cube map (its attribute \"envmap\" says so), whose six faces are not read; store it as a panorama of latitude and longitude \
+             (OpenEXR's exrenvmap -latlong does so)",
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exr::decode_exr;
+    use ::exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Vec2, WritableImage as _};
+    use std::io::Cursor;
+
+    /// One pixel of channels with values.
+    fn file(values: &[(&str, f32)], chromaticities: Option<Chromaticities>, projection: Option<EnvironmentMap>) -> Vec<u8> {
+        let channels = values.iter().map(|(name, value)| AnyChannel::new(*name, FlatSamples::F32(vec![*value])));
+        let mut attributes = LayerAttributes::named("");
+        attributes.layer_name = None;
+        attributes.environment_map = projection;
+        let layer = Layer::new((1, 1), attributes, Encoding::UNCOMPRESSED, AnyChannels::sort(channels.collect()));
+        let mut image = Image::from_layer(layer);
+        image.attributes.chromaticities = chromaticities;
+        let mut bytes = Cursor::new(Vec::new());
+        image.write().to_buffered(&mut bytes).expect("written");
+        bytes.into_inner()
+    }
+
+    fn space([red, green, blue, white]: [[f32; 2]; 4]) -> Option<Chromaticities> {
+        let point = |[x, y]: [f32; 2]| Vec2(x, y);
+        Some(Chromaticities { red: point(red), green: point(green), blue: point(blue), white: point(white) })
+    }
+
+    fn values(bytes: &[u8]) -> Vec<(String, f32)> {
+        let read = decode_exr(Path::new("a.exr"), bytes).expect("readable");
+        read.channels.into_iter().map(|channel| (channel.name, channel.samples.into_floats()[0])).collect()
+    }
+
+    const XYZ: [[f32; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [1.0 / 3.0, 1.0 / 3.0]];
+
+    /// XYZ of linear Rec. 709 (0.6, 0.2, 0.1).
+    const STORED: [(&str, f32); 5] =
+        [("A", 0.5), ("B", 0.130_490_66), ("G", 0.277_836_38), ("N.R", 1.0), ("R", 0.336_999_42)];
+
+    #[test]
+    fn colours_of_other_primaries_become_those_of_rec_709() {
+        let found = values(&file(&STORED, space(XYZ), None));
+        for ((name, value), expected) in found.iter().zip([0.5, 0.1, 0.2, 1.0, 0.6]) {
+            // The standard's white and that of the tables differ by 3e-4.
+            assert!((value - expected).abs() < 5e-4, "{name}: {value} for {expected}");
+        }
+        let as_stored: Vec<(String, f32)> = STORED.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+        assert_eq!(values(&file(&STORED, None, None)), as_stored);
+        let rec_709 = space([[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], [0.3127, 0.329]]);
+        assert_eq!(values(&file(&STORED, rec_709, None)), as_stored);
+        let grey = [("Y", 0.25)];
+        assert_eq!(values(&file(&grey, space(XYZ), None)), [("Y".to_owned(), 0.25)]);
+    }
+
+    #[test]
+    fn the_conversion_is_stated_and_what_is_no_space_refused() {
+        let read = decode_exr(Path::new("a.exr"), &file(&STORED, space(XYZ), None)).expect("readable");
+        assert!(read.attributes["chromaticities"].ends_with("R, G and B are converted to Rec. 709"), "{:?}", read.attributes);
+        let line = space([[0.6, 0.3], [0.4, 0.3], [0.2, 0.3], [0.3, 0.3]]);
+        let told = decode_exr(Path::new("a.exr"), &file(&STORED, line, None)).expect_err("no space").to_string();
+        assert!(told.starts_with("a.exr: its chromaticities (red (0.6, 0.3)") && told.contains("correct the attribute"), "{told}");
+    }
+
+    #[test]
+    fn a_cube_map_is_no_picture() {
+        let read = |projection| decode_exr(Path::new("a.exr"), &file(&STORED, None, projection)).expect("readable");
+        let told = read(Some(EnvironmentMap::Cube)).check_is_no_cube_map(Path::new("a.exr")).expect_err("a cube");
+        assert!(told.to_string().starts_with("a.exr: a cube map"), "{told}");
+        for projection in [None, Some(EnvironmentMap::LatitudeLongitude)] {
+            assert!(read(projection).check_is_no_cube_map(Path::new("a.exr")).is_ok());
+        }
+        let cube = file(&STORED, None, Some(EnvironmentMap::Cube));
+        assert!(crate::picture::decode_picture(Path::new("a.exr"), &cube).is_err());
+        assert!(crate::photograph::decode_photograph(Path::new("a.exr"), &cube).is_err());
+    }
+}
