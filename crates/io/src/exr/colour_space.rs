@@ -1,11 +1,13 @@
 //! The colour space of an EXR: its `chromaticities`, by which R, G and B become those of Rec. 709.
 //!
 //! A file without the attribute has Rec. 709 primaries and white, as the format says. Channels that are named R, G and B alone are colours; those of
-//! layers may be anything (identities, normals) and stay as they are. White is not adapted.
+//! layers may be anything (identities, normals) and stay as they are. White is not adapted. Pictures keep what their file holds beside the matrix: a
+//! texture of data is no colour.
 
 use std::path::Path;
 
 use ::exr::meta::attribute::{Chromaticities, EnvironmentMap};
+use etendue_scene::asset::ColourMatrix;
 use etendue_spectra::colour::{Primaries, REC_709};
 
 use super::read::{ExrChannel, ExrFile, Samples};
@@ -14,27 +16,40 @@ use crate::Error;
 /// Chromaticities that differ by less are those of Rec. 709: files round them, and its white, differently.
 const SAME: f64 = 5e-4;
 
-/// Converts R, G and B, and states it among the attributes.
-pub(super) fn to_rec_709(file: &Path, read: &mut ExrFile, stated: &Chromaticities) -> Result<(), Error> {
+/// What makes colours of these chromaticities those of Rec. 709; `None` where they are.
+pub(crate) fn to_rec_709(file: &Path, stated: &Chromaticities) -> Result<Option<ColourMatrix>, Error> {
     let pair = |v: ::exr::prelude::Vec2<f32>| [f64::from(v.0), f64::from(v.1)];
     let Chromaticities { red, green, blue, white } = *stated;
     let primaries = Primaries { red: pair(red), green: pair(green), blue: pair(blue), white: pair(white) };
-    let mut text = format!("red {red:?}, green {green:?}, blue {blue:?}, white {white:?}").replace("Vec2", "");
-    if !primaries.is_close_to(&REC_709, SAME) {
-        let matrix = primaries.to_linear_srgb().ok_or_else(|| {
-            let what = format!("its chromaticities ({text}) make no colour space");
-            Error::new(file, format!("{what}; correct the attribute, or remove it where the colours are of Rec. 709"))
-        })?;
-        if convert(&mut read.channels, &matrix) {
-            text += "; R, G and B are converted to Rec. 709";
-        }
+    if primaries.is_close_to(&REC_709, SAME) {
+        return Ok(None);
     }
-    read.attributes.insert("chromaticities".to_owned(), text);
-    Ok(())
+    let matrix = primaries.to_linear_srgb().ok_or_else(|| {
+        let what = format!("its chromaticities ({}) make no colour space", text(stated));
+        Error::new(file, format!("{what}; correct the attribute, or remove it where the colours are of Rec. 709"))
+    })?;
+    Ok(Some(ColourMatrix(matrix)))
 }
 
-/// Multiplies R, G and B, where all three are there, by a matrix.
-fn convert(channels: &mut [ExrChannel], matrix: &[[f64; 3]; 3]) -> bool {
+/// The attribute in words.
+pub(super) fn text(Chromaticities { red, green, blue, white }: &Chromaticities) -> String {
+    format!("red {red:?}, green {green:?}, blue {blue:?}, white {white:?}").replace("Vec2", "")
+}
+
+impl ExrFile {
+    /// The file with R, G and B, where all three are there, in Rec. 709; its attributes state it.
+    pub(super) fn in_rec_709(mut self) -> Self {
+        if let Some(matrix) = self.to_rec_709.take()
+            && convert(&mut self.channels, &matrix)
+        {
+            let stated = self.attributes.entry("chromaticities".to_owned()).or_default();
+            *stated += "; R, G and B are converted to Rec. 709";
+        }
+        self
+    }
+}
+
+fn convert(channels: &mut [ExrChannel], matrix: &ColourMatrix) -> bool {
     let place = |name: &str| channels.iter().position(|channel| channel.name == name);
     let (Some(r), Some(g), Some(b)) = (place("R"), place("G"), place("B")) else { return false };
     let Ok([r, g, b]) = channels.get_disjoint_mut([r, g, b]) else { return false };
@@ -42,8 +57,7 @@ fn convert(channels: &mut [ExrChannel], matrix: &[[f64; 3]; 3]) -> bool {
         return false;
     };
     for ((r, g), b) in r.iter_mut().zip(g).zip(b) {
-        let stored = [*r, *g, *b].map(f64::from);
-        [*r, *g, *b] = matrix.map(|row| (row[0] * stored[0] + row[1] * stored[1] + row[2] * stored[2]) as f32);
+        [*r, *g, *b] = matrix.of([*r, *g, *b]);
     }
     true
 }
@@ -140,6 +154,15 @@ mod tests {
         let line = space([[0.6, 0.3], [0.4, 0.3], [0.2, 0.3], [0.3, 0.3]]);
         let told = decode_exr(Path::new("a.exr"), &file(&STORED, line, None)).expect_err("no space").to_string();
         assert!(told.starts_with("a.exr: its chromaticities (red (0.6, 0.3)") && told.contains("correct the attribute"), "{told}");
+    }
+
+    #[test]
+    fn a_picture_keeps_what_its_file_holds_beside_the_matrix() {
+        let picture = crate::picture::decode_picture(Path::new("a.exr"), &file(&STORED, space(XYZ), None)).expect("readable");
+        assert_eq!(picture.pixels, etendue_scene::asset::ImagePixels::Rgba32F(vec![[STORED[4].1, STORED[2].1, STORED[1].1, 0.5]]));
+        let etendue_scene::asset::ImagePixels::Rgba32F(colours) = picture.in_rec_709().pixels else { panic!("colours") };
+        let [r, g, b, a] = colours[0];
+        assert!((r - 0.6).abs() < 5e-4 && (g - 0.2).abs() < 5e-4 && (b - 0.1).abs() < 5e-4 && a == 0.5, "{colours:?}");
     }
 
     #[test]

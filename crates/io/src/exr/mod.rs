@@ -55,4 +55,5 @@ pub use spectral::{Lengths, SpectralBands, encode_radiance, encode_spectral, rad
 pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral, spectral_of};
 
 pub(crate) use preview::linear_srgb;
-pub(crate) use read::decode_exr;
+pub(crate) use colour_space::to_rec_709;
+pub(crate) use read::{decode_exr, decode_exr_as_stored};

@@ -7,6 +7,8 @@ use std::path::Path;
 use ::exr::meta::attribute::AttributeValue;
 use ::exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers};
 
+use etendue_scene::asset::ColourMatrix;
+
 use super::colour_space;
 use crate::guard::guarded;
 use crate::source::{read_bytes, read_expected_bytes};
@@ -46,6 +48,8 @@ pub struct ExrFile {
     pub attributes: BTreeMap<String, String>,
     /// Compression, in the words of OpenEXR.
     pub compression: String,
+    /// What makes R, G and B those of Rec. 709; `None` where they are.
+    pub to_rec_709: Option<ColourMatrix>,
 }
 
 impl ExrFile {
@@ -113,8 +117,13 @@ pub fn read_exr_within(file: &Path, most_bytes: u64) -> Result<ExrFile, Error> {
     decode_all(file, &bytes)
 }
 
-/// Reads the bytes of `file`.
+/// Reads the bytes of `file`, with R, G and B of Rec. 709.
 pub(crate) fn decode_exr(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
+    Ok(decode_exr_as_stored(file, bytes)?.in_rec_709())
+}
+
+/// Reads the bytes of `file`, with R, G and B as they are stored.
+pub(crate) fn decode_exr_as_stored(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
     unpacked::check(file, samples(file, bytes)?, bytes.len())?;
     decode_all(file, bytes)
 }
@@ -153,6 +162,7 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
         channels: Vec::new(),
         attributes: attribute_texts(&image.attributes.other),
         compression: String::new(),
+        to_rec_709: None,
     };
     let several = image.layer_data.len() > 1;
     let chromaticities = image.attributes.chromaticities;
@@ -160,7 +170,8 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
         add_layer(&mut read, file, layer, several)?;
     }
     if let Some(stated) = chromaticities {
-        colour_space::to_rec_709(file, &mut read, &stated)?;
+        read.to_rec_709 = colour_space::to_rec_709(file, &stated)?;
+        read.attributes.insert("chromaticities".to_owned(), colour_space::text(&stated));
     }
     Ok(read)
 }

@@ -21,7 +21,7 @@ mod trajectory;
 pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
 pub use large_image::{LargeImage, PixelFormat, PixelRows, TakeRows, TexelStore};
 pub use lens_table::{LensNumbers, LensQuantity, LensTableAsset, Undistorted};
-pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
+pub use mesh::{ColourMatrix, ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mesh_frame::{MeshFrameAsset, MeshFramePart};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
 pub(crate) use named_files::requests;
