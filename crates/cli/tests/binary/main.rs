@@ -31,6 +31,7 @@ mod encodings;
 mod extremes;
 mod faults;
 mod films;
+mod flags;
 mod flat;
 mod geometry;
 mod gltf;

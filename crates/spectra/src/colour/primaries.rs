@@ -40,7 +40,7 @@ impl Primaries {
         let primaries: Matrix = core::array::from_fn(|i| [r[i], g[i], b[i]]);
         let inverse = inverse(&primaries)?;
         let scale = times(&inverse, w);
-        let to_xyz = primaries.map(|row| core::array::from_fn(|i| row[i] * scale[i]));
+        let to_xyz: Matrix = primaries.map(|row| core::array::from_fn(|i| row[i] * scale[i]));
         let all: Matrix = core::array::from_fn(|i| {
             core::array::from_fn(|j| (0..3).map(|k| SRGB_FROM_XYZ[i][k] * to_xyz[k][j]).sum())
         });
