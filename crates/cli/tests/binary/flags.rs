@@ -156,11 +156,19 @@ fn of_measurements_of_an_edge_and_of_an_even_field() {
 fn of_measurements_of_patches() {
     let folder = tempfile::tempdir().expect("a folder");
     let patches = |name: &str, frame: usize| {
-        picture(folder.path(), name, SIZE, |x, y| [600.0, 10_000.0, 15_000.0][(x / 107.0) as usize] + 300.0 * scatter(x, y, frame))
+        picture(folder.path(), name, SIZE, |x, y| {
+            [600.0, 10_000.0, 15_000.0][(x / 107.0) as usize] + 300.0 * scatter(x, y, frame)
+        })
     };
     let first = patches("0.png", 0);
     let flare = ["flare", &first, "--trap", "0,0,90,200", "--white", "220,0,90,200"];
-    each_changes_something(&flare, &[&[("--trap", "2,2,50,50"), ("--white", "230,0,50,50"), ("--encoding", "srgb"), ("--region", "0,0,100,100")], PICTURE]);
+    each_changes_something(
+        &flare,
+        &[
+            &[("--trap", "2,2,50,50"), ("--white", "230,0,50,50"), ("--encoding", "srgb"), ("--region", "0,0,100,100")],
+            PICTURE,
+        ],
+    );
     let cdp = ["cdp", &first, "--darker", "110,0,90,200", "--brighter", "220,0,90,200", "--contrast", "0.5"];
     let own: &[(&str, &str)] =
         &[("--darker", "0,0,90,200"), ("--brighter", "0,0,90,200"), ("--contrast", "0.6"), ("--tolerance", "0.02")];
@@ -184,7 +192,9 @@ fn of_measurements_of_depth_and_of_lenses() {
     };
     let truth = |x: usize| if x < 32 { 2.0_f32 } else { 6.0 };
     let of_truth = depth("truth.pfm", &|x, _| truth(x));
-    let estimate = depth("estimate.pfm", &|x, y| truth(x) * (1.05 + 0.004 * y as f32) + if (30..36).contains(&x) { 1.5 } else { 0.0 });
+    let estimate = depth("estimate.pfm", &|x, y| {
+        truth(x) * (1.05 + 0.004 * y as f32) + if (30..36).contains(&x) { 1.5 } else { 0.0 }
+    });
     let own: &[(&str, &str)] = &[
         ("--estimate-channel", "none"),
         ("--truth-channel", "none"),

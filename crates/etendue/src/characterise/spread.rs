@@ -21,10 +21,7 @@ pub(super) struct Spread {
     pub(super) along_columns: Option<Blur>,
 }
 
-pub(super) fn measure(
-    laboratory: &Laboratory,
-    findings: &mut Findings,
-) -> Result<Option<Spread>, Error> {
+pub(super) fn measure(laboratory: &Laboratory, findings: &mut Findings) -> Result<Option<Spread>, Error> {
     let shots = laboratory.shots(Kind::Edges);
     if shots.is_empty() {
         findings.missing(WHAT, Kind::Edges);

@@ -99,11 +99,17 @@ impl ExrFile {
 mod tests {
     use super::*;
     use crate::exr::decode_exr;
-    use ::exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Vec2, WritableImage as _};
+    use ::exr::prelude::{
+        AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Vec2, WritableImage as _,
+    };
     use std::io::Cursor;
 
     /// One pixel of channels with values.
-    fn file(values: &[(&str, f32)], chromaticities: Option<Chromaticities>, projection: Option<EnvironmentMap>) -> Vec<u8> {
+    fn file(
+        values: &[(&str, f32)],
+        chromaticities: Option<Chromaticities>,
+        projection: Option<EnvironmentMap>,
+    ) -> Vec<u8> {
         let channels = values.iter().map(|(name, value)| AnyChannel::new(*name, FlatSamples::F32(vec![*value])));
         let mut attributes = LayerAttributes::named("");
         attributes.layer_name = None;
@@ -150,17 +156,30 @@ mod tests {
     #[test]
     fn the_conversion_is_stated_and_what_is_no_space_refused() {
         let read = decode_exr(Path::new("a.exr"), &file(&STORED, space(XYZ), None)).expect("readable");
-        assert!(read.attributes["chromaticities"].ends_with("R, G and B are converted to Rec. 709"), "{:?}", read.attributes);
+        assert!(
+            read.attributes["chromaticities"].ends_with("R, G and B are converted to Rec. 709"),
+            "{:?}",
+            read.attributes
+        );
         let line = space([[0.6, 0.3], [0.4, 0.3], [0.2, 0.3], [0.3, 0.3]]);
         let told = decode_exr(Path::new("a.exr"), &file(&STORED, line, None)).expect_err("no space").to_string();
-        assert!(told.starts_with("a.exr: its chromaticities (red (0.6, 0.3)") && told.contains("correct the attribute"), "{told}");
+        assert!(
+            told.starts_with("a.exr: its chromaticities (red (0.6, 0.3)") && told.contains("correct the attribute"),
+            "{told}"
+        );
     }
 
     #[test]
     fn a_picture_keeps_what_its_file_holds_beside_the_matrix() {
-        let picture = crate::picture::decode_picture(Path::new("a.exr"), &file(&STORED, space(XYZ), None)).expect("readable");
-        assert_eq!(picture.pixels, etendue_scene::asset::ImagePixels::Rgba32F(vec![[STORED[4].1, STORED[2].1, STORED[1].1, 0.5]]));
-        let etendue_scene::asset::ImagePixels::Rgba32F(colours) = picture.in_rec_709().pixels else { panic!("colours") };
+        let picture =
+            crate::picture::decode_picture(Path::new("a.exr"), &file(&STORED, space(XYZ), None)).expect("readable");
+        assert_eq!(
+            picture.pixels,
+            etendue_scene::asset::ImagePixels::Rgba32F(vec![[STORED[4].1, STORED[2].1, STORED[1].1, 0.5]])
+        );
+        let etendue_scene::asset::ImagePixels::Rgba32F(colours) = picture.in_rec_709().pixels else {
+            panic!("colours")
+        };
         let [r, g, b, a] = colours[0];
         assert!((r - 0.6).abs() < 5e-4 && (g - 0.2).abs() < 5e-4 && (b - 0.1).abs() < 5e-4 && a == 0.5, "{colours:?}");
     }

@@ -10,6 +10,6 @@ pub(super) const REFUSED: &[&str] = &[
 /// Commands that leave the lens as it stands: weights and variables of optimisation, labels, the form of surfaces that their terms tell, and the end
 /// of input.
 pub(super) const PASSED_OVER: &[&str] = &[
-    "GO", "LEN", "INI", "SLB", "DDM", "UID", "CCY", "CCX", "THC", "GLC", "KC", "AC", "BC", "CC", "DC", "EC", "FC", "GC",
-    "HC", "JC", "ASP", "SPH", "CON", "WTW", "WTF", "WTX", "WTY", "VUX", "VLX", "HIN", "EVA", "CA", "END",
+    "GO", "LEN", "INI", "SLB", "DDM", "UID", "CCY", "CCX", "THC", "GLC", "KC", "AC", "BC", "CC", "DC", "EC", "FC",
+    "GC", "HC", "JC", "ASP", "SPH", "CON", "WTW", "WTF", "WTX", "WTY", "VUX", "VLX", "HIN", "EVA", "CA", "END",
 ];

@@ -123,7 +123,9 @@ impl Reader {
         if !self.unknown.is_empty() {
             let list: Vec<String> = self.unknown.iter().map(|(name, line)| format!("{name} (line {line})")).collect();
             let list = list.join(", ");
-            self.raw.notes.push(format!("commands that are not known here are passed over, as if they left the lens as it stands: {list}"));
+            self.raw.notes.push(format!(
+                "commands that are not known here are passed over, as if they left the lens as it stands: {list}"
+            ));
         }
         self.raw.finish(file)
     }
@@ -144,7 +146,10 @@ impl Reader {
                 self.raw.scale(factor);
                 Ok(())
             }
-            _ => Err(w.fault("SCA: expected one factor above 0 (SCA 2.0), which scales the whole lens as it stands here")),
+            _ => {
+                Err(w
+                    .fault("SCA: expected one factor above 0 (SCA 2.0), which scales the whole lens as it stands here"))
+            }
         }
     }
 
@@ -165,7 +170,10 @@ impl Reader {
             )));
         }
         if name == "S" && self.current + 1 < count {
-            return Err(w.fault(format!("S after S{}: inserting surfaces is not read; write them in their order", self.current)));
+            return Err(w.fault(format!(
+                "S after S{}: inserting surfaces is not read; write them in their order",
+                self.current
+            )));
         }
         let Some(radii) = self.radii else {
             return Err(w.fault("surfaces before RDM: say whether they give radii (RDM) or curvatures (RDM N)"));

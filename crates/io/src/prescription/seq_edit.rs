@@ -25,9 +25,15 @@ impl Reader {
             return Ok(false);
         }
         let target = self.target(name, w)?;
-        if ["RDY", "CUY", "THI"].contains(&name) && !target.named && w.word(target.value).starts_with(char::is_alphabetic) {
+        if ["RDY", "CUY", "THI"].contains(&name)
+            && !target.named
+            && w.word(target.value).starts_with(char::is_alphabetic)
+        {
             let solve = w.words[..].join(" ");
-            self.raw.notes.push(format!("line {}: the solve {solve} is not read: the value of the surface's own line is taken", w.line));
+            self.raw.notes.push(format!(
+                "line {}: the solve {solve} is not read: the value of the surface's own line is taken",
+                w.line
+            ));
             return Ok(true);
         }
         if name == "STO" && target.named {
@@ -56,7 +62,10 @@ impl Reader {
                 let surfaces = named.places(self.raw.surfaces.len(), self.has_image);
                 let surfaces = surfaces.ok_or_else(|| {
                     let count = self.raw.surfaces.len();
-                    w.fault(format!("{name} {}: no such surface is given before; the lens has {count} here, SO among them", w.word(1)))
+                    w.fault(format!(
+                        "{name} {}: no such surface is given before; the lens has {count} here, SO among them",
+                        w.word(1)
+                    ))
                 })?;
                 Ok(Target { surfaces, named: true, value: 2 })
             }

@@ -63,7 +63,7 @@ impl Reader {
                 Ok(())
             }
             "WAVM" => {
-                self.raw.wavelengths_nm.push(1e3 * w.number(2)?);
+                self.raw.wavelengths_nm.push(nanometres(w.number(2)?));
                 Ok(())
             }
             "PWAV" => {
@@ -148,6 +148,11 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
         _ => {}
     }
     Ok(())
+}
+
+/// Micrometres in nm, to the digits that files have.
+fn nanometres(um: f64) -> f64 {
+    (1e9 * um).round() / 1e6
 }
 
 /// Parameters of an EVENASPH that are coefficients.

@@ -114,9 +114,16 @@ fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over(
     ] {
         let (glass, notes) = glass_of(line);
         assert_eq!(glass, GlassAsset::Named(today.into()));
-        let told = format!("line 26: no catalogue here has {}: its successor {today} is taken", &line[5..line.find(" 0").expect("a mode")]);
+        let told = format!(
+            "line 26: no catalogue here has {}: its successor {today} is taken",
+            &line[5..line.find(" 0").expect("a mode")]
+        );
         assert!(notes[0].starts_with(&told), "{notes:?}");
-        assert_eq!(notes[0].contains("of its line, which a catalogue glass leaves unused"), !line.contains("1.5 "), "{notes:?}");
+        assert_eq!(
+            notes[0].contains("of its line, which a catalogue glass leaves unused"),
+            !line.contains("1.5 "),
+            "{notes:?}"
+        );
     }
     assert_eq!(glass_of("GLAS N-BK7 0 0 1.5 4.0E+1").1, Vec::<String>::new());
     let (glass, notes) = glass_of("GLAS 517642 0 0 1.5 4.0E+1");
@@ -247,7 +254,10 @@ fn edits_of_named_surfaces_and_of_the_whole_lens_count() {
     assert!((both.back_focus_mm - 46.9).abs() < 1e-12);
     let line = edited("S1 25 8\n CIR 7").expect("a lens");
     assert_eq!((line.surfaces[0].radius_mm, line.surfaces[0].thickness_mm), (25.0, 8.0));
-    assert_eq!((line.surfaces[0].semi_aperture_mm, line.surfaces[0].glass.clone()), (Some(7.0), GlassAsset::Named("N-BK7".into())));
+    assert_eq!(
+        (line.surfaces[0].semi_aperture_mm, line.surfaces[0].glass.clone()),
+        (Some(7.0), GlassAsset::Named("N-BK7".into()))
+    );
     let large = edited("A S1 1e-6\nSCA 2\nCIR S2 6").expect("a lens");
     let [front, back] = &large.surfaces[..] else { panic!("two surfaces") };
     assert_eq!((front.radius_mm, front.thickness_mm, front.semi_aperture_mm), (100.0, 8.0, Some(12.0)));

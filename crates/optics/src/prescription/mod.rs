@@ -30,8 +30,8 @@ use indices::{IndexTable, Media};
 use paraxial::Paraxial;
 use trace::{Element, Fullness, LensRay, Lost, Rims, Through, Way, walk};
 
-pub use error::PrescriptionError;
 pub use check::OtherRims;
+pub use error::PrescriptionError;
 pub use focus::Focus;
 pub use surface::Surface;
 
@@ -56,7 +56,14 @@ impl PrescriptionParameters {
     /// Surfaces as they stand, in focus at 587.56 nm: fully open, without defocus; a rim that clips before the stop is refused.
     #[must_use]
     pub fn new(surfaces: Vec<Surface>, focus: Focus) -> Self {
-        Self { surfaces, f_number: None, focus, defocus_mm: 0.0, reference_nm: PRINCIPAL_NM, other_rims: OtherRims::Refused }
+        Self {
+            surfaces,
+            f_number: None,
+            focus,
+            defocus_mm: 0.0,
+            reference_nm: PRINCIPAL_NM,
+            other_rims: OtherRims::Refused,
+        }
     }
 }
 

@@ -43,7 +43,11 @@ impl Paraxial {
 
     /// The same for a bundle of a part of the pupils' radii.
     pub(super) fn clipped(self, share: f64) -> Self {
-        Self { entrance_radius_mm: share * self.entrance_radius_mm, exit_radius_mm: share * self.exit_radius_mm, ..self }
+        Self {
+            entrance_radius_mm: share * self.entrance_radius_mm,
+            exit_radius_mm: share * self.exit_radius_mm,
+            ..self
+        }
     }
 
     /// Exit over entrance diameter.

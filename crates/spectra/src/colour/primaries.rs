@@ -35,7 +35,8 @@ impl Primaries {
     /// From linear RGB of these primaries to linear sRGB, row by row; `None` where the chromaticities make no colour space.
     #[must_use]
     pub fn to_linear_srgb(&self) -> Option<[[f64; 3]; 3]> {
-        let [r, g, b, w] = [tristimulus(self.red)?, tristimulus(self.green)?, tristimulus(self.blue)?, self.white_xyz()?];
+        let [r, g, b, w] =
+            [tristimulus(self.red)?, tristimulus(self.green)?, tristimulus(self.blue)?, self.white_xyz()?];
         // Columns to rows.
         let primaries: Matrix = core::array::from_fn(|i| [r[i], g[i], b[i]]);
         let inverse = inverse(&primaries)?;
@@ -55,7 +56,7 @@ impl Primaries {
 
 /// (x, y, z) of a primary; its scale is found from the white.
 fn tristimulus([x, y]: [f64; 2]) -> Option<[f64; 3]> {
-    (x.is_finite() && y.is_finite()).then(|| [x, y, 1.0 - x - y])
+    (x.is_finite() && y.is_finite()).then_some([x, y, 1.0 - x - y])
 }
 
 fn times(matrix: &Matrix, v: [f64; 3]) -> [f64; 3] {
@@ -93,7 +94,8 @@ mod tests {
 
     #[test]
     fn white_keeps_its_chromaticity() {
-        let aces = Primaries { red: [0.713, 0.293], green: [0.165, 0.83], blue: [0.128, 0.044], white: [0.32168, 0.33767] };
+        let aces =
+            Primaries { red: [0.713, 0.293], green: [0.165, 0.83], blue: [0.128, 0.044], white: [0.32168, 0.33767] };
         let found = times(&aces.to_linear_srgb().expect("a space"), [1.0; 3]);
         let expected = linear_srgb_from_xyz([0.32168 / 0.33767, 1.0, (1.0 - 0.32168 - 0.33767) / 0.33767]);
         assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {expected:?}");

@@ -22,6 +22,13 @@ pub struct LensRequest {
 impl LensRequest {
     /// The same as the program without options.
     pub fn new(lens: impl Into<String>) -> Self {
-        Self { lens: lens.into(), set: Vec::new(), f_number: None, fields: 6, picture_radius_mm: None, wavelength_nm: None }
+        Self {
+            lens: lens.into(),
+            set: Vec::new(),
+            f_number: None,
+            fields: 6,
+            picture_radius_mm: None,
+            wavelength_nm: None,
+        }
     }
 }

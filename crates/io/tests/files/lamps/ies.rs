@@ -105,7 +105,11 @@ fn an_identification_that_is_spelt_otherwise_is_read_and_noted() {
         let found = read(first).unwrap_or_else(|told| panic!("{first}: {told}"));
         assert!((found.factor - factor).abs() < 1e-12, "{first}: {}", found.factor);
         assert_eq!(found.format, format!("IES LM-63, edition of {edition}"), "{first}");
-        assert!(found.report.iter().any(|note| note.contains("is not the identification as the standard has it")), "{:?}", found.report);
+        assert!(
+            found.report.iter().any(|note| note.contains("is not the identification as the standard has it")),
+            "{:?}",
+            found.report
+        );
     }
     for first in ["IESNA:LM-63-1995", "IES:LM-63-2019", "a lamp of the IES", "IES lamp 7"] {
         let found = read(first).expect("a lamp");

@@ -84,7 +84,11 @@ pub(super) fn narrow_beside(
         Surface { semi_aperture_mm: part * s.semi_aperture_mm, ..*s }
     };
     let surfaces = surfaces.iter().map(close).collect();
-    Prescription::new(PrescriptionParameters { defocus_mm, reference_nm, ..PrescriptionParameters::new(surfaces, focus) })
+    Prescription::new(PrescriptionParameters {
+        defocus_mm,
+        reference_nm,
+        ..PrescriptionParameters::new(surfaces, focus)
+    })
 }
 
 /// Remarks what of a file is not as it stands there, and what it leaves open.

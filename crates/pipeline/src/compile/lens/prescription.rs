@@ -229,12 +229,8 @@ struct Defaults {
 }
 
 impl Defaults {
-    const WITHOUT_FILE: Self = Self {
-        distance_m: f64::INFINITY,
-        defocus_mm: 0.0,
-        reference_nm: PRINCIPAL_NM,
-        other_rims: OtherRims::Refused,
-    };
+    const WITHOUT_FILE: Self =
+        Self { distance_m: f64::INFINITY, defocus_mm: 0.0, reference_nm: PRINCIPAL_NM, other_rims: OtherRims::Refused };
 }
 
 /// The lens, opened and focused: by what the description says, else by the defaults.

@@ -4,7 +4,9 @@ use crate::compile::{Choices, compile};
 use crate::plan::{CameraPlan, Plan};
 use crate::render::rays::ray_table;
 use etendue_optics::Lens;
-use etendue_scene::asset::{ASPHERE_TERMS, Assets, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
+use etendue_scene::asset::{
+    ASPHERE_TERMS, Assets, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset,
+};
 use etendue_scene::{Description, Overrides};
 use std::path::Path;
 

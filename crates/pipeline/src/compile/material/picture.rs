@@ -69,7 +69,9 @@ impl Pictures {
             context.fault(place, format!("the picture {} was not loaded", file.display()), "give a readable file");
             return None;
         };
-        let Some(texels) = reading.texels(&image.pixels, image.to_rec_709) else { return no_opacity(file, place, context) };
+        let Some(texels) = reading.texels(&image.pixels, image.to_rec_709) else {
+            return no_opacity(file, place, context);
+        };
         context.accept(place, ImageTexture::new(image.width, image.height, texels, sampling))
     }
 

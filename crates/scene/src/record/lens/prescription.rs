@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use crate::asset::ASPHERE_TERMS;
 use super::focus::{FocusDistance, focus_distance};
 use super::numbers::f_number;
+use crate::asset::ASPHERE_TERMS;
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, flag, keyed, list, number, path, record, text, variant, vector};
