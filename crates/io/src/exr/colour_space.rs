@@ -10,7 +10,6 @@ use ::exr::meta::attribute::{Chromaticities, EnvironmentMap};
 use etendue_scene::asset::ColourMatrix;
 use etendue_spectra::colour::{Primaries, REC_709};
 
-use super::read::{ExrChannel, ExrFile, Samples};
 use crate::Error;
 
 /// Chromaticities that differ by less are those of Rec. 709: files round them, and its white, differently.
@@ -36,39 +35,6 @@ pub(super) fn text(Chromaticities { red, green, blue, white }: &Chromaticities) 
     format!("red {red:?}, green {green:?}, blue {blue:?}, white {white:?}").replace("Vec2", "")
 }
 
-impl ExrFile {
-    /// The file with R, G and B, where all three are there, in Rec. 709; its attributes state it.
-    pub(super) fn in_rec_709(mut self) -> Self {
-        if let Some(matrix) = self.to_rec_709.take()
-            && convert(&mut self.channels, &matrix)
-        {
-            let stated = self.attributes.entry("chromaticities".to_owned()).or_default();
-            *stated += "; R, G and B are converted to Rec. 709";
-        }
-        self
-    }
-}
-
-fn convert(channels: &mut [ExrChannel], matrix: &ColourMatrix) -> bool {
-    let place = |name: &str| channels.iter().position(|channel| channel.name == name);
-    let (Some(r), Some(g), Some(b)) = (place("R"), place("G"), place("B")) else { return false };
-    let Ok([r, g, b]) = channels.get_disjoint_mut([r, g, b]) else { return false };
-    let (Some(r), Some(g), Some(b)) = (floats(&mut r.samples), floats(&mut g.samples), floats(&mut b.samples)) else {
-        return false;
-    };
-    for ((r, g), b) in r.iter_mut().zip(g).zip(b) {
-        [*r, *g, *b] = matrix.of([*r, *g, *b]);
-    }
-    true
-}
-
-fn floats(samples: &mut Samples) -> Option<&mut [f32]> {
-    match samples {
-        Samples::Half(values) | Samples::Float(values) => Some(values),
-        Samples::Uint(_) => None,
-    }
-}
-
 /// How a file says that it is projected, in a word; nothing where it says nothing.
 pub(super) fn projection(stated: Option<EnvironmentMap>) -> Option<&'static str> {
     stated.map(|stated| match stated {
@@ -79,21 +45,7 @@ pub(super) fn projection(stated: Option<EnvironmentMap>) -> Option<&'static str>
 
 /// The attribute that says so.
 pub(super) const ENVMAP: &str = "envmap";
-const CUBE: &str = "cube";
-
-impl ExrFile {
-    /// Refuses a cube map, whose faces are one image under the other, as a picture.
-    pub(crate) fn check_is_no_cube_map(&self, file: &Path) -> Result<(), Error> {
-        if self.attributes.get(ENVMAP).is_none_or(|projection| projection != CUBE) {
-            return Ok(());
-        }
-        Err(Error::new(
-            file,
-            "a cube map (its attribute \"envmap\" says so), whose six faces are not read; store it as a panorama of latitude and longitude \
-             (OpenEXR's exrenvmap -latlong does so)",
-        ))
-    }
-}
+pub(super) const CUBE: &str = "cube";
 
 #[cfg(test)]
 mod tests {

@@ -94,6 +94,51 @@ impl ExrFile {
     }
 }
 
+impl ExrFile {
+    /// The file with R, G and B, where all three are there, in Rec. 709; its attributes state it.
+    fn in_rec_709(mut self) -> Self {
+        if let Some(matrix) = self.to_rec_709.take()
+            && convert(&mut self.channels, &matrix)
+        {
+            let stated = self.attributes.entry("chromaticities".to_owned()).or_default();
+            *stated += "; R, G and B are converted to Rec. 709";
+        }
+        self
+    }
+
+    /// Refuses a cube map, whose faces are one image under the other, as a picture.
+    pub(crate) fn check_is_no_cube_map(&self, file: &Path) -> Result<(), Error> {
+        if self.attributes.get(colour_space::ENVMAP).is_none_or(|projection| projection != colour_space::CUBE) {
+            return Ok(());
+        }
+        Err(Error::new(
+            file,
+            "a cube map (its attribute \"envmap\" says so), whose six faces are not read; store it as a panorama of latitude and longitude \
+             (OpenEXR's exrenvmap -latlong does so)",
+        ))
+    }
+}
+
+fn convert(channels: &mut [ExrChannel], matrix: &ColourMatrix) -> bool {
+    let place = |name: &str| channels.iter().position(|channel| channel.name == name);
+    let (Some(r), Some(g), Some(b)) = (place("R"), place("G"), place("B")) else { return false };
+    let Ok([r, g, b]) = channels.get_disjoint_mut([r, g, b]) else { return false };
+    let (Some(r), Some(g), Some(b)) = (floats(&mut r.samples), floats(&mut g.samples), floats(&mut b.samples)) else {
+        return false;
+    };
+    for ((r, g), b) in r.iter_mut().zip(g).zip(b) {
+        [*r, *g, *b] = matrix.of([*r, *g, *b]);
+    }
+    true
+}
+
+fn floats(samples: &mut Samples) -> Option<&mut [f32]> {
+    match samples {
+        Samples::Half(values) | Samples::Float(values) => Some(values),
+        Samples::Uint(_) => None,
+    }
+}
+
 /// Reads `file`.
 ///
 /// # Errors

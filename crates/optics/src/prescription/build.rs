@@ -1,5 +1,6 @@
 //! From what a maker states to a prescription that is open, in focus and checked.
 
+use super::axial_opening::AxialOpening;
 use super::elements;
 use super::error::PrescriptionError;
 use super::indices::IndexTable;
@@ -40,7 +41,7 @@ impl Prescription {
             stop,
             reference_nm,
             paraxial,
-            axial_opening: check::AxialOpening::STOP,
+            axial_opening: AxialOpening::STOP,
         };
         lens.axial_opening = check::axial_bundle(&lens, other_rims)?;
         lens.paraxial = paraxial.clipped(lens.axial_opening.share);

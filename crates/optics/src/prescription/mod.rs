@@ -9,6 +9,7 @@
 //!
 //! A [`Prescription`] is checked when it is made: afterwards nothing in it can fail but a ray.
 
+mod axial_opening;
 mod build;
 mod check;
 pub mod clear_apertures;
@@ -30,7 +31,7 @@ use indices::{IndexTable, Media};
 use paraxial::Paraxial;
 use trace::{Element, Fullness, LensRay, Lost, Rims, Through, Way, walk};
 
-pub use check::OtherRims;
+pub use axial_opening::OtherRims;
 pub use error::PrescriptionError;
 pub use focus::Focus;
 pub use surface::Surface;
@@ -76,7 +77,7 @@ pub struct Prescription {
     stop: usize,
     reference_nm: f64,
     paraxial: Paraxial,
-    axial_opening: check::AxialOpening,
+    axial_opening: axial_opening::AxialOpening,
     sensor_position_mm: f64,
     focus_distance_m: f64,
     magnification: f64,
