@@ -237,6 +237,7 @@ mod tests {
         let channel = |name: &&str| ExrChannel { name: (*name).to_owned(), samples: Samples::Float(vec![1.0]) };
         let stated = quantity.map(|text| ("etendue:quantity".to_owned(), text.to_owned()));
         ExrFile {
+            to_rec_709: None,
             width: 1,
             height: 1,
             channels: channels.iter().map(channel).collect(),

@@ -200,6 +200,13 @@ fn colours_that_are_displaced_are_told_and_grey_is_refused() {
     // 16 samples and 8 bits: some hundredths of a pixel.
     assert!((figure(&found, "red_largest_px")[0] - 0.4).abs() < 0.06, "{found}");
     assert!((figure(&found, "blue_largest_px")[0] - 0.2).abs() < 0.06, "{found}");
+    // JSON lists every point in both colours; so does the text, where that is asked for.
+    let points = found["tables"]["points"].as_array().expect("points");
+    let red = points.iter().find(|point| point["channel"] == "red").expect("a point in red");
+    assert!(points.len() > 300 && (red["less_green_x_px"].as_f64().expect("a number") - 0.4).abs() < 0.1, "{red}");
+    let text_of = |further: &[&str]| etendue([&["measure", "chromatic", &text(&file)][..], further].concat()).ok().out;
+    let (short, long) = (text_of(&[]), text_of(&["--points"]));
+    assert!(long.lines().count() > short.lines().count() + 300 && !short.contains("less green"), "{short}");
     etendue(["measure", "chromatic", &photograph()]).refused(&["left01.jpg", "no channel R"]);
     let plain = picture(folder.path(), "plain.png", [64, 48], |_, _| 0.5);
     etendue(["measure", "distortion", &plain]).refused(&["plain.png", "was found"]);

@@ -71,7 +71,7 @@ pub fn characterise(request: &CharacteriseRequest, observer: &dyn Observer) -> R
     let electronics = found.electronics.as_ref();
     found.fall_off = fall_off::measure(&laboratory, electronics, f)?;
     found.geometry = geometry::measure(&laboratory, f, observer)?;
-    found.spread = spread::measure(&laboratory, electronics, f)?;
+    found.spread = spread::measure(&laboratory, f)?;
     found.colour = colour::measure(&laboratory, electronics, f)?;
     if let Some((file, camera)) = &laid_over {
         base::refuse_what_is_measured(file, camera, &found)?;

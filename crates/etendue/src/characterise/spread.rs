@@ -1,7 +1,5 @@
 //! Point spread: from slanted edges, what blurs them beyond the pixels' aperture.
 
-use super::electronics::Electronics;
-use super::fall_off::black_dn;
 use super::folder::Laboratory;
 use super::kind::Kind;
 use super::parameter::Findings;
@@ -23,11 +21,7 @@ pub(super) struct Spread {
     pub(super) along_columns: Option<Blur>,
 }
 
-pub(super) fn measure(
-    laboratory: &Laboratory,
-    electronics: Option<&Electronics>,
-    findings: &mut Findings,
-) -> Result<Option<Spread>, Error> {
+pub(super) fn measure(laboratory: &Laboratory, findings: &mut Findings) -> Result<Option<Spread>, Error> {
     let shots = laboratory.shots(Kind::Edges);
     if shots.is_empty() {
         findings.missing(WHAT, Kind::Edges);
@@ -35,7 +29,7 @@ pub(super) fn measure(
     }
     let (mut all, mut first) = (Vec::new(), None);
     for shot in shots {
-        let made = responses(&request(laboratory, electronics, shot));
+        let made = responses(&request(laboratory, shot));
         let Some((report, edges)) = findings.attempt(WHAT, made)? else { return Ok(None) };
         all.extend(edges);
         first.get_or_insert(report);
@@ -50,7 +44,7 @@ pub(super) fn measure(
     Ok(Some(spread))
 }
 
-fn request(laboratory: &Laboratory, electronics: Option<&Electronics>, shot: &Shot) -> SfrRequest {
+fn request(laboratory: &Laboratory, shot: &Shot) -> SfrRequest {
     let camera = &laboratory.camera;
     let mosaic = shot.is_raw() && camera.is_mosaic();
     let regions = laboratory.stated.edges.iter().flat_map(|edges| &edges.regions_px);
@@ -62,7 +56,7 @@ fn request(laboratory: &Laboratory, electronics: Option<&Electronics>, shot: &Sh
             cfa: camera.told_cfa.clone().filter(|_| mosaic),
             ..Selection::default()
         },
-        levels: SignalLevels { black: black_dn(shot, electronics), full_scale: None },
+        levels: SignalLevels::default(),
         truth: TruthInput { truth, camera: None },
     };
     let reach = if mosaic { 2.0 * REACH_PX } else { REACH_PX };

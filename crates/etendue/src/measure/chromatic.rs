@@ -55,6 +55,7 @@ pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
         return Err(Error::input(format!("{file}: red, green and blue are the same: expected a picture in colour")));
     }
     let mut report = report(&found);
+    report.table_if(request.chart.points, every_point(&found));
     report.encoding(&photograph.stated);
     Ok(report)
 }
@@ -100,6 +101,36 @@ fn report(found: &[(&'static str, Vec<Displacement>)]) -> Report {
     report.plot(plot("radial", found, |d| d.radial, |r| r.radial));
     report.plot(plot("tangential", found, |d| d.tangential, |r| r.tangential));
     report
+}
+
+/// Every point of the chart in red and in blue.
+fn every_point(found: &[(&'static str, Vec<Displacement>)]) -> Table {
+    let row = |name: &str, point: &Displacement| {
+        vec![
+            Cell::Text(name.to_owned()),
+            Cell::Number(point.at.x, 4),
+            Cell::Number(point.at.y, 4),
+            Cell::Number(point.by.x, 4),
+            Cell::Number(point.by.y, 4),
+            Cell::Number(point.radial, 4),
+            Cell::Number(point.tangential, 4),
+            Cell::Number(point.uncertainty_px, 4),
+        ]
+    };
+    Table {
+        key: "points",
+        columns: vec![
+            ("channel", "channel"),
+            ("x_px", "x px"),
+            ("y_px", "y px"),
+            ("less_green_x_px", "less green x px"),
+            ("less_green_y_px", "y px"),
+            ("radial_px", "radial px"),
+            ("tangential_px", "tangential px"),
+            ("uncertainty_px", "± px"),
+        ],
+        rows: found.iter().flat_map(|(name, list)| list.iter().map(|point| row(name, point))).collect(),
+    }
 }
 
 /// One component of all points, and its means over rings.

@@ -24,6 +24,16 @@ impl PictureInput {
         self.selection.linear(picture)
     }
 
+    /// Refuses a reading of no light where differences of readings alone count.
+    pub(crate) fn check_without_black(&self) -> Result<(), Error> {
+        match self.levels.black {
+            None => Ok(()),
+            Some(_) => Err(Error::input(
+                "--black: differences of readings alone count here, so that it changes nothing; leave it out",
+            )),
+        }
+    }
+
     /// What the truth says of a picture, where one is given: of one of these charts, and of the picture's size.
     pub(crate) fn truth(&self, charts: &[&str], picture: &Path, readings: &Readings) -> Result<Option<Truth>, Error> {
         let truth = self.truth.read(charts)?;

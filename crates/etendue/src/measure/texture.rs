@@ -166,6 +166,7 @@ fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leave
 /// Where the pictures differ in size or cannot be used.
 pub fn texture(request: &TextureRequest) -> Result<Report, Error> {
     let input = &request.input;
+    input.check_without_black()?;
     let seen = |file: &Path| leaves(input, input.linear(file)?, file);
     let picture = seen(&request.picture)?;
     // The reference is another kind of picture: it says itself what its numbers are.

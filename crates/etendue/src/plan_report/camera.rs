@@ -125,6 +125,8 @@ pub struct LensSummary {
     pub kind: &'static str,
     /// Focal length, mm; null for a telecentric camera.
     pub focal_length_mm: Option<f64>,
+    /// The wavelength of focal length, f-number and focus, nm; null where the lens has no dispersion of its own.
+    pub first_order_wavelength_nm: Option<f64>,
     /// Focal length over the pupil's diameter.
     pub f_number: f64,
     /// The f-number of a lens that loses no light and is as bright.
@@ -270,6 +272,7 @@ impl LensSummary {
         Self {
             kind: lens.kind(),
             focal_length_mm: Some(lens.focal_length_mm()).filter(|mm| mm.is_finite()),
+            first_order_wavelength_nm: lens.first_order_nm(),
             f_number: lens.f_number(),
             t_number: lens.t_number(),
             everything_sharp: focus_m.is_none(),

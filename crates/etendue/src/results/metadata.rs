@@ -323,6 +323,7 @@ pub(crate) fn optics(body: &CameraBody) -> Value {
     let mut facts = json!({
         "model": lens.kind(),
         "focal_length_mm": lens.focal_length_mm(),
+        "first_order_wavelength_nm": lens.first_order_nm(),
         "f_number": lens.f_number(),
         "t_number": lens.t_number(),
         "working_f_number": lens.working_f_number(),

@@ -21,6 +21,7 @@
 //! | [`encode_plane`] | the quantity's name, `variance.` and the quantity's name |
 
 mod channel;
+mod colour_space;
 mod compress;
 mod cryptomatte;
 mod encode;
@@ -53,5 +54,6 @@ pub use read::{ExrChannel, ExrFile, Samples, read_exr, read_exr_within};
 pub use spectral::{Lengths, SpectralBands, encode_radiance, encode_spectral, radiance_image, spectral_image};
 pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral, spectral_of};
 
+pub(crate) use colour_space::to_rec_709;
 pub(crate) use preview::linear_srgb;
-pub(crate) use read::decode_exr;
+pub(crate) use read::{decode_exr, decode_exr_as_stored};

@@ -1,4 +1,4 @@
-//! Reading any flat EXR: all channels of all parts, at full resolution.
+//! Reading any flat EXR: all channels of all parts, at full resolution; R, G and B in the primaries of Rec. 709 (`colour_space.rs`).
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -7,6 +7,9 @@ use std::path::Path;
 use ::exr::meta::attribute::AttributeValue;
 use ::exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers};
 
+use etendue_scene::asset::ColourMatrix;
+
+use super::colour_space;
 use crate::guard::guarded;
 use crate::source::{read_bytes, read_expected_bytes};
 use crate::unpacked;
@@ -45,6 +48,8 @@ pub struct ExrFile {
     pub attributes: BTreeMap<String, String>,
     /// Compression, in the words of OpenEXR.
     pub compression: String,
+    /// What makes R, G and B those of Rec. 709; `None` where they are.
+    pub to_rec_709: Option<ColourMatrix>,
 }
 
 impl ExrFile {
@@ -89,6 +94,51 @@ impl ExrFile {
     }
 }
 
+impl ExrFile {
+    /// The file with R, G and B, where all three are there, in Rec. 709; its attributes state it.
+    fn in_rec_709(mut self) -> Self {
+        if let Some(matrix) = self.to_rec_709.take()
+            && convert(&mut self.channels, &matrix)
+        {
+            let stated = self.attributes.entry("chromaticities".to_owned()).or_default();
+            *stated += "; R, G and B are converted to Rec. 709";
+        }
+        self
+    }
+
+    /// Refuses a cube map, whose faces are one image under the other, as a picture.
+    pub(crate) fn check_is_no_cube_map(&self, file: &Path) -> Result<(), Error> {
+        if self.attributes.get(colour_space::ENVMAP).is_none_or(|projection| projection != colour_space::CUBE) {
+            return Ok(());
+        }
+        Err(Error::new(
+            file,
+            "a cube map (its attribute \"envmap\" says so), whose six faces are not read; store it as a panorama of latitude and longitude \
+             (OpenEXR's exrenvmap -latlong does so)",
+        ))
+    }
+}
+
+fn convert(channels: &mut [ExrChannel], matrix: &ColourMatrix) -> bool {
+    let place = |name: &str| channels.iter().position(|channel| channel.name == name);
+    let (Some(r), Some(g), Some(b)) = (place("R"), place("G"), place("B")) else { return false };
+    let Ok([r, g, b]) = channels.get_disjoint_mut([r, g, b]) else { return false };
+    let (Some(r), Some(g), Some(b)) = (floats(&mut r.samples), floats(&mut g.samples), floats(&mut b.samples)) else {
+        return false;
+    };
+    for ((r, g), b) in r.iter_mut().zip(g).zip(b) {
+        [*r, *g, *b] = matrix.of([*r, *g, *b]);
+    }
+    true
+}
+
+fn floats(samples: &mut Samples) -> Option<&mut [f32]> {
+    match samples {
+        Samples::Half(values) | Samples::Float(values) => Some(values),
+        Samples::Uint(_) => None,
+    }
+}
+
 /// Reads `file`.
 ///
 /// # Errors
@@ -112,8 +162,13 @@ pub fn read_exr_within(file: &Path, most_bytes: u64) -> Result<ExrFile, Error> {
     decode_all(file, &bytes)
 }
 
-/// Reads the bytes of `file`.
+/// Reads the bytes of `file`, with R, G and B of Rec. 709.
 pub(crate) fn decode_exr(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
+    Ok(decode_exr_as_stored(file, bytes)?.in_rec_709())
+}
+
+/// Reads the bytes of `file`, with R, G and B as they are stored.
+pub(crate) fn decode_exr_as_stored(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
     unpacked::check(file, samples(file, bytes)?, bytes.len())?;
     decode_all(file, bytes)
 }
@@ -152,10 +207,16 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
         channels: Vec::new(),
         attributes: attribute_texts(&image.attributes.other),
         compression: String::new(),
+        to_rec_709: None,
     };
     let several = image.layer_data.len() > 1;
+    let chromaticities = image.attributes.chromaticities;
     for layer in image.layer_data {
         add_layer(&mut read, file, layer, several)?;
+    }
+    if let Some(stated) = chromaticities {
+        read.to_rec_709 = colour_space::to_rec_709(file, &stated)?;
+        read.attributes.insert("chromaticities".to_owned(), colour_space::text(&stated));
     }
     Ok(read)
 }
@@ -189,6 +250,8 @@ fn add_layer(
     }
     read.compression = layer.encoding.compression.to_string().trim_end_matches(" compression").to_uppercase();
     read.attributes.extend(attribute_texts(&layer.attributes.other));
+    let projection = colour_space::projection(layer.attributes.environment_map);
+    read.attributes.extend(projection.map(|word| (colour_space::ENVMAP.to_owned(), word.to_owned())));
     let part = layer.attributes.layer_name.as_ref().filter(|_| several).map(|name| format!("{name}."));
     for channel in layer.channel_data.list {
         let name = format!("{}{}", part.as_deref().unwrap_or_default(), channel.name);

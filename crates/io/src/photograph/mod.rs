@@ -83,6 +83,7 @@ const ALIKE: &str = "etendue:correlated_block_px";
 
 fn of_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let exr = decode_exr(file, bytes)?;
+    exr.check_is_no_cube_map(file)?;
     let channel = |c: crate::exr::ExrChannel| Channel { name: c.name, samples: c.samples.into_floats() };
     let stated = exr.attributes.get(ALIKE).and_then(|text| text.parse().ok());
     let correlated_block_px = stated.filter(|n| *n > 0).unwrap_or(1);

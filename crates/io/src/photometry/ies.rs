@@ -1,6 +1,6 @@
 //! ANSI/IES LM-63: the editions of 1986, 1991, 1995, 2002 and 2019.
 //!
-//! A line of identification (none in 1986), `[KEYWORD] text` lines, `TILT=`, then numbers in any arrangement: lamps,
+//! A line of identification (none in 1986; see `ies/edition.rs`), `[KEYWORD] text` lines, `TILT=`, then numbers in any arrangement: lamps,
 //! lumens a lamp (−1: absolute photometry), multiplier, counts of vertical and horizontal angles, type (1 C, 2 B, 3 A),
 //! unit (1 feet, 2 metres), width, length and height of the luminous opening, ballast factor, one more, watts, the
 //! angles, and the intensities plane by plane. The one more is the ballast-lamp photometric factor up to 1995, reserved
@@ -18,21 +18,14 @@ use super::symmetry::{self, Symmetry};
 use super::{angles, tilt};
 use crate::{Error, Sandbox};
 
+mod edition;
 mod opening;
 
-/// The editions of the standard.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Edition {
-    Of1986,
-    Of1991,
-    Of1995,
-    Of2002,
-    Of2019,
-}
+use edition::{Edition, Identification};
 
 /// What stands before the numbers.
 struct Head<'a> {
-    edition: Edition,
+    identification: Identification,
     texts: Vec<(String, String)>,
     tilt: tilt::Statement<'a>,
     /// The line of TILT, counted from 1.
@@ -68,12 +61,14 @@ pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(Photom
         }
     };
     let body = body(&mut fields)?;
-    let mut report = body.remarks(head.edition);
+    let edition = head.identification.edition(file, body.further)?;
+    let mut report: Vec<String> = head.identification.note().into_iter().collect();
+    report.extend(body.remarks(edition));
     report.extend(tilt::remark(&tilt));
-    let factor = body.factor(head.edition);
+    let factor = body.factor(edition);
     let (vertical_deg, planes) = grid(file, &mut fields, &body, factor, &mut report)?;
     let asset = PhotometryAsset {
-        format: format!("IES LM-63, {}", head.edition.name()),
+        format: format!("IES LM-63, {}", edition.name()),
         axes: body.axes,
         vertical_deg,
         horizontal_deg: planes.iter().map(|(angle, _)| *angle).collect(),
@@ -94,17 +89,17 @@ pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(Photom
 
 fn head<'a>(file: &Path, text: &'a str) -> Result<Head<'a>, Error> {
     let mut texts: Vec<(String, String)> = Vec::new();
-    let mut edition = Edition::Of1986;
+    let mut identification = Identification::None;
     for (index, line) in text.lines().enumerate() {
         if let Some(word) = after_tilt(line) {
             if word.is_empty() {
                 let what = "nothing follows TILT=; expected NONE, INCLUDE or the name of a file";
                 return Err(Error::at(file, index + 1, what));
             }
-            return Ok(Head { edition, texts, tilt: tilt::Statement::of(word), line: index + 1 });
+            return Ok(Head { identification, texts, tilt: tilt::Statement::of(word), line: index + 1 });
         }
-        match Edition::of(line) {
-            Some(found) if index == 0 => edition = found,
+        match Identification::read(line, index + 1) {
+            Some(found) if identification == Identification::None => identification = found,
             _ => add_text(&mut texts, line.trim()),
         }
     }
@@ -123,39 +118,13 @@ fn after_tilt(line: &str) -> Option<&str> {
 fn add_text(texts: &mut Vec<(String, String)>, line: &str) {
     let keyword = line.strip_prefix('[').and_then(|rest| rest.split_once(']'));
     match (keyword, texts.last_mut()) {
-        (Some(("MORE", more)), Some((_, text))) => {
+        (Some((name, more)), Some((_, text))) if name.eq_ignore_ascii_case("MORE") => {
             text.push(' ');
             text.push_str(more.trim());
         }
         (Some((name, text)), _) => texts.push((name.trim().to_owned(), text.trim().to_owned())),
         (None, _) if line.is_empty() => {}
         (None, _) => texts.push((String::new(), line.to_owned())),
-    }
-}
-
-impl Edition {
-    /// The edition that a first line states.
-    fn of(line: &str) -> Option<Self> {
-        let line = line.trim();
-        match line {
-            "IESNA91" => Some(Self::Of1991),
-            "IESNA:LM-63-1986" | "IESNA86" => Some(Self::Of1986),
-            "IESNA:LM-63-1991" => Some(Self::Of1991),
-            "IESNA:LM-63-1995" => Some(Self::Of1995),
-            "IESNA:LM-63-2002" => Some(Self::Of2002),
-            "IES:LM-63-2019" => Some(Self::Of2019),
-            _ => None,
-        }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Of1986 => "edition of 1986 or none stated",
-            Self::Of1991 => "edition of 1991",
-            Self::Of1995 => "edition of 1995",
-            Self::Of2002 => "edition of 2002",
-            Self::Of2019 => "edition of 2019",
-        }
     }
 }
 

@@ -2,18 +2,20 @@
 
 use std::path::Path;
 
-use etendue_scene::asset::ImagePixels;
+use etendue_scene::asset::{ColourMatrix, ImagePixels};
 
 use crate::Error;
 use crate::exr::{ExrChannel, ExrFile};
 
-/// Width, height and pixels.
-pub(super) type Picture = (u32, u32, ImagePixels);
+/// Width, height, pixels, and what makes their colours those of Rec. 709.
+pub(super) type Picture = (u32, u32, ImagePixels, Option<ColourMatrix>);
 
 /// R, G, B of an EXR file, or Y for all three; with A where it is there.
 pub(super) fn of_exr(file: &Path, exr: ExrFile) -> Result<Picture, Error> {
+    exr.check_is_no_cube_map(file)?;
     let (width, height) = (size(file, exr.width)?, size(file, exr.height)?);
     let names: Vec<String> = exr.channels.iter().map(|channel| channel.name.clone()).take(8).collect();
+    let to_rec_709 = exr.to_rec_709;
     // What the picture does not need goes before it is put together.
     let mut planes = ["R", "G", "B", "Y", "A"].map(|_| None);
     for ExrChannel { name, samples } in exr.channels {
@@ -23,14 +25,16 @@ pub(super) fn of_exr(file: &Path, exr: ExrFile) -> Result<Picture, Error> {
         }
     }
     let [r, g, b, y, a] = planes;
-    let pixels = match (r, g, b, y) {
-        (Some(r), Some(g), Some(b), _) => joined(r.iter().zip(&g).zip(&b).map(|((r, g), b)| [*r, *g, *b]), a),
-        (None, None, None, Some(y)) => joined(y.iter().map(|y| [*y; 3]), a),
+    let (pixels, to_rec_709) = match (r, g, b, y) {
+        (Some(r), Some(g), Some(b), _) => {
+            (joined(r.iter().zip(&g).zip(&b).map(|((r, g), b)| [*r, *g, *b]), a), to_rec_709)
+        }
+        (None, None, None, Some(y)) => (joined(y.iter().map(|y| [*y; 3]), a), None),
         _ => {
             return Err(Error::new(file, format!("no picture of R, G, B or Y; its channels are {}", names.join(", "))));
         }
     };
-    Ok((width, height, pixels))
+    Ok((width, height, pixels, to_rec_709))
 }
 
 fn joined(colours: impl Iterator<Item = [f32; 3]>, opacity: Option<Vec<f32>>) -> ImagePixels {

@@ -7,7 +7,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use etendue_scene::asset::{ImagePixels, LargeImage, PixelFormat, PixelRows, TakeRows};
+use etendue_scene::asset::{ColourMatrix, ImagePixels, LargeImage, PixelFormat, PixelRows, TakeRows};
 use image::{ImageDecoder as _, ImageReader};
 
 use super::raster::stored_format;
@@ -45,6 +45,21 @@ fn exr_head(file: &Path) -> Option<PictureHead> {
     Some((u32::try_from(header.layer_size.width()).ok()?, u32::try_from(header.layer_size.height()).ok()?, format))
 }
 
+/// What makes the colours of an EXR those of Rec. 709; `None` where they are, and of other pictures.
+fn exr_colours(file: &Path, bytes: &[u8]) -> Result<Option<ColourMatrix>, Error> {
+    if !bytes.starts_with(&EXR_MAGIC) {
+        return Ok(None);
+    }
+    let stated = || {
+        let meta = ::exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false).ok()?;
+        let header = meta.headers.first()?;
+        let is_colour = header.channels.list.iter().any(|channel| channel.name == *"R");
+        header.shared_attributes.chromaticities.filter(|_| is_colour)
+    };
+    let stated = guarded(file, || Ok(stated()))?;
+    stated.map_or(Ok(None), |stated| crate::exr::to_rec_709(file, &stated))
+}
+
 fn raster_head(file: &Path) -> Option<PictureHead> {
     let decoder = ImageReader::open(file).ok()?.with_guessed_format().ok()?.into_decoder().ok()?;
     let (width, height) = decoder.dimensions();
@@ -55,10 +70,11 @@ fn raster_head(file: &Path) -> Option<PictureHead> {
 
 /// A picture whose head has been read.
 pub(crate) fn large_picture(file: &Path, (width, height, format): PictureHead) -> Result<LargeImage, Error> {
-    let hash = hash::of_bytes(&read_bytes(file, "picture")?);
+    let bytes = read_bytes(file, "picture")?;
+    let (hash, to_rec_709) = (hash::of_bytes(&bytes), exr_colours(file, &bytes)?);
     let size = (width, height);
     let rows = Arc::new(PictureFile { path: file.to_path_buf(), size, format, hash });
-    Ok(LargeImage { width, height, format, hash, rows })
+    Ok(LargeImage { width, height, format, to_rec_709, hash, rows })
 }
 
 /// A picture in its file.

@@ -6,7 +6,7 @@
 //! | grey PNG of 16 bits | numbers as stored |
 //! | other PNG of 16 bits | floats, stored value / 65 535, still encoded as in the file; opacity where it is there |
 //! | Radiance HDR | floats |
-//! | OpenEXR with R, G, B or Y, and A where it is there | floats; half floats and every compression of the exr crate (none, RLE, ZIP, PIZ, PXR24, B44, DWA) |
+//! | OpenEXR with R, G, B (of its `chromaticities`, Rec. 709 without) or Y, and A where it is there; cube maps are refused | floats; half floats and every compression of the exr crate (none, RLE, ZIP, PIZ, PXR24, B44, DWA) |
 //!
 //! The kind is told by the first bytes, not by the name. What the numbers mean (sRGB-encoded or linear) is told by the
 //! description that names the file. Numbers that are not finite are refused with their pixel.
@@ -24,7 +24,7 @@ pub use channels::has_colours_of_8_bits;
 pub(crate) use large::{PictureHead, head, large_picture};
 pub(crate) use raster::{Kept, decode_raster};
 
-use crate::exr::decode_exr;
+use crate::exr::decode_exr_as_stored;
 use crate::source::read_bytes;
 use crate::{Error, hash};
 
@@ -41,8 +41,8 @@ pub fn read_picture(file: &Path) -> Result<ImageAsset, Error> {
 /// # Errors
 /// As [`read_picture`] has them.
 pub fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
-    let (width, height, pixels) = if bytes.starts_with(&EXR_MAGIC) {
-        floats::of_exr(file, decode_exr(file, bytes)?)?
+    let (width, height, pixels, to_rec_709) = if bytes.starts_with(&EXR_MAGIC) {
+        floats::of_exr(file, decode_exr_as_stored(file, bytes)?)?
     } else {
         raster::decode(file, bytes)?
     };
@@ -50,5 +50,5 @@ pub fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
         return Err(Error::new(file, format!("a picture of {width} × {height} pixels; expected at least one pixel")));
     }
     floats::check_finite(file, width, &pixels)?;
-    Ok(ImageAsset { width, height, pixels, hash: hash::of_bytes(bytes) })
+    Ok(ImageAsset { width, height, pixels, to_rec_709, hash: hash::of_bytes(bytes) })
 }

@@ -13,7 +13,7 @@ use crate::{Error, unpacked};
 /// Decodes `bytes` by their first bytes.
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Picture, Error> {
     let (_, picture) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR", Kept::Stored)?;
-    Ok((picture.width(), picture.height(), as_pixels(picture)))
+    Ok((picture.width(), picture.height(), as_pixels(picture), None))
 }
 
 /// The picture as stored, with its format; a file of none is told that it should be one of `kinds`.

@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use etendue_scene::asset::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use etendue_scene::asset::{ASPHERE_TERMS, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 use etendue_spectra::glass;
 
 use super::opening::Opening;
+use super::text::Words;
 use crate::Error;
 
 /// A lens as it is read: object and image are surfaces too, lengths in the file's unit.
@@ -20,9 +22,44 @@ pub(super) struct Raw {
     /// By field: how much of the pupil is taken off at its upper and its lower end.
     pub(super) vignetting: [Vec<f64>; 2],
     pub(super) wavelengths_nm: Vec<f64>,
+    pub(super) primary: Option<Primary>,
     /// The image is where the program finds it: the last distance is no statement.
     pub(super) image_is_found: bool,
     pub(super) notes: Vec<String>,
+}
+
+/// The wavelength of a file's first-order figures.
+#[derive(Clone, Copy)]
+pub(super) struct Primary {
+    /// Its place among the file's wavelengths, from 1.
+    number: f64,
+    line: usize,
+}
+
+impl Primary {
+    /// PWAV, REF.
+    pub(super) fn read(w: &Words<'_>) -> Result<Self, Error> {
+        Ok(Self { number: w.number(1)?, line: w.line })
+    }
+
+    /// The wavelength, nm; `None` where the file states no wavelengths at all.
+    fn nm(self, file: &Path, wavelengths_nm: &[f64]) -> Result<Option<f64>, Error> {
+        let count = wavelengths_nm.len();
+        let place = self.number as usize;
+        if count == 0 {
+            return Ok(None);
+        }
+        let found = wavelengths_nm.get(place.wrapping_sub(1)).filter(|_| place as f64 == self.number);
+        let nm = *found.ok_or_else(|| {
+            let what = format!("the primary wavelength is number {}; expected one of the file's {count}", self.number);
+            Error::at(file, self.line, what)
+        })?;
+        if (SHORTEST_NM..=MAX_NM).contains(&nm) {
+            return Ok(Some(nm));
+        }
+        let what = format!("the primary wavelength is {nm} nm; light of {SHORTEST_NM} to {MAX_NM} nm is modelled");
+        Err(Error::at(file, self.line, format!("{what}: name another wavelength of the file")))
+    }
 }
 
 #[derive(Clone)]
@@ -30,8 +67,10 @@ pub(super) struct RawSurface {
     pub(super) line: usize,
     pub(super) curvature: f64,
     pub(super) conic: f64,
-    pub(super) asphere: [f64; 8],
+    pub(super) asphere: [f64; ASPHERE_TERMS],
     pub(super) semi_aperture: Option<f64>,
+    /// Whether the opening stops light, and is not a size for drawing.
+    pub(super) rim: bool,
     pub(super) thickness: f64,
     pub(super) glass: GlassAsset,
     pub(super) stop: bool,
@@ -41,7 +80,7 @@ pub(super) struct RawSurface {
 
 impl RawSurface {
     pub(super) fn new(line: usize) -> Self {
-        let (curvature, conic, asphere) = (0.0, 0.0, [0.0; 8]);
+        let (curvature, conic, asphere) = (0.0, 0.0, [0.0; ASPHERE_TERMS]);
         let glass = GlassAsset::Air;
         Self {
             line,
@@ -49,6 +88,7 @@ impl RawSurface {
             conic,
             asphere,
             semi_aperture: None,
+            rim: false,
             thickness: 0.0,
             glass,
             stop: false,
@@ -60,16 +100,27 @@ impl RawSurface {
 /// A glass by the name that a file has for it: hyphens and capitals differ between programs, and a catalogue may follow
 /// after an underscore.
 pub(super) fn named(name: &str) -> Option<GlassAsset> {
-    let plain = |text: &str| text.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase();
-    let wanted = plain(name.split('_').next().unwrap_or(name));
-    let found = glass::catalogue().iter().find(|known| plain(known.name) == wanted)?;
-    Some(GlassAsset::Named(found.name.to_owned()))
+    catalogue_glass(name).map(|name| GlassAsset::Named(name.to_owned()))
 }
 
-/// The glass of today that took the place of a lead glass of Schott's by nearly the same numbers: N-SK16 for SK16.
-pub(super) fn successor(name: &str) -> Option<GlassAsset> {
-    let plain = name.split('_').next().unwrap_or(name);
-    named(&format!("N{plain}"))
+/// The catalogue's own name of such a glass.
+fn catalogue_glass(name: &str) -> Option<&'static str> {
+    let plain = |text: &str| text.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase();
+    let wanted = plain(name.split('_').next().unwrap_or(name));
+    glass::catalogue().iter().find(|known| plain(known.name) == wanted).map(|known| known.name)
+}
+
+/// The catalogue glass that took the place of an older one of that name, with its name: Schott's N-SK16 for the lead glass SK16, Ohara's S-LAH66
+/// for LAH66. Of a name with its catalogue (SK16_SCHOTT) that maker's alone.
+pub(super) fn successor(name: &str) -> Option<(GlassAsset, String)> {
+    let (plain, maker) = name.split_once('_').unwrap_or((name, ""));
+    let prefixes: &[&str] = match maker.to_ascii_uppercase().as_str() {
+        "SCHOTT" => &["N"],
+        "OHARA" => &["S"],
+        _ => &["N", "S"],
+    };
+    let found = prefixes.iter().find_map(|prefix| catalogue_glass(&format!("{prefix}{plain}")))?;
+    Some((GlassAsset::Named(found.to_owned()), found.to_owned()))
 }
 
 /// A glass by its number: digits of n_d − 1, then those of V_d, as six digits or parted by a point.
@@ -82,8 +133,20 @@ pub(super) fn by_number(text: &str) -> Option<GlassAsset> {
 }
 
 impl Raw {
+    /// Scales every length as it stands.
+    pub(super) fn scale(&mut self, factor: f64) {
+        for surface in &mut self.surfaces {
+            surface.curvature /= factor;
+            surface.asphere = scaled_asphere(surface.asphere, factor);
+            surface.semi_aperture = surface.semi_aperture.map(|semi| semi * factor);
+            surface.thickness *= factor;
+        }
+        self.opening = self.opening.map(|opening| Opening { stated: scaled(opening.stated, factor), ..opening });
+        self.fields = self.fields.take().map(|fields| scaled_fields(fields, factor));
+    }
+
     /// The prescription of at least object, one surface and image.
-    pub(super) fn finish(self, file: &Path) -> Result<PrescriptionAsset, Error> {
+    pub(super) fn finish(mut self, file: &Path) -> Result<PrescriptionAsset, Error> {
         let unit = self.unit_mm.unwrap_or(1.0);
         let [object, surfaces @ .., image] = &self.surfaces[..] else {
             return Err(Error::new(
@@ -91,10 +154,12 @@ impl Raw {
                 "expected object, surfaces and image; the file has fewer than three surfaces",
             ));
         };
-        let (before_mm, surfaces) = refracting(surfaces, unit);
+        let (before_mm, mut surfaces) = kept(surfaces, unit);
         let object_distance_mm = object.thickness * unit + before_mm;
         self.opening.map_or(Ok(()), |opening| near_enough(file, opening, object_distance_mm))?;
+        let primary_nm = self.primary.map_or(Ok(None), |primary| primary.nm(file, &self.wavelengths_nm))?;
         let shift_mm = image.thickness * unit;
+        self.notes.extend(without_image_mask(&mut surfaces));
         let stated_mm = surfaces.last().map_or(0.0, |surface| surface.thickness_mm + shift_mm);
         let found = self.image_is_found || !stated_mm.is_finite() || stated_mm == 0.0;
         match surfaces.iter().filter(|s| s.stop).count() {
@@ -109,6 +174,7 @@ impl Raw {
                 opening_line: self.opening.map_or(0, |opening| opening.line),
                 fields: self.fields.map(|fields| scaled_fields(fields, unit)),
                 vignetting: self.vignetting,
+                primary_nm,
                 wavelengths_nm: self.wavelengths_nm,
                 notes: self.notes,
                 hash: [0; 32],
@@ -132,12 +198,21 @@ fn near_enough(file: &Path, opening: Opening, object_distance_mm: f64) -> Result
     }
 }
 
-/// Surfaces in mm without those that do nothing, and the distance from the first of all to the first of them.
-fn refracting(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAsset>) {
+/// Takes a mask in the image plane off, and says so: no plane stands in the sensor's.
+fn without_image_mask(surfaces: &mut Vec<SurfaceAsset>) -> Option<String> {
+    let [.., before, last] = &surfaces[..] else { return None };
+    let mask = last.glass == before.glass && !last.stop && last.thickness_mm == 0.0;
+    let last = if mask { surfaces.pop()? } else { return None };
+    Some(format!("line {}: an aperture in the image plane is not modelled; it would limit the field", last.line))
+}
+
+/// Surfaces in mm without those that do nothing, and the distance from the first of all to the first of them. A surface that does not refract
+/// stays where it is the stop or has a rim: a baffle, a field stop.
+fn kept(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAsset>) {
     let (mut before_mm, mut list) = (0.0, Vec::<SurfaceAsset>::new());
     let mut before = GlassAsset::Air;
     for surface in surfaces {
-        let idle = surface.glass == before && !surface.stop;
+        let idle = surface.glass == before && !surface.stop && !(surface.rim && surface.semi_aperture.is_some());
         before = surface.glass.clone();
         match list.last_mut() {
             Some(last) if idle => last.thickness_mm += surface.thickness * unit,
@@ -149,22 +224,26 @@ fn refracting(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAsset>) {
 }
 
 fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
-    let mut power = 1.0;
-    // αᵢ has the unit of length to the 1 − 2i.
-    let asphere = s.asphere.map(|a| {
-        power *= unit * unit;
-        a * unit / power
-    });
     SurfaceAsset {
         radius_mm: if s.curvature == 0.0 { f64::INFINITY } else { unit / s.curvature },
         conic: s.conic,
-        asphere,
+        asphere: scaled_asphere(s.asphere, unit),
         semi_aperture_mm: s.semi_aperture.map(|a| a * unit),
+        rim: s.rim && s.semi_aperture.is_some(),
         thickness_mm: s.thickness * unit,
         glass: s.glass.clone(),
         stop: s.stop,
         line: s.line,
     }
+}
+
+/// Coefficients of r², r⁴ … of a surface enlarged by a factor: αᵢ has the unit of length to the 1 − 2i.
+fn scaled_asphere(terms: [f64; ASPHERE_TERMS], factor: f64) -> [f64; ASPHERE_TERMS] {
+    let mut power = 1.0;
+    terms.map(|a| {
+        power *= factor * factor;
+        a * factor / power
+    })
 }
 
 fn scaled(opening: LensOpening, unit: f64) -> LensOpening {

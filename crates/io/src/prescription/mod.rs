@@ -2,18 +2,21 @@
 //!
 //! | file | read | refused |
 //! | --- | --- | --- |
-//! | `.zmx` (Zemax, UTF-8 or UTF-16) | UNIT, SURF, TYPE STANDARD and EVENASPH, CURV, CONI, PARM, DISZ, GLAS (catalogue, number, model, picked up; else by its n_d and V_d), DIAM, CLAP, STOP, ENPD, FNUM, OBNA, FLOA, FTYP, YFLN, WAVM | mirrors, other surfaces, tilts, other apertures, working f-numbers, non-sequential parts |
-//! | `.seq` (CODE V) | RDM, DIM, S, SO, SI, STO, K, A–G, CIR, EPD, FNO, NA, NAO, PIM, PRV, WL, YAN, YOB, YIM, VUY, VLY, TITLE | mirrors, tilts and decentres, other surface forms, zooms |
+//! | `.zmx` (Zemax, UTF-8 or UTF-16) | UNIT, SURF, TYPE STANDARD and EVENASPH, CURV, CONI, PARM, DISZ, GLAS (catalogue, number, model, picked up; else by its successor, else by its n_d and V_d), DIAM, CLAP, STOP, ENPD, FNUM, OBNA, FLOA, FTYP, YFLN, WAVM, PWAV | mirrors, other surfaces, tilts, other apertures, working f-numbers, non-sequential parts |
+//! | `.seq` (CODE V) | RDM, DIM, S, SO, SI, RDY, CUY, THI, GLA, STO, K, A–H, J, CIR (of the current surface or of named ones), SCA, EPD, FNO, NA, NAO, PIM, PRV, WL, REF, YAN, YOB, YIM, VUY, VLY, TITLE | mirrors, tilts and decentres, other surface forms, zooms, solves of named surfaces, surfaces inserted or deleted |
 //!
 //! Both become a [`PrescriptionAsset`] in mm. What else these files hold (tolerances, plots, solves, merit functions) says
 //! nothing about the lens as it stands and is passed over. Nothing of the programs is run.
 
 mod build;
+mod names;
 mod opening;
 mod private;
 mod seq;
+mod seq_edit;
 mod text;
 mod zmx;
+mod zmx_glass;
 
 use std::path::Path;
 

@@ -4,23 +4,23 @@
 //! radius (in radius mode), thickness and glass of the next surface, SO those of the object, SI of the image; what follows
 //! belongs to the last of them. A glass is a catalogue name, perhaps with its catalogue after an underscore, or a number:
 //! `517642` and `516800.641673` are n_d = 1.517 (1.5168) and V_d = 64.2 (64.1673); or it is of the file's own private
-//! catalogue (PRV … END). FNO and NA are those of the image, wherever the object stands (as rayoptics reads them). A … G are the coefficients of r⁴ … r¹⁶. The thickness of SI is a defocus; PIM leaves the image to be found.
+//! catalogue (PRV … END). FNO and NA are those of the image, wherever the object stands (as rayoptics reads them). A … H and J are the
+//! coefficients of r⁴ … r²⁰. The thickness of SI is a defocus; PIM leaves the image to be found. REF counts the wavelengths of WL.
+//!
+//! What a command changes it changes from its line on: a surface that is named (`RDY S1 25`, `THI S2..4 8`, `S3 25 8`; see `seq_edit.rs`), or the
+//! whole lens as it stands there (`SCA 2`). Commands that would change the lens in a way that is not modelled are refused with their line; those
+//! that are not known here are noted.
 
 use std::path::Path;
 
 use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
 
-use super::build::{Raw, RawSurface, by_number, named, successor};
+use super::build::{Primary, Raw, RawSurface, by_number, named, successor};
+use super::names::{PASSED_OVER, REFUSED};
 use super::opening::Opening;
 use super::private::PrivateGlasses;
 use super::text::Words;
 use crate::Error;
-
-/// Commands that change the light's way in a manner that is not modelled.
-const REFUSED: &[&str] = &[
-    "XDE", "YDE", "ZDE", "ADE", "BDE", "CDE", "DAR", "BEN", "REV", "RET", "GRT", "DIF", "HOE", "SPS", "XTO", "YTO",
-    "CYL", "AAS", "ZOO", "NSS", "REFL", "GRX", "DOE", "REX", "REY", "ELX", "ELY", "ADX", "ADY", "ARO",
-];
 
 pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> {
     let mut reader = Reader::default();
@@ -30,7 +30,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> 
             reader.command(&words)?;
         }
     }
-    reader.raw.finish(file)
+    reader.finish(file)
 }
 
 /// Commands with the line each begins at.
@@ -71,11 +71,17 @@ fn words(command: &str) -> Vec<&str> {
 }
 
 #[derive(Default)]
-struct Reader {
-    raw: Raw,
+pub(super) struct Reader {
+    pub(super) raw: Raw,
     glasses: PrivateGlasses,
     /// Whether S lines give radii (RDM) or curvatures.
     radii: Option<bool>,
+    /// The surface that commands without a surface are about.
+    pub(super) current: usize,
+    /// Whether the image has been given.
+    pub(super) has_image: bool,
+    /// Commands that are not known here, with their lines.
+    unknown: Vec<(String, usize)>,
 }
 
 impl Reader {
@@ -93,49 +99,105 @@ impl Reader {
             "NA" => self.raw.opening = Some(Opening::image_cone(w)?),
             "NAO" => self.raw.opening = Some(Opening::object_cone(w)?),
             "WL" => self.raw.wavelengths_nm = w.numbers(1)?,
+            "REF" => self.raw.primary = Some(Primary::read(w)?),
             "YAN" => self.raw.fields = Some(LensFields::AnglesDeg(w.numbers(1)?)),
             "YOB" => self.raw.fields = Some(LensFields::ObjectMm(w.numbers(1)?)),
             "YIM" | "YRI" => self.raw.fields = Some(LensFields::ImageMm(w.numbers(1)?)),
             "VUY" => self.raw.vignetting[0] = w.numbers(1)?,
             "VLY" => self.raw.vignetting[1] = w.numbers(1)?,
-            "XAN" | "XOB" | "XIM" | "XRI" if w.numbers(1)?.iter().any(|x| *x != 0.0) => {
-                self.raw
-                    .notes
-                    .push(format!("line {}: {name}: fields beside the meridional plane are not read", w.line));
-            }
+            "XAN" | "XOB" | "XIM" | "XRI" => self.fields_across(&name, w)?,
             "PIM" => self.raw.image_is_found = true,
-            "S" | "SO" | "SI" => self.surface(w)?,
-            "STO" if w.words.len() > 1 => self.stop_at(w)?,
+            "SCA" => self.scale(w)?,
+            "S" | "SO" | "SI" => self.surface(&name, w)?,
+            _ if name.strip_prefix('S').is_some_and(is_count) => self.surface(&name, w)?,
             _ if REFUSED.contains(&name.as_str()) => {
                 return Err(w.fault(format!("{name} is not modelled; only centred surfaces of revolution are")));
             }
-            _ if name.len() > 1 && name.starts_with('S') && name[1..].parse::<u32>().is_ok() => self.surface(w)?,
-            _ => {
-                if let Some(surface) = self.raw.surfaces.last_mut() {
-                    property(surface, &name, w)?;
-                }
-            }
+            _ if self.edit(&name, w)? || PASSED_OVER.contains(&name.as_str()) => {}
+            _ => self.unknown.push((name, w.line)),
         }
         Ok(())
     }
 
-    fn surface(&mut self, w: &Words<'_>) -> Result<(), Error> {
+    fn finish(mut self, file: &Path) -> Result<PrescriptionAsset, Error> {
+        if !self.unknown.is_empty() {
+            let list: Vec<String> = self.unknown.iter().map(|(name, line)| format!("{name} (line {line})")).collect();
+            let list = list.join(", ");
+            self.raw.notes.push(format!(
+                "commands that are not known here are passed over, as if they left the lens as it stands: {list}"
+            ));
+        }
+        self.raw.finish(file)
+    }
+
+    fn fields_across(&mut self, name: &str, w: &Words<'_>) -> Result<(), Error> {
+        if w.numbers(1)?.iter().any(|x| *x != 0.0) {
+            let note = format!("line {}: {name}: fields beside the meridional plane are not read", w.line);
+            self.raw.notes.push(note);
+        }
+        Ok(())
+    }
+
+    /// `SCA 2`: lengths as they stand at this line.
+    fn scale(&mut self, w: &Words<'_>) -> Result<(), Error> {
+        let factor = w.word(1).parse::<f64>().ok().filter(|factor| factor.is_finite() && *factor > 0.0);
+        match factor {
+            Some(factor) if w.words.len() == 2 => {
+                self.raw.scale(factor);
+                Ok(())
+            }
+            _ => {
+                Err(w
+                    .fault("SCA: expected one factor above 0 (SCA 2.0), which scales the whole lens as it stands here"))
+            }
+        }
+    }
+
+    /// S, SO, SI or S3: the next surface, or one that stands there already.
+    fn surface(&mut self, name: &str, w: &Words<'_>) -> Result<(), Error> {
+        let count = self.raw.surfaces.len();
+        let place = match name {
+            "S" => count,
+            "SO" => 0,
+            "SI" if self.has_image => count - 1,
+            "SI" => count,
+            numbered => numbered[1..].parse().unwrap_or(usize::MAX),
+        };
+        if place > count || (place == count && self.has_image) {
+            let last = count.saturating_sub(1);
+            return Err(w.fault(format!(
+                "{name}: expected a surface given before (S0 to S{last}), or the next one before the image (SI)"
+            )));
+        }
+        if name == "S" && self.current + 1 < count {
+            return Err(w.fault(format!(
+                "S after S{}: inserting surfaces is not read; write them in their order",
+                self.current
+            )));
+        }
         let Some(radii) = self.radii else {
             return Err(w.fault("surfaces before RDM: say whether they give radii (RDM) or curvatures (RDM N)"));
         };
-        let mut surface = RawSurface::new(w.line);
-        let value = if w.words.len() > 1 { w.number(1)? } else { 0.0 };
-        surface.curvature = if radii && value != 0.0 { 1.0 / value } else { value };
-        surface.thickness = if w.words.len() > 2 { w.number(2)? } else { 0.0 };
-        if surface.thickness.abs() >= 1e10 {
-            surface.thickness = f64::INFINITY;
+        if place == count {
+            self.raw.surfaces.push(RawSurface::new(w.line));
         }
-        surface.glass = self.glass(w, 3)?;
-        self.raw.surfaces.push(surface);
+        self.has_image |= name == "SI";
+        self.current = place;
+        let fresh = place == count;
+        if fresh || w.words.len() > 1 {
+            let value = if w.words.len() > 1 { w.number(1)? } else { 0.0 };
+            self.raw.surfaces[place].curvature = if radii && value != 0.0 { 1.0 / value } else { value };
+        }
+        if w.words.len() > 2 {
+            self.raw.surfaces[place].thickness = thickness(w.number(2)?);
+        }
+        if fresh || w.words.len() > 3 {
+            self.raw.surfaces[place].glass = self.glass(w, 3)?;
+        }
         Ok(())
     }
 
-    fn glass(&mut self, w: &Words<'_>, place: usize) -> Result<GlassAsset, Error> {
+    pub(super) fn glass(&mut self, w: &Words<'_>, place: usize) -> Result<GlassAsset, Error> {
         let name = w.word(place);
         let plain = name.trim_start_matches(['\'', '"']);
         match name.to_ascii_uppercase().as_str() {
@@ -146,7 +208,7 @@ impl Reader {
         if let Some(glass) = self.glasses.find(plain).or_else(|| named(plain)).or_else(|| by_number(plain)) {
             return Ok(glass);
         }
-        let Some(GlassAsset::Named(today)) = successor(plain) else {
+        let Some((glass, today)) = successor(plain) else {
             return Err(w.fault(format!(
                 "no glass is called `{plain}`; give a name of the Schott or Ohara catalogue, a number as 517642, or its indices in a private \
                  catalogue (PRV) before the surfaces"
@@ -154,15 +216,7 @@ impl Reader {
         };
         let note = format!("line {}: no catalogue here has {plain}: its successor {today} is taken", w.line);
         self.raw.notes.push(note);
-        Ok(GlassAsset::Named(today))
-    }
-
-    /// `STO S5`.
-    fn stop_at(&mut self, w: &Words<'_>) -> Result<(), Error> {
-        let place = w.word(1).trim_start_matches(['S', 's']).parse::<usize>().ok();
-        let surface = place.and_then(|place| self.raw.surfaces.get_mut(place));
-        surface.ok_or_else(|| w.fault("STO: expected a surface given before, as S5"))?.stop = true;
-        Ok(())
+        Ok(glass)
     }
 }
 
@@ -175,20 +229,11 @@ fn unit(w: &Words<'_>) -> Result<f64, Error> {
     }
 }
 
-fn property(surface: &mut RawSurface, name: &str, w: &Words<'_>) -> Result<(), Error> {
-    match name {
-        "STO" => surface.stop = true,
-        "K" => surface.conic = w.number(1)?,
-        "A" | "B" | "C" | "D" | "E" | "F" | "G" => {
-            surface.asphere[1 + usize::from(name.as_bytes()[0] - b'A')] = w.number(1)?;
-        }
-        "CIR" => match w.word(1).to_ascii_uppercase().as_str() {
-            // The glass's edge is no clear aperture.
-            "EDG" | "HOL" => {}
-            "OBS" => return Err(w.fault("an obscuration is not modelled; only round, open apertures are")),
-            _ => surface.semi_aperture = Some(w.number(1)?),
-        },
-        _ => {}
-    }
-    Ok(())
+/// A distance; CODE V writes 1e13 for an infinite one.
+pub(super) fn thickness(value: f64) -> f64 {
+    if value.abs() >= 1e10 { f64::INFINITY } else { value }
+}
+
+pub(super) fn is_count(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit())
 }

@@ -2,18 +2,18 @@
 //!
 //! A line is a keyword and its values; those of a surface follow its SURF. GLAS names a catalogue glass, or (second value 1)
 //! gives index and Abbe number of a model glass. PARM i of an EVENASPH is the coefficient of r²ⁱ. FTYP holds the kind of
-//! field and the numbers of fields and wavelengths, for YFLN and WAVM are filled up.
+//! field and the numbers of fields and wavelengths, for YFLN and WAVM are filled up. PWAV counts the wavelengths.
 //!
-//! A glass that no catalogue here has is taken by the index and Abbe number of its line, unless those are the 1.5 and 40 that Zemax
-//! writes for glasses of its catalogues; then by Schott's successor of the same name, with N before it. Either is noted.
+//! Glasses are read in `zmx_glass.rs`.
 
 use std::path::Path;
 
-use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
+use etendue_scene::asset::{LensFields, PrescriptionAsset};
 
-use super::build::{Raw, RawSurface, by_number, named, successor};
+use super::build::{Primary, Raw, RawSurface};
 use super::opening::Opening;
 use super::text::Words;
+use super::zmx_glass::Glasses;
 use crate::Error;
 
 pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> {
@@ -30,6 +30,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> 
 #[derive(Default)]
 struct Reader {
     raw: Raw,
+    glasses: Glasses,
     field_kind: usize,
     counts: [usize; 2],
     heights: Vec<f64>,
@@ -62,7 +63,11 @@ impl Reader {
                 Ok(())
             }
             "WAVM" => {
-                self.raw.wavelengths_nm.push(1e3 * w.number(2)?);
+                self.raw.wavelengths_nm.push(nanometres(w.number(2)?));
+                Ok(())
+            }
+            "PWAV" => {
+                self.raw.primary = Some(Primary::read(w)?);
                 Ok(())
             }
             "SURF" => {
@@ -97,7 +102,7 @@ impl Reader {
     }
 
     fn glass(&mut self, w: &Words<'_>) -> Result<(), Error> {
-        let (glass, note) = glass(w, &self.raw.surfaces)?;
+        let (glass, note) = self.glasses.read(w, &self.raw.surfaces)?;
         self.raw.notes.extend(note.map(|note| format!("line {}: {note}", w.line)));
         if let Some(surface) = self.raw.surfaces.last_mut() {
             surface.glass = glass;
@@ -131,7 +136,9 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
         "DISZ" => surface.thickness = if w.word(1) == "INFINITY" { f64::INFINITY } else { w.number(1)? },
         // A clear aperture overrides the diameter that the program keeps for drawing.
         "CLAP" if w.number(1)? != 0.0 => return Err(w.fault("an obscuration; only round, open apertures are modelled")),
-        "CLAP" => surface.semi_aperture = Some(w.number(2)?),
+        "CLAP" => (surface.semi_aperture, surface.rim) = (Some(w.number(2)?), true),
+        // A floating aperture clips at the diameter.
+        "FLAP" => surface.rim = true,
         "DIAM" if surface.semi_aperture.is_none() => surface.semi_aperture = Some(w.number(1)?).filter(|d| *d > 0.0),
         "STOP" => surface.stop = true,
         "OBDC" if w.numbers(1)?.iter().all(|shift| *shift == 0.0) => {}
@@ -143,10 +150,18 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
     Ok(())
 }
 
+/// Micrometres in nm, to the digits that files have.
+fn nanometres(um: f64) -> f64 {
+    (1e9 * um).round() / 1e6
+}
+
+/// Parameters of an EVENASPH that are coefficients.
+const EVEN_TERMS: f64 = 8.0;
+
 fn coefficient(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
     let (place, value) = (w.number(1)?, w.number(2)?);
     match surface.asphere.get_mut((place - 1.0) as usize) {
-        Some(term) if place >= 1.0 => *term = value,
+        Some(term) if (1.0..=EVEN_TERMS).contains(&place) => *term = value,
         _ if value == 0.0 => {}
         _ => return Err(w.fault(format!("PARM {place}; expected 1 to 8, the terms r² to r¹⁶"))),
     }
@@ -162,41 +177,5 @@ fn opening(w: &Words<'_>) -> Result<Option<Opening>, Error> {
         ("OBNA", "1") => Opening::object_angle(w).map(Some),
         ("OBNA", _) => Opening::object_cone(w).map(Some),
         _ => Ok(None),
-    }
-}
-
-/// The glass of a GLAS line, and what is to be said of it.
-fn glass(w: &Words<'_>, surfaces: &[RawSurface]) -> Result<(GlassAsset, Option<String>), Error> {
-    let name = w.word(1);
-    if name == "MIRROR" {
-        return Err(w.fault("a mirror; only refracting lenses are modelled"));
-    }
-    let numbers = || Some((w.number(4).ok()?, w.number(5).ok()?)).filter(|(index, abbe)| *index > 1.0 && *abbe > 0.0);
-    match w.word(2) {
-        "1" => return Ok((GlassAsset::Abbe { index: w.number(4)?, abbe: w.number(5)? }, None)),
-        "2" => {
-            let from = surfaces.get(w.number(3)? as usize);
-            let from = from.ok_or_else(|| w.fault("the glass is picked up from a surface that is not given before"))?;
-            return Ok((from.glass.clone(), None));
-        }
-        _ => {}
-    }
-    if let Some(known) = named(name).or_else(|| by_number(name)) {
-        return Ok((known, None));
-    }
-    // Zemax writes these where the glass's own numbers stand in a catalogue.
-    let own = numbers().filter(|pair| *pair != (1.5, 40.0));
-    if let Some((index, abbe)) = own {
-        let note = format!("no catalogue here has {name}: n_d {index} and V_d {abbe} of its line are taken");
-        return Ok((GlassAsset::Abbe { index, abbe }, Some(note)));
-    }
-    match successor(name) {
-        Some(GlassAsset::Named(today)) => {
-            let note = format!("no catalogue here has {name}: its successor {today} is taken");
-            Ok((GlassAsset::Named(today), Some(note)))
-        }
-        _ => Err(w.fault(format!(
-            "no glass is called `{name}`; give a name of the Schott or Ohara catalogue, or n_d and V_d on its line (GLAS {name} 1 0 n_d V_d)"
-        ))),
     }
 }

@@ -104,24 +104,56 @@ fn glass_of(zmx_line: &str) -> (GlassAsset, Vec<String>) {
     (lens.surfaces[0].glass.clone(), lens.notes)
 }
 
+/// Numbers of a model glass that stood there before say nothing of a catalogue glass.
 #[test]
-fn a_glass_of_no_catalogue_here_is_taken_by_its_line_or_its_successor_and_noted() {
-    let (glass, notes) = glass_of("GLAS SK16 0 0 1.62041 60.32");
-    assert_eq!(glass, GlassAsset::Abbe { index: 1.62041, abbe: 60.32 });
-    assert!(notes[0].contains("line 26: no catalogue here has SK16: n_d 1.62041 and V_d 60.32"), "{notes:?}");
-    // 1.5 and 40 stand there for glasses of Zemax's own catalogues.
-    let (glass, notes) = glass_of("GLAS SK16 0 0 1.5 4.0E+1");
-    assert_eq!(glass, GlassAsset::Named("N-SK16".into()));
-    assert!(notes[0].contains("its successor N-SK16 is taken"), "{notes:?}");
+fn a_glass_of_no_catalogue_here_is_its_successor_whatever_numbers_are_left_over() {
+    for (line, today) in [
+        ("GLAS SK16 0 0 1.5 4.0E+1", "N-SK16"),
+        ("GLAS SK2 0 0 1.61765 5.514E+1", "N-SK2"),
+        ("GLAS LAH66 0 0 1.7762 4.94E+1", "S-LAH66"),
+    ] {
+        let (glass, notes) = glass_of(line);
+        assert_eq!(glass, GlassAsset::Named(today.into()));
+        let told = format!(
+            "line 26: no catalogue here has {}: its successor {today} is taken",
+            &line[5..line.find(" 0").expect("a mode")]
+        );
+        assert!(notes[0].starts_with(&told), "{notes:?}");
+        assert_eq!(
+            notes[0].contains("of its line, which a catalogue glass leaves unused"),
+            !line.contains("1.5 "),
+            "{notes:?}"
+        );
+    }
     assert_eq!(glass_of("GLAS N-BK7 0 0 1.5 4.0E+1").1, Vec::<String>::new());
     let (glass, notes) = glass_of("GLAS 517642 0 0 1.5 4.0E+1");
     assert!(
         matches!(glass, GlassAsset::Abbe { index, abbe } if (index - 1.517).abs() < 1e-12 && (abbe - 64.2).abs() < 1e-9)
     );
     assert!(notes.is_empty());
-    let old = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", "SK16_SCHOTT")).expect("a lens");
-    assert_eq!(old.surfaces[0].glass, GlassAsset::Named("N-SK16".into()));
-    assert!(old.notes[0].contains("line 11: no catalogue here has SK16_SCHOTT"), "{:?}", old.notes);
+    for (name, today) in [("SK16_SCHOTT", "N-SK16"), ("LAH66_OHARA", "S-LAH66"), ("LAH66", "S-LAH66")] {
+        let old = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", name)).expect("a lens");
+        assert_eq!(old.surfaces[0].glass, GlassAsset::Named(today.into()));
+        assert!(old.notes[0].contains(&format!("line 11: no catalogue here has {name}")), "{:?}", old.notes);
+    }
+    let other = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", "LAH66_SCHOTT")).expect_err("not Schott's");
+    assert!(other.contains("no glass is called `LAH66_SCHOTT`"), "{other}");
+}
+
+#[test]
+fn a_glass_without_successor_is_taken_by_its_line_and_one_name_has_one_index() {
+    let (glass, notes) = glass_of("GLAS FCD505 0 0 1.59282 68.63");
+    assert_eq!(glass, GlassAsset::Abbe { index: 1.59282, abbe: 68.63 });
+    assert!(notes[0].contains("line 26: no catalogue here has FCD505: n_d 1.59282 and V_d 68.63"), "{notes:?}");
+    let twice = |second: &str| {
+        let text = ZMX.replace("GLAS N-BK7 0 0 1.5 4.0E+1", "GLAS FCD505 0 0 1.59282 68.63");
+        read("lens.zmx", &text.replace("GLAS ___BLANK 1 0 1.62004 36.4 0", second))
+    };
+    assert!(twice("GLAS FCD505 0 0 1.59282 68.63").is_ok());
+    // A model glass says what it is by its numbers.
+    assert!(twice("GLAS FCD505 1 0 1.7 40").is_ok());
+    let told = twice("GLAS FCD505 0 0 1.61765 55.14").expect_err("two indices of one glass");
+    assert!(told.contains("FCD505 has n_d 1.61765 and V_d 55.14 here, n_d 1.59282 and V_d 68.63 in line 26"), "{told}");
 }
 
 #[test]
@@ -197,9 +229,83 @@ fn object_and_image_stand_where_the_file_has_them() {
     assert_eq!((found.back_focus_mm, found.defocus_mm), (0.0, -0.25));
 }
 
+/// A singlet, and what stands before GO.
+fn edited(edits: &str) -> Result<PrescriptionAsset, String> {
+    read(
+        "lens.seq",
+        &format!(
+            "RDM;LEN\nEPD 5\nDIM M\nWL 587.6\nYAN 0\nSO 0 1e13\nS 50 4 NBK7_SCHOTT\n STO\n CIR 6\nS -50 47\n CIR 6\nSI 0 0\n{edits}\nGO\n"
+        ),
+    )
+}
+
+#[test]
+fn edits_of_named_surfaces_and_of_the_whole_lens_count() {
+    let radius = edited("RDY S1 25\nCUY S2 -0.04").expect("a lens");
+    assert_eq!((radius.surfaces[0].radius_mm, radius.surfaces[1].radius_mm), (25.0, -25.0));
+    let glass = edited("THI S1 8\nGLA S1 SF6_SCHOTT\nTHI S2 40").expect("a lens");
+    assert_eq!((glass.surfaces[0].thickness_mm, glass.back_focus_mm), (8.0, 40.0));
+    assert_eq!(glass.surfaces[0].glass, GlassAsset::Named("SF6".into()));
+    let both = edited("CIR S1..2 5\nK SA -1\nSTO S2\nA S2 1e-6; J S2 1e-20\nTHI SO 100\nTHI SI -0.1").expect("a lens");
+    assert!(both.surfaces.iter().all(|s| s.semi_aperture_mm == Some(5.0) && s.conic == -1.0));
+    assert_eq!(both.surfaces.iter().map(|s| s.stop).collect::<Vec<_>>(), [false, true]);
+    let [_, a, .., h, j] = both.surfaces[1].asphere;
+    assert_eq!((a, h, j, both.object_distance_mm), (1e-6, 0.0, 1e-20, 100.0));
+    assert!((both.back_focus_mm - 46.9).abs() < 1e-12);
+    let line = edited("S1 25 8\n CIR 7").expect("a lens");
+    assert_eq!((line.surfaces[0].radius_mm, line.surfaces[0].thickness_mm), (25.0, 8.0));
+    assert_eq!(
+        (line.surfaces[0].semi_aperture_mm, line.surfaces[0].glass.clone()),
+        (Some(7.0), GlassAsset::Named("N-BK7".into()))
+    );
+    let large = edited("A S1 1e-6\nSCA 2\nCIR S2 6").expect("a lens");
+    let [front, back] = &large.surfaces[..] else { panic!("two surfaces") };
+    assert_eq!((front.radius_mm, front.thickness_mm, front.semi_aperture_mm), (100.0, 8.0, Some(12.0)));
+    assert_eq!((front.asphere[1], back.semi_aperture_mm, large.back_focus_mm), (1e-6 / 8.0, Some(6.0), 94.0));
+    assert_eq!(large.opening, Some(LensOpening::EntrancePupil { diameter_mm: 10.0 }));
+}
+
+#[test]
+fn commands_of_codev_that_are_not_read_are_refused_or_noted() {
+    for (edit, told) in [
+        ("RDY S7 25", "13: RDY S7: no such surface is given before"),
+        ("RDY S1 Z2 25", "13: RDY of a zoom position"),
+        ("THI S2 PIM", "13: THI: found `PIM`, expected a number"),
+        ("SCA EFL 100", "13: SCA: expected one factor above 0"),
+        ("SCA 0", "13: SCA: expected one factor above 0"),
+        ("INS S2", "13: INS is not modelled"),
+        ("DEL S2", "13: DEL is not modelled"),
+        ("RDX S1 30", "13: RDX is not modelled"),
+        ("S 0 1", "13: S: expected a surface given before (S0 to S3)"),
+        ("S9 0 1", "13: S9: expected a surface given before"),
+    ] {
+        let found = edited(edit).map(|_| ()).expect_err(edit);
+        assert!(found.starts_with(told), "{edit}: {found}");
+    }
+    let noted = edited("XYZ 3\nAUT\nCCY S1 100").expect("a lens");
+    assert!(noted.notes[0].ends_with("XYZ (line 13), AUT (line 14)"), "{:?}", noted.notes);
+    let solve = read("lens.seq", &SEQ.replace("S -50.0 2.0", "S -50.0 2.0\n CUY UMY -0.1")).expect("a lens");
+    assert_eq!(solve.surfaces[1].radius_mm, -50.0);
+    assert!(solve.notes[0].starts_with("line 14: the solve CUY UMY -0.1 is not read"), "{:?}", solve.notes);
+}
+
+#[test]
+fn planes_with_an_aperture_stay_and_a_mask_in_the_image_is_noted() {
+    let baffle = read("lens.zmx", &ZMX.replacen("  DIAM 9 1", "  DIAM 9 1\n  CLAP 0 8 0", 1)).expect("a lens");
+    assert_eq!(baffle.surfaces.len(), 6);
+    let plane = &baffle.surfaces[0];
+    assert_eq!((plane.semi_aperture_mm, plane.rim, plane.thickness_mm, plane.line), (Some(8.0), true, 5.0, 17));
+    let field_stop = read("lens.seq", &SEQ.replace("S 20.0 40.0", "S 20.0 30.0\nS 0 10.0\n CIR 4")).expect("a lens");
+    assert_eq!((field_stop.surfaces.len(), field_stop.surfaces[5].semi_aperture_mm), (6, Some(4.0)));
+    assert_eq!(field_stop.back_focus_mm, 10.0);
+    let mask = read("lens.seq", &SEQ.replace("SI 0.0", "S 0 0\n CIR 4\nSI 0.0")).expect("a lens");
+    assert_eq!((mask.surfaces.len(), mask.back_focus_mm), (5, 40.0));
+    assert!(mask.notes[0].contains("an aperture in the image plane is not modelled"), "{:?}", mask.notes);
+}
+
 #[test]
 fn parameters_of_a_standard_surface_are_no_coefficients() {
     let text = ZMX.replace("TYPE EVENASPH", "TYPE STANDARD");
     let lens = read("lens.zmx", &text).expect("a lens");
-    assert_eq!(lens.surfaces[1].asphere, [0.0; 8]);
+    assert_eq!(lens.surfaces[1].asphere, [0.0; 10]);
 }

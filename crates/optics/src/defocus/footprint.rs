@@ -275,7 +275,10 @@ mod tests {
     fn areas(name: &str, radius_mm: f64, distance_m: f32) -> Vec<f64> {
         let surfaces = published::named(name).expect("published").surfaces();
         let focus = Focus::Sensor { distance_m: 2.0 };
-        let lens = Prescription::new(PrescriptionParameters { surfaces, f_number: Some(8.0), focus, defocus_mm: 0.0 });
+        let lens = Prescription::new(PrescriptionParameters {
+            f_number: Some(8.0),
+            ..PrescriptionParameters::new(surfaces, focus)
+        });
         let lens = Lens::prescription(Prescribed::new(lens.expect("a lens"), None, radius_mm).expect("lit"));
         let raster = Raster::centred(72, 48, radius_mm / 43.3).expect("a raster");
         let radiance = SpectralCube::new(72, 48, Bands::covering(500.0, 600.0, 100.0).expect("a band"));

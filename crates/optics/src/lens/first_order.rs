@@ -16,6 +16,16 @@ impl Lens {
         )
     }
 
+    /// The wavelength at which focal length, f-number and focus of a lens that disperses are stated, nm; `None` where they belong to none.
+    #[must_use]
+    pub fn first_order_nm(&self) -> Option<f64> {
+        match self {
+            Self::Prescription(lens) => Some(lens.prescription().reference_nm()),
+            Self::RayTransfer(lens) => Some(lens.first_order_nm()),
+            _ => None,
+        }
+    }
+
     /// f-number at infinity focus (of a telecentric camera: on the sensor's side).
     #[must_use]
     pub fn f_number(&self) -> f64 {

@@ -1,11 +1,13 @@
 //! What makes a list of surfaces a lens.
 
 use super::Prescription;
+use super::axial_opening::{AxialOpening, OtherRims};
 use super::coating::Coating;
 use super::error::PrescriptionError;
 use super::surface::{Shape, Surface};
-use super::trace::{LensRay, Loss, Rims, Way, walk};
+use super::trace::{LensRay, Loss, Lost, Rims, Way, walk};
 use crate::wavelength::PRINCIPAL_NM;
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
 
@@ -23,6 +25,11 @@ pub(super) fn surfaces(surfaces: &[Surface]) -> Result<usize, PrescriptionError>
 pub(super) fn finite_number(surface: usize, name: &'static str, value: f64) -> Result<f64, PrescriptionError> {
     let expected = "it must be a finite number";
     if value.is_finite() { Ok(value) } else { Err(PrescriptionError::Number { surface, name, value, expected }) }
+}
+
+/// A wavelength that the tables of indices know.
+pub(super) fn reference(nm: f64) -> Result<f64, PrescriptionError> {
+    if (SHORTEST_NM..=MAX_NM).contains(&nm) { Ok(nm) } else { Err(PrescriptionError::Wavelength { nm }) }
 }
 
 fn numbers(surface: usize, s: &Surface) -> Result<(), PrescriptionError> {
@@ -95,26 +102,53 @@ fn overlap(pair: [&Surface; 2], gap_mm: f64, first: usize, second: usize) -> Res
 
 /// How much of the entrance pupil, from its centre, must be open on the axis: published apertures are rounded.
 const OPEN: f64 = 0.99;
+/// The same where other rims may clip: what is less is rounding.
+const OPEN_OR_CLIPPED: f64 = 0.999;
 const STEPS: usize = 32;
+/// Halvings of a step: to its rounding.
+const HALVINGS: usize = 50;
 
-/// The bundle of the axial point in focus must be stopped by the stop alone: no total reflection, no other rim.
-pub(super) fn axial_bundle(lens: &Prescription) -> Result<(), PrescriptionError> {
-    let media = lens.media(PRINCIPAL_NM);
+/// The bundle of the axial point in focus must come through: without total reflection, and stopped by the stop alone unless other rims
+/// may clip it.
+pub(super) fn axial_bundle(lens: &Prescription, other_rims: OtherRims) -> Result<AxialOpening, PrescriptionError> {
+    let open = if other_rims == OtherRims::Clip { OPEN_OR_CLIPPED } else { OPEN };
     let stop_mm = lens.stop_mm();
     for step in 0..=STEPS {
-        let share = OPEN * step as f64 / STEPS as f64;
-        let ray = axial_ray(lens, share * lens.paraxial.entrance_radius_mm);
-        let Err(lost) = walk(&lens.elements, 0, Way::ToSensor, &media, ray, &mut Rims::Clip) else { continue };
+        let share = open * step as f64 / STEPS as f64;
+        let Some(lost) = lost_at(lens, share) else { continue };
         if lost.surface == lens.stop {
-            return Ok(());
+            return Ok(AxialOpening::STOP);
         }
         let (surface, height_mm) = (lost.surface + 1, share * stop_mm);
-        return Err(match lost.loss {
-            Loss::TotalReflection => PrescriptionError::TotalReflection { surface, height_mm },
-            _ => PrescriptionError::NotTheStop { surface, height_mm, stop_mm },
-        });
+        return match lost.loss {
+            Loss::Clipped if other_rims == OtherRims::Clip && step > 0 => {
+                let passes = open * (step - 1) as f64 / STEPS as f64;
+                Ok(AxialOpening { share: edge(lens, passes, share), limit: Some(lost.surface) })
+            }
+            Loss::TotalReflection => Err(PrescriptionError::TotalReflection { surface, height_mm }),
+            _ => Err(PrescriptionError::NotTheStop { surface, height_mm, stop_mm }),
+        };
     }
-    Ok(())
+    Ok(AxialOpening::STOP)
+}
+
+/// Where the ray at a share of the entrance pupil's radius is lost.
+fn lost_at(lens: &Prescription, share: f64) -> Option<Lost> {
+    let ray = axial_ray(lens, share * lens.paraxial.entrance_radius_mm);
+    walk(&lens.elements, 0, Way::ToSensor, &lens.media(PRINCIPAL_NM), ray, &mut Rims::Clip).err()
+}
+
+/// The largest share that comes through, between one that does and one that does not.
+fn edge(lens: &Prescription, mut passes: f64, mut lost: f64) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (passes + lost);
+        if lost_at(lens, middle).is_none() {
+            passes = middle;
+        } else {
+            lost = middle;
+        }
+    }
+    passes
 }
 
 /// From the axial point in focus through a height of the entrance pupil.

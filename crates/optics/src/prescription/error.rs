@@ -49,6 +49,12 @@ pub enum PrescriptionError {
         /// How far the second lies before the first, mm.
         overlap_mm: f64,
     },
+    /// A wavelength that is not modelled.
+    #[error("a reference wavelength of {nm} nm: it must be from 300 to 1100 nm")]
+    Wavelength {
+        /// The wavelength, nm.
+        nm: f64,
+    },
     /// More glasses than the tracer's table holds.
     #[error("the prescription has {found} different media; at most {most} are possible")]
     Media {
@@ -67,7 +73,7 @@ pub enum PrescriptionError {
         "the prescription has a focal length of {focal_length_mm} mm: only a positive one images a scene onto a sensor"
     )]
     NoImage {
-        /// Focal length at 587.56 nm, mm.
+        /// Focal length at the reference wavelength, mm.
         focal_length_mm: f64,
     },
     /// The sensor would be inside the lens.

@@ -1,6 +1,6 @@
 //! Opening the stop, and bringing a distance into focus.
 //!
-//! In focus means: the paraxial image at 587.56 nm of the axial point at the focus distance lies on the sensor (plus the
+//! In focus means: the paraxial image, at the lens's reference wavelength, of the axial point at the focus distance lies on the sensor (plus the
 //! defocus that the prescription asks for). Distances are from the entrance pupil, as for every lens; moving a group moves
 //! the pupil and changes the focal length (focus breathing), both of which the search takes into account.
 

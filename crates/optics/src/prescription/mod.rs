@@ -9,6 +9,7 @@
 //!
 //! A [`Prescription`] is checked when it is made: afterwards nothing in it can fail but a ray.
 
+mod axial_opening;
 mod build;
 mod check;
 pub mod clear_apertures;
@@ -24,11 +25,13 @@ pub mod published;
 pub mod surface;
 pub mod trace;
 
+use crate::wavelength::PRINCIPAL_NM;
 use glam::DVec3;
 use indices::{IndexTable, Media};
 use paraxial::Paraxial;
 use trace::{Element, Fullness, LensRay, Lost, Rims, Through, Way, walk};
 
+pub use axial_opening::OtherRims;
 pub use error::PrescriptionError;
 pub use focus::Focus;
 pub use surface::Surface;
@@ -42,8 +45,27 @@ pub struct PrescriptionParameters {
     pub f_number: Option<f64>,
     /// What is in focus, and what moves for it.
     pub focus: Focus,
-    /// How far behind the paraxial image at 587.56 nm the sensor stands, mm: best focus of an aberrated lens.
+    /// How far behind the paraxial image at the reference wavelength the sensor stands, mm: best focus of an aberrated lens.
     pub defocus_mm: f64,
+    /// The wavelength of first-order quantities, of focusing and of the f-number, nm.
+    pub reference_nm: f64,
+    /// What becomes of a rim other than the stop's that clips the bundle on the axis.
+    pub other_rims: OtherRims,
+}
+
+impl PrescriptionParameters {
+    /// Surfaces as they stand, in focus at 587.56 nm: fully open, without defocus; a rim that clips before the stop is refused.
+    #[must_use]
+    pub fn new(surfaces: Vec<Surface>, focus: Focus) -> Self {
+        Self {
+            surfaces,
+            f_number: None,
+            focus,
+            defocus_mm: 0.0,
+            reference_nm: PRINCIPAL_NM,
+            other_rims: OtherRims::Refused,
+        }
+    }
 }
 
 /// A lens of surfaces, focused.
@@ -53,7 +75,9 @@ pub struct Prescription {
     elements: Vec<Element>,
     table: IndexTable,
     stop: usize,
+    reference_nm: f64,
     paraxial: Paraxial,
+    axial_opening: axial_opening::AxialOpening,
     sensor_position_mm: f64,
     focus_distance_m: f64,
     magnification: f64,
@@ -73,7 +97,13 @@ impl Prescription {
         self.stop
     }
 
-    /// First-order quantities at 587.56 nm.
+    /// The wavelength of [`Self::paraxial`], of focusing and of the f-number, nm: 587.56, or a lens file's primary wavelength.
+    #[must_use]
+    pub fn reference_nm(&self) -> f64 {
+        self.reference_nm
+    }
+
+    /// First-order quantities at the reference wavelength.
     #[must_use]
     pub fn paraxial(&self) -> &Paraxial {
         &self.paraxial
@@ -82,7 +112,20 @@ impl Prescription {
     /// First-order quantities at a wavelength.
     #[must_use]
     pub fn paraxial_at(&self, nm: f64) -> Paraxial {
-        paraxial::paraxial(&self.elements, self.stop, self.stop_mm(), &self.table.at(nm))
+        let whole = paraxial::paraxial(&self.elements, self.stop, self.stop_mm(), &self.table.at(nm));
+        whole.clipped(self.axial_opening.share)
+    }
+
+    /// The surface other than the stop, from 0, whose rim limits the bundle on the axis; `None` where the stop does.
+    #[must_use]
+    pub fn axial_limit(&self) -> Option<usize> {
+        self.axial_opening.limit
+    }
+
+    /// Radius of the bundle on the axis over that which the stop alone would let through; 1 where no other rim limits it.
+    #[must_use]
+    pub fn axial_share(&self) -> f64 {
+        self.axial_opening.share
     }
 
     /// The sensor's place in the lens frame: mm from the first vertex.

@@ -23,7 +23,7 @@ pub struct Paraxial {
     pub rear_principal_mm: f64,
     /// Entrance pupil from the first vertex, mm.
     pub entrance_pupil_position_mm: f64,
-    /// Its radius, mm.
+    /// Its radius, mm: that of the bundle on the axis, which a rim other than the stop's may limit.
     pub entrance_radius_mm: f64,
     /// Exit pupil from the last vertex, mm; infinite for an image-side telecentric lens.
     pub exit_pupil_position_mm: f64,
@@ -39,6 +39,15 @@ impl Paraxial {
     #[must_use]
     pub fn f_number(&self) -> f64 {
         self.focal_length_mm / (2.0 * self.entrance_radius_mm)
+    }
+
+    /// The same for a bundle of a part of the pupils' radii.
+    pub(super) fn clipped(self, share: f64) -> Self {
+        Self {
+            entrance_radius_mm: share * self.entrance_radius_mm,
+            exit_radius_mm: share * self.exit_radius_mm,
+            ..self
+        }
     }
 
     /// Exit over entrance diameter.

@@ -1,7 +1,7 @@
 //! A surface of a lens: its shape, and where a ray meets it.
 //!
 //! z runs from the scene to the sensor, r² = x² + y² from the vertex. With curvature c = 1/R and conic constant k the
-//! sag is z = c r²/(1 + √(1 − (1 + k) c² r²)) + Σ αᵢ r²ⁱ, i = 1 … 8; k = 0 is a sphere, −1 a paraboloid, below −1 a
+//! sag is z = c r²/(1 + √(1 − (1 + k) c² r²)) + Σ αᵢ r²ⁱ, i = 1 … 10; k = 0 is a sphere, −1 a paraboloid, below −1 a
 //! hyperboloid, above 0 an oblate ellipsoid.
 //!
 //! **Which of two intersections.** A sequential ray crosses from the scene's side of a surface to the sensor's side, or
@@ -12,8 +12,8 @@ use super::coating::Coating;
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
 
-/// Number of aspheric terms: r², r⁴ … r¹⁶.
-pub const ASPHERE_TERMS: usize = 8;
+/// Number of aspheric terms: r², r⁴ … r²⁰.
+pub const ASPHERE_TERMS: usize = 10;
 
 /// One surface and the space behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Surface {
     pub radius_mm: f64,
     /// Conic constant k.
     pub conic: f64,
-    /// αᵢ of r²ⁱ, mm^(1 − 2i), i = 1 … 8.
+    /// αᵢ of r²ⁱ, mm^(1 − 2i), i = 1 … 10.
     pub asphere: [f64; ASPHERE_TERMS],
     /// Radius of the opening that lets light through, mm.
     pub semi_aperture_mm: f64,

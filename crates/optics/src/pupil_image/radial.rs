@@ -75,7 +75,7 @@ mod tests {
     fn lens(name: &str, radius_mm: f64, filter: Option<InterferenceFilter>) -> Prescribed {
         let surfaces = published::named(name).expect("a published lens").surfaces();
         let focus = Focus::Sensor { distance_m: f64::INFINITY };
-        let lens = Prescription::new(PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 });
+        let lens = Prescription::new(PrescriptionParameters::new(surfaces, focus));
         Prescribed::new(lens.expect("a lens"), filter, radius_mm).expect("lit")
     }
 

@@ -18,7 +18,7 @@ const NONE: f64 = 0.0;
 
 fn focused(surfaces: Vec<Surface>) -> Prescription {
     let focus = Focus::Sensor { distance_m: f64::INFINITY };
-    Prescription::new(PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 }).expect("a lens")
+    Prescription::new(PrescriptionParameters::new(surfaces, focus)).expect("a lens")
 }
 
 fn double_gauss(coating: Coating) -> Prescription {

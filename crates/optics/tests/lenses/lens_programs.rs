@@ -36,7 +36,7 @@ fn of_each(figures: &Value) -> impl Iterator<Item = (&Value, Prescription)> {
         let clear = |s: Surface| Surface { coating: Coating::Constant(1.0), ..s };
         let surfaces = published.surfaces().into_iter().map(clear).collect();
         let focus = Focus::Fixed { back_focus_mm: number(&lens["back_mm"]) };
-        let parameters = PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 };
+        let parameters = PrescriptionParameters::new(surfaces, focus);
         (lens, Prescription::new(parameters).expect("a lens"))
     })
 }
@@ -123,7 +123,7 @@ fn rays_through_aspheres_agree() {
     let rows = figures["surfaces"].as_array().expect("surfaces");
     let surfaces = rows.iter().enumerate().map(|(i, row)| aspheric_surface(row, i == 0)).collect();
     let focus = Focus::Fixed { back_focus_mm: number(&figures["back_mm"]) };
-    let parameters = PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 };
+    let parameters = PrescriptionParameters::new(surfaces, focus);
     let lens = Prescription::new(parameters).expect("a lens");
     let mut compared = 0;
     for row in figures["rays"].as_array().expect("rays") {
@@ -140,7 +140,7 @@ fn ghosts_agree() {
     let figures: Value = serde_json::from_str(GHOSTS).expect("JSON");
     let published = published::named(figures["lens"].as_str().expect("a name")).expect("a published lens");
     let focus = Focus::Fixed { back_focus_mm: number(&figures["back_mm"]) };
-    let parameters = PrescriptionParameters { surfaces: published.surfaces(), f_number: None, focus, defocus_mm: 0.0 };
+    let parameters = PrescriptionParameters::new(published.surfaces(), focus);
     let lens = Prescription::new(parameters).expect("a lens");
     for row in figures["rays"].as_array().expect("rays") {
         let [front, rear] = ["front", "rear"].map(|key| row[key].as_u64().expect("a surface") as usize);

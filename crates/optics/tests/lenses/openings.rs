@@ -10,7 +10,7 @@ const NM: f64 = 587.56;
 
 fn lens(surfaces: Vec<Surface>, back_focus_mm: f64, radius_mm: f64) -> Lens {
     let focus = Focus::Fixed { back_focus_mm };
-    let parameters = PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 };
+    let parameters = PrescriptionParameters::new(surfaces, focus);
     Lens::prescription(Prescribed::new(Prescription::new(parameters).expect("a lens"), None, radius_mm).expect("lit"))
 }
 

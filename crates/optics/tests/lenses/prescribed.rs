@@ -15,7 +15,7 @@ use glam::{DVec2, DVec3};
 const LENSES: [(&str, f64); 4] = [("double-gauss", 21.6), ("wide-angle", 19.2), ("fisheye", 12.75), ("telephoto", 6.3)];
 
 fn focused(surfaces: Vec<Surface>, focus: Focus) -> Prescription {
-    let parameters = PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 };
+    let parameters = PrescriptionParameters::new(surfaces, focus);
     Prescription::new(parameters).expect("a lens")
 }
 

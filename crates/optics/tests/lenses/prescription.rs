@@ -13,7 +13,7 @@ const AIR: Dispersion = Dispersion::AIR;
 
 fn parameters(surfaces: Vec<Surface>) -> PrescriptionParameters {
     let focus = Focus::Sensor { distance_m: f64::INFINITY };
-    PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 }
+    PrescriptionParameters::new(surfaces, focus)
 }
 
 fn lens(surfaces: Vec<Surface>) -> Prescription {

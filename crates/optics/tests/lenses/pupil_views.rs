@@ -53,7 +53,7 @@ fn prescription(name: &str, radius_mm: f64) -> (Lens, Raster) {
 fn filtered(name: &str, radius_mm: f64, filter: Option<InterferenceFilter>) -> (Lens, Raster) {
     let surfaces = published::named(name).expect("a published lens").surfaces();
     let focus = Focus::Sensor { distance_m: f64::INFINITY };
-    let lens = Prescription::new(PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 });
+    let lens = Prescription::new(PrescriptionParameters::new(surfaces, focus));
     let lens = Lens::prescription(Prescribed::new(lens.expect("a lens"), filter, radius_mm).expect("lit"));
     (lens, Raster::centred(72, 48, radius_mm / 43.3).expect("a raster"))
 }

@@ -30,7 +30,7 @@ fn surface(s: &Value, disperses: bool) -> Surface {
 fn report(lens: &Value, height_mm: f64, disperses: bool) -> LensReport {
     let surfaces = lens["surfaces"].as_array().expect("surfaces").iter().map(|s| surface(s, disperses)).collect();
     let focus = Focus::Fixed { back_focus_mm: number(&lens["back_mm"]) };
-    let parameters = PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 };
+    let parameters = PrescriptionParameters::new(surfaces, focus);
     let lens = Prescription::new(parameters).expect("a lens");
     Prescribed::new(lens, None, height_mm.max(0.01)).expect("lit").report(2)
 }

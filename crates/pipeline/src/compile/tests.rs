@@ -224,7 +224,7 @@ const PINHOLE: &str = "type = \"pinhole\", focal_length_mm = 6, f_number = 2";
 #[test]
 fn a_point_spread_function_from_a_picture() {
     let pixels = |pixels: ImagePixels| {
-        let image = ImageAsset { width: 3, height: pixels.len() as u32 / 3, pixels, hash: [0; 32] };
+        let image = ImageAsset { width: 3, height: pixels.len() as u32 / 3, pixels, to_rec_709: None, hash: [0; 32] };
         Assets { images: [("k.png".into(), image)].into(), ..Assets::default() }
     };
     let of = |keys: &str, assets: &Assets| {

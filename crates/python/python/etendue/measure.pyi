@@ -22,6 +22,7 @@ def lens(
     f_number: float | None = None,
     fields: int | None = None,
     picture_radius_mm: float | None = None,
+    wavelength_nm: float | None = None,
     progress: _Progress | None = None,
 ) -> dict[str, Any]:
     """Focal lengths, principal planes, pupils and field of view; by field: distortion, illumination, spots, field curvature, colour.
@@ -31,6 +32,7 @@ def lens(
     f_number: The f-number at infinity focus, in place of the camera's or the lens file's.
     fields: How many field heights, from the axis to the picture's edge. Default: 6.
     picture_radius_mm: For a lens without a sensor: how far the picture reaches from the axis, mm [default: the largest field that a lens file states, otherwise 21.64; or as far as there is light].
+    wavelength_nm: The wavelength of the first-order figures of a prescription, nm [default: the primary wavelength of a lens file, otherwise 587.56]; fields stay at 587.56 nm.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a dict.

@@ -4,7 +4,7 @@ use etendue_core::blocks::BlockStore;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use super::ImagePixels;
+use super::{ColourMatrix, ImagePixels};
 
 /// Which of [`ImagePixels`] a picture's are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,9 +71,11 @@ pub struct LargeImage {
     pub height: u32,
     /// What its pixels are.
     pub format: PixelFormat,
+    /// What makes the file's colours those of Rec. 709; `None` where they are.
+    pub to_rec_709: Option<ColourMatrix>,
     /// SHA-256 of the file.
     pub hash: [u8; 32],
-    /// Its pixels.
+    /// Its pixels, with colours as the file has them.
     pub rows: Arc<dyn PixelRows>,
 }
 

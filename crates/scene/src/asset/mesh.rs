@@ -59,8 +59,42 @@ pub struct ImageAsset {
     pub height: u32,
     /// The pixels, row by row.
     pub pixels: ImagePixels,
+    /// What makes the file's colours those of Rec. 709; `None` where they are.
+    pub to_rec_709: Option<ColourMatrix>,
     /// SHA-256 of the file.
     pub hash: [u8; 32],
+}
+
+/// From linear colours of other primaries, row by row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ColourMatrix(pub [[f64; 3]; 3]);
+
+impl ColourMatrix {
+    /// The colour of another.
+    #[must_use]
+    pub fn of(&self, colour: [f32; 3]) -> [f32; 3] {
+        let [r, g, b] = colour.map(f64::from);
+        self.0.map(|row| (row[0] * r + row[1] * g + row[2] * b) as f32)
+    }
+}
+
+impl ImageAsset {
+    /// The picture with its colours in Rec. 709.
+    #[must_use]
+    pub fn in_rec_709(mut self) -> Self {
+        if let Some(matrix) = self.to_rec_709.take() {
+            match &mut self.pixels {
+                ImagePixels::Rgb32F(pixels) => pixels.iter_mut().for_each(|p| *p = matrix.of(*p)),
+                ImagePixels::Rgba32F(pixels) => {
+                    for [r, g, b, _] in pixels {
+                        [*r, *g, *b] = matrix.of([*r, *g, *b]);
+                    }
+                }
+                ImagePixels::Gray8(_) | ImagePixels::Gray16(_) | ImagePixels::Rgb8(_) | ImagePixels::Rgba8(_) => {}
+            }
+        }
+        self
+    }
 }
 
 /// Pixels as the file holds them; what they mean is told by the description.

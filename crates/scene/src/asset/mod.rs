@@ -21,14 +21,14 @@ mod trajectory;
 pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
 pub use large_image::{LargeImage, PixelFormat, PixelRows, TakeRows, TexelStore};
 pub use lens_table::{LensNumbers, LensQuantity, LensTableAsset, Undistorted};
-pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
+pub use mesh::{ColourMatrix, ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mesh_frame::{MeshFrameAsset, MeshFramePart};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
 pub(crate) use named_files::requests;
 pub use named_files::{of_camera, of_weather};
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 pub use point_spread::{FieldPoint, PointSpreadAsset};
-pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
+pub use prescription::{ASPHERE_TERMS, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 pub use ray_transfer::{PassAsset, RayTransferAsset, TermAsset, TransferAsset};
 pub use request::{AssetKind, AssetRequest, Covered, Values};
 pub use slot_layers::{

@@ -1,11 +1,14 @@
 //! A lens by its surfaces, as lens files give it.
 
+/// Number of aspheric terms: r², r⁴ … r²⁰, as CODE V has them.
+pub const ASPHERE_TERMS: usize = 10;
+
 /// A prescription in a file: surfaces from the scene to the sensor, without object and image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrescriptionAsset {
     /// What the file calls it; may be empty.
     pub title: String,
-    /// Surfaces; those that neither refract nor stop are left out, their thickness added to the one before.
+    /// Surfaces; those that neither refract nor have an opening that stops light are left out, their thickness added to the one before.
     pub surfaces: Vec<SurfaceAsset>,
     /// Distance of the object before the first surface, mm; infinite for a distant one.
     pub object_distance_mm: f64,
@@ -23,6 +26,8 @@ pub struct PrescriptionAsset {
     pub vignetting: [Vec<f64>; 2],
     /// The wavelengths of the file, nm.
     pub wavelengths_nm: Vec<f64>,
+    /// The file's primary wavelength, nm: that of its focal length, f-number and paraxial image; `None` where it states none.
+    pub primary_nm: Option<f64>,
     /// What was not taken as it stands in the file, and why: with the line.
     pub notes: Vec<String>,
     /// SHA-256 of the file.
@@ -36,10 +41,12 @@ pub struct SurfaceAsset {
     pub radius_mm: f64,
     /// Conic constant.
     pub conic: f64,
-    /// Coefficients of r², r⁴ … r¹⁶, mm^(1 − 2i).
-    pub asphere: [f64; 8],
+    /// Coefficients of r², r⁴ … r²⁰, mm^(1 − 2i).
+    pub asphere: [f64; ASPHERE_TERMS],
     /// Clear semi-aperture, mm; `None` where the file leaves it to be found from the light.
     pub semi_aperture_mm: Option<f64>,
+    /// Whether that opening stops light by the file's own statement (Zemax CLAP and FLAP, CODE V CIR), and is not a size for drawing (DIAM).
+    pub rim: bool,
     /// Distance to the next surface (from the last one: to the image), mm.
     pub thickness_mm: f64,
     /// What fills that space.

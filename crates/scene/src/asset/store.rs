@@ -192,7 +192,7 @@ mod tests {
     }
 
     fn image(hash: [u8; 32]) -> ImageAsset {
-        ImageAsset { width: 1, height: 1, pixels: ImagePixels::Gray8(vec![0]), hash }
+        ImageAsset { width: 1, height: 1, pixels: ImagePixels::Gray8(vec![0]), to_rec_709: None, hash }
     }
 
     fn lamp(hash: [u8; 32]) -> PhotometryAsset {
@@ -227,6 +227,7 @@ mod tests {
             fields: None,
             vignetting: [Vec::new(), Vec::new()],
             wavelengths_nm: Vec::new(),
+            primary_nm: None,
             notes: Vec::new(),
             hash,
         }

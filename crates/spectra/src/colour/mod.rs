@@ -7,11 +7,13 @@
 mod difference;
 mod lab;
 mod luma;
+mod primaries;
 mod srgb;
 
 pub use difference::ciede2000;
 pub use lab::{Lab, lab};
 pub use luma::{BT709, luma};
+pub use primaries::{Primaries, REC_709};
 pub use srgb::{
     D65_WHITE, SRGB_FROM_XYZ, XYZ_FROM_SRGB, decode, decode_byte, encode, linear_srgb_from_xyz, xyz_from_linear_srgb,
 };

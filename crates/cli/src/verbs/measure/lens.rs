@@ -26,6 +26,10 @@ pub struct LensArgs {
     /// file states, otherwise 21.64; or as far as there is light]
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub picture_radius_mm: Option<f64>,
+    /// The wavelength of the first-order figures of a prescription, nm [default: the primary wavelength of a lens file, otherwise
+    /// 587.56]; fields stay at 587.56 nm
+    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    pub wavelength_nm: Option<f64>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -47,6 +51,7 @@ impl From<&LensArgs> for LensRequest {
             f_number: a.f_number,
             fields: a.fields,
             picture_radius_mm: a.picture_radius_mm,
+            wavelength_nm: a.wavelength_nm,
         }
     }
 }

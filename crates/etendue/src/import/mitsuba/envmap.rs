@@ -30,7 +30,7 @@ impl<'a> Importer<'a> {
             to_world.y_axis.normalize_or_zero(),
             to_world.z_axis.normalize_or_zero(),
         );
-        let image = read_picture(&self.file(file)).map_err(|e| element.fault(e.to_string()))?;
+        let image = read_picture(&self.file(file)).map_err(|e| element.fault(e.to_string()))?.in_rec_709();
         let Some(pixel) = linear_pixels(&image) else {
             let told = format!("the picture of light `{file}` is left out: expected linear numbers (EXR, HDR)");
             self.scenery.report.note(told);

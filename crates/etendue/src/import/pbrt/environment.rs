@@ -21,7 +21,7 @@ impl Scenery {
         lux: Option<f64>,
     ) -> Result<Option<Environment>, String> {
         let path = self.source_folder.join(file);
-        let image = read_picture(&path).map_err(|e| e.to_string())?;
+        let image = read_picture(&path).map_err(|e| e.to_string())?.in_rec_709();
         let Some(texels) = Texels::of(&image) else {
             self.report.note(format!("the picture of light `{file}` is left out: expected linear numbers (EXR, HDR)"));
             return Ok(None);

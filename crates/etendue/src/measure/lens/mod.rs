@@ -5,10 +5,11 @@ mod ghosts;
 mod request;
 
 use crate::error::Error;
-use crate::ranges::whole;
+use crate::ranges::{number, whole};
 use crate::report::fixed;
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_optics::lens::{FieldReport, ImageReport, LensReport, OtherBundle};
-use etendue_optics::{Lens, Prescribed};
+use etendue_optics::{Lens, PRINCIPAL_NM, Prescribed};
 use etendue_pipeline::plan::CameraBody;
 use glam::DVec2;
 pub use request::LensRequest;
@@ -21,6 +22,7 @@ pub struct LensMeasurement {
     body: CameraBody,
     remarks: Vec<String>,
     fields: usize,
+    wavelength_nm: Option<f64>,
 }
 
 /// Finds what a lens does, without rendering.
@@ -29,8 +31,18 @@ pub struct LensMeasurement {
 /// Where the camera or lens file cannot be used.
 pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
     whole("--fields", request.fields, 2..=1000)?;
+    let wavelength_nm = request.wavelength_nm;
+    if let Some(nm) = wavelength_nm {
+        number("--wavelength-nm", nm, SHORTEST_NM..=MAX_NM, "nm")?;
+    }
     let (body, remarks) = body::body(request)?;
-    Ok(LensMeasurement { body, remarks, fields: request.fields as usize })
+    if wavelength_nm.is_some() && !matches!(body.lens, Lens::Prescription(_)) {
+        let kind = body.lens.kind();
+        return Err(Error::input(format!(
+            "--wavelength-nm: a lens that is no prescription ({kind}) has first-order figures of one wavelength alone; leave it out"
+        )));
+    }
+    Ok(LensMeasurement { body, remarks, fields: request.fields as usize, wavelength_nm })
 }
 
 impl LensMeasurement {
@@ -38,18 +50,22 @@ impl LensMeasurement {
     #[must_use]
     pub fn json(&self) -> Value {
         let mut value = match &self.body.lens {
-            Lens::Prescription(lens) => traced_json(lens, &lens.report(self.fields)),
+            Lens::Prescription(lens) => traced_json(lens, &self.report(lens)),
             _ => simple_json(&self.body, self.fields),
         };
         value["remarks"] = json!(self.remarks);
         value
     }
 
+    fn report(&self, lens: &Prescribed) -> LensReport {
+        lens.report_at(self.fields, self.wavelength_nm.unwrap_or(lens.prescription().reference_nm()))
+    }
+
     /// The measurement as tables for people.
     #[must_use]
     pub fn text(&self) -> String {
         let text = match &self.body.lens {
-            Lens::Prescription(lens) => traced_text(lens, &lens.report(self.fields)),
+            Lens::Prescription(lens) => traced_text(lens, &self.report(lens)),
             _ => simple_text(&self.body, self.fields),
         };
         text + &remarks_text(&self.remarks)
@@ -65,6 +81,8 @@ fn remarks_text(remarks: &[String]) -> String {
 fn traced_json(lens: &Prescribed, r: &LensReport) -> Value {
     let p = &r.first_order;
     json!({
+        "first_order_wavelength_nm": r.first_order_nm,
+        "fields_wavelength_nm": PRINCIPAL_NM,
         "focal_length_mm": p.focal_length_mm,
         "f_number": r.f_number,
         "transmittance": r.transmittance,
@@ -142,6 +160,7 @@ fn traced_text(lens: &Prescribed, r: &LensReport) -> String {
         // Writing to a text does not fail.
         let _ = writeln!(text, "{name:<22} {value}");
     };
+    line("first order at", format!("{} nm (fields at {PRINCIPAL_NM} nm)", r.first_order_nm));
     line("focal length", format!("{:.4} mm, f/{:.3}", p.focal_length_mm, r.f_number));
     line("transmittance", format!("{:.4} on the axis", r.transmittance));
     line(
@@ -255,8 +274,9 @@ fn simple_json(body: &CameraBody, fields: usize) -> Value {
 
 fn simple_text(body: &CameraBody, fields: usize) -> String {
     let lens = &body.lens;
+    let wavelength = lens.first_order_nm().map_or_else(String::new, |nm| format!(" at {nm} nm"));
     let mut text = format!(
-        "{}, {:.4} mm, f/{:.3}, T {:.3}\nheight   angle    distortion  light\nmm       deg      %           of axis\n",
+        "{}, {:.4} mm, f/{:.3}{wavelength}, T {:.3}\nheight   angle    distortion  light\nmm       deg      %           of axis\n",
         lens.kind(),
         lens.focal_length_mm(),
         lens.f_number(),

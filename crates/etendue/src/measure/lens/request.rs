@@ -15,11 +15,20 @@ pub struct LensRequest {
     /// For a lens without a sensor: how far the picture reaches from the axis, mm; `None`: the largest field that a lens file states, otherwise
     /// 21.64; or as far as there is light.
     pub picture_radius_mm: Option<f64>,
+    /// The wavelength of the first-order figures of a prescription, nm, 300 to 1100; `None`: the primary wavelength of the lens file, otherwise 587.56.
+    pub wavelength_nm: Option<f64>,
 }
 
 impl LensRequest {
     /// The same as the program without options.
     pub fn new(lens: impl Into<String>) -> Self {
-        Self { lens: lens.into(), set: Vec::new(), f_number: None, fields: 6, picture_radius_mm: None }
+        Self {
+            lens: lens.into(),
+            set: Vec::new(),
+            f_number: None,
+            fields: 6,
+            picture_radius_mm: None,
+            wavelength_nm: None,
+        }
     }
 }

@@ -27,6 +27,7 @@ pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
 
 /// The same with the responses themselves.
 pub(crate) fn responses(request: &SfrRequest) -> Result<(Report, Vec<Sfr>), Error> {
+    request.input.check_without_black()?;
     whole("--edge-degree", request.edge_degree, 1..=5)?;
     whole("--shading-degree", request.shading_degree, 0..=2)?;
     positive("--pixel-pitch-um", request.pixel_pitch_um)?;

@@ -46,5 +46,5 @@ pub(super) fn only_value(image: &ImageAsset) -> Option<f64> {
 }
 
 fn of(image: &ImageAsset, pixels: ImagePixels) -> ImageAsset {
-    ImageAsset { width: image.width, height: image.height, pixels, hash: hash::of_bytes(&image.hash) }
+    ImageAsset { width: image.width, height: image.height, pixels, to_rec_709: None, hash: hash::of_bytes(&image.hash) }
 }

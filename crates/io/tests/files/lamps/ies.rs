@@ -86,6 +86,43 @@ fn factors_and_units_are_applied_once() {
 }
 
 #[test]
+fn an_identification_that_is_spelt_otherwise_is_read_and_noted() {
+    let mut lamp = Ies::of(1, &[0.0], &[0.0, 90.0], |_, _| 100.0);
+    lamp.ballast = [1.0, 1.1];
+    let read = |first: &'static str| read_bytes("lamp.ies", Ies { first, ..lamp.clone() }.text().as_bytes());
+    for (first, factor, edition) in [
+        ("IESNA:LM-63-2019", 1.0, "2019"),
+        ("IESNA: LM-63-2002", 1.0, "2002"),
+        ("iesna:lm-63-2002", 1.0, "2002"),
+        ("IES LM-63-02", 1.0, "2002"),
+        ("ANSI/IES LM-63-19", 1.0, "2019"),
+        ("\nIESNA:LM-63-2002", 1.0, "2002"),
+        ("a lamp\nIESNA:LM-63-2002", 1.0, "2002"),
+        ("IESNA:LM63-1995", 1.1, "1995"),
+        ("IESNA 91", 1.1, "1991"),
+        ("LM-63-2002", 1.0, "2002"),
+    ] {
+        let found = read(first).unwrap_or_else(|told| panic!("{first}: {told}"));
+        assert!((found.factor - factor).abs() < 1e-12, "{first}: {}", found.factor);
+        assert_eq!(found.format, format!("IES LM-63, edition of {edition}"), "{first}");
+        assert!(
+            found.report.iter().any(|note| note.contains("is not the identification as the standard has it")),
+            "{:?}",
+            found.report
+        );
+    }
+    for first in ["IESNA:LM-63-1995", "IES:LM-63-2019", "a lamp of the IES", "IES lamp 7"] {
+        let found = read(first).expect("a lamp");
+        assert!(!found.report.iter().any(|note| note.contains("identification")), "{first}: {:?}", found.report);
+    }
+    let told = read("IESNA:LM-63").expect_err("no year");
+    assert!(told.contains("lamp.ies:1: `IESNA:LM-63` names no edition, and the number 1.1"), "{told}");
+    lamp.ballast = [1.0, 1.0];
+    let same = read_bytes("lamp.ies", Ies { first: "IESNA:LM-63", ..lamp }.text().as_bytes()).expect("no difference");
+    assert!(same.report[0].contains("names no edition"), "{:?}", same.report);
+}
+
+#[test]
 fn numbers_may_stand_in_any_lines_and_text_in_any_old_encoding() {
     let lamp = Ies::of(1, &steps(0.0, 90.0, 30.0), &steps(0.0, 90.0, 5.0), quadrants);
     let plain = lamp.read();

@@ -27,7 +27,9 @@ use glam::DVec2;
 /// A lens, measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LensReport {
-    /// First-order quantities at 587.56 nm.
+    /// The wavelength of the first-order quantities, nm.
+    pub first_order_nm: f64,
+    /// First-order quantities at that wavelength.
     pub first_order: Paraxial,
     /// f-number at infinity focus.
     pub f_number: f64,
@@ -95,18 +97,27 @@ pub struct LateralShift {
 }
 
 impl Prescribed {
-    /// Measures the lens at `fields` heights (at least 2) from the axis to the edge of the lit picture.
+    /// Measures the lens at `fields` heights (at least 2) from the axis to the edge of the lit picture, first-order quantities at the lens's reference
+    /// wavelength.
     #[must_use]
     pub fn report(&self, fields: usize) -> LensReport {
+        self.report_at(fields, self.prescription.reference_nm())
+    }
+
+    /// The same with first-order quantities at another wavelength, nm.
+    #[must_use]
+    pub fn report_at(&self, fields: usize, first_order_nm: f64) -> LensReport {
         let lens = &self.prescription;
+        let first_order = lens.paraxial_at(first_order_nm);
         let edge = fields.max(2) - 1;
         let height = |i: usize| self.regions.limit_mm * i as f64 / edge as f64;
         let axis_sr = self.projected_solid_angle_sr(DVec2::ZERO);
         let image_mm = |nm: f64| lens.image_mm(nm);
         let last = self.chiefs.ray(lens, height(edge));
         LensReport {
-            first_order: *lens.paraxial(),
-            f_number: lens.paraxial().f_number(),
+            first_order_nm,
+            first_order,
+            f_number: first_order.f_number(),
             focus_distance_m: lens.focus_distance_m(),
             magnification: lens.magnification(),
             sensor_mm: lens.sensor_position_mm() - lens.last_vertex_mm(),

@@ -115,6 +115,12 @@ impl Transferred {
         self.transfer.transfers().len() > 1
     }
 
+    /// The wavelength of first-order numbers, nm: 587.56 or the nearest that the functions know.
+    pub(super) fn first_order_nm(&self) -> f64 {
+        let known = self.transfer.transfers();
+        PRINCIPAL_NM.clamp(known[0].wavelength_nm, known[known.len() - 1].wavelength_nm)
+    }
+
     pub(super) fn focal_length_mm(&self) -> f64 {
         self.near.focal_length_mm
     }

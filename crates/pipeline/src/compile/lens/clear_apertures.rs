@@ -1,7 +1,7 @@
 //! Clear semi-apertures that a lens program's file leaves to be found: as large as the light of its field points needs.
 
 use super::file_surface::of_file;
-use super::lens_file::{Stated, narrow_beside};
+use super::lens_file::{Stated, narrow_beside, reference_nm};
 use etendue_optics::prescription::clear_apertures::{FieldBundle, FieldPoint, clear_apertures_mm, provisional_mm};
 use etendue_optics::prescription::{Focus, Surface};
 use etendue_optics::{Prescription, PrescriptionError};
@@ -89,7 +89,8 @@ fn provisional(asset: &PrescriptionAsset) -> Result<Provisional, Fault> {
     let surfaces: Vec<Surface> = surfaces.into_iter().map(|s| Surface { semi_aperture_mm, ..s }).collect();
     let stated = Stated::of(asset, &surfaces)?;
     let focus = Focus::Sensor { distance_m: stated.distance_m };
-    let prescription = narrow_beside(&surfaces, focus, stated.defocus_mm.unwrap_or(asset.defocus_mm))?;
+    let defocus_mm = stated.defocus_mm.unwrap_or(asset.defocus_mm);
+    let prescription = narrow_beside(&surfaces, focus, defocus_mm, reference_nm(asset))?;
     Ok(Provisional { stated, prescription })
 }
 

@@ -5,7 +5,7 @@
 use super::super::context::Context;
 use super::focus_m;
 use etendue_optics::prescription::{Focus, Surface};
-use etendue_optics::{Prescription, PrescriptionError, PrescriptionParameters};
+use etendue_optics::{PRINCIPAL_NM, Prescription, PrescriptionError, PrescriptionParameters};
 use etendue_scene::asset::{LensOpening, PrescriptionAsset};
 use etendue_scene::record::lens::prescription as record;
 
@@ -30,12 +30,13 @@ impl Stated {
     /// # Errors
     /// Where the surfaces are no lens.
     pub(super) fn of(asset: &PrescriptionAsset, surfaces: &[Surface]) -> Result<Self, PrescriptionError> {
-        let far = narrow(surfaces, Focus::Sensor { distance_m: f64::INFINITY })
-            .or_else(|_| narrow(surfaces, Focus::Fixed { back_focus_mm: asset.back_focus_mm }))?;
+        let narrow = |focus: Focus| narrow_beside(surfaces, focus, 0.0, reference_nm(asset));
+        let far = narrow(Focus::Sensor { distance_m: f64::INFINITY })
+            .or_else(|_| narrow(Focus::Fixed { back_focus_mm: asset.back_focus_mm }))?;
         let p = far.paraxial();
         let distance_m = (asset.object_distance_mm + p.entrance_pupil_position_mm) / M;
         let distance_m = if distance_m > 0.0 { distance_m } else { f64::INFINITY };
-        let near = if distance_m.is_finite() { narrow(surfaces, Focus::Sensor { distance_m })? } else { far.clone() };
+        let near = if distance_m.is_finite() { narrow(Focus::Sensor { distance_m })? } else { far.clone() };
         let image_mm = near.sensor_position_mm() - near.last_vertex_mm();
         let stated = asset.back_focus_mm > 0.0;
         // An opening at the pupil is an opening at the stop by the pupil's magnification.
@@ -66,23 +67,28 @@ fn of_cone(sine: f64, distance_m: f64) -> Result<f64, PrescriptionError> {
     }
 }
 
-/// The lens with its stop nearly closed.
-fn narrow(surfaces: &[Surface], focus: Focus) -> Result<Prescription, PrescriptionError> {
-    narrow_beside(surfaces, focus, 0.0)
+/// The wavelength of a file's first-order statements, nm.
+pub(super) fn reference_nm(asset: &PrescriptionAsset) -> f64 {
+    asset.primary_nm.unwrap_or(PRINCIPAL_NM)
 }
 
-/// The same, with its sensor beside the paraxial image.
+/// The lens with its stop nearly closed, its sensor beside the paraxial image.
 pub(super) fn narrow_beside(
     surfaces: &[Surface],
     focus: Focus,
     defocus_mm: f64,
+    reference_nm: f64,
 ) -> Result<Prescription, PrescriptionError> {
     let close = |s: &Surface| {
         let part = if s.stop { NARROW } else { 1.0 };
         Surface { semi_aperture_mm: part * s.semi_aperture_mm, ..*s }
     };
     let surfaces = surfaces.iter().map(close).collect();
-    Prescription::new(PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm })
+    Prescription::new(PrescriptionParameters {
+        defocus_mm,
+        reference_nm,
+        ..PrescriptionParameters::new(surfaces, focus)
+    })
 }
 
 /// Remarks what of a file is not as it stands there, and what it leaves open.
@@ -100,8 +106,21 @@ pub(super) fn remarks(
     if let Some(stop_mm) = stated.stop_mm.filter(|_| record.f_number.is_none())
         && (stop_mm / own_stop_mm - 1.0).abs() > 1e-3
     {
+        let rim = asset.surfaces.iter().find(|surface| surface.stop && surface.rim && stop_mm > own_stop_mm);
+        tell(rim.map_or_else(
+            || format!("its aperture opens the stop to {stop_mm:.4} mm, not to the {own_stop_mm:.4} mm of the stop's surface"),
+            |stop| {
+                let line = stop.line;
+                format!("the aperture of the stop's surface (line {line}) clips at {own_stop_mm:.4} mm the {stop_mm:.4} mm to which the lens would open")
+            },
+        ));
+    }
+    if let Some(i) = lens.axial_limit() {
+        let (n, line) = (lens.paraxial().f_number(), asset.surfaces[i].line);
         tell(format!(
-            "its aperture opens the stop to {stop_mm:.4} mm, not to the {own_stop_mm:.4} mm of the stop's surface"
+            "surface {} (line {line}), not the stop, limits the bundle on the axis: f/{n:.3}, where the stop alone would give f/{:.3}",
+            i + 1,
+            n * lens.axial_share()
         ));
     }
     if let Some(n) = record.f_number.as_ref().filter(|_| asset.opening.is_some()) {

@@ -10,8 +10,8 @@ use etendue_optics::prescription::coating::Coating;
 use etendue_optics::prescription::filter::InterferenceFilter;
 use etendue_optics::prescription::published::{LENSES, named};
 use etendue_optics::prescription::surface::ASPHERE_TERMS;
-use etendue_optics::prescription::{Focus, Surface};
-use etendue_optics::{Lens, Prescribed, Prescription, PrescriptionError, PrescriptionParameters};
+use etendue_optics::prescription::{Focus, OtherRims, Surface};
+use etendue_optics::{Lens, PRINCIPAL_NM, Prescribed, Prescription, PrescriptionError, PrescriptionParameters};
 use etendue_projection::Raster;
 use etendue_scene::asset::PrescriptionAsset;
 use etendue_scene::record::lens::prescription::{self as record, Glass, GlassKnown, IrCutCurve, Source};
@@ -200,28 +200,47 @@ fn made(
     context: &mut Context<'_>,
 ) -> Result<Prescription, PrescriptionError> {
     let Given { mut surfaces, file } = given;
-    let Some(asset) = file else { return focused(record, surfaces, f64::INFINITY, 0.0) };
+    let Some(asset) = file else { return focused(record, surfaces, &Defaults::WITHOUT_FILE) };
     let stated = Stated::of(asset, &surfaces)?;
     let stop = surfaces.iter().position(|surface| surface.stop);
     let own_mm = stop.map_or(0.0, |i| surfaces[i].semi_aperture_mm);
     if let (Some(i), Some(stop_mm)) = (stop, stated.stop_mm) {
         // An f-number of the description may open the stop as far as either of the file's statements.
-        surfaces[i].semi_aperture_mm = if record.f_number.is_some() { stop_mm.max(own_mm) } else { stop_mm };
+        let open_mm = if record.f_number.is_some() { stop_mm.max(own_mm) } else { stop_mm };
+        surfaces[i].semi_aperture_mm = if asset.surfaces[i].rim { open_mm.min(own_mm) } else { open_mm };
     }
-    let defocus_mm = stated.defocus_mm.unwrap_or(asset.defocus_mm);
-    let lens = focused(record, surfaces, stated.distance_m, defocus_mm)?;
+    let defaults = Defaults {
+        distance_m: stated.distance_m,
+        defocus_mm: stated.defocus_mm.unwrap_or(asset.defocus_mm),
+        reference_nm: lens_file::reference_nm(asset),
+        other_rims: OtherRims::Clip,
+    };
+    let lens = focused(record, surfaces, &defaults)?;
     lens_file::remarks(record, asset, own_mm, &stated, &lens, context);
     Ok(lens)
 }
 
-/// The lens, opened and focused: by what the description says, else as given.
+/// What holds where the description says nothing.
+struct Defaults {
+    distance_m: f64,
+    defocus_mm: f64,
+    reference_nm: f64,
+    other_rims: OtherRims,
+}
+
+impl Defaults {
+    const WITHOUT_FILE: Self =
+        Self { distance_m: f64::INFINITY, defocus_mm: 0.0, reference_nm: PRINCIPAL_NM, other_rims: OtherRims::Refused };
+}
+
+/// The lens, opened and focused: by what the description says, else by the defaults.
 fn focused(
     record: &record::Prescription,
     surfaces: Vec<Surface>,
-    distance_m: f64,
-    defocus_mm: f64,
+    defaults: &Defaults,
 ) -> Result<Prescription, PrescriptionError> {
-    let distance_m = record.focus_distance_m.as_ref().map_or(distance_m, focus_m);
+    let Defaults { reference_nm, other_rims, .. } = *defaults;
+    let distance_m = record.focus_distance_m.as_ref().map_or(defaults.distance_m, focus_m);
     let focus = match &record.focus_by {
         None | Some(record::FocusBy::Sensor) => Focus::Sensor { distance_m },
         Some(record::FocusBy::Group(group)) => {
@@ -229,9 +248,9 @@ fn focused(
             Focus::Group { distance_m, first, last }
         }
     };
-    let defocus_mm = record.defocus_mm.as_ref().map_or(defocus_mm, |d| d.value);
+    let defocus_mm = record.defocus_mm.as_ref().map_or(defaults.defocus_mm, |d| d.value);
     let f_number = record.f_number.as_ref().map(|n| n.value);
-    Prescription::new(PrescriptionParameters { surfaces, f_number, focus, defocus_mm })
+    Prescription::new(PrescriptionParameters { surfaces, f_number, focus, defocus_mm, reference_nm, other_rims })
 }
 
 /// Notes why the surfaces are no lens where the cause stands.

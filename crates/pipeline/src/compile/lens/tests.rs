@@ -4,7 +4,9 @@ use crate::compile::{Choices, compile};
 use crate::plan::{CameraPlan, Plan};
 use crate::render::rays::ray_table;
 use etendue_optics::Lens;
-use etendue_scene::asset::{Assets, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
+use etendue_scene::asset::{
+    ASPHERE_TERMS, Assets, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset,
+};
 use etendue_scene::{Description, Overrides};
 use std::path::Path;
 
@@ -86,8 +88,8 @@ fn faults_of_prescriptions_name_their_place() {
 }
 
 fn file_surface(radius_mm: f64, semi_aperture_mm: Option<f64>, glass: GlassAsset, stop: bool) -> SurfaceAsset {
-    let (conic, asphere, thickness_mm, line) = (0.0, [0.0; 8], 3.0, 12);
-    SurfaceAsset { radius_mm, conic, asphere, semi_aperture_mm, thickness_mm, glass, stop, line }
+    let (conic, asphere, thickness_mm, line) = (0.0, [0.0; ASPHERE_TERMS], 3.0, 12);
+    SurfaceAsset { radius_mm, conic, asphere, semi_aperture_mm, rim: false, thickness_mm, glass, stop, line }
 }
 
 #[test]
@@ -106,6 +108,7 @@ fn a_file_without_apertures_is_refused_by_line_and_served_by_a_list() {
         fields: None,
         vignetting: [Vec::new(), Vec::new()],
         wavelengths_nm: Vec::new(),
+        primary_nm: None,
         notes: Vec::new(),
         hash: [0; 32],
     };
@@ -136,6 +139,7 @@ fn open_asset(opening: Option<LensOpening>, fields: Option<LensFields>) -> Presc
         fields,
         vignetting: [Vec::new(), Vec::new()],
         wavelengths_nm: Vec::new(),
+        primary_nm: None,
         notes: Vec::new(),
         hash: [0; 32],
     }
@@ -171,6 +175,27 @@ fn clear_apertures_that_a_file_leaves_open_are_those_of_its_fields() {
     vignetted.vignetting = [vec![0.0, 0.5], vec![0.0, 0.5]];
     let cut = opened(vignetted).0;
     assert!(whole[0] - cut[0] > 0.3 && whole[2] == cut[2], "{whole:?} {cut:?}");
+}
+
+/// A baffle of 0.8 of the pupil's radius before the lens lets 0.64 of the light on the axis through.
+#[test]
+fn a_baffle_of_a_file_takes_light_on_the_axis() {
+    let light = |baffle: bool| {
+        let pupil = Some(LensOpening::EntrancePupil { diameter_mm: 0.1 });
+        let mut asset = open_asset(pupil, Some(LensFields::AnglesDeg(vec![0.0])));
+        asset.surfaces.rotate_right(1);
+        asset.surfaces[0].semi_aperture_mm = Some(0.05);
+        let mut plane = file_surface(f64::INFINITY, Some(0.04), GlassAsset::Air, false);
+        plane.rim = true;
+        if baffle {
+            asset.surfaces.insert(0, plane);
+        }
+        let lens = plan_of_file(asset).unwrap_or_else(|faults| panic!("{faults}")).cameras.remove(0).body.lens;
+        (lens.projected_solid_angle_sr(glam::DVec2::ZERO), lens.f_number())
+    };
+    let ([open_sr, n], [clipped_sr, clipped_n]) = (<[f64; 2]>::from(light(false)), <[f64; 2]>::from(light(true)));
+    assert!((clipped_sr / open_sr - 0.64).abs() < 1e-4, "{clipped_sr} of {open_sr}");
+    assert!((clipped_n / n - 1.25).abs() < 1e-9, "{clipped_n} for {n}");
 }
 
 #[test]

@@ -52,7 +52,7 @@ pub(super) fn tiled(
 pub(super) fn held(image: &LargeImage, reading: Reading, sampling: Sampling) -> Result<ImageTexture, String> {
     let mut all: Option<Texels> = None;
     image.rows.read(&mut |rows| {
-        let texels = reading.texels(rows).ok_or_else(no_opacity)?;
+        let texels = reading.texels(rows, image.to_rec_709).ok_or_else(no_opacity)?;
         match &mut all {
             None => all = Some(texels),
             Some(all) => all.append(texels),
@@ -65,13 +65,16 @@ pub(super) fn held(image: &LargeImage, reading: Reading, sampling: Sampling) -> 
 }
 
 /// Everything that decides the tiles.
-fn key(image: &LargeImage, Reading { encoded, alpha, scale }: Reading) -> BlockKey {
+fn key(image: &LargeImage, Reading { encoded, alpha, colour, scale }: Reading) -> BlockKey {
     let mut hash = Sha256::new();
     hash.update(b"etendue texels");
     hash.update(TILES_REVISION.to_le_bytes());
     hash.update(image.hash);
     hash.update([u8::from(encoded), u8::from(alpha)]);
     hash.update(scale.to_le_bytes());
+    for number in image.to_rec_709.filter(|_| colour).iter().flat_map(|matrix| matrix.0.as_flattened()) {
+        hash.update(number.to_le_bytes());
+    }
     hash.finalize().into()
 }
 
@@ -81,7 +84,7 @@ fn fill(image: &LargeImage, reading: Reading, out: &mut dyn BlockWriter) -> Resu
     let mut writer = writer.map_err(|error| Refusal::Picture(error.to_string()))?;
     let mut refused = None;
     let read = image.rows.read(&mut |rows| {
-        let texels = reading.texels(rows).ok_or_else(no_opacity)?;
+        let texels = reading.texels(rows, image.to_rec_709).ok_or_else(no_opacity)?;
         let pushed = writer.push(&texels, out);
         pushed.map_err(|error| refused.insert(refusal(error)).to_string())
     });

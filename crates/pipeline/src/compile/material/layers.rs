@@ -191,7 +191,7 @@ impl Layering<'_, '_, '_> {
             SlotWrap::Mirror => Wrap::Mirror,
         });
         let sampling = Sampling { wrap, ..Sampling::default() };
-        let reading = Reading { encoded: picture.is_encoded, alpha: false, scale: 1.0 };
+        let reading = Reading { encoded: picture.is_encoded, alpha: false, colour: picture.is_encoded, scale: 1.0 };
         self.builder.pictures.picture(&picture.file, self.place, reading, sampling, self.context)
     }
 }

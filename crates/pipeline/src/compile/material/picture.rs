@@ -22,7 +22,7 @@ pub(super) struct Pictures {
 impl Pictures {
     /// A picture that a mesh's own file names: sRGB-encoded colours that repeat.
     pub(super) fn of_slot(&mut self, file: &Path, place: &Place, context: &mut Context<'_>) -> Option<TextureId> {
-        let reading = Reading { encoded: true, alpha: false, scale: 1.0 };
+        let reading = Reading { encoded: true, alpha: false, colour: true, scale: 1.0 };
         self.picture(file, place, reading, Sampling::default(), context)
     }
 
@@ -69,7 +69,9 @@ impl Pictures {
             context.fault(place, format!("the picture {} was not loaded", file.display()), "give a readable file");
             return None;
         };
-        let Some(texels) = reading.texels(&image.pixels) else { return no_opacity(file, place, context) };
+        let Some(texels) = reading.texels(&image.pixels, image.to_rec_709) else {
+            return no_opacity(file, place, context);
+        };
         context.accept(place, ImageTexture::new(image.width, image.height, texels, sampling))
     }
 

@@ -1,6 +1,6 @@
 //! Pixels of pictures as the tracer keeps them.
 
-use etendue_scene::asset::{ImagePixels, PixelFormat};
+use etendue_scene::asset::{ColourMatrix, ImagePixels, PixelFormat};
 use etendue_spectra::colour;
 use etendue_tracer::textures::{TexelEncoding, Texels};
 
@@ -11,6 +11,8 @@ pub(super) struct Reading {
     pub(super) encoded: bool,
     /// The opacity is read in place of the colours.
     pub(super) alpha: bool,
+    /// The numbers are colours, and not data.
+    pub(super) colour: bool,
     /// A factor on the numbers.
     pub(super) scale: f32,
 }
@@ -25,14 +27,15 @@ impl Reading {
         }
     }
 
-    /// Pixels as texels; `None` where opacity is read and there is none.
-    pub(super) fn texels(self, pixels: &ImagePixels) -> Option<Texels> {
-        if self.alpha { opacity(pixels, self.scale) } else { Some(colours(pixels, self)) }
+    /// Pixels as texels, colours by what makes them those of Rec. 709; `None` where opacity is read and there is none.
+    pub(super) fn texels(self, pixels: &ImagePixels, to_rec_709: Option<ColourMatrix>) -> Option<Texels> {
+        let to_rec_709 = to_rec_709.filter(|_| self.colour);
+        if self.alpha { opacity(pixels, self.scale) } else { Some(colours(pixels, self, to_rec_709)) }
     }
 }
 
 /// The colours; a factor other than 1 needs them as linear numbers.
-fn colours(pixels: &ImagePixels, Reading { encoded, scale, .. }: Reading) -> Texels {
+fn colours(pixels: &ImagePixels, Reading { encoded, scale, .. }: Reading, to_rec_709: Option<ColourMatrix>) -> Texels {
     let bytes = |pixels: Vec<[u8; 3]>| match (encoded, scale == 1.0) {
         (true, true) => Texels::Srgb8(pixels),
         (false, true) => Texels::Linear8(pixels),
@@ -40,7 +43,10 @@ fn colours(pixels: &ImagePixels, Reading { encoded, scale, .. }: Reading) -> Tex
         (false, false) => floats(&pixels, |b| f32::from(b) / 255.0 * scale),
     };
     let linear = |v: f32| if encoded { colour::decode(v) } else { v };
-    let scaled = |p: [f32; 3]| p.map(|v| linear(v) * scale);
+    let scaled = |p: [f32; 3]| {
+        let linear = p.map(linear);
+        to_rec_709.map_or(linear, |matrix| matrix.of(linear)).map(|v| v * scale)
+    };
     match pixels {
         ImagePixels::Gray8(pixels) => bytes(pixels.iter().map(|g| [*g; 3]).collect()),
         ImagePixels::Gray16(pixels) => {
@@ -76,6 +82,20 @@ mod tests {
     use super::*;
 
     #[test]
+    fn colours_become_those_of_rec_709_and_data_stay() {
+        let swap = ColourMatrix([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 2.0]]);
+        let texels = |colour: bool| {
+            let reading = Reading { encoded: false, alpha: false, colour, scale: 1.0 };
+            match reading.texels(&ImagePixels::Rgb32F(vec![[0.25, 0.5, 1.0]]), Some(swap)) {
+                Some(Texels::Float(texels)) => texels,
+                other => panic!("{other:?}"),
+            }
+        };
+        assert_eq!(texels(true), [[0.5, 0.25, 2.0]]);
+        assert_eq!(texels(false), [[0.25, 0.5, 1.0]]);
+    }
+
+    #[test]
     fn the_encoding_that_is_foretold_is_that_of_the_texels() {
         let pictures = [
             (PixelFormat::Gray8, ImagePixels::Gray8(vec![7])),
@@ -89,8 +109,8 @@ mod tests {
             for (encoded, alpha, scale) in
                 [(true, false, 1.0), (false, false, 1.0), (true, true, 1.0), (true, false, 2.0)]
             {
-                let reading = Reading { encoded, alpha, scale };
-                let found = reading.texels(&pixels).map(|texels| match texels {
+                let reading = Reading { encoded, alpha, colour: true, scale };
+                let found = reading.texels(&pixels, None).map(|texels| match texels {
                     Texels::Srgb8(_) => TexelEncoding::Srgb8,
                     Texels::Linear8(_) => TexelEncoding::Linear8,
                     Texels::Float(_) => TexelEncoding::Float,

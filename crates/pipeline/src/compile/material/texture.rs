@@ -31,7 +31,8 @@ impl MaterialCompiler<'_, '_> {
         self.check_encoding(&record, name, usage)?;
         self.needs_coordinates |= record.mapping() == Mapping::Uv || usage == Use::Normal;
         let encoded = record.encoding.value == Encoding::Srgb;
-        let reading = Reading { encoded, alpha: usage == Use::Alpha, scale: scale as f32 };
+        let colour = record.encoding.value != Encoding::Data;
+        let reading = Reading { encoded, alpha: usage == Use::Alpha, colour, scale: scale as f32 };
         self.pictures.picture(&record.file.value, &record.place, reading, sampling(&record), self.context)
     }
 

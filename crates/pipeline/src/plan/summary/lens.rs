@@ -19,7 +19,8 @@ pub(super) fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         Lens::Telecentric(_) => String::new(),
         _ => format!(" {} mm", figure(lens.focal_length_mm())),
     };
-    line(f, "lens", format!("{kind},{length} f/{n} (T {t:.3}), {focus}, {}", field_of_view(camera)))?;
+    let wavelength = lens.first_order_nm().map_or_else(String::new, |nm| format!(" at {nm} nm"));
+    line(f, "lens", format!("{kind},{length} f/{n}{wavelength} (T {t:.3}), {focus}, {}", field_of_view(camera)))?;
     line(f, "distortion", distortion(lens))?;
     if let Some(colour) = lens.lateral_colour() {
         let size = |nm: f64| format!("{:.5} at {nm} nm", colour.at(nm));

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::focus::{FocusDistance, focus_distance};
 use super::numbers::f_number;
+use crate::asset::ASPHERE_TERMS;
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, flag, keyed, list, number, path, record, text, variant, vector};
@@ -14,8 +15,8 @@ record! {
     pub struct Prescription check(check) {
         /// Where its surfaces are.
         inside source: Source;
-        /// With "file": clear semi-apertures, mm, one a surface of the file that refracts or is the stop, in place of the
-        /// file's. Default: the file's; where it has none, what the light of its fields needs.
+        /// With "file": clear semi-apertures, mm, one a surface of the file that refracts, is the stop or has an aperture of its own, in
+        /// place of the file's. Default: the file's; where it has none, what the light of its fields needs.
         optional semi_apertures_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 1);
         /// Focal length divided by the entrance pupil's diameter, with the focus at infinity, 0.5 or more: how far the stop opens,
         /// no further than its own semi-aperture. Default: what the file says (its entrance pupil, f-number or cone of light, for
@@ -27,7 +28,7 @@ record! {
         /// What moves to focus: "sensor" (or the lens as a whole), or the first and last surface of a group, counted from 1 at
         /// the scene; the sensor then stays where the lens images infinity. Default: "sensor".
         optional focus_by: FocusBy = focus_by();
-        /// How far behind the paraxial image (at 587.56 nm) the sensor stands, mm: best focus of an aberrated lens. Default: as far
+        /// How far behind the paraxial image (at 587.56 nm, or the primary wavelength of the file) the sensor stands, mm: best focus of an aberrated lens. Default: as far
         /// as the file's image stands behind its paraxial image, otherwise 0.
         optional defocus_mm: Placed<f64> = number("mm");
         /// What those surfaces let through that lie against air and say nothing of their own: as a surface's "coating".
@@ -58,7 +59,7 @@ record! {
         optional radius_mm: Placed<f64> = number("mm");
         /// Conic constant: 0 a sphere, −1 a paraboloid. Default: 0.
         optional conic: Placed<f64> = number("");
-        /// Coefficients of r², r⁴, r⁶ …, mm to the power 1 − 2i; at most eight. Default: none.
+        /// Coefficients of r², r⁴, r⁶ …, mm to the power 1 − 2i; at most ten. Default: none.
         optional asphere: Vec<Placed<f64>> = list(number("mm^(1 - 2i)"), 1);
         /// Distance to the next surface along the axis, mm, 0 or more. Of the last surface it has no effect and is left out.
         optional thickness_mm: Placed<f64> = number("mm").at_least(0.0);
@@ -216,16 +217,13 @@ fn check(lens: &Prescription, faults: &mut Faults) {
     for surface in surfaces {
         if let Some(beyond) = surface.asphere.iter().flatten().nth(ASPHERE_TERMS) {
             let problem = format!("found more than {ASPHERE_TERMS} coefficients");
-            faults.add(&beyond.place, problem, "give those of r² to r¹⁶");
+            faults.add(&beyond.place, problem, "give those of r² to r²⁰");
         }
         if let Some(radius) = surface.radius_mm.as_ref().filter(|r| r.value == 0.0) {
             faults.add(&radius.place, "found a radius of 0", "give a radius, or leave the key out for a plane");
         }
     }
 }
-
-/// r² to r¹⁶.
-const ASPHERE_TERMS: usize = 8;
 
 fn check_glass(glass: &GlassNumbers, faults: &mut Faults) {
     match (&glass.known, &glass.abbe, &glass.sellmeier_c_um2) {

@@ -1,0 +1,176 @@
+//! Lens files as other programs write them: what `measure lens` makes of each, against the right values of its first order.
+
+use crate::support::{etendue, text};
+use serde_json::Value;
+
+/// A biconvex singlet of N-BK7 as Zemax writes it: 49.04 mm, f/9.81.
+fn zmx(front: &str, glass: &str) -> String {
+    format!(
+        "VERS 140124 258 36214\nMODE SEQ\nUNIT MM X W X CM MR CPMM\nENPD 5\nGCAT SCHOTT\nFTYP 0 0 2 1 0 0 0\nYFLN 0 10\nXFLN 0 0\n\
+         WAVM 1 0.58756 1\nPWAV 1\nSURF 0\n  TYPE STANDARD\n  CURV 0.0\n  DISZ INFINITY\n  DIAM 0 0 0 0 1 \"\"\n{front}\
+         SURF 1\n  STOP\n  TYPE STANDARD\n  CURV 0.02 0 0 0 0 \"\"\n  DISZ 4\n  GLAS {glass} 0 0 0 0 0 0\n  DIAM 6 1 0 0 1 \"\"\n\
+         SURF 2\n  TYPE STANDARD\n  CURV -0.02 0 0 0 0 \"\"\n  DISZ 47\n  DIAM 6 1 0 0 1 \"\"\n\
+         SURF 3\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 0\n  DIAM 10 0 0 0 1 \"\"\n"
+    )
+}
+
+const BK7: &str = "N-BK7 0 0 1.5168 64.17";
+
+struct Measured {
+    report: Value,
+}
+
+impl Measured {
+    fn number(&self, key: &str) -> f64 {
+        self.report[key].as_f64().unwrap_or_else(|| panic!("no {key} in {}", self.report))
+    }
+
+    fn remarks(&self) -> String {
+        let list = self.report["remarks"].as_array().expect("remarks");
+        list.iter().filter_map(Value::as_str).collect::<Vec<_>>().join("\n")
+    }
+
+    /// A key's value to the last digit that is stated.
+    #[track_caller]
+    fn is(&self, key: &str, right: f64, digit: f64) {
+        let found = self.number(key);
+        assert!((found - right).abs() <= 0.51 * digit, "{key}: {found} for {right}");
+    }
+}
+
+fn arguments(name: &str, file: &str, further: &[&str]) -> (tempfile::TempDir, Vec<String>) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(name);
+    std::fs::write(&path, file).expect("written");
+    let words = ["measure".to_owned(), "lens".to_owned(), text(&path), "--fields".to_owned(), "2".to_owned()];
+    (folder, words.into_iter().chain(further.iter().map(|word| (*word).to_owned())).collect())
+}
+
+fn measured(name: &str, file: &str) -> Measured {
+    let (_folder, words) = arguments(name, file, &["--json"]);
+    Measured { report: serde_json::from_str(&etendue(words).ok().out).expect("JSON") }
+}
+
+#[test]
+fn a_catalogue_glass_is_its_successor_and_not_what_is_left_over_on_its_line() {
+    measured("plain.zmx", &zmx("", BK7)).is("focal_length_mm", 49.043, 1e-3);
+    measured("today.zmx", &zmx("", "N-SK2 0 0 1.5 40")).is("focal_length_mm", 41.7920, 1e-4);
+    measured("sk2.zmx", &zmx("", "SK2 0 0 1.61765 5.514E+1")).is("focal_length_mm", 41.7920, 1e-4);
+    let ohara = measured("lah66.zmx", &zmx("", "LAH66 0 0 1.7762 4.94E+1"));
+    ohara.is("focal_length_mm", 32.9367, 1e-4);
+    assert!(ohara.remarks().contains("its successor S-LAH66 is taken, not n_d 1.7762"), "{}", ohara.remarks());
+}
+
+#[test]
+fn an_aperture_on_a_plane_in_air_clips() {
+    let plane = |aperture: &str| {
+        zmx(&format!("SURF 1\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 20\n  DIAM 2 1 0 0 1 \"\"\n{aperture}"), BK7)
+    };
+    // The size that a plane is drawn with is no aperture.
+    let drawn = measured("drawn.zmx", &plane(""));
+    drawn.is("f_number", 9.81, 1e-2);
+    for aperture in ["  CLAP 0 2 0\n", "  FLAP 0 2 0\n"] {
+        let clipped = measured("baffle.zmx", &plane(aperture));
+        clipped.is("f_number", 12.26, 1e-2);
+        clipped.is("focal_length_mm", 49.043, 1e-3);
+        clipped.is("entrance_pupil_diameter_mm", 4.0, 1e-6);
+        let told = "surface 1 (line 16), not the stop, limits the bundle on the axis: f/12.261, where the stop alone would give f/9.809";
+        assert!(clipped.remarks().contains(told), "{}", clipped.remarks());
+    }
+    // A larger one is there, and clips nothing on the axis.
+    let wide = measured("wide.zmx", &plane("  CLAP 0 4 0\n"));
+    wide.is("f_number", 9.81, 1e-2);
+    // The stop's own aperture clips too.
+    let stop = zmx("", BK7).replacen("DIAM 6 1", "CLAP 0 2 0\n  DIAM 6 1", 1);
+    let stop = measured("stop.zmx", &stop);
+    stop.is("f_number", 12.26, 1e-2);
+    assert!(stop.remarks().contains("clips at 2.0000 mm the 2.5000 mm"), "{}", stop.remarks());
+}
+
+#[test]
+fn a_rim_smaller_than_the_bundle_clips_it() {
+    let file = zmx("", BK7).replace("ENPD 5", "ENPD 25").replacen("DIAM 6 ", "DIAM 12.5 ", 1).replacen(
+        "DIAM 6 ",
+        "DIAM 12.0 ",
+        1,
+    );
+    let lens = measured("rim.zmx", &file);
+    // The ray that meets the rear rim at 12 mm from the axis enters at 12.09 mm: it falls by 0.087 over the 1 mm of glass that is left there.
+    lens.is("f_number", 2.03, 1e-2);
+    lens.is("entrance_pupil_diameter_mm", 24.18, 2e-2);
+    assert!(lens.remarks().contains("surface 2 (line 23), not the stop, limits"), "{}", lens.remarks());
+}
+
+/// A biconvex singlet of N-BK7 as CODE V writes it: 49.04 mm.
+fn seq(front: &str, rear: &str, edits: &str) -> String {
+    format!(
+        "RDM;LEN\nEPD 5.0\nDIM M\nWL 656.3 587.6 486.1\nREF 2\nYAN 0 7 10\nSO 0.0 1e13\nS {front}\n STO\n CIR 6\nS {rear}\n CIR 6\n\
+         SI 0 0\n{edits}\nGO\n"
+    )
+}
+
+#[test]
+fn edits_of_codev_files_are_followed() {
+    let (front, rear) = ("50 4 NBK7_SCHOTT", "-50 47");
+    for (file, right) in [
+        (seq(front, rear, ""), 49.043),
+        (seq(front, rear, "RDY S1 25\nRDY S2 -25"), 24.865),
+        (seq(front, rear, "THI S1 8\nGLA S1 SF6_SCHOTT"), 32.198),
+        (seq(front, rear, "SCA 2.0"), 98.086),
+        (seq("0 4 NBK7_SCHOTT\n CUY 0.02", "0 47\n CUY -0.02", ""), 49.043),
+    ] {
+        measured("lens.seq", &file).is("focal_length_mm", right, 1e-3);
+    }
+    // The term of r¹⁸ is 15 µm at the rim of the bundle, and moves its rays.
+    let spot = |h: &str| {
+        let front = format!("{front}\n ASP\n K 0.0\n A 0;B 0;C 0;D 0;E 0;F 0;G 0;H {h};J 0");
+        measured("lens.seq", &seq(&front, rear, "")).report["fields"][0]["spot_radius_mm"].as_f64().expect("a spot")
+    };
+    assert!(spot("-1e-9") - spot("0") > 0.5, "{} for {}", spot("-1e-9"), spot("0"));
+}
+
+/// First-order figures are of the file's primary wavelength, say so, and are of another where that is asked for.
+#[test]
+fn first_order_figures_are_of_the_primary_wavelength() {
+    let (front, rear) = ("50 4 NBK7_SCHOTT", "-50 47");
+    // The thick biconvex lens of N-BK7: n by its Sellmeier equation.
+    let focal = |nm: f64| {
+        let (b, c, l) =
+            ([1.03961212, 0.231792344, 1.01046945], [0.00600069867, 0.0200179144, 103.560653], nm * nm * 1e-6);
+        let n = (1.0 + (0..3).map(|i| b[i] * l / (l - c[i])).sum::<f64>()).sqrt();
+        let power = (n - 1.0) * (2.0 / 50.0 - (n - 1.0) * 4.0 / (n * 50.0 * 50.0));
+        1.0 / power
+    };
+    for (reference, nm) in [(1, 656.3), (2, 587.6), (3, 486.1)] {
+        let file = seq(front, rear, "").replace("REF 2", &format!("REF {reference}"));
+        let lens = measured("lens.seq", &file);
+        lens.is("first_order_wavelength_nm", nm, 1e-9);
+        lens.is("focal_length_mm", focal(nm), 2e-8);
+        let (_folder, words) = arguments("lens.seq", &file, &[]);
+        let told = etendue(words).ok().out;
+        assert!(told.contains(&format!("first order at         {nm} nm (fields at 587.56 nm)")), "{told}");
+    }
+    let zemax = zmx("", BK7)
+        .replace("WAVM 1 0.58756 1\nPWAV 1", "WAVM 1 0.58756 1\nWAVM 2 0.55 1\nPWAV 2")
+        .replace("0 0 2 1 0 0 0", "0 0 2 2 0 0 0");
+    measured("lens.zmx", &zemax).is("focal_length_mm", focal(550.0), 2e-8);
+    // An f-number is of that wavelength too.
+    let fast = measured("lens.zmx", &zemax.replace("ENPD 5", "FNUM 10 0"));
+    fast.is("entrance_pupil_diameter_mm", focal(550.0) / 10.0, 2e-8);
+    let (_folder, words) = arguments("lens.zmx", &zemax, &["--json", "--wavelength-nm", "486.1"]);
+    let asked = Measured { report: serde_json::from_str(&etendue(words).ok().out).expect("JSON") };
+    asked.is("focal_length_mm", focal(486.1), 2e-8);
+    asked.is("first_order_wavelength_nm", 486.1, 1e-9);
+    let (_folder, words) = arguments("lens.zmx", &zemax.replace("PWAV 2", "PWAV 3"), &[]);
+    etendue(words).refused(&["lens.zmx", "the primary wavelength is number 3; expected one of the file's 2"]);
+    let (_folder, words) = arguments("lens.zmx", &zemax, &["--wavelength-nm", "2000"]);
+    etendue(words).refused(&["--wavelength-nm", "300 to 1100"]);
+}
+
+#[test]
+fn what_a_codev_file_changes_in_an_unknown_way_is_refused_with_its_line() {
+    for (edit, told) in [("RDY S1 Z2 25", "RDY of a zoom position"), ("INS S2", "INS is not modelled")] {
+        let (_folder, words) = arguments("lens.seq", &seq("50 4 NBK7_SCHOTT", "-50 47", edit), &[]);
+        etendue(words).refused(&["lens.seq", ":14", told]);
+    }
+}

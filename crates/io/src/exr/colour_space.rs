@@ -1,0 +1,151 @@
+//! The colour space of an EXR: its `chromaticities`, by which R, G and B become those of Rec. 709.
+//!
+//! A file without the attribute has Rec. 709 primaries and white, as the format says. Channels that are named R, G and B alone are colours; those of
+//! layers may be anything (identities, normals) and stay as they are. White is not adapted. Pictures keep what their file holds beside the matrix: a
+//! texture of data is no colour.
+
+use std::path::Path;
+
+use ::exr::meta::attribute::{Chromaticities, EnvironmentMap};
+use etendue_scene::asset::ColourMatrix;
+use etendue_spectra::colour::{Primaries, REC_709};
+
+use crate::Error;
+
+/// Chromaticities that differ by less are those of Rec. 709: files round them, and its white, differently.
+const SAME: f64 = 5e-4;
+
+/// What makes colours of these chromaticities those of Rec. 709; `None` where they are.
+pub(crate) fn to_rec_709(file: &Path, stated: &Chromaticities) -> Result<Option<ColourMatrix>, Error> {
+    let pair = |v: ::exr::prelude::Vec2<f32>| [f64::from(v.0), f64::from(v.1)];
+    let Chromaticities { red, green, blue, white } = *stated;
+    let primaries = Primaries { red: pair(red), green: pair(green), blue: pair(blue), white: pair(white) };
+    if primaries.is_close_to(&REC_709, SAME) {
+        return Ok(None);
+    }
+    let matrix = primaries.to_linear_srgb().ok_or_else(|| {
+        let what = format!("its chromaticities ({}) make no colour space", text(stated));
+        Error::new(file, format!("{what}; correct the attribute, or remove it where the colours are of Rec. 709"))
+    })?;
+    Ok(Some(ColourMatrix(matrix)))
+}
+
+/// The attribute in words.
+pub(super) fn text(Chromaticities { red, green, blue, white }: &Chromaticities) -> String {
+    format!("red {red:?}, green {green:?}, blue {blue:?}, white {white:?}").replace("Vec2", "")
+}
+
+/// How a file says that it is projected, in a word; nothing where it says nothing.
+pub(super) fn projection(stated: Option<EnvironmentMap>) -> Option<&'static str> {
+    stated.map(|stated| match stated {
+        EnvironmentMap::LatitudeLongitude => "latitude-longitude",
+        EnvironmentMap::Cube => CUBE,
+    })
+}
+
+/// The attribute that says so.
+pub(super) const ENVMAP: &str = "envmap";
+pub(super) const CUBE: &str = "cube";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exr::decode_exr;
+    use ::exr::prelude::{
+        AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Vec2, WritableImage as _,
+    };
+    use std::io::Cursor;
+
+    /// One pixel of channels with values.
+    fn file(
+        values: &[(&str, f32)],
+        chromaticities: Option<Chromaticities>,
+        projection: Option<EnvironmentMap>,
+    ) -> Vec<u8> {
+        let channels = values.iter().map(|(name, value)| AnyChannel::new(*name, FlatSamples::F32(vec![*value])));
+        let mut attributes = LayerAttributes::named("");
+        attributes.layer_name = None;
+        attributes.environment_map = projection;
+        let layer = Layer::new((1, 1), attributes, Encoding::UNCOMPRESSED, AnyChannels::sort(channels.collect()));
+        let mut image = Image::from_layer(layer);
+        image.attributes.chromaticities = chromaticities;
+        let mut bytes = Cursor::new(Vec::new());
+        image.write().to_buffered(&mut bytes).expect("written");
+        bytes.into_inner()
+    }
+
+    fn space([red, green, blue, white]: [[f32; 2]; 4]) -> Option<Chromaticities> {
+        let point = |[x, y]: [f32; 2]| Vec2(x, y);
+        Some(Chromaticities { red: point(red), green: point(green), blue: point(blue), white: point(white) })
+    }
+
+    fn values(bytes: &[u8]) -> Vec<(String, f32)> {
+        let read = decode_exr(Path::new("a.exr"), bytes).expect("readable");
+        read.channels.into_iter().map(|channel| (channel.name, channel.samples.into_floats()[0])).collect()
+    }
+
+    const XYZ: [[f32; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [1.0 / 3.0, 1.0 / 3.0]];
+
+    /// XYZ of linear Rec. 709 (0.6, 0.2, 0.1).
+    const STORED: [(&str, f32); 5] =
+        [("A", 0.5), ("B", 0.130_490_66), ("G", 0.277_836_38), ("N.R", 1.0), ("R", 0.336_999_42)];
+
+    #[test]
+    fn colours_of_other_primaries_become_those_of_rec_709() {
+        let found = values(&file(&STORED, space(XYZ), None));
+        for ((name, value), expected) in found.iter().zip([0.5, 0.1, 0.2, 1.0, 0.6]) {
+            // The standard's white and that of the tables differ by 3e-4.
+            assert!((value - expected).abs() < 5e-4, "{name}: {value} for {expected}");
+        }
+        let as_stored: Vec<(String, f32)> = STORED.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+        assert_eq!(values(&file(&STORED, None, None)), as_stored);
+        let rec_709 = space([[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], [0.3127, 0.329]]);
+        assert_eq!(values(&file(&STORED, rec_709, None)), as_stored);
+        let grey = [("Y", 0.25)];
+        assert_eq!(values(&file(&grey, space(XYZ), None)), [("Y".to_owned(), 0.25)]);
+    }
+
+    #[test]
+    fn the_conversion_is_stated_and_what_is_no_space_refused() {
+        let read = decode_exr(Path::new("a.exr"), &file(&STORED, space(XYZ), None)).expect("readable");
+        assert!(
+            read.attributes["chromaticities"].ends_with("R, G and B are converted to Rec. 709"),
+            "{:?}",
+            read.attributes
+        );
+        let line = space([[0.6, 0.3], [0.4, 0.3], [0.2, 0.3], [0.3, 0.3]]);
+        let told = decode_exr(Path::new("a.exr"), &file(&STORED, line, None)).expect_err("no space").to_string();
+        assert!(
+            told.starts_with("a.exr: its chromaticities (red (0.6, 0.3)") && told.contains("correct the attribute"),
+            "{told}"
+        );
+    }
+
+    #[test]
+    fn a_picture_keeps_what_its_file_holds_beside_the_matrix() {
+        let picture =
+            crate::picture::decode_picture(Path::new("a.exr"), &file(&STORED, space(XYZ), None)).expect("readable");
+        assert_eq!(
+            picture.pixels,
+            etendue_scene::asset::ImagePixels::Rgba32F(vec![[STORED[4].1, STORED[2].1, STORED[1].1, 0.5]])
+        );
+        let etendue_scene::asset::ImagePixels::Rgba32F(colours) = picture.in_rec_709().pixels else {
+            panic!("colours")
+        };
+        let [r, g, b, a] = colours[0];
+        assert!((r - 0.6).abs() < 5e-4 && (g - 0.2).abs() < 5e-4 && (b - 0.1).abs() < 5e-4 && a == 0.5, "{colours:?}");
+    }
+
+    #[test]
+    fn a_cube_map_is_no_picture() {
+        let read = |projection| decode_exr(Path::new("a.exr"), &file(&STORED, None, projection)).expect("readable");
+        let told = read(Some(EnvironmentMap::Cube)).check_is_no_cube_map(Path::new("a.exr")).expect_err("a cube");
+        assert!(told.to_string().starts_with("a.exr: a cube map"), "{told}");
+        for projection in [None, Some(EnvironmentMap::LatitudeLongitude)] {
+            assert!(read(projection).check_is_no_cube_map(Path::new("a.exr")).is_ok());
+        }
+        let cube = file(&STORED, None, Some(EnvironmentMap::Cube));
+        assert!(crate::picture::decode_picture(Path::new("a.exr"), &cube).is_err());
+        assert!(crate::photograph::decode_photograph(Path::new("a.exr"), &cube).is_err());
+    }
+}

@@ -1,0 +1,140 @@
+//! What CODE V commands say of one surface or of several: of the current one, or of those that they name (`RDY S1 25`, `CIR S2..4 6`).
+//!
+//! SO is the object, SI the image, SA all between them. A solve (`CUY UMY -0.1`) of the current surface leaves the value that its line states, and
+//! is noted; one of a named surface is refused, as that value may be another.
+
+use core::ops::RangeInclusive;
+
+use super::build::RawSurface;
+use super::seq::{Reader, is_count, thickness};
+use super::text::Words;
+use crate::Error;
+
+/// The surfaces that a command is about, and the place of its first value.
+struct Target {
+    surfaces: RangeInclusive<usize>,
+    named: bool,
+    value: usize,
+}
+
+impl Reader {
+    /// Takes a command about surfaces; false for others.
+    pub(super) fn edit(&mut self, name: &str, w: &Words<'_>) -> Result<bool, Error> {
+        let known = ["RDY", "CUY", "THI", "GLA", "CIR", "STO", "K"].contains(&name) || order(name).is_some();
+        if !known {
+            return Ok(false);
+        }
+        let target = self.target(name, w)?;
+        if ["RDY", "CUY", "THI"].contains(&name)
+            && !target.named
+            && w.word(target.value).starts_with(char::is_alphabetic)
+        {
+            let solve = w.words[..].join(" ");
+            self.raw.notes.push(format!(
+                "line {}: the solve {solve} is not read: the value of the surface's own line is taken",
+                w.line
+            ));
+            return Ok(true);
+        }
+        if name == "STO" && target.named {
+            self.raw.surfaces.iter_mut().for_each(|surface| surface.stop = false);
+        }
+        let glass = if name == "GLA" { Some(self.glass(w, target.value)?) } else { None };
+        for place in target.surfaces {
+            let surface = &mut self.raw.surfaces[place];
+            match &glass {
+                Some(glass) => surface.glass = glass.clone(),
+                None => property(surface, name, w, target.value)?,
+            }
+        }
+        Ok(true)
+    }
+
+    fn target(&self, name: &str, w: &Words<'_>) -> Result<Target, Error> {
+        let zoom = |word: &str| word.strip_prefix(['Z', 'z']).is_some_and(is_count);
+        if zoom(w.word(1)) || zoom(w.word(2)) {
+            return Err(w.fault(format!("{name} of a zoom position: zooms are not modelled")));
+        }
+        // A glass may have a name like that of a surface.
+        let lone_glass = name == "GLA" && w.words.len() == 2;
+        match Named::parse(w.word(1)).filter(|_| !lone_glass) {
+            Some(named) => {
+                let surfaces = named.places(self.raw.surfaces.len(), self.has_image);
+                let surfaces = surfaces.ok_or_else(|| {
+                    let count = self.raw.surfaces.len();
+                    w.fault(format!(
+                        "{name} {}: no such surface is given before; the lens has {count} here, SO among them",
+                        w.word(1)
+                    ))
+                })?;
+                Ok(Target { surfaces, named: true, value: 2 })
+            }
+            None if self.raw.surfaces.is_empty() => Err(w.fault(format!("{name} before the first surface (SO)"))),
+            None => Ok(Target { surfaces: self.current..=self.current, named: false, value: 1 }),
+        }
+    }
+}
+
+/// Surfaces by their names.
+enum Named {
+    Object,
+    Image,
+    All,
+    Numbers(usize, usize),
+}
+
+impl Named {
+    fn parse(word: &str) -> Option<Self> {
+        let rest = word.strip_prefix(['S', 's'])?.to_ascii_uppercase();
+        let (first, last) = rest.split_once("..").unwrap_or((&rest, &rest));
+        match first {
+            "O" => Some(Self::Object),
+            "I" => Some(Self::Image),
+            "A" => Some(Self::All),
+            _ if is_count(first) && is_count(last) => Some(Self::Numbers(first.parse().ok()?, last.parse().ok()?)),
+            _ => None,
+        }
+    }
+
+    /// Their places in the list; `None` where they are not there.
+    fn places(&self, count: usize, has_image: bool) -> Option<RangeInclusive<usize>> {
+        let (first, last) = match *self {
+            Self::Object => (0, 0),
+            Self::Image if has_image => (count - 1, count - 1),
+            Self::Image => return None,
+            Self::All => (1, (count - usize::from(has_image)).checked_sub(1)?),
+            Self::Numbers(first, last) => (first, last),
+        };
+        (first <= last && last < count).then_some(first..=last)
+    }
+}
+
+/// The place of a coefficient in the list of r², r⁴ …: A is r⁴, H r¹⁸ and J r²⁰.
+fn order(name: &str) -> Option<usize> {
+    ["A", "B", "C", "D", "E", "F", "G", "H", "J"].iter().position(|letter| *letter == name).map(|place| place + 1)
+}
+
+fn property(surface: &mut RawSurface, name: &str, w: &Words<'_>, value: usize) -> Result<(), Error> {
+    match name {
+        "RDY" => {
+            let radius = w.number(value)?;
+            surface.curvature = if radius == 0.0 { 0.0 } else { 1.0 / radius };
+        }
+        "CUY" => surface.curvature = w.number(value)?,
+        "THI" => surface.thickness = thickness(w.number(value)?),
+        "STO" => surface.stop = true,
+        "K" => surface.conic = w.number(value)?,
+        "CIR" => match w.word(value).to_ascii_uppercase().as_str() {
+            // The glass's edge is no clear aperture.
+            "EDG" | "HOL" => {}
+            "OBS" => return Err(w.fault("an obscuration is not modelled; only round, open apertures are")),
+            _ => (surface.semi_aperture, surface.rim) = (Some(w.number(value)?), true),
+        },
+        _ => {
+            if let Some(place) = order(name) {
+                surface.asphere[place] = w.number(value)?;
+            }
+        }
+    }
+    Ok(())
+}
