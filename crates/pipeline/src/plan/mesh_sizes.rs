@@ -92,7 +92,7 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
         let measures = format!("{length:.4} × {width:.4} × {height:.4} m (length, width, height)");
         let longest = size.max_element();
         let name = &identity.name;
-        if longest < ROAD_USER_M[0] || longest > ROAD_USER_M[1] {
+        if !(ROAD_USER_M[0]..=ROAD_USER_M[1]).contains(&longest) {
             found.push(format!(
                 "{name}: a {class} of {measures}: check the scale of its mesh, which is metres per unit of the file"
             ));
