@@ -343,21 +343,20 @@ impl Job {
     ) -> Result<Vec<PathBuf>, Error> {
         let root = folder;
         let done = |plan: &Arc<Plan>| match existing {
-            Existing::Resume => DoneFrames::in_folder(root, plan, &options.frames),
+            Existing::Resume => DoneFrames::in_folder(root, plan, &options.frames, observer),
             Existing::Refuse | Existing::Replace => Ok(DoneFrames::default()),
         };
         let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
-        if self.request.time_s.is_none() {
-            done(&self.plan)?;
-        }
-        state::check(root, existing)?;
+        // Where a time decides the passes, the plan of the frames is known when they are done.
+        let mut known = self.request.time_s.is_none().then(|| done(&self.plan)).transpose()?;
+        state::check(&folder, existing)?;
         folder.claim(self.file_names(&options.frames).iter().map(String::as_str)).map_err(Error::input)?;
         let mut folder = if self.request.progressive { folder.refining() } else { folder };
         let progress = RefCell::new(Progress::of(self.request.progressive, (&folder, existing))?);
         let kept = Kept::of_run(&folder, observer);
         let (sequence, mut written) = (RefCell::new(Sequence::default()), Vec::new());
         let done_and_noted = |plan: &Arc<Plan>| {
-            let done = done(plan)?;
+            let done = known.take().map_or_else(|| done(plan), Ok)?;
             done.note_all(plan, &options.frames, &mut sequence.borrow_mut());
             Ok(done)
         };
@@ -373,8 +372,8 @@ impl Job {
         let sequence = sequence.into_inner();
         sequence.finish(&mut folder)?;
         rig::write(&rig::asked_files(&self.plan, &options.frames), &mut folder, observer)?;
-        written.extend(folder.commit().map_err(Error::run)?);
-        progress.into_inner().finish(root)?;
+        written.extend(folder.publish().map_err(Error::run)?);
+        progress.into_inner().finish(&folder)?;
         kept.all();
         Ok(written)
     }

@@ -9,15 +9,18 @@
 //! the place of a file is that file's name, replaced or refused as any; one in the place of a folder within the output folder is refused. The output folder itself
 //! may be one.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::Error;
+use crate::file_digest::FileDigest;
 use crate::folder_lock::FolderLock;
-use crate::made_folders::{self, MadeFolders, Missed};
+use crate::made_folders::{MadeFolders, Missed};
 use crate::run_mark::RunMark;
+use crate::within;
 
 /// How often a folder is made that another run removes at that moment, as nothing is in it.
 const TRIES: usize = 100;
@@ -64,6 +67,8 @@ impl OutputFolder {
         Self::opened(root, existing, |folder| {
             let whole = FolderLock::shared(root)?;
             let part = folder.resolve(part)?;
+            within::check_folders(root, &part)?;
+            within::check_folder(&part)?;
             folder.made.make(&part)?;
             Ok(vec![whole, FolderLock::part(root, &part)?])
         })
@@ -138,16 +143,18 @@ impl OutputFolder {
     pub fn remove<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), Error> {
         for name in names {
             let path = self.resolve(name)?;
-            match fs::remove_file(&path) {
-                Err(cause) if cause.kind() != io::ErrorKind::NotFound => {
-                    return Err(Error::new(&path, format!("cannot be removed: {cause}")));
-                }
-                _ => {}
-            }
+            within::remove_file(&self.root, &path)?;
             // Left where it is not empty.
             let _ = path.parent().filter(|folder| *folder != self.root).map(fs::remove_dir);
         }
         Ok(())
+    }
+
+    /// The names of the files in a folder within, sorted; none where it is not there. A link in its place is refused, links in it are left out.
+    pub fn files_in(&self, folder: &str) -> Result<Vec<String>, Error> {
+        let files = within::files_in(&self.root, &self.resolve(folder)?)?;
+        let name = |path: PathBuf| Some(format!("{folder}/{}", path.file_name()?.to_str()?));
+        Ok(files.into_iter().filter_map(name).collect())
     }
 
     /// Writes `bytes` for `name` (relative, `/` between folders) under a temporary name.
@@ -181,6 +188,18 @@ impl OutputFolder {
         let target = self.resolve(name)?;
         let pending = self.pending.iter().find(|file| file.name == target);
         Ok(pending.map_or(target, |file| file.temporary.clone()))
+    }
+
+    /// The digests of the files that were written and have no final name yet, by their names within the folder.
+    pub fn pending_digests(&self) -> Result<BTreeMap<String, FileDigest>, Error> {
+        let of_file = |file: &Pending| {
+            let inside = file.name.strip_prefix(&self.root).unwrap_or(&file.name);
+            let parts: Vec<_> = inside.components().map(|part| part.as_os_str().to_string_lossy()).collect();
+            let digest = FileDigest::new(&file.temporary);
+            let unread = |cause: io::Error| Error::new(&file.temporary, format!("cannot be read back: {cause}"));
+            Ok((parts.join("/"), digest.map_err(unread)?))
+        };
+        self.pending.iter().map(of_file).collect()
     }
 
     /// Gives every file its final name and returns the names, in the order of writing.
@@ -219,7 +238,7 @@ impl OutputFolder {
     }
 
     fn check_free(&self, target: &Path) -> Result<(), Error> {
-        self.check_folders(target)?;
+        within::check_folders(&self.root, target)?;
         // Of a link itself, not of where it leads.
         let there = match fs::symlink_metadata(target) {
             Ok(there) => there,
@@ -240,30 +259,13 @@ impl OutputFolder {
         }
         Ok(())
     }
-
-    /// Refuses what is in the place of a folder within the output folder and is none, or leads elsewhere.
-    fn check_folders(&self, target: &Path) -> Result<(), Error> {
-        let within = target.ancestors().skip(1).take_while(|folder| *folder != self.root);
-        for folder in within {
-            if folder.is_symlink() {
-                return Err(Error::new(
-                    folder,
-                    "a symbolic link is in the place of a folder of results, which stay in the output folder; remove it, or choose another output folder",
-                ));
-            }
-            if folder.is_file() {
-                return Err(made_folders::no_folder(folder));
-            }
-        }
-        Ok(())
-    }
 }
 
 impl Drop for OutputFolder {
     /// Removes what was not committed. Failures are passed over: there is nobody left to tell.
     fn drop(&mut self) {
         for file in &self.pending {
-            let _ = fs::remove_file(&file.temporary);
+            let _ = within::remove_file(&self.root, &file.temporary);
         }
         self.mark = None;
         self.made.remove();

@@ -154,6 +154,39 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     assert!(!output.exists());
 }
 
+/// The header of a film states what it is of: a film that was put under another manifest, or in another's place, is not merged.
+#[test]
+fn films_of_another_run_shard_frame_or_capture_are_not_merged() {
+    let place = place();
+    let folder = |name: &str| into(place.path(), name, &["--spp", "8", "--shard", &name[1..].replace('-', "/")]);
+    let (a, b) = (folder("a0-2"), folder("a1-2"));
+    let film = |folder: &str| format!("{folder}/front.film.exr");
+    let output = place.path().join("out");
+    let merge = || etendue(["merge", &a, &b, "-o", &text(&output)]);
+    let good = fs::read(film(&b)).expect("a film");
+    let foreign = into(place.path(), "foreign", &["--spp", "8", "--shard", "1/2", "--seed", "99"]);
+    fs::copy(film(&foreign), film(&b)).expect("copied");
+    merge().refused(&["front.film.exr", "another plan", "render the shard again"]);
+    fs::copy(film(&a), film(&b)).expect("copied");
+    merge().refused(&["front.film.exr", "the shard 0/2, where 1/2 is expected"]);
+    fs::write(film(&b), &good[..good.len() / 2]).expect("written");
+    merge().refused(&["front.film.exr"]);
+    fs::remove_file(film(&b)).expect("removed");
+    merge().refused(&["front.film.exr"]);
+    fs::write(film(&b), good).expect("written");
+    for (key, value) in [("count", "0"), ("frames", "{ \"start\": 3, \"end\": 3 }"), ("tile_px", "[0]")] {
+        let manifest = format!("{b}/shard.json");
+        let stated = fs::read_to_string(&manifest).expect("a manifest");
+        let mut changed: serde_json::Value = serde_json::from_str(&stated).expect("JSON");
+        changed[key] = serde_json::from_str(value).expect("JSON");
+        fs::write(&manifest, changed.to_string()).expect("written");
+        merge().refused(&["shard.json", "it states"]);
+        fs::write(&manifest, stated).expect("written");
+    }
+    assert!(!output.exists());
+    merge().ok();
+}
+
 #[test]
 fn a_job_that_changed_since_its_shards_were_rendered_is_not_merged() {
     let place = place();
