@@ -124,7 +124,7 @@ impl Tradeoff {
         findings.files.iter().try_for_each(|(name, bytes)| output.write(name, bytes).map_err(Error::run))?;
         let written = output.commit().map_err(Error::run)?;
         if self.json {
-            console.print(&findings.json);
+            console.print_json(&findings.json);
         } else {
             console.print(&format!("{}\n", findings.text));
             print_paths(console, &written);
