@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 static IS_CLOSED: AtomicBool = AtomicBool::new(false);
 
 /// Whether there was no standard output when the program was started.
-pub fn is_closed() -> bool {
+pub(crate) fn is_closed() -> bool {
     IS_CLOSED.load(Ordering::Relaxed)
 }
 

@@ -24,7 +24,9 @@ fn write_results(text: &str) {
 
 /// What is said of results that cannot be written.
 pub fn unwritten(cause: &io::Error) -> String {
-    format!("error: the results cannot be written to the standard output: {cause}; files that have their names are whole\n")
+    format!(
+        "error: the results cannot be written to the standard output: {cause}; files that have their names are whole\n"
+    )
 }
 
 /// Everything that is no result goes to stderr.

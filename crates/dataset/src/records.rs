@@ -59,7 +59,8 @@ impl Records {
 
     /// The record of a sample; why it cannot be used, in words.
     pub(crate) fn read(&self, sample: u32) -> Result<SampleRecord, String> {
-        let bytes = read_regular(&self.root.join(record_name(sample)), &DESCRIPTION).map_err(|cause| cause.to_string())?;
+        let bytes =
+            read_regular(&self.root.join(record_name(sample)), &DESCRIPTION).map_err(|cause| cause.to_string())?;
         let record: SampleRecord =
             serde_json::from_slice(&bytes).map_err(|why| format!("this is not the record of a sample: {why}"))?;
         match (record.sample == sample, record.is_sealed()) {

@@ -78,9 +78,8 @@ fn samples_left(
     let records = &Records::in_folder(root)?;
     let done = DoneSamples { set, writers, root, records };
     done.check_others(samples)?;
-    let check_replaced = |samples: &Range<u32>| {
-        writers.iter().try_for_each(|writer| writer.check_replaced(records, samples, folder))
-    };
+    let check_replaced =
+        |samples: &Range<u32>| writers.iter().try_for_each(|writer| writer.check_replaced(records, samples, folder));
     if existing == Existing::Replace {
         check_replaced(samples)?;
         return Ok(samples.clone().collect());
@@ -180,8 +179,7 @@ impl Run<'_> {
             })
         })?;
         self.writers.iter().try_for_each(|writer| writer.sample(self.set, &record, self.folder))?;
-        record.files = self.folder.pending_digests().map_err(Error::run)?;
-        record.files.remove(FACTS);
+        record.files = self.folder.pending_digests(|name| name != FACTS).map_err(Error::run)?;
         self.json(&record_name(sample), &record.sealed())
     }
 

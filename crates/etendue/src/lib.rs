@@ -95,7 +95,7 @@ pub use develop::{DevelopRequest, develop};
 pub use display_picture::display_jpeg;
 pub use error::Error;
 pub use etendue_io::inspect::{Shown, inspect, inspect_showing};
-pub use etendue_io::{Existing, FileDigest, OutputFolder, TextureMemory, is_decoding};
+pub use etendue_io::{CacheUse, Existing, FileDigest, OutputFolder, TextureMemory, is_decoding};
 pub use etendue_pipeline::boxes::WorldObject;
 pub use etendue_pipeline::motion::{MotionTruth, NeighbourTruth};
 pub use etendue_pipeline::photograph::{Frame, Light};

@@ -38,7 +38,7 @@ pub fn merge(
     if let Some(job) = job {
         manifest.request.job = job.to_path_buf();
     }
-    let job = manifest.request.clone().open()?;
+    let job = manifest.request.clone().into_output(folder).open()?;
     check_same_plan(job.plan(), &manifest)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     folder.claim(job.file_names(&manifest.frames).iter().map(String::as_str)).map_err(Error::input)?;

@@ -87,3 +87,4 @@ pub use sandbox::Sandbox;
 pub use scratch::ScratchFolder;
 pub use source::read_regular;
 pub use texture_memory::TextureMemory;
+pub use tile_cache::CacheUse;

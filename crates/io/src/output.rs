@@ -190,16 +190,18 @@ impl OutputFolder {
         Ok(pending.map_or(target, |file| file.temporary.clone()))
     }
 
-    /// The digests of the files that were written and have no final name yet, by their names within the folder.
-    pub fn pending_digests(&self) -> Result<BTreeMap<String, FileDigest>, Error> {
-        let of_file = |file: &Pending| {
+    /// The digests of those files that were written, have no final name yet and are `wanted`, by their names within the folder.
+    pub fn pending_digests(&self, wanted: impl Fn(&str) -> bool) -> Result<BTreeMap<String, FileDigest>, Error> {
+        let named = self.pending.iter().map(|file| {
             let inside = file.name.strip_prefix(&self.root).unwrap_or(&file.name);
             let parts: Vec<_> = inside.components().map(|part| part.as_os_str().to_string_lossy()).collect();
-            let digest = FileDigest::new(&file.temporary);
-            let unread = |cause: io::Error| Error::new(&file.temporary, format!("cannot be read back: {cause}"));
-            Ok((parts.join("/"), digest.map_err(unread)?))
+            (parts.join("/"), &file.temporary)
+        });
+        let digest = |(name, temporary): (String, &PathBuf)| {
+            let unread = |cause: io::Error| Error::new(temporary, format!("cannot be read back: {cause}"));
+            Ok((name, FileDigest::new(temporary).map_err(unread)?))
         };
-        self.pending.iter().map(of_file).collect()
+        named.filter(|(name, _)| wanted(name)).map(digest).collect()
     }
 
     /// Gives every file its final name and returns the names, in the order of writing.

@@ -112,7 +112,7 @@ impl Tradeoff {
         }
         self.refuse_to_replace()?;
         let mut output = OutputFolder::open(folder, existing).map_err(Error::input)?;
-        let job = JobRequest::from(&self.job);
+        let job = JobRequest::from(&self.job).into_output(folder);
         let edges = self.mtf50.then(|| folder.join("edges"));
         let request = Request { job, camera: self.job.camera.clone(), budget_s: self.time, simd, edges };
         let observer = console.observer();

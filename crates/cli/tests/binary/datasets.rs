@@ -160,7 +160,7 @@ fn samples_whose_files_or_record_are_not_whole_are_made_anew() {
     resume("2..4").refused(&["samples/000001.json", "changed after it was written", "--samples 1..2 --resume"]);
     resume("0..3").ok().says(&["sample 1 is made anew"]);
     assert!(place.files("out") == whole);
-    spoil(record, &|file| drop(fs::copy(file.with_file_name("000002.json"), file).expect("copied")));
+    spoil(record, &|file| _ = fs::copy(file.with_file_name("000002.json"), file).expect("copied"));
     resume("0..3").ok().says(&["this is the record of sample 2; sample 1 is made anew"]);
     assert!(place.files("out") == whole);
 }
@@ -320,7 +320,11 @@ fn samples_of_a_complete_shard_are_made_anew_together() {
     let bytes = fs::read(&shard).expect("it is there");
     fs::write(&shard, &bytes[..bytes.len() - 600]).expect("written");
     let lost = ["samples 0 to 1 is complete", "--samples 0..2"];
-    drop(run(&["--samples", "0..3", "--resume"]).refused(&lost).says(&["webdataset/parts/000000.tar is gone or was changed"]));
+    drop(
+        run(&["--samples", "0..3", "--resume"])
+            .refused(&lost)
+            .says(&["webdataset/parts/000000.tar is gone or was changed"]),
+    );
     fs::remove_file(&shard).expect("it was there");
     drop(run(&["--samples", "0..3", "--resume"]).refused(&lost));
     run(&["--samples", "0..2", "--overwrite"]).ok();

@@ -215,7 +215,7 @@ fn a_run_that_goes_on_believes_no_file_that_is_not_whole() {
     };
     let told = spoil("facts", "left/frame.0001.json", &sensor);
     assert!(told.contains("frame.0001.json: it was changed after it was written"), "{told}");
-    let other = |file: &Path| drop(fs::copy(file.with_file_name("frame.0000.json"), file).expect("copied"));
+    let other = |file: &Path| _ = fs::copy(file.with_file_name("frame.0000.json"), file).expect("copied");
     let told = spoil("exchanged", "left/frame.0001.json", &other);
     assert!(told.contains("it is the file of another frame"), "{told}");
     for name in ["left/tracks.json", "left/picture.y4m", "left/camera.json"] {

@@ -30,7 +30,9 @@ pub enum RollingError {
     #[error("nothing moves the wheel; give its hub keys, or put it in a frame that moves")]
     Still,
     /// It turns by more than can be followed.
-    #[error("the wheel would turn by {turned_rad:e} rad, but at most 1e12 can be traced; give it a larger radius or a shorter way")]
+    #[error(
+        "the wheel would turn by {turned_rad:e} rad, but at most 1e12 can be traced; give it a larger radius or a shorter way"
+    )]
     TooFar {
         /// The angle between two keys, rad, as far as it is known.
         turned_rad: f64,

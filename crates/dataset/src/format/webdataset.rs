@@ -46,7 +46,11 @@ impl WebDataset {
     pub(super) fn of(set: &Set) -> Self {
         let stated = set.variations.as_ref().and_then(|variations| variations.shard_samples.as_ref());
         // A million at most.
-        Self { shard_samples: stated.map_or(1000, |count| count.value as u32), part: RefCell::default(), layout: RefCell::default() }
+        Self {
+            shard_samples: stated.map_or(1000, |count| count.value as u32),
+            part: RefCell::default(),
+            layout: RefCell::default(),
+        }
     }
 
     fn shards(&self, records: &Records) -> Result<Shards, Error> {
@@ -111,7 +115,9 @@ impl Writer for WebDataset {
             *layout = Some(self.shard_layout(records, shard));
         }
         let Some(ShardLayout { starts, lengths, .. }) = &*layout else { return false };
-        let (Some(start), Some(length)) = (starts.get(&record.sample), lengths.get(&record.split)) else { return false };
+        let (Some(start), Some(length)) = (starts.get(&record.sample), lengths.get(&record.split)) else {
+            return false;
+        };
         let tar = root.join(format!("webdataset/{}-{shard:06}.tar", record.split.name()));
         let piece = File::open(&tar).and_then(|mut file| {
             file.seek(SeekFrom::Start(*start))?;

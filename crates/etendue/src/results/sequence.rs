@@ -67,7 +67,7 @@ impl Sequence {
                 Some((after, since)) => metadata::with_state(facts.clone(), after, since),
                 None => facts.clone(),
             };
-            let files = files_of_frame(camera, writer.folder)?;
+            let files = files_of_frame(camera, numbers.start, writer.folder)?;
             writer.json(&Files::frame(numbers.start), &metadata::sealed(kept, &files))?;
             frames = vec![facts];
         }
@@ -122,11 +122,17 @@ impl Sequence {
 }
 
 /// The digests of the files of a frame, which have been written and have no final names yet, by their names in the camera's folder.
-fn files_of_frame(camera: &CameraPlan, folder: &OutputFolder) -> Result<BTreeMap<String, FileDigest>, Error> {
+fn files_of_frame(
+    camera: &CameraPlan,
+    frame: u32,
+    folder: &OutputFolder,
+) -> Result<BTreeMap<String, FileDigest>, Error> {
     let prefix = format!("{}/", camera.name);
-    let pending = folder.pending_digests().map_err(Error::run)?.into_iter();
-    let own = pending.filter_map(|(name, digest)| Some((name.strip_prefix(&prefix)?.to_owned(), digest)));
-    Ok(own.filter(|(name, _)| !Files::is_of_camera(name)).collect())
+    // What is of all frames has no number; other frames of the run may wait for their names as well.
+    let number = format!(".{frame:04}.");
+    let is_own = |name: &str| name.starts_with(&prefix) && name.contains(&number);
+    let digests = folder.pending_digests(is_own).map_err(Error::run)?;
+    Ok(digests.into_iter().map(|(name, digest)| (name[prefix.len()..].to_owned(), digest)).collect())
 }
 
 /// Writes what is the same in all frames: the rays of the pixels.

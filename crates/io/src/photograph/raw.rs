@@ -53,7 +53,10 @@ pub(super) fn facts(beside: &SideCar) -> Result<Option<RawFacts>, Error> {
         return Ok(None);
     }
     let lacks = || {
-        let problem = format!("it lists {} as raw and lacks levels or filters, or states impossible ones; render again", beside.picture);
+        let problem = format!(
+            "it lists {} as raw and lacks levels or filters, or states impossible ones; render again",
+            beside.picture
+        );
         Error::new(&beside.file, problem)
     };
     stated(&beside.said, &beside.picture).map(Some).ok_or_else(lacks)

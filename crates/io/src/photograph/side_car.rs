@@ -55,7 +55,11 @@ impl SideCar {
             return Ok(1);
         }
         let number = stated.as_u64().and_then(|n| u32::try_from(n).ok()).filter(|n| *n > 0);
-        let strange = || format!("its sampling.correlated_block_px is {stated}, where a whole number above 0 is expected; render again");
+        let strange = || {
+            format!(
+                "its sampling.correlated_block_px is {stated}, where a whole number above 0 is expected; render again"
+            )
+        };
         number.ok_or_else(|| Error::new(&self.file, strange()))
     }
 

@@ -28,7 +28,8 @@ struct PlacedFrame<'a> {
 impl<'a> Frames<'a> {
     /// Those of a scene.
     pub(super) fn of(scene: &'a Scene, unused: &Unused, context: &mut Context<'_>) -> Self {
-        let by_name: BTreeMap<&str, &Frame> = scene.frames.iter().map(|frame| (frame.name.value.as_str(), frame)).collect();
+        let by_name: BTreeMap<&str, &Frame> =
+            scene.frames.iter().map(|frame| (frame.name.value.as_str(), frame)).collect();
         let (mut frames, mut tried) = (Self::default(), BTreeSet::new());
         for frame in scene.frames.iter().filter(|frame| !unused.frames.contains(&frame.name.value)) {
             // Parents first; what carries itself was refused where it was read.

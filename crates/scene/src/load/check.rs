@@ -28,7 +28,11 @@ pub(super) fn references(document: &Node, faults: &mut Faults) -> Vec<Use> {
                 true => note_unknown(named.word(), name, &known, faults),
                 false => {
                     let what = named.word();
-                    faults.add(&name.place, format!("there is no {what} \"{}\"", name.value), format!("define the {what}"));
+                    faults.add(
+                        &name.place,
+                        format!("there is no {what} \"{}\"", name.value),
+                        format!("define the {what}"),
+                    );
                 }
             }
         }

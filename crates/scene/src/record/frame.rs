@@ -100,7 +100,8 @@ pub(super) fn check_circles(frames: &[Frame], faults: &mut Faults) {
         }
         // A walk that comes to its own way has found a circle, which no other walk enters anew.
         let Some(first) = next.filter(|place| reached_from[*place] == start) else { continue };
-        let circle: Vec<usize> = std::iter::successors(Some(first), |place| parent(*place).filter(|place| *place != first)).collect();
+        let circle: Vec<usize> =
+            std::iter::successors(Some(first), |place| parent(*place).filter(|place| *place != first)).collect();
         note_circle(&circle, frames, faults);
     }
 }
