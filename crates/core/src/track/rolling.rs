@@ -31,7 +31,7 @@ pub enum RollingError {
     Still,
     /// It turns by more than can be followed.
     #[error(
-        "the wheel would turn by {turned_rad:e} rad, but at most 1e12 can be traced; give it a larger radius or a shorter way"
+        "the wheel would turn by {turned_rad:.3e} rad, but at most 1e12 can be traced; give it a larger radius or a shorter way"
     )]
     TooFar {
         /// The angle between two keys, rad, as far as it is known.
