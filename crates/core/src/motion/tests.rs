@@ -3,7 +3,7 @@
 use super::Motion;
 use crate::TimeInterval;
 use crate::random::{philox4x32, unit_f64};
-use crate::track::{Interpolation, Key, Track};
+use crate::track::{Interpolation, Key, RollingError, Track};
 use core::f64::consts::FRAC_PI_2;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
