@@ -54,7 +54,7 @@ pub(super) fn facts(beside: &SideCar) -> Result<Option<RawFacts>, Error> {
     }
     let lacks = || {
         let problem = format!(
-            "it lists {} as raw and lacks levels or filters, or states impossible ones; render again",
+            "it lists {} as raw and lacks levels, filters or a possible exposure; render again",
             beside.picture
         );
         Error::new(&beside.file, problem)
@@ -67,13 +67,9 @@ fn stated(said: &Value, name: &str) -> Option<RawFacts> {
     let frames = said["frames"].as_array().map_or(&[][..], Vec::as_slice);
     let entry = frames.iter().find(|frame| frame["raw"] == name);
     let number = |key: &str| entry.unwrap_or(electronics)[key].as_f64();
-    let (black_level_dn, white_level_dn) = (number("black_level_dn")?, number("white_level_dn")?);
-    if black_level_dn >= white_level_dn {
-        return None;
-    }
     Some(RawFacts {
-        black_level_dn,
-        white_level_dn,
+        black_level_dn: number("black_level_dn")?,
+        white_level_dn: number("white_level_dn")?,
         exposure_s: number("exposure_s").filter(|s| *s >= 0.0)?,
         filters: filters(&electronics["cfa"])?,
         frame: match entry {
