@@ -53,7 +53,11 @@ pub fn table() -> Table {
 pub fn child(folder: &str, limit_mb: &str) -> String {
     let limit_mb: u64 = limit_mb.parse().expect("a whole number of megabytes");
     let folder = Path::new(folder);
-    let memory = TextureMemory { limit_bytes: limit_mb * 1_000_000, cache: Some(folder.join("cache")) };
+    let memory = TextureMemory {
+        limit_bytes: limit_mb * 1_000_000,
+        cache: Some(folder.join("cache")),
+        ..TextureMemory::default()
+    };
     let film = pool(2).install(|| {
         let plan = plan_within(&folder.join("job.toml"), &memory);
         light(&plan, camera(&plan), Request::default(), &Unobserved)

@@ -8,6 +8,11 @@ pub trait Console: Sync {
     /// A part of the answer: what the program prints on stdout.
     fn print(&self, text: &str);
 
+    /// The answer, where it is one JSON document.
+    fn print_json(&self, document: &str) {
+        self.print(document);
+    }
+
     /// A line beside the answer that is no message of the library: what the program prints on stderr.
     fn tell(&self, line: &str);
 

@@ -61,11 +61,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     panics::quieten_decoders();
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
-        Err(told) => {
-            // There is nowhere left to report a failing stderr to.
-            let _ = told.print();
-            return u8::try_from(told.exit_code()).unwrap_or(2);
-        }
+        Err(told) => return usage(&told),
     };
     match panics::caught(|| arguments.run(&Terminal::default())) {
         Ok(()) => 0,
@@ -74,6 +70,30 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             status(&error)
         }
     }
+}
+
+/// Prints help, or what is wrong with the arguments, which are shown as all other text is.
+fn usage(told: &clap::Error) -> u8 {
+    if told.use_stderr() {
+        output::print_message(&told.to_string());
+        return u8::try_from(told.exit_code()).unwrap_or(2);
+    }
+    match told.print() {
+        Ok(()) => 0,
+        Err(cause) => {
+            output::print_message(&output::unwritten(&cause));
+            1
+        }
+    }
+}
+
+/// Refuses to run without a standard output, before any work, and answers with the exit status.
+#[must_use]
+pub fn refuse_closed_stdout() -> u8 {
+    output::print_message(
+        "error: the standard output is closed, where results are printed; leave it open, or redirect it to a file or to /dev/null\n",
+    );
+    2
 }
 
 /// Moves a limit on what files may cost for all of the process, `NAME=N`, as `--limit`.

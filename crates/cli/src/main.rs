@@ -1,7 +1,13 @@
 //! The program `etendue`.
 
+mod closed_stdout;
+
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::from(etendue_cli::main(std::env::args_os()))
+    let status = match closed_stdout::is_closed() {
+        true => etendue_cli::refuse_closed_stdout(),
+        false => etendue_cli::main(std::env::args_os()),
+    };
+    ExitCode::from(status)
 }

@@ -1,22 +1,36 @@
-//! What the program prints: results to stdout, everything else to stderr.
+//! What the program prints: results to stdout, everything else to stderr. All text passes through [`etendue::terminal_text`].
 
-/// Results go to stdout. A reader that has gone away (a closed pipe) ends the program quietly; a full disk is an error.
+use etendue::{terminal_json, terminal_text};
+use std::io::{self, Write as _};
+
+/// Results go to stdout, as text.
 pub fn print(text: &str) {
-    use std::io::{ErrorKind, Write as _};
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Ok(()) => {}
-        Err(cause) if cause.kind() == ErrorKind::BrokenPipe => std::process::exit(0),
-        Err(cause) => {
-            print_message(&format!("error: the results cannot be written: {cause}\n"));
-            std::process::exit(1);
-        }
+    write_results(&terminal_text(text));
+}
+
+/// Results that are one JSON document.
+pub fn print_json(document: &str) {
+    write_results(&terminal_json(document));
+}
+
+/// Results that cannot be written end the program as an error, whoever is to blame: a full disk, or a reader that went away before it had all.
+fn write_results(text: &str) {
+    let mut out = io::stdout().lock();
+    if let Err(cause) = out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        print_message(&unwritten(&cause));
+        std::process::exit(1);
     }
+}
+
+/// What is said of results that cannot be written.
+pub fn unwritten(cause: &io::Error) -> String {
+    format!(
+        "error: the results cannot be written to the standard output: {cause}; files that have their names are whole\n"
+    )
 }
 
 /// Everything that is no result goes to stderr.
 pub fn print_message(text: &str) {
-    use std::io::Write as _;
     // There is nowhere left to report a failing stderr to.
-    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+    let _ = io::stderr().lock().write_all(terminal_text(text).as_bytes());
 }

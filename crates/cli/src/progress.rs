@@ -1,8 +1,8 @@
 //! Progress and messages while a task runs: bars on a terminal, elsewhere a line a minute. Ctrl-C stops by the operating system's own way.
 
 use crate::console::Console;
-use crate::output::{print, print_message};
-use etendue::{Message, Observer, Progress, Unit};
+use crate::output::{print, print_json, print_message};
+use etendue::{Message, Observer, Progress, Unit, terminal_text};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal as _;
 use std::sync::Mutex;
@@ -25,6 +25,10 @@ impl Default for Terminal {
 impl Console for Terminal {
     fn print(&self, text: &str) {
         print(text);
+    }
+
+    fn print_json(&self, document: &str) {
+        print_json(document);
     }
 
     fn tell(&self, line: &str) {
@@ -66,9 +70,10 @@ fn unit(unit: Unit) -> &'static str {
 
 /// What is worked on: "left, frame 12 (3/20)".
 fn heading(progress: Progress<'_>) -> String {
+    let heading = terminal_text(progress.heading);
     match progress.frame {
-        None => progress.heading.to_owned(),
-        Some(frame) => format!("{}, frame {} ({}/{})", progress.heading, frame.number, frame.place, frame.count),
+        None => heading.into_owned(),
+        Some(frame) => format!("{heading}, frame {} ({}/{})", frame.number, frame.place, frame.count),
     }
 }
 

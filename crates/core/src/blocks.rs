@@ -34,6 +34,14 @@ pub trait BlockStore: Debug + Send + Sync {
     /// The blocks of a key; `None` where there are none that are whole. `lengths` are the bytes of each.
     fn find(&self, key: &BlockKey, lengths: &[u32]) -> Option<Arc<dyn Blocks>>;
 
+    /// Refuses blocks for which there is no room whatever is removed, before they are made.
+    ///
+    /// # Errors
+    /// What is too much, and what to do.
+    fn check_room(&self, _key: &BlockKey, _lengths: &[u32]) -> Result<(), String> {
+        Ok(())
+    }
+
     /// Keeps the blocks that `fill` writes; nobody sees them before all are there.
     ///
     /// # Errors

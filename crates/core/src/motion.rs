@@ -9,7 +9,7 @@ mod bounds;
 mod tests;
 
 use crate::TimeInterval;
-use crate::track::{MovingTransform, Track};
+use crate::track::{MovingTransform, RollingError, Track};
 use glam::{DAffine3, DMat3, DVec3};
 use std::sync::Arc;
 
@@ -43,8 +43,15 @@ impl Motion {
     /// The motion of what moves by `inner` in the frame that moves by this.
     #[must_use]
     pub fn carrying(&self, inner: &Self) -> Self {
-        let mut links: Vec<Track> = self.links().to_vec();
-        for track in inner.links() {
+        Self::nested([self, inner])
+    }
+
+    /// The motion of what moves by the last of `motions` in the frame that moves by the one before it, and so on to the first, which moves in the world: in time
+    /// linear in their number. Still where there are none.
+    #[must_use]
+    pub fn nested<'m>(motions: impl IntoIterator<Item = &'m Self>) -> Self {
+        let mut links: Vec<Track> = Vec::new();
+        for track in motions.into_iter().flat_map(Self::links) {
             match (links.last_mut(), track.as_still()) {
                 (Some(last), Some(still)) => *last = last.after(&still),
                 (Some(last), None) if last.as_still() == Some(DAffine3::IDENTITY) => *last = track.clone(),
@@ -53,6 +60,7 @@ impl Motion {
         }
         match <[Track; 1]>::try_from(links) {
             Ok([only]) => only.into(),
+            Err(links) if links.is_empty() => Self::still(DAffine3::IDENTITY),
             Err(links) => Self(Links::Chain(links.into())),
         }
     }
@@ -66,18 +74,22 @@ impl Motion {
         }
     }
 
-    /// The motion of a wheel: what this moves, its hub, with the wheel turning about the hub's y axis as it rolls without slipping
-    /// on ground that stands still: by the way of the hub's origin in the world along the hub's x axis, divided by `radius_m`
-    /// (above 0). Not turned until the first key. Good to 1e-6 rad between any two keys. `None` where nothing moves.
-    #[must_use]
-    pub fn rolling(&self, radius_m: f64) -> Option<Self> {
+    /// How a wheel turns about the y axis of what this moves, its hub, as it rolls without slipping on ground that stands still: by the way of the hub's origin in
+    /// the world along the hub's x axis, divided by `radius_m` (above 0). Not turned until the first key. Good to 1e-6 rad between any two keys. The wheel moves
+    /// by that in the frame of its hub ([`Motion::carrying`]).
+    ///
+    /// # Errors
+    /// Where nothing moves, and where the wheel would turn by more than can be followed.
+    pub fn rolling(&self, radius_m: f64) -> Result<Self, RollingError> {
         let times_s = self.times_s();
+        if times_s.is_empty() {
+            return Err(RollingError::Still);
+        }
         let forward = |time_s: f64, within_s: f64| {
             let hub = self.moving_at(time_s, within_s);
             hub.velocity.dot(hub.at.matrix3.x_axis.normalize_or_zero()) / radius_m
         };
-        let turns = Track::rolling(&times_s, forward);
-        (!times_s.is_empty()).then(|| self.carrying(&turns.into()))
+        Track::rolling(&times_s, forward).map(Self::from)
     }
 
     /// The transform at a simulated time, s.

@@ -13,6 +13,7 @@ mod tests;
 mod turn;
 
 pub(crate) use rates::{Bend, Moving as MovingTransform};
+pub use rolling::RollingError;
 
 use crate::TimeInterval;
 use cubic::Cubic;

@@ -25,6 +25,7 @@
 //! Masks, boxes, poses and depth are those of the pipeline's ground truth; nothing is found anew here.
 
 mod change;
+mod done_samples;
 mod draw;
 mod format;
 mod mask;

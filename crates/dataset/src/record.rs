@@ -1,8 +1,11 @@
 //! The record of a sample: what was drawn and the truth of its pictures, in `samples/NNNNNN.json`.
 
 use crate::draw::Split;
+use etendue::FileDigest;
+use etendue_io::sidecar;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use std::collections::BTreeMap;
 
 /// A sample that is done.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -16,6 +19,25 @@ pub(crate) struct SampleRecord {
     /// The hash of the sample's plan.
     pub(crate) plan: String,
     pub(crate) pictures: Vec<PictureRecord>,
+    /// The digests of the sample's files, by their names in the data set's folder.
+    pub(crate) files: BTreeMap<String, FileDigest>,
+    /// The hash of all else.
+    pub(crate) sha256: Option<String>,
+}
+
+impl SampleRecord {
+    /// The same with its hash.
+    pub(crate) fn sealed(mut self) -> Self {
+        self.sha256 = None;
+        let bytes = sidecar::encode(&self).unwrap_or_default();
+        self.sha256 = Some(FileDigest::from_bytes(&bytes).sha256);
+        self
+    }
+
+    /// Whether it is as it was written.
+    pub(crate) fn is_sealed(&self) -> bool {
+        self.sha256.is_some() && self.clone().sealed().sha256 == self.sha256
+    }
 }
 
 /// A picture of a sample.

@@ -3,7 +3,7 @@
 use crate::record::SampleRecord;
 use etendue::Error;
 use etendue_io::read_regular;
-use etendue_scene::limits::FILE;
+use etendue_scene::limits::DESCRIPTION;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -53,9 +53,20 @@ impl Records {
     pub(crate) fn each(&self) -> impl Iterator<Item = io::Result<SampleRecord>> + '_ {
         self.samples.iter().map(|sample| {
             let path = self.root.join(record_name(*sample));
-            let unread = |why: String| io::Error::other(format!("{}: {why}", path.display()));
-            let bytes = read_regular(&path, &FILE).map_err(|cause| unread(cause.to_string()))?;
-            serde_json::from_slice(&bytes).map_err(|why| unread(format!("this is not the record of a sample: {why}")))
+            self.read(*sample).map_err(|why| io::Error::other(format!("{}: {why}", path.display())))
         })
+    }
+
+    /// The record of a sample; why it cannot be used, in words.
+    pub(crate) fn read(&self, sample: u32) -> Result<SampleRecord, String> {
+        let bytes =
+            read_regular(&self.root.join(record_name(sample)), &DESCRIPTION).map_err(|cause| cause.to_string())?;
+        let record: SampleRecord =
+            serde_json::from_slice(&bytes).map_err(|why| format!("this is not the record of a sample: {why}"))?;
+        match (record.sample == sample, record.is_sealed()) {
+            (true, true) => Ok(record),
+            (false, _) => Err(format!("this is the record of sample {}", record.sample)),
+            (true, false) => Err("the record was changed after it was written".to_owned()),
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Sample after sample, each whole or not there; then what is made of all.
 
 use crate::change;
+use crate::done_samples::DoneSamples;
 use crate::draw::Drawn;
 use crate::format::{Writer, writers};
 use crate::observer::OfSample;
@@ -13,6 +14,8 @@ use etendue::{Error, Existing, Job, JobRequest, Message, Observer, OutputFolder,
 use etendue_io::{hash, read_regular, sidecar};
 use etendue_scene::limits::DESCRIPTION;
 use serde_json::Value;
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// What the set is made of.
@@ -41,11 +44,8 @@ pub fn dataset(
     let writers = writers(&set)?;
     let mut folder = OutputFolder::open(root, existing).map_err(Error::input)?;
     check_folder(&set, root, existing)?;
-    if existing == Existing::Replace {
-        let records = Records::in_folder(root)?;
-        writers.iter().try_for_each(|writer| writer.check_replaced(&records, &request.samples, &folder))?;
-    }
-    let mut run = Run { request, existing, set: &set, writers: &writers, folder: &mut folder, observer, made: 0 };
+    let left = samples_left((request, &set), &writers, (&folder, existing), observer)?;
+    let mut run = Run { request, left, set: &set, writers: &writers, folder: &mut folder, observer, made: 0 };
     let written = run.samples();
     let made = run.made;
     if written.is_err() {
@@ -61,6 +61,33 @@ pub fn dataset(
     writers.iter().try_for_each(|writer| writer.tidy(&records, &mut whole))?;
     written.retain(|path| path.exists());
     Ok(written)
+}
+
+/// The samples that are made.
+fn samples_left(
+    (request, set): (&DatasetRequest, &Set),
+    writers: &[Box<dyn Writer>],
+    (folder, existing): (&OutputFolder, Existing),
+    observer: &dyn Observer,
+) -> Result<Vec<u32>, Error> {
+    let samples = &request.samples;
+    if existing == Existing::Refuse {
+        return Ok(samples.clone().collect());
+    }
+    let root = folder.path();
+    let records = &Records::in_folder(root)?;
+    let done = DoneSamples { set, writers, root, records };
+    done.check_others(samples)?;
+    let check_replaced =
+        |samples: &Range<u32>| writers.iter().try_for_each(|writer| writer.check_replaced(records, samples, folder));
+    if existing == Existing::Replace {
+        check_replaced(samples)?;
+        return Ok(samples.clone().collect());
+    }
+    let left = done.left(samples, observer);
+    let is_there = |sample: &&u32| records.numbers().binary_search(sample).is_ok();
+    left.iter().filter(is_there).try_for_each(|sample| check_replaced(&(*sample..*sample + 1)))?;
+    Ok(left)
 }
 
 fn kept(root: &Path, made: usize) -> String {
@@ -102,7 +129,8 @@ fn check_folder(set: &Set, root: &Path, existing: Existing) -> Result<(), Error>
 
 struct Run<'a> {
     request: &'a DatasetRequest,
-    existing: Existing,
+    /// The samples that it makes.
+    left: Vec<u32>,
     set: &'a Set,
     writers: &'a [Box<dyn Writer>],
     folder: &'a mut OutputFolder,
@@ -113,9 +141,7 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn samples(&mut self) -> Result<Vec<PathBuf>, Error> {
-        let is_done = |sample: &u32| self.folder.path().join(record_name(*sample)).exists();
-        let keeps = self.existing == Existing::Resume;
-        let left: Vec<u32> = self.request.samples.clone().filter(|sample| !(keeps && is_done(sample))).collect();
+        let left = std::mem::take(&mut self.left);
         let mut written = Vec::new();
         for (done, sample) in left.iter().enumerate() {
             if !self.folder.path().join(FACTS).exists() {
@@ -138,7 +164,9 @@ impl Run<'_> {
         self.set.check_classes(&job, sample)?;
         self.set.check_cameras(&job).map_err(|error| of_sample(error, sample, &set))?;
         let plan = job.plan().hash_text();
-        let mut record = SampleRecord { sample, split: drawn.split, seed: drawn.seed, set, plan, pictures: Vec::new() };
+        let (split, seed) = (drawn.split, drawn.seed);
+        let (pictures, files) = (Vec::new(), BTreeMap::new());
+        let mut record = SampleRecord { sample, split, seed, set, plan, pictures, files, sha256: None };
         let options = RenderOptions { frames: self.request.frames.clone(), simd: self.request.simd };
         job.render_each(&options, observer, |camera| {
             let warn = |told: &str| self.observer.message(Message::Warning(&format!("sample {sample}, {told}")));
@@ -151,7 +179,8 @@ impl Run<'_> {
             })
         })?;
         self.writers.iter().try_for_each(|writer| writer.sample(self.set, &record, self.folder))?;
-        self.json(&record_name(sample), &record)
+        record.files = self.folder.pending_digests(|name| name != FACTS).map_err(Error::run)?;
+        self.json(&record_name(sample), &record.sealed())
     }
 
     fn job(&self, drawn: &Drawn, set: &[String]) -> Result<Job, Error> {

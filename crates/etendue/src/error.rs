@@ -30,19 +30,40 @@ impl Error {
     }
 }
 
+/// Errors that are shown; of more the number.
+const MAX_SHOWN: usize = 50;
+
 impl std::error::Error for Error {}
 
 impl Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Input(errors) => {
-                errors.iter().try_for_each(|error| writeln!(f, "error: {error}"))?;
+                errors.iter().take(MAX_SHOWN).try_for_each(|error| writeln!(f, "error: {error}"))?;
                 match errors.len() {
                     0 | 1 => Ok(()),
+                    n if n > MAX_SHOWN => {
+                        writeln!(f, "and {} more; {n} errors in all; nothing was written", n - MAX_SHOWN)
+                    }
                     n => writeln!(f, "{n} errors; nothing was written"),
                 }
             }
             Self::Run(reason) => writeln!(f, "{reason}"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_many_errors_the_first_are_shown_and_the_number_of_all() {
+        let shown = |count: usize| Error::inputs((0..count).map(|i| format!("fault {i}"))).to_string();
+        assert_eq!(shown(1), "error: fault 0\n");
+        assert!(shown(50).ends_with("error: fault 49\n50 errors; nothing was written\n"));
+        let many = shown(1234);
+        assert_eq!(many.lines().count(), 51);
+        assert!(many.ends_with("error: fault 49\nand 1184 more; 1234 errors in all; nothing was written\n"), "{many}");
     }
 }

@@ -1,15 +1,20 @@
 //! Films on disk: what a shard hands to `merge`, and the state of a progressive run.
 //!
-//! Every number of a film is stored as it is in memory (32 bits), so that one that is read back is the same to the bit.
+//! Every number of a film is stored as it is in memory (32 bits), so that one that is read back is the same to the bit. Its header states what it is of: plan,
+//! seed, camera, frame, capture and shard. A film is used only where all of them are those that are expected, every pixel of the shard's tiles has samples and
+//! no other has, and its numbers are finite.
 
 use crate::error::Error;
+use crate::results::metadata;
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Quantity};
 use etendue_io::Provenance;
 use etendue_io::exr::{ExrFile, ExrImage, Layer, Samples, layers_image, read_exr_within};
+use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};
 use etendue_pipeline::render::{Shot, layout};
+use etendue_pipeline::tile::{Shard, tiles};
 use std::path::Path;
 
 /// How the name of a film ends.
@@ -48,13 +53,108 @@ pub(crate) fn image<'a>(film: &'a Film, facts: &Provenance) -> ExrImage<'a> {
     layers_image(film.weight.width(), film.weight.height(), &layers, facts)
 }
 
-/// A film of a camera of the plan, and its facts; `None` where the file holds another film.
-pub(crate) fn read(path: &Path, camera: &CameraPlan) -> Result<Option<(Film, Provenance)>, Error> {
+/// Facts of a film's header beside those of every result.
+const CAPTURE: &str = "capture";
+const SHARD: &str = "shard";
+
+/// What a stored film is of.
+#[derive(Clone, Copy)]
+pub(crate) struct FilmOrigin<'a> {
+    /// The plan.
+    pub(crate) plan: &'a Plan,
+    /// The first camera of those that share the light.
+    pub(crate) camera: &'a CameraPlan,
+    /// Frame and capture.
+    pub(crate) shot: Shot,
+    /// The tiles that it holds.
+    pub(crate) shard: Shard,
+}
+
+impl FilmOrigin<'_> {
+    /// What the header states.
+    pub(crate) fn facts(&self) -> Provenance {
+        let mut facts = metadata::provenance(self.plan, self.camera, self.shot.frame);
+        facts.further.insert(CAPTURE.to_owned(), self.shot.capture.to_string());
+        facts.further.insert(SHARD.to_owned(), format!("{}/{}", self.shard.index(), self.shard.count()));
+        facts
+    }
+
+    /// The first fact of a header that is another, in words.
+    fn difference(&self, found: &Provenance) -> Option<String> {
+        let expected = self.facts();
+        let further = |facts: &Provenance, name: &str| facts.further.get(name).cloned().unwrap_or_default();
+        let pairs = [
+            ("plan", expected.plan_hash.clone(), found.plan_hash.clone()),
+            ("seed", expected.seed.to_string(), found.seed.to_string()),
+            ("camera", expected.camera.clone(), found.camera.clone()),
+            ("frame", expected.frame.to_string(), found.frame.to_string()),
+            (CAPTURE, further(&expected, CAPTURE), further(found, CAPTURE)),
+            (SHARD, further(&expected, SHARD), further(found, SHARD)),
+        ];
+        let (name, expected, found) = pairs.into_iter().find(|(_, expected, found)| expected != found)?;
+        if name == "plan" {
+            return Some("it is of a run of another plan".to_owned());
+        }
+        let stated = if found.is_empty() { format!("no {name}") } else { format!("the {name} {found}") };
+        Some(format!("its header states {stated}, where {expected} is expected"))
+    }
+
+    /// What is wrong with the numbers of a film, in words.
+    fn fault(&self, film: &Film) -> Option<String> {
+        let (width, height) = self.camera.film_size();
+        let own = tiles(width, height, self.camera.settings.tile_px, self.shard);
+        let sampled = |x: u32, y: u32| film.samples.at(x as usize, y as usize) > 0;
+        // Passes of parts of the pixels alone leave some without samples.
+        let is_whole = self.camera.passes.as_ref().is_none_or(|passes| passes.list().is_empty() || passes.spp() > 0);
+        if is_whole && !own.iter().flat_map(|tile| tile.pixels()).all(|pixel| sampled(pixel.x, pixel.y)) {
+            return Some("pixels of its tiles have no samples: it is not complete".to_owned());
+        }
+        let inside = own.iter().flat_map(|tile| tile.pixels()).filter(|pixel| sampled(pixel.x, pixel.y)).count();
+        if film.samples.samples().iter().filter(|samples| **samples > 0).count() != inside {
+            return Some("pixels outside its tiles have samples: it is of another shard".to_owned());
+        }
+        let is_finite = |values: &[f32]| values.iter().all(|value| value.is_finite());
+        // A single replicate knows no variance; a large one may be beyond 32 bits.
+        let is_variance = |values: &[f32]| values.iter().all(|value| value.is_nan() || *value >= 0.0);
+        let bands = film.cube().is_none_or(|cube| {
+            cube.mean.planes().iter().all(|plane| is_finite(plane.samples()))
+                && cube.variance.planes().iter().all(|plane| is_variance(plane.samples()))
+        });
+        let electrons = film
+            .electron_rate
+            .as_ref()
+            .is_none_or(|rate| is_finite(rate.mean.samples()) && is_variance(rate.variance.samples()));
+        let watched = film
+            .watched
+            .as_ref()
+            .is_none_or(|light| is_finite(light.mean.samples()) && is_variance(light.variance.samples()));
+        let is_good = bands && electrons && watched && is_finite(film.weight.samples());
+        (!is_good || film.not_finite_samples() > 0)
+            .then(|| "it holds numbers that are not finite, or variances below 0: it is damaged".to_owned())
+    }
+}
+
+/// A film that is of what is expected, and its facts. `remedy` says what to do about another one.
+///
+/// # Errors
+/// Where it cannot be read, is of another origin, is not complete, or has numbers that are not finite.
+pub(crate) fn read(path: &Path, origin: &FilmOrigin<'_>, remedy: &str) -> Result<(Film, Provenance), Error> {
+    let refused = |why: &str| Error::input(format!("{}: {why}; {remedy}", path.display()));
+    let camera = origin.camera;
     let (width, height) = camera.film_size();
     // Most of a shard's film is black, and packs well.
     let most_bytes = Film::bytes(width as usize, height as usize, &layout(camera)) as u64;
     let file = read_exr_within(path, most_bytes).map_err(Error::input)?;
-    Ok(decode(&file, camera).map(|film| (film, file.provenance())))
+    let facts = file.provenance();
+    if let Some(why) = origin.difference(&facts) {
+        return Err(refused(&why));
+    }
+    let film = decode(&file, camera);
+    let film = film.ok_or_else(|| refused(&format!("this is not the film of camera {}", camera.name)))?;
+    match origin.fault(&film) {
+        Some(why) => Err(refused(&why)),
+        None => Ok((film, facts)),
+    }
 }
 
 fn decode(file: &ExrFile, camera: &CameraPlan) -> Option<Film> {

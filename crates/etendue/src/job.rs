@@ -13,7 +13,7 @@ use crate::refine::{Progress, state, timed};
 use crate::render_options::RenderOptions;
 use crate::results::{CameraResults, DoneFrames, Kept, Results, Sequence, file_names};
 use crate::rig;
-use etendue_io::{Existing, OutputFolder, Sandbox, TextureMemory, complete_assets};
+use etendue_io::{CacheUse, Existing, OutputFolder, Sandbox, TextureMemory, complete_assets};
 use etendue_pipeline::plan::effects::PlannedEffect;
 use etendue_pipeline::plan::{CameraPlan, Passes};
 use etendue_pipeline::summary::Summary;
@@ -24,6 +24,9 @@ use std::cell::RefCell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// The folder of tiles in an output folder, no name of a camera.
+const TILES: &str = ".texture-cache";
 
 /// A job file and what is changed in it: enough to make the same plan again.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -84,6 +87,23 @@ impl JobRequest {
         }
     }
 
+    /// The same for a run into an output folder: the tiles of textures of a sandboxed job that names no folder for them are there, in `.texture-cache`.
+    #[must_use]
+    pub fn into_output(mut self, folder: &Path) -> Self {
+        if self.sandbox.is_some() && self.textures.cache.is_none() {
+            self.textures.cache = Some(folder.join(TILES));
+            self.textures.cache_use = CacheUse::KeepInOutput;
+        }
+        self
+    }
+
+    /// The same for what is told of a job without rendering it: no tiles of textures are written.
+    #[must_use]
+    pub fn without_tiles(mut self) -> Self {
+        self.textures.cache_use = CacheUse::Read;
+        self
+    }
+
     /// Reads, checks and compiles the job. Runs on the caller's thread pool.
     ///
     /// # Errors
@@ -105,7 +125,9 @@ impl JobRequest {
         let assets = assets.map_err(Error::inputs)?;
         let plan = compile(&description, &assets, &self.choices()).map_err(Error::inputs)?;
         let mut plan = self.narrowed(plan)?;
-        plan.film_limit = Some(self.films.limit(self.textures.cache.as_ref()));
+        // Scratch files leave nothing behind.
+        let stays = self.textures.cache_use == CacheUse::KeepInOutput;
+        plan.film_limit = Some(self.films.limit(self.textures.cache.as_ref().filter(|_| !stays)));
         let (plan, mut files) = (Arc::new(plan), sandbox.looked_for());
         files.retain(|path| path.is_file());
         Ok(Job { request: self, plan, files: files.into() })
@@ -343,21 +365,20 @@ impl Job {
     ) -> Result<Vec<PathBuf>, Error> {
         let root = folder;
         let done = |plan: &Arc<Plan>| match existing {
-            Existing::Resume => DoneFrames::in_folder(root, plan, &options.frames),
+            Existing::Resume => DoneFrames::in_folder(root, plan, &options.frames, observer),
             Existing::Refuse | Existing::Replace => Ok(DoneFrames::default()),
         };
         let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
-        if self.request.time_s.is_none() {
-            done(&self.plan)?;
-        }
-        state::check(root, existing)?;
+        // Where a time decides the passes, the plan of the frames is known when they are done.
+        let mut known = self.request.time_s.is_none().then(|| done(&self.plan)).transpose()?;
+        state::check(&folder, existing)?;
         folder.claim(self.file_names(&options.frames).iter().map(String::as_str)).map_err(Error::input)?;
         let mut folder = if self.request.progressive { folder.refining() } else { folder };
         let progress = RefCell::new(Progress::of(self.request.progressive, (&folder, existing))?);
         let kept = Kept::of_run(&folder, observer);
         let (sequence, mut written) = (RefCell::new(Sequence::default()), Vec::new());
         let done_and_noted = |plan: &Arc<Plan>| {
-            let done = done(plan)?;
+            let done = known.take().map_or_else(|| done(plan), Ok)?;
             done.note_all(plan, &options.frames, &mut sequence.borrow_mut());
             Ok(done)
         };
@@ -373,8 +394,8 @@ impl Job {
         let sequence = sequence.into_inner();
         sequence.finish(&mut folder, observer)?;
         rig::write(&rig::asked_files(&self.plan, &options.frames), &mut folder, observer)?;
-        written.extend(folder.commit().map_err(Error::run)?);
-        progress.into_inner().finish(root)?;
+        written.extend(folder.publish().map_err(Error::run)?);
+        progress.into_inner().finish(&folder)?;
         kept.all();
         Ok(written)
     }

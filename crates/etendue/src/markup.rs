@@ -1,9 +1,11 @@
 //! Text in HTML and SVG.
 
-/// A text as it stands in HTML and SVG, in attributes too.
+use crate::terminal_text::terminal_text;
+
+/// A text as it stands in HTML and SVG, in attributes too; what turns its direction or has no shape is shown as on a terminal.
 #[must_use]
 pub fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    terminal_text(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -13,5 +15,6 @@ mod tests {
     #[test]
     fn texts_cannot_become_markup() {
         assert_eq!(escaped("a < \"b\" & c"), "a &lt; &quot;b&quot; &amp; c");
+        assert_eq!(escaped("a\u{202e}\u{1b}\n"), "a\\u{202e}\\u{1b}\n");
     }
 }

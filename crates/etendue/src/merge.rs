@@ -2,6 +2,7 @@
 
 use crate::delivery::{SoFar, deliver};
 use crate::error::Error;
+use crate::film_file::FilmOrigin;
 use crate::observer::Observer;
 use crate::render_options::RenderOptions;
 use crate::results::{DoneFrames, Kept, Sequence};
@@ -37,14 +38,14 @@ pub fn merge(
     if let Some(job) = job {
         manifest.request.job = job.to_path_buf();
     }
-    let job = manifest.request.clone().open()?;
+    let job = manifest.request.clone().into_output(folder).open()?;
     check_same_plan(job.plan(), &manifest)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     folder.claim(job.file_names(&manifest.frames).iter().map(String::as_str)).map_err(Error::input)?;
     let kept = Kept::of_run(&folder, observer);
     let options = RenderOptions { frames: manifest.frames.clone(), simd };
     let mut sequence = Sequence::default();
-    let film_of = |group: &[&CameraPlan], shot, _: SoFar<'_>| joined(group[0], shot, &shards);
+    let film_of = |group: &[&CameraPlan], shot, _: SoFar<'_>| joined(job.plan(), group[0], shot, &shards);
     deliver(job.shared_plan(), &options, &DoneFrames::default(), film_of, |camera| {
         sequence.write(&camera, &mut folder, observer)
     })?;
@@ -96,17 +97,19 @@ fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Error> {
 const AT_ONCE: usize = 4;
 
 /// The film of all shards' tiles.
-fn joined(camera: &CameraPlan, shot: Shot, shards: &[(Manifest, &PathBuf)]) -> Result<Film, Error> {
+fn joined(plan: &Plan, camera: &CameraPlan, shot: Shot, shards: &[(Manifest, &PathBuf)]) -> Result<Film, Error> {
     let (width, height) = camera.film_size();
     let settings = &camera.settings;
     let mut film = Film::new(width as usize, height as usize, &layout(camera), settings.replicates);
+    let read = |(manifest, folder): &(Manifest, &PathBuf)| {
+        let shard = Shard::new(manifest.index, manifest.count)
+            .ok_or_else(|| refuse(folder, "its manifest is damaged; render the shard again"))?;
+        shard::read(folder, &FilmOrigin { plan, camera, shot, shard }).map(|film| (shard, film))
+    };
     for some in shards.chunks(AT_ONCE) {
-        let parts: Vec<Result<Film, Error>> =
-            some.par_iter().map(|(_, folder)| shard::read(folder, camera, shot)).collect();
-        for ((manifest, folder), part) in some.iter().zip(parts) {
-            let part = part?;
-            let shard = Shard::new(manifest.index, manifest.count)
-                .ok_or_else(|| refuse(folder, "its manifest is damaged; render the shard again"))?;
+        let parts: Vec<Result<(Shard, Film), Error>> = some.par_iter().map(read).collect();
+        for part in parts {
+            let (shard, part) = part?;
             tiles(width, height, settings.tile_px, shard).into_iter().for_each(|tile| film.copy_tile(tile, &part));
         }
     }

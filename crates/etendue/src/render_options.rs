@@ -3,6 +3,9 @@
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
 
+/// Frames that one run takes at most.
+pub const MAX_FRAMES: usize = 100_000;
+
 /// Which frames are taken, and how: what does not change the light.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RenderOptions {

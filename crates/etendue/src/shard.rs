@@ -7,12 +7,13 @@ use crate::camera_file::read_text;
 use crate::delivery::{check_finite, check_frames, shots_of};
 use crate::error::Error;
 use crate::exposures::Exposures;
-use crate::film_file::{self, film_name};
+use crate::film_file::{self, FilmOrigin, film_name};
 use crate::film_memory;
 use crate::job::{Job, JobRequest};
 use crate::observer::Observer;
+use crate::render_options::MAX_FRAMES;
+use crate::results::Kept;
 use crate::results::writer::write_exr;
-use crate::results::{Kept, metadata};
 use crate::shard_spec::{ShardRequest, ShardSpec};
 use etendue_io::{Existing, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
@@ -59,8 +60,8 @@ impl Job {
             .map_err(Error::input)?;
         let kept = Kept::of_run(&folder, observer);
         self.render_shard((asked, &names), simd, observer, |camera, shot, film| {
-            let facts = metadata::provenance(self.plan(), camera, shot.frame);
-            write_exr(&mut folder, &film_name(camera, shot), film_file::image(&film, &facts))
+            let origin = FilmOrigin { plan: self.plan(), camera, shot, shard: asked.spec.shard()? };
+            write_exr(&mut folder, &film_name(camera, shot), film_file::image(&film, &origin.facts()))
         })?;
         if let Some(manifest) = &manifest {
             folder.write(MANIFEST, manifest).map_err(Error::run)?;
@@ -162,8 +163,26 @@ impl Manifest {
         let explain =
             |why: String| Error::input(format!("{}: {why}; give folders made by render --shard", path.display()));
         let text = read_text(&path).map_err(explain)?;
-        serde_json::from_str(&text)
-            .map_err(|error| explain(format!("this is no shard manifest of this version ({error})")))
+        let manifest: Self = serde_json::from_str(&text)
+            .map_err(|error| explain(format!("this is no shard manifest of this version ({error})")))?;
+        match manifest.fault() {
+            Some(why) => Err(explain(why)),
+            None => Ok(manifest),
+        }
+    }
+
+    /// What no shard that was rendered states, in words.
+    fn fault(&self) -> Option<String> {
+        let Self { index, count, frames, tile_px, .. } = self;
+        if index >= count {
+            return Some(format!("it states shard {index} of {count}, where a number below the count is expected"));
+        }
+        if frames.is_empty() || frames.len() > MAX_FRAMES {
+            let (start, end) = (frames.start, frames.end);
+            return Some(format!("it states frames {start}..{end}, where 1 to {MAX_FRAMES} frames are expected"));
+        }
+        let is_tiled = !tile_px.is_empty() && tile_px.iter().all(|side| *side > 0);
+        (!is_tiled).then(|| "it states no sides of tiles above 0".to_owned())
     }
 
     /// Whether films of this shard are there; refuses a folder of another: films that were rendered each by itself belong together.
@@ -199,15 +218,8 @@ impl Manifest {
     }
 }
 
-/// The film of a camera of the plan, from a shard's folder.
-pub(crate) fn read(folder: &Path, camera: &CameraPlan, shot: Shot) -> Result<Film, Error> {
-    let path = folder.join(film_name(camera, shot));
-    let (film, _) = film_file::read(&path, camera)?.ok_or_else(|| {
-        Error::input(format!(
-            "{}: this is not the film of camera {}; render the shard again",
-            path.display(),
-            camera.name
-        ))
-    })?;
-    Ok(film)
+/// A film of a shard, from its folder.
+pub(crate) fn read(folder: &Path, origin: &FilmOrigin<'_>) -> Result<Film, Error> {
+    let path = folder.join(film_name(origin.camera, origin.shot));
+    film_file::read(&path, origin, "render the shard again").map(|(film, _)| film)
 }

@@ -23,7 +23,12 @@ use crate::{Error, Sandbox};
 /// # Errors
 /// All faults of all files, each with the place that names the file.
 pub fn load_assets(named: &[AssetRequest]) -> Result<Assets, Vec<Error>> {
-    complete_assets(Assets::default(), named, &TextureMemory { limit_bytes: u64::MAX, cache: None }, &Sandbox::NONE)
+    complete_assets(
+        Assets::default(),
+        named,
+        &TextureMemory { limit_bytes: u64::MAX, ..TextureMemory::default() },
+        &Sandbox::NONE,
+    )
 }
 
 /// The same where some assets are there already, such as those a program made. Pictures of textures that need more than `memory` are not
@@ -80,7 +85,7 @@ fn large_pictures(assets: &mut Assets, requests: &[AssetRequest], memory: &Textu
     let large = memory.large(&bytes);
     if large.contains(&true) {
         let held: u64 = bytes.iter().zip(&large).filter(|(_, is_large)| !**is_large).map(|(bytes, _)| bytes).sum();
-        let blocks = Arc::new(TileCache::new(memory.cache.as_deref()));
+        let blocks = Arc::new(TileCache::new(memory.cache.as_deref(), memory.cache_use));
         assets.texel_store = Some(TexelStore { blocks, memory_bytes: memory.limit_bytes - held });
     }
     heads.into_iter().zip(large).map(|(head, is_large)| head.filter(|_| is_large)).collect()

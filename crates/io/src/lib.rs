@@ -39,6 +39,7 @@ pub mod emva_descriptor;
 pub mod error;
 pub mod exif;
 pub mod exr;
+mod file_digest;
 mod folder_lock;
 mod guard;
 pub mod hash;
@@ -73,10 +74,12 @@ mod tree;
 mod unpacked;
 #[cfg(feature = "usd")]
 pub mod usd;
+mod within;
 pub mod y4m;
 
 pub use assets::{complete_assets, load_assets};
 pub use error::Error;
+pub use file_digest::FileDigest;
 pub use guard::is_decoding;
 pub use output::{Existing, OutputFolder};
 pub use provenance::Provenance;
@@ -84,3 +87,4 @@ pub use sandbox::Sandbox;
 pub use scratch::ScratchFolder;
 pub use source::read_regular;
 pub use texture_memory::TextureMemory;
+pub use tile_cache::CacheUse;

@@ -9,15 +9,21 @@
 //! the place of a file is that file's name, replaced or refused as any; one in the place of a folder within the output folder is refused. The output folder itself
 //! may be one.
 
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::Error;
+use crate::file_digest::FileDigest;
 use crate::folder_lock::FolderLock;
-use crate::made_folders::{self, MadeFolders, Missed};
+use crate::made_folders::{MadeFolders, Missed};
 use crate::run_mark::RunMark;
+use crate::within;
 
 /// How often a folder is made that another run removes at that moment, as nothing is in it.
 const TRIES: usize = 100;
@@ -64,6 +70,8 @@ impl OutputFolder {
         Self::opened(root, existing, |folder| {
             let whole = FolderLock::shared(root)?;
             let part = folder.resolve(part)?;
+            within::check_folders(root, &part)?;
+            within::check_folder(&part)?;
             folder.made.make(&part)?;
             Ok(vec![whole, FolderLock::part(root, &part)?])
         })
@@ -138,16 +146,18 @@ impl OutputFolder {
     pub fn remove<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), Error> {
         for name in names {
             let path = self.resolve(name)?;
-            match fs::remove_file(&path) {
-                Err(cause) if cause.kind() != io::ErrorKind::NotFound => {
-                    return Err(Error::new(&path, format!("cannot be removed: {cause}")));
-                }
-                _ => {}
-            }
+            within::remove_file(&self.root, &path)?;
             // Left where it is not empty.
             let _ = path.parent().filter(|folder| *folder != self.root).map(fs::remove_dir);
         }
         Ok(())
+    }
+
+    /// The names of the files in a folder within, sorted; none where it is not there. A link in its place is refused, links in it are left out.
+    pub fn files_in(&self, folder: &str) -> Result<Vec<String>, Error> {
+        let files = within::files_in(&self.root, &self.resolve(folder)?)?;
+        let name = |path: PathBuf| Some(format!("{folder}/{}", path.file_name()?.to_str()?));
+        Ok(files.into_iter().filter_map(name).collect())
     }
 
     /// Writes `bytes` for `name` (relative, `/` between folders) under a temporary name.
@@ -181,6 +191,20 @@ impl OutputFolder {
         let target = self.resolve(name)?;
         let pending = self.pending.iter().find(|file| file.name == target);
         Ok(pending.map_or(target, |file| file.temporary.clone()))
+    }
+
+    /// The digests of those files that were written, have no final name yet and are `wanted`, by their names within the folder.
+    pub fn pending_digests(&self, wanted: impl Fn(&str) -> bool) -> Result<BTreeMap<String, FileDigest>, Error> {
+        let named = self.pending.iter().map(|file| {
+            let inside = file.name.strip_prefix(&self.root).unwrap_or(&file.name);
+            let parts: Vec<_> = inside.components().map(|part| part.as_os_str().to_string_lossy()).collect();
+            (parts.join("/"), &file.temporary)
+        });
+        let digest = |(name, temporary): (String, &PathBuf)| {
+            let unread = |cause: io::Error| Error::new(temporary, format!("cannot be read back: {cause}"));
+            Ok((name, FileDigest::new(temporary).map_err(unread)?))
+        };
+        named.filter(|(name, _)| wanted(name)).map(digest).collect()
     }
 
     /// Gives every file its final name and returns the names, in the order of writing.
@@ -219,7 +243,7 @@ impl OutputFolder {
     }
 
     fn check_free(&self, target: &Path) -> Result<(), Error> {
-        self.check_folders(target)?;
+        within::check_folders(&self.root, target)?;
         // Of a link itself, not of where it leads.
         let there = match fs::symlink_metadata(target) {
             Ok(there) => there,
@@ -240,30 +264,13 @@ impl OutputFolder {
         }
         Ok(())
     }
-
-    /// Refuses what is in the place of a folder within the output folder and is none, or leads elsewhere.
-    fn check_folders(&self, target: &Path) -> Result<(), Error> {
-        let within = target.ancestors().skip(1).take_while(|folder| *folder != self.root);
-        for folder in within {
-            if folder.is_symlink() {
-                return Err(Error::new(
-                    folder,
-                    "a symbolic link is in the place of a folder of results, which stay in the output folder; remove it, or choose another output folder",
-                ));
-            }
-            if folder.is_file() {
-                return Err(made_folders::no_folder(folder));
-            }
-        }
-        Ok(())
-    }
 }
 
 impl Drop for OutputFolder {
     /// Removes what was not committed. Failures are passed over: there is nobody left to tell.
     fn drop(&mut self) {
         for file in &self.pending {
-            let _ = fs::remove_file(&file.temporary);
+            let _ = within::remove_file(&self.root, &file.temporary);
         }
         self.mark = None;
         self.made.remove();
@@ -276,175 +283,4 @@ fn write_flushed(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Re
     let mut file = BufWriter::new(File::create_new(path)?);
     write(&mut file)?;
     file.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn listing(folder: &Path) -> Vec<String> {
-        let mut names: Vec<String> = fs::read_dir(folder)
-            .expect("folder")
-            .map(|e| e.expect("entry").file_name().to_string_lossy().into_owned())
-            .collect();
-        names.sort();
-        names
-    }
-
-    #[test]
-    fn nothing_has_its_final_name_before_the_commit() {
-        let place = tempfile::tempdir().expect("temporary folder");
-        let root = place.path().join("a/b");
-        let mut out = OutputFolder::open(&root, Existing::Refuse).expect("new folder");
-        out.write("x.txt", b"one").expect("write");
-        out.write("deep/y.txt", b"two").expect("write");
-        assert!(!root.join("x.txt").exists() && !root.join("deep/y.txt").exists());
-        assert_eq!(out.commit().expect("commit"), [root.join("x.txt"), root.join("deep/y.txt")]);
-        assert_eq!(listing(&root), ["deep", "x.txt"]);
-        assert_eq!(fs::read(root.join("deep/y.txt")).expect("file"), b"two");
-    }
-
-    #[test]
-    fn what_was_written_can_be_read_before_and_after_it_has_its_name() {
-        let place = tempfile::tempdir().expect("temporary folder");
-        let mut out = OutputFolder::open(place.path(), Existing::Refuse).expect("folder");
-        out.write_with("a/x.txt", |file| b"onetwo".chunks(3).try_for_each(|part| file.write_all(part))).expect("write");
-        let read = |out: &OutputFolder| fs::read(out.readable("a/x.txt").expect("a plain name")).expect("a file");
-        assert_eq!(read(&out), b"onetwo");
-        out.publish().expect("published");
-        assert_eq!(read(&out), b"onetwo");
-        assert_eq!(out.readable("a/x.txt").expect("a plain name"), place.path().join("a/x.txt"));
-    }
-
-    #[test]
-    fn a_dropped_folder_leaves_no_trace() {
-        let place = tempfile::tempdir().expect("temporary folder");
-        let mut out = OutputFolder::open(&place.path().join("a/b"), Existing::Refuse).expect("new folder");
-        out.write("deep/x.txt", b"one").expect("write");
-        drop(out);
-        assert_eq!(listing(place.path()), Vec::<String>::new());
-    }
-
-    #[test]
-    fn an_earlier_result_is_kept_unless_replacing_is_allowed() {
-        let place = tempfile::tempdir().expect("temporary folder");
-        fs::write(place.path().join("x.txt"), b"old").expect("write");
-        let refusing = OutputFolder::open(place.path(), Existing::Refuse).expect("open");
-        let told = refusing.claim(["y.txt", "x.txt"]).expect_err("x.txt is there").to_string();
-        assert!(
-            told.ends_with("x.txt: already there; choose another output folder, or allow it with --overwrite"),
-            "{told}"
-        );
-        drop(refusing);
-        let mut replacing = OutputFolder::open(place.path(), Existing::Replace).expect("open");
-        replacing.claim(["x.txt"]).expect("allowed");
-        replacing.write("x.txt", b"new").expect("write");
-        assert_eq!(fs::read(place.path().join("x.txt")).expect("file"), b"old");
-        replacing.commit().expect("commit");
-        assert_eq!(fs::read(place.path().join("x.txt")).expect("file"), b"new");
-    }
-
-    #[test]
-    fn a_file_that_appears_during_the_run_is_not_overwritten() {
-        let place = tempfile::tempdir().expect("temporary folder");
-        let mut out = OutputFolder::open(place.path(), Existing::Refuse).expect("open");
-        out.write("x.txt", b"ours").expect("write");
-        fs::write(place.path().join("x.txt"), b"theirs").expect("write");
-        out.commit().expect_err("refused");
-        assert_eq!(fs::read(place.path().join("x.txt")).expect("file"), b"theirs");
-        assert_eq!(listing(place.path()), ["x.txt"]);
-    }
-
-    #[test]
-    fn one_run_at_a_time_has_a_folder() {
-        let place = tempfile::tempdir().expect("temporary folder");
-        let first = OutputFolder::open(place.path(), Existing::Refuse).expect("free");
-        let told = OutputFolder::open(place.path(), Existing::Replace).expect_err("taken").to_string();
-        assert!(told.contains("another run of this process writes into this folder"), "{told}");
-        OutputFolder::open_part(place.path(), "a", Existing::Refuse).expect_err("taken");
-        let again = first.again(Existing::Replace).expect("the same run");
-        drop(first);
-        OutputFolder::open(place.path(), Existing::Refuse).expect_err("the run goes on");
-        let mut beside = OutputFolder::open_beside(place.path(), Existing::Refuse).expect("single files");
-        beside.write("x.txt", b"x").expect("write");
-        beside.commit().expect("commit");
-        drop(again);
-        let parts = ["a", "b"].map(|part| OutputFolder::open_part(place.path(), part, Existing::Refuse).expect("free"));
-        OutputFolder::open_part(place.path(), "b", Existing::Refuse).expect_err("taken");
-        drop(parts);
-        assert_eq!(listing(place.path()), ["x.txt"], "folders without results go");
-        OutputFolder::open(place.path(), Existing::Refuse).expect("free");
-    }
-
-    /// Runs of parts that make one folder together, and remove it, as they end without results.
-    #[test]
-    fn parts_of_a_folder_that_others_make_and_remove_are_each_had() {
-        let place = tempfile::tempdir().expect("temporary folder");
-        let root = &place.path().join("out/deep");
-        let run = |part: usize| {
-            drop(OutputFolder::open_part(root, &part.to_string(), Existing::Refuse).expect("free"));
-            drop(OutputFolder::open_beside(root, Existing::Refuse).expect("free"));
-        };
-        std::thread::scope(|threads| {
-            (0..4).for_each(|part| _ = threads.spawn(move || (0..300).for_each(|_| run(part))));
-        });
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn links_are_not_followed() {
-        use std::os::unix::fs::symlink;
-        let place = tempfile::tempdir().expect("temporary folder");
-        let (root, foreign) = (place.path().join("out"), place.path().join("foreign"));
-        [&root, &foreign].iter().for_each(|folder| fs::create_dir(folder).expect("folder"));
-        fs::write(foreign.join("x.txt"), b"theirs").expect("write");
-        for (name, to) in [("x.txt", "x.txt"), ("y.txt", "none")] {
-            symlink(foreign.join(to), root.join(name)).expect("link");
-        }
-        symlink(&foreign, root.join("deep")).expect("link");
-        let refusing = OutputFolder::open(&root, Existing::Refuse).expect("open");
-        for name in ["x.txt", "y.txt"] {
-            let told = refusing.claim([name]).expect_err("a link is there").to_string();
-            assert!(told.contains("already there"), "{told}");
-        }
-        drop(refusing);
-        let mut replacing = OutputFolder::open(&root, Existing::Replace).expect("open");
-        for told in [replacing.claim(["deep/z.txt"]), replacing.write("deep/z.txt", b"")] {
-            let told = told.expect_err("a link in the place of a folder").to_string();
-            assert!(told.contains("a symbolic link is in the place of a folder of results"), "{told}");
-        }
-        ["x.txt", "y.txt"].iter().for_each(|name| replacing.write(name, b"ours").expect("write"));
-        replacing.commit().expect("commit");
-        assert!(["x.txt", "y.txt"].iter().all(|name| !root.join(name).is_symlink()));
-        assert_eq!(fs::read(foreign.join("x.txt")).expect("file"), b"theirs");
-        assert_eq!(listing(&foreign), ["x.txt"]);
-    }
-
-    #[test]
-    fn a_name_that_is_too_long_is_refused_before_anything_is_made() {
-        let place = tempfile::tempdir().expect("temporary folder");
-        let out = OutputFolder::open(place.path(), Existing::Replace).expect("open");
-        let told = out.claim([format!("{}/x.txt", "n".repeat(300)).as_str()]).expect_err("too long").to_string();
-        assert!(told.contains("cannot be written: "), "{told}");
-    }
-
-    #[test]
-    fn names_stay_inside_and_are_used_once() {
-        let place = tempfile::tempdir().expect("temporary folder");
-        let mut out = OutputFolder::open(place.path(), Existing::Refuse).expect("open");
-        for name in ["", "../x", "/x", "a/../x"] {
-            out.write(name, b"").expect_err(name);
-        }
-        out.write("x", b"").expect("first");
-        out.write("x", b"").expect_err("second");
-    }
-
-    #[test]
-    fn a_file_in_the_place_of_the_folder_is_named() {
-        let place = tempfile::tempdir().expect("temporary folder");
-        let file = place.path().join("taken");
-        fs::write(&file, b"").expect("write");
-        let told = OutputFolder::open(&file, Existing::Replace).expect_err("a file").to_string();
-        assert!(told.contains("expected a folder for the results, but this is a file"), "{told}");
-    }
 }

@@ -8,6 +8,8 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Read as _, Write as _};
 use std::path::{Component, Path, PathBuf};
 
+use crate::within;
+
 const HEAD: &str = ".etendue.";
 const TAIL: &str = ".part";
 
@@ -103,7 +105,7 @@ fn remove_run(root: &Path, mark: &Path, run: &str) -> io::Result<()> {
     let mut names = String::new();
     list.read_to_string(&mut names)?;
     for name in names.lines().filter(|name| is_temporary(Path::new(name), run)) {
-        let _ = fs::remove_file(root.join(name));
+        let _ = within::remove_file(root, &root.join(name));
     }
     // While it is locked: nobody takes it for a mark of its own any more.
     fs::remove_file(mark)
@@ -155,6 +157,20 @@ mod tests {
         fs::write(&temporary, b"half").expect("write");
         drop(RunMark::set(place.path()).expect("another mark"));
         assert!(temporary.exists() && running.path.exists());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_list_removes_nothing_through_a_link() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let (root, foreign) = (place.path().join("out"), place.path().join("foreign"));
+        [&root, &foreign].iter().for_each(|folder| fs::create_dir(folder).expect("folder"));
+        fs::write(foreign.join(".x.1-0.part"), b"theirs").expect("write");
+        std::os::unix::fs::symlink(&foreign, root.join("deep")).expect("link");
+        fs::write(root.join(".etendue.1-0.part"), "deep/.x.1-0.part\n").expect("write");
+        drop(RunMark::set(&root).expect("a mark"));
+        assert_eq!(listing(&root), ["deep"], "the mark is gone");
+        assert_eq!(listing(&foreign), [".x.1-0.part"]);
     }
 
     #[test]

@@ -3,8 +3,23 @@
 //! Keys are sorted, so that the same facts give the same bytes. JSON has no NaN or infinity: such a number becomes
 //! `null`, therefore a caller states an absent number by leaving its key out.
 
+use std::path::Path;
+
 use serde::Serialize;
 use serde_json::{Map, Value};
+
+use crate::Error;
+use crate::source::{decode_text, read_description_bytes};
+
+/// What a side-car says; it is read up to the limit of files that describe.
+///
+/// # Errors
+/// Where it cannot be read, is larger, or is not JSON.
+pub fn read(file: &Path) -> Result<Value, Error> {
+    let bytes = read_description_bytes(file, "side-car")?;
+    serde_json::from_str(decode_text(file, &bytes)?)
+        .map_err(|cause| Error::new(file, format!("not JSON ({cause}); remove it, or render again")))
+}
 
 /// `facts` as indented JSON with sorted keys and a newline at the end.
 pub fn encode(facts: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use etendue_scene::asset::PixelFormat;
 
+use crate::tile_cache::CacheUse;
+
 /// How much memory textures may take, and where those are kept that take more. No result depends on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextureMemory {
@@ -11,12 +13,14 @@ pub struct TextureMemory {
     pub limit_bytes: u64,
     /// The folder of the tiles; `None`: the user's ([`TileCache::new`](crate::tile_cache::TileCache::new)).
     pub cache: Option<PathBuf>,
+    /// What is done with that folder.
+    pub cache_use: CacheUse,
 }
 
 impl Default for TextureMemory {
     /// 512 MB.
     fn default() -> Self {
-        Self { limit_bytes: 512_000_000, cache: None }
+        Self { limit_bytes: 512_000_000, cache: None, cache_use: CacheUse::Keep }
     }
 }
 
@@ -50,7 +54,7 @@ mod tests {
 
     #[test]
     fn the_smallest_stay_where_not_all_fit() {
-        let large = |limit_bytes, bytes: &[u64]| TextureMemory { limit_bytes, cache: None }.large(bytes);
+        let large = |limit_bytes, bytes: &[u64]| TextureMemory { limit_bytes, ..TextureMemory::default() }.large(bytes);
         assert_eq!(large(100, &[40, 60]), [false, false]);
         assert_eq!(large(100, &[40, 61]), [false, true]);
         assert_eq!(large(100, &[29, 100, 10, 11]), [false, true, false, false]);

@@ -1,6 +1,6 @@
 //! Errors as exceptions: `etendue.InputError` for unusable input, `etendue.RunError` for a run that did not succeed.
 
-use etendue::{Error, Fault};
+use etendue::{Error, Fault, terminal_text};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
@@ -9,7 +9,7 @@ pub(crate) fn exception(py: Python<'_>, error: Error) -> PyErr {
     let made = match error {
         Error::Input(faults) => made(py, "InputError", |class| class.call1((told(faults),))),
         Error::Run(reason) => {
-            made(py, "RunError", |class| class.call1((reason.trim_start_matches("error: ").trim_end(),)))
+            made(py, "RunError", |class| class.call1((terminal_text(reason.trim_start_matches("error: ").trim_end()),)))
         }
     };
     made.map_or_else(|failure| failure, PyErr::from_value)
@@ -29,7 +29,7 @@ type Told = (String, Option<String>, Option<u32>, Option<u32>, Option<String>);
 fn told(faults: Vec<Fault>) -> Vec<Told> {
     let one = |fault: Fault| {
         let file = fault.file.map(|file| file.to_string_lossy().into_owned());
-        (fault.message, file, fault.line, fault.column, fault.key)
+        (terminal_text(&fault.message).into_owned(), file, fault.line, fault.column, fault.key)
     };
     faults.into_iter().map(one).collect()
 }

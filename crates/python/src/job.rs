@@ -80,7 +80,11 @@ impl Job {
             quality: quality.map(|word| of_word(word, "quality", &qualities)).transpose()?,
             camera,
             sandbox,
-            textures: TextureMemory { limit_bytes: u64::from(texture_memory_mb) * 1_000_000, cache },
+            textures: TextureMemory {
+                limit_bytes: u64::from(texture_memory_mb) * 1_000_000,
+                cache,
+                ..TextureMemory::default()
+            },
             films: FilmMemory { limit_bytes: u64::from(film_memory_mb) * 1_000_000, scratch },
             ..JobRequest::new(&path)
         };

@@ -1,7 +1,7 @@
 //! What takes long: on a thread of its own, watched by the one that called.
 
 use crate::error::exception;
-use etendue::{Error, Message, Observer, Progress};
+use etendue::{Error, Message, Observer, Progress, terminal_text};
 use etendue_cli::{Console, pool};
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -97,6 +97,7 @@ impl Watch {
             progress.call1(py, newest)?;
         }
         for (is_warning, text) in messages {
+            let text = terminal_text(&text);
             match is_warning {
                 true => py.import("warnings")?.call_method1("warn", (text,))?,
                 false => {

@@ -304,3 +304,26 @@ def test_options_of_other_verbs_are_no_options_here():
     with pytest.raises(TypeError, match="time_s"):
         driver.render("x.toml", "out", shards=1, time_s=10)
     assert "ray" not in sys.modules
+
+
+def test_nothing_is_removed_or_written_through_a_link(tmp_path):
+    foreign = tmp_path / "foreign"
+    foreign.mkdir()
+    (foreign / "theirs").write_text("precious")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / store.FOLDER).symlink_to(foreign)
+    for options in ({"overwrite": True, "resume": False}, {"overwrite": False, "resume": True}, {"overwrite": False, "resume": False}):
+        with pytest.raises(etendue.InputError, match="a symbolic link is in the place"):
+            store.Store(tmp_path / "out").open({}, [], **options)
+    assert contents(foreign) == {"theirs": b"precious"}
+    (tmp_path / "out" / store.FOLDER).unlink()
+    kept = store.Store(tmp_path / "out")
+    kept.open({"a": 1}, [], overwrite=False, resume=False)
+    (tmp_path / "out" / store.FOLDER / "shard-00000").symlink_to(foreign)
+    with pytest.raises(etendue.InputError, match="a symbolic link is in the place"):
+        kept.add("x.film.exr", 0, {store.MANIFEST: b"{}", "x.film.exr": b""})
+    kept.close()
+    again = store.Store(tmp_path / "out")
+    again.open({"a": 2}, [], overwrite=True, resume=False)
+    again.close()
+    assert contents(foreign) == {"theirs": b"precious"}

@@ -60,8 +60,16 @@ pub static MESH: Limit = Limit::new(
 /// Files in a row that build on one another.
 pub static BASES: Limit = Limit::new("bases", "files that are built one on the other by \"base\"", 16, 64);
 
+/// Sizes of folders of tiles.
+pub static TEXTURE_CACHE: Limit = Limit::new(
+    "texture-cache-mib",
+    "MiB of the folder of tiles of large textures (`--cache`): files that were used longest ago are removed, and a job whose own tiles need more is refused",
+    2048,
+    1 << 20,
+);
+
 /// All of them.
-pub static ALL: [&Limit; 6] = [&DESCRIPTION, &FILE, &PICTURE, &CORNERS, &MESH, &BASES];
+pub static ALL: [&Limit; 7] = [&DESCRIPTION, &FILE, &PICTURE, &CORNERS, &MESH, &BASES, &TEXTURE_CACHE];
 
 impl Limit {
     const fn new(name: &'static str, about: &'static str, default: u64, highest: u64) -> Self {

@@ -83,19 +83,23 @@ impl From<&JobArgs> for JobRequest {
             camera: a.camera.clone(),
             seed: a.seed,
             sandbox: a.sandboxed.then(|| a.allow_outside.clone()),
-            textures: TextureMemory { limit_bytes: u64::from(a.texture_memory) * 1_000_000, cache: a.cache.clone() },
+            textures: TextureMemory {
+                limit_bytes: u64::from(a.texture_memory) * 1_000_000,
+                cache: a.cache.clone(),
+                ..TextureMemory::default()
+            },
             films: FilmMemory { limit_bytes: u64::from(a.film_memory) * 1_000_000, scratch: a.scratch.clone() },
         }
     }
 }
 
 impl JobArgs {
-    /// Opens the job and tells what the command line supersedes of it.
+    /// Opens the job for what is told of it, and tells what the command line supersedes.
     pub fn open(&self, console: &dyn Console, pool: &rayon::ThreadPool) -> Result<Job, Error> {
-        Self::open_request(console, self.into(), pool)
+        Self::open_request(console, JobRequest::from(self).without_tiles(), pool)
     }
 
-    /// The same of a request.
+    /// The same of a request, for a run.
     pub fn open_request(console: &dyn Console, request: JobRequest, pool: &rayon::ThreadPool) -> Result<Job, Error> {
         let job = pool.install(|| request.open())?;
         job.notices().iter().for_each(|notice| console.observer().message(Message::Note(notice)));

@@ -1,6 +1,6 @@
 //! Seeds, frames, shards and levels as typed.
 
-use etendue::{Levels, ShardSpec};
+use etendue::{Levels, MAX_FRAMES, ShardSpec};
 use etendue_scene::record::render::MAX_SEED;
 use etendue_scene::record::variations::MAX_SAMPLES;
 
@@ -9,9 +9,6 @@ pub fn seed(text: &str) -> Result<u64, String> {
     let seed = text.parse().ok().filter(|seed| *seed <= MAX_SEED);
     seed.ok_or_else(|| format!("expected a whole number from 0 to {MAX_SEED}, not '{text}'"))
 }
-
-/// Frames that one run takes at most.
-const MAX_FRAMES: usize = 100_000;
 
 pub fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
     let expected = || format!("expected FIRST..END with FIRST < END, e.g. 0..10, not '{text}'");

@@ -32,7 +32,10 @@ impl Compare {
         let (a, b) = (&self.a, &self.b);
         let comparison = compare(a, b, self.significance)?;
         let (channels, differ) = (&comparison.channels, comparison.differs());
-        console.print(&if self.json { as_json(channels, differ) } else { as_table(channels, differ) });
+        match self.json {
+            true => console.print_json(&as_json(channels, differ)),
+            false => console.print(&as_table(channels, differ)),
+        }
         if !differ {
             return Ok(());
         }

@@ -7,7 +7,7 @@ use crate::args::run::{frames, samples, whole};
 use crate::console::{Console, print_paths};
 use crate::machine;
 use clap::Args;
-use etendue::{Error, Existing};
+use etendue::{Error, Existing, JobRequest};
 use etendue_dataset::{DatasetRequest, SetFormat, dataset};
 use std::path::PathBuf;
 
@@ -58,7 +58,7 @@ impl Dataset {
         let simd = machine::simd()?;
         let pool = machine::pool(self.threads)?;
         let request = DatasetRequest {
-            job: (&self.job).into(),
+            job: JobRequest::from(&self.job).into_output(&self.output.output),
             variations: self.variations.clone(),
             formats: self.format.clone(),
             samples: self.samples.clone(),

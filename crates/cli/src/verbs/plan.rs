@@ -31,7 +31,7 @@ impl Plan {
             return Ok(());
         }
         let text = serde_json::to_string_pretty(&job.report()).map_err(|error| Error::Run(error.to_string()))?;
-        console.print(&format!("{text}\n"));
+        console.print_json(&format!("{text}\n"));
         Ok(())
     }
 }

@@ -58,6 +58,7 @@ impl Render {
         let simd = machine::simd()?;
         let pool = machine::pool(self.threads)?;
         let request = JobRequest { time_s: self.time, progressive: self.progressive, ..JobRequest::from(&self.job) };
+        let request = request.into_output(&self.output.output);
         let job = JobArgs::open_request(console, request, &pool)?;
         let (folder, frames) = (self.folder(), self.frames.clone());
         let display = self.display.as_deref().map(Display::connect).transpose()?;

@@ -112,7 +112,7 @@ impl Tradeoff {
         }
         self.refuse_to_replace()?;
         let mut output = OutputFolder::open(folder, existing).map_err(Error::input)?;
-        let job = JobRequest::from(&self.job);
+        let job = JobRequest::from(&self.job).into_output(folder);
         let edges = self.mtf50.then(|| folder.join("edges"));
         let request = Request { job, camera: self.job.camera.clone(), budget_s: self.time, simd, edges };
         let observer = console.observer();
@@ -124,7 +124,7 @@ impl Tradeoff {
         findings.files.iter().try_for_each(|(name, bytes)| output.write(name, bytes).map_err(Error::run))?;
         let written = output.commit().map_err(Error::run)?;
         if self.json {
-            console.print(&findings.json);
+            console.print_json(&findings.json);
         } else {
             console.print(&format!("{}\n", findings.text));
             print_paths(console, &written);

@@ -2,7 +2,7 @@
 
 use crate::support::{etendue, small, tests, text};
 use etendue_io::Provenance;
-use etendue_io::exr::{Layer, encode_layers};
+use etendue_io::exr::{ExrChannel, Layer, Samples, encode_layers, read_exr};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -152,6 +152,91 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     fs::write(place.path().join("b/shard.json"), b"{}").expect("written");
     merge(&[&a, &b]).refused(&["shard.json", "no shard manifest"]);
     assert!(!output.exists());
+}
+
+/// The header of a film states what it is of: a film that was put under another manifest, or in another's place, is not merged.
+#[test]
+fn films_of_another_run_shard_frame_or_capture_are_not_merged() {
+    let place = place();
+    let folder = |name: &str| into(place.path(), name, &["--spp", "8", "--shard", &name[1..].replace('-', "/")]);
+    let (a, b) = (folder("a0-2"), folder("a1-2"));
+    let film = |folder: &str| format!("{folder}/front.film.exr");
+    let output = place.path().join("out");
+    let merge = || etendue(["merge", &a, &b, "-o", &text(&output)]);
+    let good = fs::read(film(&b)).expect("a film");
+    let foreign = into(place.path(), "foreign", &["--spp", "8", "--shard", "1/2", "--seed", "99"]);
+    fs::copy(film(&foreign), film(&b)).expect("copied");
+    merge().refused(&["front.film.exr", "another plan", "render the shard again"]);
+    fs::copy(film(&a), film(&b)).expect("copied");
+    merge().refused(&["front.film.exr", "the shard 0/2, where 1/2 is expected"]);
+    fs::write(film(&b), &good[..good.len() / 2]).expect("written");
+    merge().refused(&["front.film.exr"]);
+    fs::remove_file(film(&b)).expect("removed");
+    merge().refused(&["front.film.exr"]);
+    fs::write(film(&b), good).expect("written");
+    for (key, value) in [("count", "0"), ("frames", "{ \"start\": 3, \"end\": 3 }"), ("tile_px", "[0]")] {
+        let manifest = format!("{b}/shard.json");
+        let stated = fs::read_to_string(&manifest).expect("a manifest");
+        let mut changed: serde_json::Value = serde_json::from_str(&stated).expect("JSON");
+        changed[key] = serde_json::from_str(value).expect("JSON");
+        fs::write(&manifest, changed.to_string()).expect("written");
+        merge().refused(&["shard.json", "it states"]);
+        fs::write(&manifest, stated).expect("written");
+    }
+    assert!(!output.exists());
+    merge().ok();
+}
+
+fn layer(channel: &ExrChannel) -> Layer<'_> {
+    match &channel.samples {
+        Samples::Half(values) | Samples::Float(values) => Layer::Float(values),
+        Samples::Uint(values) => Layer::Uint(values),
+    }
+}
+
+/// A film with other numbers and the same header.
+fn with_changed_numbers(film: &str, change: impl Fn(&str, &mut Samples)) {
+    let mut file = read_exr(Path::new(film)).expect("a film");
+    file.channels.iter_mut().for_each(|channel| change(&channel.name, &mut channel.samples));
+    let layers: Vec<_> = file.channels.iter().map(|channel| (channel.name.clone(), layer(channel))).collect();
+    let bytes = encode_layers(file.width, file.height, &layers, &file.provenance()).expect("a film");
+    fs::write(film, bytes).expect("written");
+}
+
+#[test]
+fn films_that_are_not_complete_or_not_finite_are_not_merged() {
+    let place = place();
+    let (a, b) = (into(place.path(), "a", &["--shard", "0/2"]), into(place.path(), "b", &["--shard", "1/2"]));
+    let film = format!("{b}/front.film.exr");
+    let good = fs::read(&film).expect("a film");
+    let output = place.path().join("out");
+    let merge = || etendue(["merge", &a, &b, "-o", &text(&output)]);
+    let float = |name: &'static str, value: f32| {
+        move |channel: &str, samples: &mut Samples| match samples {
+            Samples::Float(values) if channel == name => values[3] = value,
+            _ => {}
+        }
+    };
+    let count = |name: &'static str, of: fn(u32) -> u32| {
+        move |channel: &str, samples: &mut Samples| match samples {
+            Samples::Uint(values) if channel == name => values.iter_mut().for_each(|n| *n = of(*n)),
+            _ => {}
+        }
+    };
+    let refused = |change: &dyn Fn(&str, &mut Samples), why: &str| {
+        with_changed_numbers(&film, change);
+        merge().refused(&["front.film.exr", why, "render the shard again"]);
+        fs::write(&film, &good).expect("written");
+    };
+    refused(&float("weight", f32::NAN), "not finite");
+    refused(&float("band.0000.mean", f32::INFINITY), "not finite");
+    refused(&float("band.0000.variance", -1.0), "variances below 0");
+    refused(&count("samples", |_| 0), "it is not complete");
+    refused(&count("samples", |_| 4), "it is of another shard");
+    refused(&count("not_finite", |_| 1), "not finite");
+    with_changed_numbers(&film, |_, _| {});
+    assert!(!output.exists());
+    merge().ok();
 }
 
 #[test]

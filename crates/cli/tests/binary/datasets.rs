@@ -135,6 +135,36 @@ fn a_run_that_was_interrupted_goes_on_and_leaves_what_is_done() {
     place.run("part", &["--samples", "0..4", "--overwrite", "--frames", "0..2"]).refused(&["another ", "\"frames\""]);
 }
 
+/// The record of a sample states the digests of its files, and a hash of itself.
+#[test]
+fn samples_whose_files_or_record_are_not_whole_are_made_anew() {
+    let place = Place::new();
+    place.run("out", &["--samples", "0..3", "--format", "coco,yolo"]).ok();
+    let whole = place.files("out");
+    let label = whole.keys().find(|name| name.starts_with("yolo/labels") && name.contains("000001")).expect("a label");
+    let spoil = |name: &str, change: &dyn Fn(&Path)| change(&place.path(&format!("out/{name}")));
+    let resume = |samples: &str| place.run("out", &["--samples", samples, "--format", "coco,yolo", "--resume"]);
+    spoil(label, &|file| fs::remove_file(file).expect("it was there"));
+    resume("0..3").ok().says(&["samples/000001.json", "is gone or was changed; sample 1 is made anew"]);
+    assert!(place.files("out") == whole);
+    let record = "samples/000001.json";
+    let edit = |from: &str, to: &str| {
+        let (from, to) = (from.to_owned(), to.to_owned());
+        move |file: &Path| {
+            let text = fs::read_to_string(file).expect("a record");
+            assert!(text.contains(&from));
+            fs::write(file, text.replacen(&from, &to, 1)).expect("written");
+        }
+    };
+    spoil(record, &edit("\"frame\": 0", "\"frame\": 7"));
+    resume("2..4").refused(&["samples/000001.json", "changed after it was written", "--samples 1..2 --resume"]);
+    resume("0..3").ok().says(&["sample 1 is made anew"]);
+    assert!(place.files("out") == whole);
+    spoil(record, &|file| _ = fs::copy(file.with_file_name("000002.json"), file).expect("copied"));
+    resume("0..3").ok().says(&["this is the record of sample 2; sample 1 is made anew"]);
+    assert!(place.files("out") == whole);
+}
+
 /// Files of more than so many blocks of 512 bytes cannot be written, as on a full disk.
 fn with_blocks(blocks: u32, arguments: &[String]) -> (Option<i32>, String) {
     let mut shell = Command::new("sh");
@@ -285,9 +315,20 @@ fn samples_of_a_complete_shard_are_made_anew_together() {
     run(&["--samples", "0..3", "--overwrite"]).ok();
     run(&["--samples", "2..3", "--overwrite"]).ok();
     assert!(place.files("out") == whole);
-    fs::remove_file(place.path("out/webdataset/train-000000.tar")).expect("it was there");
-    let lost = run(&["--samples", "0..3", "--resume"]);
-    assert!(lost.status == 1 && lost.err.contains("webdataset/parts/000000.tar"), "{}", lost.err);
+    run(&["--samples", "0..3", "--resume"]).ok();
+    let shard = place.path("out/webdataset/train-000000.tar");
+    let bytes = fs::read(&shard).expect("it is there");
+    fs::write(&shard, &bytes[..bytes.len() - 600]).expect("written");
+    let lost = ["samples 0 to 1 is complete", "--samples 0..2"];
+    drop(
+        run(&["--samples", "0..3", "--resume"])
+            .refused(&lost)
+            .says(&["webdataset/parts/000000.tar is gone or was changed"]),
+    );
+    fs::remove_file(&shard).expect("it was there");
+    drop(run(&["--samples", "0..3", "--resume"]).refused(&lost));
+    run(&["--samples", "0..2", "--overwrite"]).ok();
+    assert!(place.files("out") == whole);
 }
 
 #[test]

@@ -83,6 +83,22 @@ fn links_are_replaced_and_never_written_through() {
     assert_eq!(contents(&foreign).len(), 1);
 }
 
+/// The state of a progressive run is in a folder within: a link in its place leads nowhere, whatever a run would do there.
+#[test]
+fn a_link_in_the_place_of_the_state_is_refused_and_nothing_is_deleted_behind_it() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let (out, foreign) = (place.path().join("out"), place.path().join("foreign"));
+    [&out, &foreign].iter().for_each(|folder| fs::create_dir(folder).expect("made"));
+    fs::write(foreign.join("front.film.exr"), b"precious").expect("written");
+    symlink(&foreign, out.join(".progress")).expect("link");
+    for options in [&["--overwrite"][..], &["--resume"], &[], &["--progressive"], &["--progressive", "--overwrite"]] {
+        etendue(["render", &small(), "-o", &text(&out)].iter().chain(&LIGHT).chain(options))
+            .refused(&[".progress", "a symbolic link is in the place of a folder of results"]);
+        assert_eq!(fs::read(foreign.join("front.film.exr")).expect("a file"), b"precious", "{options:?}");
+    }
+    assert_eq!(contents(&foreign).len(), 1);
+}
+
 #[test]
 fn names_of_cameras_are_names_of_files_on_every_system() {
     let long = "n".repeat(101);

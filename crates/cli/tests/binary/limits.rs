@@ -31,7 +31,8 @@ fn a_picture_of_many_pixels_in_few_bytes_is_refused_by_its_head() {
         "small.toml:6",
     ]);
     // With the limit raised it is looked at, and found to be damaged.
-    spoilt.render(&["--limit", "picture-mib=1908"]).refused(&["checker.png: not a readable picture"]);
+    let raised = ["--limit", "picture-mib=1908", "--limit", "texture-cache-mib=65536"];
+    spoilt.render(&raised).refused(&["checker.png: not a readable picture"]);
     spoilt.write("checker.png", png_head(3000, 3000));
     spoilt.render(&["--limit", "picture-mib=8"]).refused(&["checker.png: unpacks to 9 MiB", "picture-mib=9"]);
     // What is measured is kept as floats.

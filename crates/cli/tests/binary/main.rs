@@ -11,6 +11,7 @@ mod bad_processing;
 mod bad_results;
 mod bad_sensors;
 mod black_boxes;
+mod bounded_work;
 mod branches;
 mod browser;
 mod bytes;
@@ -70,6 +71,8 @@ mod shared_light;
 mod shared_paths;
 mod slurm;
 mod support;
+#[cfg(unix)]
+mod terminal;
 mod textures;
 mod tradeoff;
 mod truths;

@@ -173,6 +173,56 @@ fn a_run_that_was_interrupted_goes_on_to_the_same_bytes() {
     assert_eq!(kept, now, "whole frames are not rendered again");
 }
 
+/// The file of a frame states the digests of all others: files that are gone, cut, changed or exchanged are made anew.
+#[test]
+fn a_run_that_goes_on_believes_no_file_that_is_not_whole() {
+    let expected = rendered(&["--frames", "0..3"]);
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = place.path().join("out");
+    let spoil = |what: &str, name: &str, change: &dyn Fn(&Path)| {
+        let _ = fs::remove_dir_all(&out);
+        for (name, bytes) in &expected {
+            let file = out.join(name);
+            fs::create_dir_all(file.parent().expect("a folder")).expect("made");
+            fs::write(&file, bytes).expect("written");
+        }
+        change(&out.join(name));
+        let arguments = ["render", &job(), "-o", &text(&out), "--frames", "0..3", "--resume"].map(str::to_owned);
+        let ran = etendue(arguments).ok();
+        assert_same(&expected, &contents(&out), what);
+        ran.err
+    };
+    let gone = |file: &Path| fs::remove_file(file).expect("it was there");
+    let cut = |file: &Path| fs::write(file, b"").expect("written");
+    let changed = |file: &Path| {
+        let mut bytes = fs::read(file).expect("a file");
+        let middle = bytes.len() / 2;
+        bytes[middle] ^= 1;
+        fs::write(file, bytes).expect("written");
+    };
+    assert_eq!(spoil("whole", "left", &|_| ()), "", "nothing is said of whole frames");
+    let told = spoil("gone", "left/ground_truth.0001.exr", &gone);
+    assert!(told.contains("ground_truth.0001.exr is gone or was changed; frame 1 of left is made anew"), "{told}");
+    for (what, change) in [("cut", &cut as &dyn Fn(&Path)), ("changed", &changed)] {
+        let told = spoil(what, "left/raw.0001.png", change);
+        assert!(told.contains("raw.0001.png is gone or was changed"), "{told}");
+    }
+    let sensor = |file: &Path| {
+        let facts = fs::read_to_string(file).expect("a file");
+        let mut facts: Value = serde_json::from_str(&facts).expect("JSON");
+        facts["exposure"]["start_s"] = 17.into();
+        fs::write(file, serde_json::to_string_pretty(&facts).expect("JSON")).expect("written");
+    };
+    let told = spoil("facts", "left/frame.0001.json", &sensor);
+    assert!(told.contains("frame.0001.json: it was changed after it was written"), "{told}");
+    let other = |file: &Path| _ = fs::copy(file.with_file_name("frame.0000.json"), file).expect("copied");
+    let told = spoil("exchanged", "left/frame.0001.json", &other);
+    assert!(told.contains("it is the file of another frame"), "{told}");
+    for name in ["left/tracks.json", "left/picture.y4m", "left/camera.json"] {
+        spoil(name, name, &gone);
+    }
+}
+
 #[test]
 fn a_frame_of_another_plan_is_no_part_of_the_run() {
     let place = tempfile::tempdir().expect("a temporary folder");

@@ -1,6 +1,6 @@
 //! Textures that need more memory than they may take: kept in tiles on the disk, the same bytes of every result.
 
-use crate::support::{assert_same, etendue, rendered, text};
+use crate::support::{assert_same, etendue, etendue_with, rendered, text};
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
 use etendue_io::photograph::Encoding;
@@ -106,6 +106,35 @@ fn the_result_does_not_depend_on_the_memory_of_textures() {
     assert!(plan.split_whitespace().collect::<Vec<_>>().join(" ").contains(told), "{plan}");
 }
 
+/// What is told of a job leaves nothing on the disk, and a job of others keeps its tiles where its results are.
+#[test]
+fn plans_write_no_tiles_and_those_of_sandboxed_jobs_are_in_their_output_folder() {
+    let place = Place::new();
+    let (job, cache, out) = (place.job(), text(&place.path("cache")), place.path("out"));
+    let user = [("XDG_CACHE_HOME", cache.as_str())];
+    let small = ["--texture-memory", "1"];
+    let plan = |options: &[&str]| etendue_with(["plan", &job].iter().chain(&small).chain(options), &user).ok();
+    plan(&[]);
+    plan(&["--sandboxed"]);
+    etendue_with(["rig", &job, "-o", &text(&place.path("rig"))].iter().chain(&small), &user).ok();
+    assert!(!place.path("cache").exists());
+    etendue_with(["render", &job, "-o", &text(&out), "--sandboxed"].iter().chain(&small), &user).ok();
+    assert!(!place.path("cache").exists());
+    let tiles = fs::read_dir(out.join(".texture-cache")).expect("tiles").count();
+    assert_eq!(tiles, 3);
+    let held = rendered(&job, &[]);
+    held.iter()
+        .for_each(|(name, bytes)| assert!(fs::read(out.join(name)).is_ok_and(|found| found == *bytes), "{name}"));
+    // What the job itself needs is more than the limit: refused before a picture is unpacked.
+    let limited = ["--limit", "texture-cache-mib=10"];
+    let told = ["scene.textures", "the cache of textures may have 10 MiB", "--limit texture-cache-mib="];
+    etendue(["plan", &job].iter().chain(&small).chain(&limited)).refused(&told);
+    etendue(
+        ["render", &job, "-o", &text(&place.path("other")), "--cache", &cache].iter().chain(&small).chain(&limited),
+    )
+    .refused(&told);
+}
+
 #[test]
 fn damaged_tiles_are_made_anew() {
     let place = Place::new();
@@ -159,6 +188,8 @@ fn a_broken_picture_is_refused_as_one_in_memory() {
         ["b.png: not a readable picture (", "it may be truncated or damaged: make or fetch it again", "scene.textures"];
     plan(&[]).refused(&words);
     plan(&["--texture-memory", "1", "--cache", &cache]).refused(&words);
+    let output = text(&place.path("out"));
+    etendue(["render", &job, "-o", &output, "--texture-memory", "1", "--cache", &cache]).refused(&words);
     assert!(
         place.tiles().iter().all(|file| file.extension().is_some_and(|end| end == "tiles")),
         "nothing half-written"

@@ -17,28 +17,63 @@ use std::sync::Arc;
 const TOLERANCE_RAD: f64 = 1e-6;
 /// Polynomials of one length between two keys at most; halves of these are made where it takes more.
 const MOST: u32 = 4096;
+/// The greatest angle that is followed, rad: the tolerance takes ten thousands of polynomials there, and where an angle of 1e16 rad is rounded by 1 rad, none would
+/// ever meet it.
+const MAX_TURN_RAD: f64 = 1e12;
+/// Polynomials between two keys that are made at all: what takes more turns to and fro beyond the greatest angle.
+const MAX_PIECES: usize = 1 << 20;
+
+/// Why a wheel is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum RollingError {
+    /// Its hub never moves.
+    #[error("nothing moves the wheel; give its hub keys, or put it in a frame that moves")]
+    Still,
+    /// It turns by more than can be followed.
+    #[error(
+        "the wheel would turn by {turned_rad:.3e} rad, but at most 1e12 can be traced; give it a larger radius or a shorter way"
+    )]
+    TooFar {
+        /// The angle between two keys, rad, as far as it is known.
+        turned_rad: f64,
+    },
+}
 
 impl Track {
     /// The rotation about y of a wheel: 0 until the first of `times_s`, which increase, and from there on the integral of
     /// `rate_rad_s`, which is asked for the rate at a time and, after it, a time between the same two of `times_s`: at these
     /// themselves the rate may jump.
-    pub(crate) fn rolling(times_s: &[f64], rate_rad_s: impl Fn(f64, f64) -> f64) -> Self {
+    pub(crate) fn rolling(times_s: &[f64], rate_rad_s: impl Fn(f64, f64) -> f64) -> Result<Self, RollingError> {
         let (mut knots_s, mut spans, mut angle) = (Vec::new(), Vec::new(), 0.0);
         for pair in times_s.windows(2) {
             let within_s = pair[0] + 0.5 * (pair[1] - pair[0]);
-            for piece in pieces((pair[0], pair[1]), &|time_s| rate_rad_s(time_s, within_s)) {
+            for piece in pieces((pair[0], pair[1]), &|time_s| rate_rad_s(time_s, within_s))? {
                 knots_s.push(piece.start_s);
                 spans.push(turning(piece.cubic(angle)));
                 angle += piece.turns;
             }
+            check_turn(angle)?;
         }
         if spans.iter().all(Span::is_constant) {
-            return Self::still(DAffine3::IDENTITY);
+            return Ok(Self::still(DAffine3::IDENTITY));
         }
         knots_s.extend(times_s.last());
         let last = Pose { position: DVec3::ZERO, rotation: rolled(angle), scale: DVec3::ONE };
-        Self(Kind::Moving(Arc::new(Keyed { times_s: knots_s, spans, last, first: DAffine3::IDENTITY })))
+        Ok(Self(Kind::Moving(Arc::new(Keyed { times_s: knots_s, spans, last, first: DAffine3::IDENTITY }))))
     }
+}
+
+/// Refuses an angle that is too large, or none, as that of a rate beyond all numbers.
+fn check_turn(turned_rad: f64) -> Result<(), RollingError> {
+    match turned_rad.abs() <= MAX_TURN_RAD {
+        true => Ok(()),
+        false => Err(RollingError::TooFar { turned_rad: turned_rad.abs() }),
+    }
+}
+
+/// The same of the angles of pieces, to and fro.
+fn check_pieces(pieces: &[Piece]) -> Result<(), RollingError> {
+    check_turn(pieces.iter().map(|piece| piece.turns.abs()).sum())
 }
 
 fn turning(angle: [f64; 4]) -> Span {
@@ -86,8 +121,9 @@ impl Piece {
 }
 
 /// As few pieces of one length as meet the tolerance; of more than are reasonable, those halved that do not.
-fn pieces((start_s, end_s): (f64, f64), rate_rad_s: &impl Fn(f64) -> f64) -> Vec<Piece> {
+fn pieces((start_s, end_s): (f64, f64), rate_rad_s: &impl Fn(f64) -> f64) -> Result<Vec<Piece>, RollingError> {
     let mut made = vec![Piece::new(start_s, end_s, rate_rad_s)];
+    check_pieces(&made)?;
     while !made.iter().all(Piece::is_met) {
         let count = 2 * made.len() as u32;
         let end_of = |i: u32| start_s + (end_s - start_s) * (f64::from(i) / f64::from(count));
@@ -96,17 +132,22 @@ fn pieces((start_s, end_s): (f64, f64), rate_rad_s: &impl Fn(f64) -> f64) -> Vec
             return halved(made, end_s, rate_rad_s);
         }
         made = ends_s.windows(2).map(|pair| Piece::new(pair[0], pair[1], rate_rad_s)).collect();
+        check_pieces(&made)?;
     }
-    made
+    Ok(made)
 }
 
 /// The same with pieces halved that do not meet the tolerance, as long as times between their ends can be told apart.
-fn halved(pieces: Vec<Piece>, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Vec<Piece> {
+fn halved(pieces: Vec<Piece>, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Result<Vec<Piece>, RollingError> {
     let mut ends_s: Vec<f64> = pieces.iter().skip(1).map(|piece| piece.start_s).chain([end_s]).collect();
     ends_s.reverse();
     let (mut waiting, mut made) = (pieces, Vec::new());
     waiting.reverse();
     while let Some((piece, end_s)) = waiting.pop().zip(ends_s.pop()) {
+        if made.len() + waiting.len() >= MAX_PIECES {
+            let turned_rad = made.iter().chain(&waiting).map(|piece| piece.turns.abs()).sum();
+            return Err(RollingError::TooFar { turned_rad });
+        }
         let middle_s = piece.start_s + 0.5 * (end_s - piece.start_s);
         if piece.is_met() || middle_s <= piece.start_s || middle_s >= end_s {
             made.push(piece);
@@ -115,7 +156,7 @@ fn halved(pieces: Vec<Piece>, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> V
         waiting.extend([Piece::new(middle_s, end_s, rate_rad_s), Piece::new(piece.start_s, middle_s, rate_rad_s)]);
         ends_s.extend([end_s, middle_s]);
     }
-    made
+    Ok(made)
 }
 
 /// The integral from `a` to `b` by five points: exact for polynomials of degree nine.
@@ -138,12 +179,25 @@ mod tests {
         let amplitude = 1e10;
         let omega = core::f64::consts::PI;
         let rate = |time_s: f64, _: f64| amplitude * omega * crate::maths::f64::sin(omega * time_s);
-        let found = pieces((0.0, 1.0), &|time_s| rate(time_s, 0.5));
+        let found = pieces((0.0, 1.0), &|time_s| rate(time_s, 0.5)).expect("below the greatest angle");
         assert!(found.len() > MOST as usize && found.len() < 2 * MOST as usize, "{}", found.len());
         assert!(found.iter().all(Piece::is_met));
         assert!(found.windows(2).all(|pair| pair[0].start_s < pair[1].start_s));
         let turned: f64 = found.iter().map(|piece| piece.turns).sum();
         // Rounding of some 7 000 sums of up to 2·10¹⁰ rad, half of 4·10⁻⁶ each.
         assert!((turned - 2.0 * amplitude).abs() < 1.5e-2, "{turned}");
+    }
+
+    /// Where angles are rounded by more than the tolerance no number of polynomials meets it: halving would go on to the ends of the numbers of time.
+    #[test]
+    fn a_wheel_that_turns_by_more_than_can_be_followed_is_refused() {
+        let turn = |amplitude: f64| pieces((0.0, 1.0), &|time_s| amplitude * time_s * (1.0 - time_s));
+        assert!(turn(5.9e12).is_ok_and(|found| found.len() <= MAX_PIECES));
+        for amplitude in [1e14, 1e30, 1e300, f64::INFINITY, f64::NAN] {
+            assert!(matches!(turn(amplitude), Err(RollingError::TooFar { .. })), "{amplitude}");
+        }
+        // To and fro, an angle of nothing in all.
+        let fro = |amplitude: f64| pieces((0.0, 1.0), &|time_s| amplitude * crate::maths::f64::sin(40.0 * time_s));
+        assert!(fro(1e10).is_ok() && fro(1e30).is_err());
     }
 }

@@ -10,7 +10,7 @@ use crate::record::SampleRecord;
 use crate::records::Records;
 use crate::set::Set;
 use crate::tar;
-use etendue::{Error, OutputFolder};
+use etendue::{Error, FileDigest, OutputFolder};
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Length};
 use etendue_io::png::encode_grey16;
@@ -18,14 +18,25 @@ use serde_json::json;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::{self, Read as _, Seek as _, SeekFrom, Write};
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 pub(super) struct WebDataset {
     shard_samples: u32,
     /// The files of the sample that is being made.
     part: RefCell<Vec<u8>>,
+    /// Of the shard that was asked for last.
+    layout: RefCell<Option<ShardLayout>>,
+}
+
+/// Where the parts of samples are in the files of a shard, by their records.
+struct ShardLayout {
+    shard: u32,
+    /// By sample.
+    starts: BTreeMap<u32, u64>,
+    /// Bytes of all parts.
+    lengths: BTreeMap<Split, u64>,
 }
 
 /// Samples of a shard that have parts, by split and the shard's number.
@@ -35,7 +46,11 @@ impl WebDataset {
     pub(super) fn of(set: &Set) -> Self {
         let stated = set.variations.as_ref().and_then(|variations| variations.shard_samples.as_ref());
         // A million at most.
-        Self { shard_samples: stated.map_or(1000, |count| count.value as u32), part: RefCell::default() }
+        Self {
+            shard_samples: stated.map_or(1000, |count| count.value as u32),
+            part: RefCell::default(),
+            layout: RefCell::default(),
+        }
     }
 
     fn shards(&self, records: &Records) -> Result<Shards, Error> {
@@ -45,6 +60,18 @@ impl WebDataset {
             shards.entry((split, sample / self.shard_samples)).or_default().push(sample);
         }
         Ok(shards)
+    }
+
+    /// A shard whose records cannot be read has parts nowhere.
+    fn shard_layout(&self, records: &Records, shard: u32) -> ShardLayout {
+        let (mut starts, mut lengths) = (BTreeMap::new(), BTreeMap::new());
+        for sample in records.numbers().iter().filter(|sample| **sample / self.shard_samples == shard) {
+            let Ok(record) = records.read(*sample) else { break };
+            let end = lengths.entry(record.split).or_insert(0);
+            starts.insert(*sample, *end);
+            *end += record.files.get(&part(*sample)).map_or(0, |part| part.bytes);
+        }
+        ShardLayout { shard, starts, lengths }
     }
 
     /// Whether all samples of a shard's numbers are there.
@@ -77,6 +104,27 @@ impl Writer for WebDataset {
             samples.end,
             end - 1
         )))
+    }
+
+    /// A part is a piece of the shard that has taken its place.
+    fn holds(&self, (name, record): (&str, &SampleRecord), records: &Records, root: &Path) -> bool {
+        let Some(digest) = record.files.get(name).filter(|_| name == part(record.sample)) else { return false };
+        let shard = record.sample / self.shard_samples;
+        let mut layout = self.layout.borrow_mut();
+        if layout.as_ref().is_none_or(|known| known.shard != shard) {
+            *layout = Some(self.shard_layout(records, shard));
+        }
+        let Some(ShardLayout { starts, lengths, .. }) = &*layout else { return false };
+        let (Some(start), Some(length)) = (starts.get(&record.sample), lengths.get(&record.split)) else {
+            return false;
+        };
+        let tar = root.join(format!("webdataset/{}-{shard:06}.tar", record.split.name()));
+        let piece = File::open(&tar).and_then(|mut file| {
+            file.seek(SeekFrom::Start(*start))?;
+            FileDigest::from_reader(file.take(digest.bytes))
+        });
+        let is_of_length = tar.metadata().is_ok_and(|found| found.len() == length + tar::END.len() as u64);
+        is_of_length && piece.is_ok_and(|found| found == *digest)
     }
 
     fn picture(&self, _set: &Set, picture: &Picture<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {

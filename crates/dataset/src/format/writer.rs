@@ -6,12 +6,18 @@ use crate::records::Records;
 use crate::set::Set;
 use etendue::{Error, OutputFolder};
 use std::ops::Range;
+use std::path::Path;
 
 /// Writes one format.
 pub(crate) trait Writer {
     /// Refuses to make samples anew in the place of ones that are in the folder, where what is made of them is not to be had in part.
     fn check_replaced(&self, _records: &Records, _samples: &Range<u32>, _folder: &OutputFolder) -> Result<(), Error> {
         Ok(())
+    }
+
+    /// Whether a file of a sample that is not in its place any more is, as it was written, part of another of the format.
+    fn holds(&self, _file: (&str, &SampleRecord), _records: &Records, _root: &Path) -> bool {
+        false
     }
 
     /// The files of one picture.

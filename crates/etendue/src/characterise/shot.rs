@@ -5,6 +5,7 @@ use crate::error::Error;
 use etendue_io::exif::{Exif, read_exif};
 use etendue_io::hash::{ContentHash, of_bytes};
 use etendue_io::photograph::{Photograph, RawFacts, read_photograph};
+use etendue_io::sidecar;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -88,9 +89,7 @@ impl SideCar {
         if !beside.is_file() {
             return Ok(None);
         }
-        let text = crate::camera_file::text_of(&beside)?;
-        let said: Value =
-            serde_json::from_str(&text).map_err(|cause| Error::input(format!("{}: {cause}", beside.display())))?;
+        let said = sidecar::read(&beside).map_err(Error::input)?;
         Ok((said["program"] == "etendue").then_some(said))
     }
 

@@ -5,6 +5,7 @@ use super::{ChartRequest, make};
 use crate::error::Error;
 use crate::job::JobRequest;
 use crate::memory::MemoryFiles;
+use crate::named_file::write_file;
 use crate::observer::Observer;
 use crate::render_options::RenderOptions;
 use etendue_io::{Existing, Sandbox};
@@ -139,5 +140,5 @@ fn directly_lit(render: Render, spp: u32) -> Render {
 }
 
 fn write(path: &Path, file: &File) -> Result<(), Error> {
-    std::fs::write(path, file.to_string()).map_err(|error| Error::run(format!("{}: {error}", path.display())))
+    write_file(path, file.to_string().as_bytes(), Existing::Replace)
 }

@@ -15,7 +15,7 @@ use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, Passes, TimeDependence};
 use etendue_pipeline::render::Shot;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Where a run keeps its state and refines its pictures.
@@ -36,7 +36,7 @@ impl Progress {
         let open = || folder.again(Existing::Replace).map_err(Error::input);
         let refined = is_progressive.then(open).transpose()?;
         if existing == Existing::Replace {
-            state::remove(folder.path()).map_err(Error::run)?;
+            state::remove(folder).map_err(Error::run)?;
         }
         let resumed = (existing == Existing::Resume).then(|| folder.path().to_path_buf());
         Ok(Self { refined, resumed })
@@ -100,7 +100,7 @@ impl Progress {
     }
 
     /// Removes the state of a run that is complete.
-    pub(crate) fn finish(self, folder: &Path) -> Result<(), Error> {
+    pub(crate) fn finish(self, folder: &OutputFolder) -> Result<(), Error> {
         state::remove(folder).map_err(Error::run)
     }
 }

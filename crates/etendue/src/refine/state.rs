@@ -4,16 +4,16 @@
 //! holds. A run that is killed at any moment finds the last whole pass; at the end of a run there is no state.
 
 use crate::error::Error;
-use crate::film_file::{self, FILM, film_name};
-use crate::results::metadata;
+use crate::film_file::{self, FILM, FilmOrigin, film_name};
 use crate::results::writer::write_exr;
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, Passes};
 use etendue_pipeline::render::Shot;
-use std::path::{Path, PathBuf};
-use std::{fs, io};
+use etendue_pipeline::tile::Shard;
+use std::fs::DirEntry;
+use std::path::Path;
 
 /// The folder of the state, no name of a camera.
 const FOLDER: &str = ".progress";
@@ -41,33 +41,31 @@ pub(crate) fn name(camera: &CameraPlan, shot: Shot) -> String {
     format!("{FOLDER}/{}", film_name(camera, shot))
 }
 
-/// Whether an output folder holds a state.
+/// Whether an output folder holds a state. A link in the place of its folder holds none.
 pub(crate) fn is_in(folder: &Path) -> bool {
-    films(folder).next().is_some()
-}
-
-/// The films of a state.
-fn films(folder: &Path) -> impl Iterator<Item = PathBuf> {
-    let files = folder.join(FOLDER).read_dir().into_iter().flatten().flatten();
-    files.map(|file| file.path()).filter(|path| path.to_string_lossy().ends_with(FILM))
+    let state = folder.join(FOLDER);
+    let is_film = |file: DirEntry| file.file_name().to_string_lossy().ends_with(FILM);
+    !state.is_symlink() && state.read_dir().into_iter().flatten().flatten().any(is_film)
 }
 
 /// Removes the state in an output folder: the films, and their folder where nothing else is in it.
-pub(crate) fn remove(folder: &Path) -> io::Result<()> {
-    films(folder).try_for_each(fs::remove_file)?;
-    // Left where it is missing, or another's file is in it.
-    let _ = fs::remove_dir(folder.join(FOLDER));
-    Ok(())
+///
+/// # Errors
+/// Where a link is in the place of the folder, or a film cannot be removed.
+pub(crate) fn remove(folder: &OutputFolder) -> Result<(), etendue_io::Error> {
+    let films = folder.files_in(FOLDER)?;
+    folder.remove(films.iter().map(String::as_str).filter(|name| name.ends_with(FILM)))
 }
 
-/// Refuses a folder that holds the state of another run, where the run may neither go on with it nor replace it.
-pub(crate) fn check(folder: &Path, existing: Existing) -> Result<(), Error> {
-    if existing != Existing::Refuse || !is_in(folder) {
+/// Refuses a folder that holds the state of another run, where the run may neither go on with it nor replace it, and a link in the place of the state.
+pub(crate) fn check(folder: &OutputFolder, existing: Existing) -> Result<(), Error> {
+    folder.files_in(FOLDER).map_err(Error::input)?;
+    if existing != Existing::Refuse || !is_in(folder.path()) {
         return Ok(());
     }
     Err(Error::input(format!(
         "{}: a run that was interrupted left its state here; go on with --resume, or begin anew with --overwrite",
-        folder.join(FOLDER).display()
+        folder.path().join(FOLDER).display()
     )))
 }
 
@@ -80,20 +78,18 @@ pub(crate) fn read(folder: &Path, plan: &Plan, camera: &CameraPlan, shot: Shot) 
     if !path.exists() {
         return Ok(None);
     }
-    let refused = || {
-        let remedy = "resume with the same options, choose another output folder, or --overwrite it";
-        Error::input(format!("{}: it is the state of a run of another plan; {remedy}", path.display()))
-    };
-    let (film, facts) = film_file::read(&path, camera)?.ok_or_else(refused)?;
+    let origin = FilmOrigin { plan, camera, shot, shard: Shard::WHOLE };
+    let remedy = "resume with the same options, choose another output folder, or --overwrite it";
+    let (film, facts) = film_file::read(&path, &origin, remedy)?;
     let fact = |name: &str| facts.further.get(name);
     let replicates = fact(REPLICATES).and_then(|text| text.parse().ok());
     let passes = fact(PASSES).zip(replicates).and_then(|(text, replicates)| Passes::of_text(text, replicates));
-    let elapsed_s = fact(SECONDS).and_then(|text| text.parse().ok());
+    let elapsed_s = fact(SECONDS).and_then(|text| text.parse().ok()).filter(|s: &f64| s.is_finite() && *s >= 0.0);
     match (passes, replicates, elapsed_s) {
-        (Some(passes), Some(replicates), Some(elapsed_s)) if facts.plan_hash == plan.hash_text() => {
+        (Some(passes), Some(replicates), Some(elapsed_s)) if !passes.list().is_empty() => {
             Ok(Some(KeptFilm { film, passes, replicates, elapsed_s }))
         }
-        _ => Err(refused()),
+        _ => Err(Error::input(format!("{}: its header states no passes that were done; {remedy}", path.display()))),
     }
 }
 
@@ -105,7 +101,7 @@ pub(crate) fn write(
     film: &Film,
     (passes, replicates, elapsed_s): (&Passes, u32, f64),
 ) -> Result<(), Error> {
-    let mut facts = metadata::provenance(plan, camera, shot.frame);
+    let mut facts = FilmOrigin { plan, camera, shot, shard: Shard::WHOLE }.facts();
     facts.further.insert(PASSES.to_owned(), passes.text());
     facts.further.insert(REPLICATES.to_owned(), replicates.to_string());
     facts.further.insert(SECONDS.to_owned(), elapsed_s.to_string());

@@ -4,6 +4,7 @@ use super::files::Files;
 use super::metadata;
 use super::sequence::Sequence;
 use crate::error::Error;
+use crate::observer::{Message, Observer};
 use etendue_io::read_regular;
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_scene::limits::DESCRIPTION;
@@ -24,11 +25,17 @@ pub(crate) struct DoneFrames {
 }
 
 impl DoneFrames {
-    /// What stands in a folder of results. A frame's own file is written last: where it is, the frame is whole.
+    /// What stands in a folder of results. A frame's own file is written last and states the digests of all others: where it and they are as they were written, the
+    /// frame is whole. Others are made anew, and the observer is told.
     ///
     /// # Errors
     /// Where a frame or a side-car there is of another plan, or cannot be read.
-    pub(crate) fn in_folder(folder: &Path, plan: &Plan, frames: &Range<u32>) -> Result<Self, Error> {
+    pub(crate) fn in_folder(
+        folder: &Path,
+        plan: &Plan,
+        frames: &Range<u32>,
+        observer: &dyn Observer,
+    ) -> Result<Self, Error> {
         let mut facts = BTreeMap::new();
         for camera in plan.cameras.iter().filter(|camera| camera.time != TimeDependence::None) {
             for frame in frames.clone() {
@@ -37,6 +44,11 @@ impl DoneFrames {
                 if value["plan_hash"] != plan.hash_text() {
                     let why = "it is a frame of another plan; choose another output folder, or --overwrite it";
                     return Err(refused(&path, why));
+                }
+                if let Err(why) = metadata::check_whole(&value, frame, &folder.join(&camera.name)) {
+                    let told = format!("{}: {why}; frame {frame} of {} is made anew", path.display(), camera.name);
+                    observer.message(Message::Note(&told));
+                    continue;
                 }
                 facts.insert((camera.name.clone(), frame), value);
             }

@@ -3,7 +3,7 @@
 mod frame;
 mod sensor;
 
-pub(crate) use frame::{own_frame, state_of, with_state, without_state};
+pub(crate) use frame::{check_whole, own_frame, sealed, state_of, with_state, without_state};
 pub(crate) use sensor::{frame, sensor};
 
 use crate::calibration;

@@ -13,12 +13,11 @@ use crate::rig;
 use etendue_core::quantity::Radiance;
 use etendue_io::exr::{
     self, Layer, Lengths, SpectralBands, encode_ground_truth, ground_truth_image, layers_image, plane_image,
-    radiance_image, rays_image, spectral_image,
+    radiance_image, spectral_image,
 };
 use etendue_io::{Existing, OutputFolder, png};
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::CameraPlan;
-use etendue_pipeline::rays::{RayTable, ray_table};
 use etendue_pipeline::rectified::RectifiedCamera;
 use etendue_pipeline::render::Shot;
 use etendue_pipeline::sampling::SamplingPlanes;
@@ -95,22 +94,6 @@ impl CameraResults {
         let mut writer = ResultWriter { prefix: self.camera().name.clone(), folder };
         self.write_spectra(&mut writer)?;
         self.write_photographs(&mut writer, observer).map(|_| ())
-    }
-
-    /// Writes what is the same in all frames: the rays of the pixels.
-    pub(super) fn write_rays(&self, folder: &mut OutputFolder) -> Result<(), Error> {
-        let camera = self.camera();
-        if !camera.products.rays {
-            return Ok(());
-        }
-        let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
-        let facts = self.provenance();
-        writer.exr(Files::RAYS, image_of_rays(&self.rays(), &facts))?;
-        if let Some(twin) = &self.undistorted {
-            let facts = metadata::undistorted_provenance(facts, twin);
-            writer.exr(&Files::undistorted(Files::RAYS), image_of_rays(&ray_table(twin.body()), &facts))?;
-        }
-        Ok(())
     }
 
     /// The name of a file of light or ground truth.
@@ -258,10 +241,6 @@ fn sampling_image<'a>(sampling: &'a SamplingPlanes, facts: &etendue_io::Provenan
     let layers: Vec<_> = [("samples", Layer::Uint(samples.samples()))].into_iter().chain(variances).collect();
     let layers: Vec<_> = layers.into_iter().map(|(name, layer)| (name.to_owned(), layer)).collect();
     layers_image(samples.width(), samples.height(), &layers, facts)
-}
-
-fn image_of_rays<'a>(table: &'a RayTable, facts: &etendue_io::Provenance) -> exr::ExrImage<'a> {
-    rays_image(&table.origin, &table.direction, &table.ray, table.path.as_ref(), facts)
 }
 
 fn planes(truth: &GroundTruth) -> exr::GroundTruth<'_> {

@@ -9,8 +9,10 @@ use super::video::write_video;
 use super::writer::ResultWriter;
 use crate::error::Error;
 use crate::observer::Observer;
-use etendue_io::OutputFolder;
+use etendue_io::exr::{ExrImage, rays_image};
+use etendue_io::{FileDigest, OutputFolder, Provenance};
 use etendue_pipeline::plan::{CameraPlan, Plan};
+use etendue_pipeline::rays::{RayTable, ray_table};
 use etendue_pipeline::rectified::RectifiedCamera;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -33,6 +35,8 @@ struct CameraFrames {
     frames: Range<u32>,
     /// What the side-car says of each frame that has photographs or a light of its own.
     facts: BTreeMap<u32, Value>,
+    /// Whether this run has written the rays of the pixels.
+    has_rays: bool,
 }
 
 impl CameraFrames {
@@ -51,8 +55,10 @@ impl Sequence {
     ) -> Result<(), Error> {
         let camera = results.camera();
         let numbers = results.frame_numbers();
-        if !self.has(camera) {
-            results.write_rays(folder)?;
+        let known = self.of(&results.plan, camera, &numbers);
+        if !known.has_rays {
+            known.has_rays = true;
+            write_rays(camera, &metadata::provenance(&results.plan, camera, known.frames.start), folder)?;
         }
         let mut frames = results.write_files(folder, observer)?;
         if results.has_own_light() {
@@ -62,7 +68,8 @@ impl Sequence {
                 Some((after, since)) => metadata::with_state(facts.clone(), after, since),
                 None => facts.clone(),
             };
-            writer.json(&Files::frame(numbers.start), &kept)?;
+            let files = files_of_frame(camera, numbers.start, writer.folder)?;
+            writer.json(&Files::frame(numbers.start), &metadata::sealed(kept, &files))?;
             frames = vec![facts];
         }
         let known = self.of(&results.plan, camera, &numbers);
@@ -84,6 +91,10 @@ impl Sequence {
             let twin = camera.products.undistorted.and_then(|scale| RectifiedCamera::of(&camera.body, scale).ok());
             facts["undistorted"] = twin.as_ref().map_or(Value::Null, metadata::undistorted);
             facts["frames"] = known.facts.values().cloned().collect();
+            if !known.has_rays {
+                let facts = metadata::provenance(&known.plan, camera, known.frames.start);
+                write_rays(camera, &facts, folder)?;
+            }
             if camera.products.annotations.tracks {
                 write_tracks(camera, &known.frames, folder)?;
             }
@@ -97,20 +108,48 @@ impl Sequence {
         Ok(())
     }
 
-    fn has(&self, camera: &CameraPlan) -> bool {
-        self.cameras.iter().any(|known| known.camera().name == camera.name)
-    }
-
     fn of(&mut self, plan: &Arc<Plan>, camera: &CameraPlan, frames: &Range<u32>) -> &mut CameraFrames {
         let place = self.cameras.iter().position(|known| known.camera().name == camera.name);
         let place = place.unwrap_or_else(|| {
             let index = plan.cameras.iter().position(|c| c.name == camera.name).expect("a camera of the plan");
             let (plan, facts) = (Arc::clone(plan), BTreeMap::new());
-            self.cameras.push(CameraFrames { plan, camera: index, frames: frames.clone(), facts });
+            let frames = frames.clone();
+            self.cameras.push(CameraFrames { plan, camera: index, frames, facts, has_rays: false });
             self.cameras.len() - 1
         });
         let known = &mut self.cameras[place];
         known.frames = known.frames.start.min(frames.start)..known.frames.end.max(frames.end);
         known
     }
+}
+
+/// The digests of the files of a frame, which have been written and have no final names yet, by their names in the camera's folder.
+fn files_of_frame(
+    camera: &CameraPlan,
+    frame: u32,
+    folder: &OutputFolder,
+) -> Result<BTreeMap<String, FileDigest>, Error> {
+    let prefix = format!("{}/", camera.name);
+    // What is of all frames has no number; other frames of the run may wait for their names as well.
+    let number = format!(".{frame:04}.");
+    let is_own = |name: &str| name.starts_with(&prefix) && name.contains(&number);
+    let digests = folder.pending_digests(is_own).map_err(Error::run)?;
+    Ok(digests.into_iter().map(|(name, digest)| (name[prefix.len()..].to_owned(), digest)).collect())
+}
+
+/// Writes what is the same in all frames: the rays of the pixels.
+fn write_rays(camera: &CameraPlan, facts: &Provenance, folder: &mut OutputFolder) -> Result<(), Error> {
+    if !camera.products.rays {
+        return Ok(());
+    }
+    let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
+    writer.exr(Files::RAYS, image_of_rays(&ray_table(&camera.body), facts))?;
+    let twin = camera.products.undistorted.and_then(|scale| RectifiedCamera::of(&camera.body, scale).ok());
+    let Some(twin) = twin else { return Ok(()) };
+    let facts = metadata::undistorted_provenance(facts.clone(), &twin);
+    writer.exr(&Files::undistorted(Files::RAYS), image_of_rays(&ray_table(twin.body()), &facts))
+}
+
+fn image_of_rays<'a>(table: &'a RayTable, facts: &Provenance) -> ExrImage<'a> {
+    rays_image(&table.origin, &table.direction, &table.ray, table.path.as_ref(), facts)
 }

@@ -21,7 +21,7 @@ use crate::Error;
 use crate::correspondence::{is_flo, is_kitti_flow};
 use crate::photograph::{is_pfm, is_tiff};
 use crate::picture::EXR_MAGIC;
-use crate::source::read_bytes;
+use crate::source::{read_bytes, read_description_bytes};
 use std::path::{Path, PathBuf};
 
 pub use boxes::{Boxes, read_boxes};
@@ -63,7 +63,11 @@ pub fn inspect_showing(file: &Path, shown: &Shown) -> Result<FileReport, Error> 
 }
 
 fn report(file: &Path, layer: Option<&str>) -> Result<FileReport, Error> {
-    let bytes = read_bytes(file, "result or asset")?;
+    let is_json = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+    let bytes = match is_json {
+        true => read_description_bytes(file, "side-car")?,
+        false => read_bytes(file, "result or asset")?,
+    };
     if bytes.starts_with(&EXR_MAGIC) {
         return exr::report(file, &bytes, layer);
     }

@@ -45,7 +45,7 @@ pub use timing::{StatedRows, StatedTiming, stated_timing};
 pub fn read_photograph(file: &Path) -> Result<Photograph, Error> {
     let mut photograph = decode_photograph(file, &read_bytes(file, "picture")?)?;
     let Some(beside) = side_car::beside(file)? else { return Ok(photograph) };
-    photograph.correlated_block_px = beside.correlated_block_px();
+    photograph.correlated_block_px = beside.correlated_block_px()?;
     let reason = format!("{} beside it", beside.name());
     if photograph.channels.len() == 1
         && let Some(facts) = raw::facts(&beside)?

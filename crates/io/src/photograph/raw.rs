@@ -53,7 +53,10 @@ pub(super) fn facts(beside: &SideCar) -> Result<Option<RawFacts>, Error> {
         return Ok(None);
     }
     let lacks = || {
-        let problem = format!("it lists {} as raw and lacks levels or filters; render again", beside.picture);
+        let problem = format!(
+            "it lists {} as raw and lacks levels, filters or a possible exposure; render again",
+            beside.picture
+        );
         Error::new(&beside.file, problem)
     };
     stated(&beside.said, &beside.picture).map(Some).ok_or_else(lacks)
@@ -67,7 +70,7 @@ fn stated(said: &Value, name: &str) -> Option<RawFacts> {
     Some(RawFacts {
         black_level_dn: number("black_level_dn")?,
         white_level_dn: number("white_level_dn")?,
-        exposure_s: number("exposure_s")?,
+        exposure_s: number("exposure_s").filter(|s| *s >= 0.0)?,
         filters: filters(&electronics["cfa"])?,
         frame: match entry {
             Some(entry) => Some(frame(said, entry)?),

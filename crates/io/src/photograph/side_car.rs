@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::Encoding;
-use crate::Error;
-use crate::source::{decode_text, read_description_bytes};
+use crate::{Error, sidecar};
 
 /// Names of side-cars: of a render, and of a development.
 const NAMES: [&str; 2] = ["camera.json", "develop.json"];
@@ -28,20 +27,14 @@ pub(super) fn beside(file: &Path) -> Result<Option<SideCar>, Error> {
     let within = folder.file_name().and_then(|folder| folder.to_str());
     let outer = within.zip(folder.parent()).map(|(within, outer)| (outer, format!("{within}/{name}")));
     for (folder, picture) in [(folder, name.to_owned())].into_iter().chain(outer) {
-        for sidecar in NAMES.map(|name| folder.join(name)).into_iter().filter(|sidecar| sidecar.is_file()) {
-            let said = read(&sidecar)?;
+        for candidate in NAMES.map(|name| folder.join(name)).into_iter().filter(|candidate| candidate.is_file()) {
+            let said = sidecar::read(&candidate)?;
             if said["program"] == "etendue" && !said["files"][&picture].is_null() {
-                return Ok(Some(SideCar { file: sidecar, said, picture }));
+                return Ok(Some(SideCar { file: candidate, said, picture }));
             }
         }
     }
     Ok(None)
-}
-
-fn read(file: &Path) -> Result<Value, Error> {
-    let bytes = read_description_bytes(file, "side-car")?;
-    serde_json::from_str(decode_text(file, &bytes)?)
-        .map_err(|cause| Error::new(file, format!("not JSON ({cause}); remove it, or render again")))
 }
 
 impl SideCar {
@@ -56,9 +49,18 @@ impl SideCar {
     }
 
     /// Pixels whose errors may be equal, because their paths shared what they found.
-    pub(super) fn correlated_block_px(&self) -> u32 {
-        let stated = self.said["sampling"]["correlated_block_px"].as_u64();
-        stated.and_then(|n| u32::try_from(n).ok()).filter(|n| *n > 0).unwrap_or(1)
+    pub(super) fn correlated_block_px(&self) -> Result<u32, Error> {
+        let stated = &self.said["sampling"]["correlated_block_px"];
+        if stated.is_null() {
+            return Ok(1);
+        }
+        let number = stated.as_u64().and_then(|n| u32::try_from(n).ok()).filter(|n| *n > 0);
+        let strange = || {
+            format!(
+                "its sampling.correlated_block_px is {stated}, where a whole number above 0 is expected; render again"
+            )
+        };
+        number.ok_or_else(|| Error::new(&self.file, strange()))
     }
 
     /// How the picture's numbers are encoded, where it says so.

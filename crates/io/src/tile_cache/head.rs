@@ -25,6 +25,11 @@ pub(super) fn head(key: &BlockKey, checksums: &[u64]) -> Vec<u8> {
     head
 }
 
+/// Bytes of a file of blocks of these lengths.
+pub(super) fn bytes(lengths: &[u32]) -> u64 {
+    offsets(lengths).last().copied().unwrap_or_default()
+}
+
 /// Where each block begins, and where the last ends.
 pub(super) fn offsets(lengths: &[u32]) -> Vec<u64> {
     let first = (HEAD_BYTES + 8 * lengths.len()) as u64;

@@ -12,11 +12,14 @@
 //!
 //! Integers are little-endian. A file is written under a name of its own and renamed when it is complete, so that programs that run at the same
 //! time see whole files only; of two that write the same, one replaces the other's equal one. A file whose length or head is not right is
-//! removed and counts as none. A block is checked against its checksum whenever it is read.
+//! removed and counts as none. A block is checked against its checksum whenever it is read. The folder has at most as many bytes as the limit `texture-cache-mib`
+//! says: files that were used longest ago go first.
 
 mod checksum;
 mod head;
 mod reader;
+mod room;
+mod unkept;
 mod writer;
 
 use std::path::{Path, PathBuf};
@@ -24,20 +27,47 @@ use std::sync::Arc;
 
 use etendue_core::blocks::{BlockKey, BlockStore, Blocks, Fill};
 
+use crate::within;
 use reader::TileFile;
+use room::OwnFiles;
 
-/// A folder of blocks. It is made when the first blocks are written.
+/// What a job may do with a folder of blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CacheUse {
+    /// Keep blocks there.
+    #[default]
+    Keep,
+    /// The same in a folder of results, in which no link is followed.
+    KeepInOutput,
+    /// Nothing is written, moved on or removed: of blocks that are not there the first alone is known.
+    Read,
+}
+
+/// A folder of blocks, for one job. It is made when the first blocks are written.
 #[derive(Clone, Debug)]
 pub struct TileCache {
     folder: PathBuf,
+    may: CacheUse,
+    own: Arc<OwnFiles>,
 }
 
 impl TileCache {
     /// Blocks in `folder`; `None` for that of the user: `etendue` in `$XDG_CACHE_HOME`, else in `~/.cache`, else in the system's folder for
     /// temporary files.
     #[must_use]
-    pub fn new(folder: Option<&Path>) -> Self {
-        Self { folder: folder.map_or_else(folder_of_user, Path::to_path_buf) }
+    pub fn new(folder: Option<&Path>, may: CacheUse) -> Self {
+        Self { folder: folder.map_or_else(folder_of_user, Path::to_path_buf), may, own: Arc::default() }
+    }
+
+    /// Makes the folder, where it is missing, and room in it.
+    fn prepare(&self, bytes: u64) -> Result<(), String> {
+        let cannot = |cause: String| format!("the cache folder {} cannot be written: {cause}", self.folder.display());
+        if self.may == CacheUse::KeepInOutput {
+            within::check_folder(&self.folder).map_err(|error| cannot(error.what().to_owned()))?;
+        }
+        std::fs::create_dir_all(&self.folder).map_err(|cause| cannot(cause.to_string()))?;
+        room::make(&self.folder, bytes, &self.own);
+        Ok(())
     }
 
     /// Where the blocks of a key are.
@@ -49,9 +79,19 @@ impl TileCache {
 impl BlockStore for TileCache {
     fn find(&self, key: &BlockKey, lengths: &[u32]) -> Option<Arc<dyn Blocks>> {
         let file = self.file(key);
-        match TileFile::open(&file, key, lengths) {
-            Ok(found) => found.map(|found| Arc::new(found) as Arc<dyn Blocks>),
-            Err(()) => {
+        if self.may == CacheUse::KeepInOutput && within::check_folder(&self.folder).is_err() {
+            return None;
+        }
+        match (TileFile::open(&file, key, lengths), self.may) {
+            (Ok(None) | Err(()), CacheUse::Read) | (Ok(None), _) => None,
+            (Ok(Some(found)), may) => {
+                if may != CacheUse::Read {
+                    room::touch(&file);
+                }
+                self.own.add(&file, head::bytes(lengths));
+                Some(Arc::new(found))
+            }
+            (Err(()), _) => {
                 // Whoever else removes it does what is wanted.
                 let _ = std::fs::remove_file(&file);
                 None
@@ -59,10 +99,16 @@ impl BlockStore for TileCache {
         }
     }
 
+    fn check_room(&self, key: &BlockKey, lengths: &[u32]) -> Result<(), String> {
+        self.own.check(&self.file(key), head::bytes(lengths))
+    }
+
     fn make(&self, key: &BlockKey, lengths: &[u32], fill: Fill<'_>) -> Result<Arc<dyn Blocks>, String> {
-        let cannot =
-            |cause: std::io::Error| format!("the cache folder {} cannot be written: {cause}", self.folder.display());
-        std::fs::create_dir_all(&self.folder).map_err(cannot)?;
+        self.own.add(&self.file(key), head::bytes(lengths));
+        if self.may == CacheUse::Read {
+            return unkept::make(fill);
+        }
+        self.prepare(head::bytes(lengths))?;
         let (file, checksums) = writer::write(&self.file(key), key, lengths, fill)?;
         Ok(Arc::new(TileFile::of(self.file(key), file, lengths, checksums)))
     }
@@ -99,7 +145,7 @@ mod tests {
     }
 
     fn made(folder: &Path) -> (TileCache, PathBuf) {
-        let cache = TileCache::new(Some(folder));
+        let cache = TileCache::new(Some(folder), CacheUse::Keep);
         cache.make(&KEY, &LENGTHS, &mut fill).expect("a folder that can be written");
         let file = cache.file(&KEY);
         (cache, file)
@@ -114,7 +160,7 @@ mod tests {
     fn what_is_written_is_read() {
         let place = tempfile::tempdir().expect("temporary folder");
         let folder = place.path().join("a/b");
-        let cache = TileCache::new(Some(&folder));
+        let cache = TileCache::new(Some(&folder), CacheUse::Keep);
         assert!(cache.find(&KEY, &LENGTHS).is_none());
         let fresh = cache.make(&KEY, &LENGTHS, &mut fill).expect("a folder that can be made");
         let found = cache.find(&KEY, &LENGTHS).expect("just made");
@@ -166,7 +212,7 @@ mod tests {
     #[test]
     fn nothing_is_left_of_what_fails() {
         let place = tempfile::tempdir().expect("temporary folder");
-        let cache = TileCache::new(Some(place.path()));
+        let cache = TileCache::new(Some(place.path()), CacheUse::Keep);
         let failed = cache.make(&KEY, &LENGTHS, &mut |out| {
             out.write(0, &block(0))?;
             Err("the picture ended".to_owned())
@@ -174,8 +220,65 @@ mod tests {
         assert_eq!(failed.err().as_deref(), Some("the picture ended"));
         assert_eq!(fs::read_dir(place.path()).expect("folder").count(), 0);
         fs::write(place.path().join("file"), b"").expect("write");
-        let in_file = TileCache::new(Some(&place.path().join("file/folder")));
+        let in_file = TileCache::new(Some(&place.path().join("file/folder")), CacheUse::Keep);
         let told = in_file.make(&KEY, &LENGTHS, &mut fill).expect_err("a file is no folder");
         assert!(told.starts_with("the cache folder ") && told.contains("file/folder cannot be written: "), "{told}");
+    }
+
+    /// The test's own limit is that of all tests of the process: it is far above what they write.
+    #[test]
+    fn what_was_used_longest_ago_goes_first_and_what_the_job_uses_stays() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let cache = TileCache::new(Some(place.path()), CacheUse::Keep);
+        let keys: [BlockKey; 4] = [1, 2, 3, 4].map(|byte| [byte; 32]);
+        // Sparse files: half of the limit each.
+        let half = etendue_scene::limits::TEXTURE_CACHE.most_bytes() / 2;
+        for (key, s) in keys[..3].iter().zip(1..) {
+            let file = fs::File::create(cache.file(key)).expect("a file");
+            file.set_len(half).expect("sparse");
+            let modified = std::time::SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(s);
+            file.set_modified(modified).expect("set");
+        }
+        fs::write(place.path().join("theirs.tiles"), b"x").expect("write");
+        cache.own.add(&cache.file(&keys[1]), half);
+        cache.make(&keys[3], &LENGTHS, &mut fill).expect("room is made");
+        let is_there = keys.map(|key| cache.file(&key).exists());
+        assert_eq!(is_there, [false, true, false, true], "the oldest, then the next that is not the job's");
+        assert!(place.path().join("theirs.tiles").exists());
+        let told = cache.check_room(&[9; 32], &[u32::MAX]).expect_err("too large beside the own");
+        assert!(
+            told.contains("the cache of textures may have 2048 MiB") && told.contains("--limit texture-cache-mib="),
+            "{told}"
+        );
+        assert_eq!(cache.check_room(&keys[3], &LENGTHS), Ok(()));
+    }
+
+    #[test]
+    fn a_plan_leaves_the_folder_as_it_is() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let folder = place.path().join("cache");
+        let cache = TileCache::new(Some(&folder), CacheUse::Read);
+        let blocks = cache.make(&KEY, &LENGTHS, &mut fill).expect("made and not kept");
+        assert_eq!(read(&*blocks, 0), Ok(block(0)));
+        assert!(read(&*blocks, 2).expect_err("not kept").contains("for its plan alone"));
+        assert!(!folder.exists());
+        let (kept, file) = made(&folder);
+        fs::write(&file, b"damaged").expect("write");
+        assert!(cache.find(&KEY, &LENGTHS).is_none() && file.exists());
+        drop(kept);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_cache_in_an_output_folder_is_no_link() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let (folder, foreign) = (place.path().join("cache"), place.path().join("foreign"));
+        made(&foreign);
+        std::os::unix::fs::symlink(&foreign, &folder).expect("link");
+        let cache = TileCache::new(Some(&folder), CacheUse::KeepInOutput);
+        assert!(cache.find(&KEY, &LENGTHS).is_none());
+        let told = cache.make(&[8; 32], &LENGTHS, &mut fill).expect_err("a link");
+        assert!(told.contains("a symbolic link is in the place"), "{told}");
+        assert_eq!(fs::read_dir(&foreign).expect("folder").count(), 1);
     }
 }

@@ -4,6 +4,7 @@ use super::coverage::Coverage;
 use crate::plan::remark::{Remark, Weight};
 use etendue_scene::asset::Assets;
 use etendue_scene::{Fault, Place, stated};
+use std::collections::BTreeSet;
 use std::fmt::Display;
 
 /// Assets to resolve names in, faults and remarks collected on the way.
@@ -60,13 +61,9 @@ impl<'a> Context<'a> {
 
     /// The faults found, each once: a key of the job is looked at for every camera.
     pub(super) fn into_faults(self) -> Vec<Fault> {
-        let mut faults: Vec<Fault> = Vec::new();
-        for fault in self.faults {
-            if !faults.contains(&fault) {
-                faults.push(fault);
-            }
-        }
-        faults
+        let mut seen = BTreeSet::new();
+        let is_new = |fault: &Fault| seen.insert((fault.place.clone(), fault.problem.clone(), fault.remedy.clone()));
+        self.faults.into_iter().filter(is_new).collect()
     }
 
     /// A remark that the plan prints, equal ones once with their number.

@@ -1,7 +1,7 @@
 //! Where things are over time: keys and trajectories to motions.
 
 use super::context::Context;
-use etendue_core::track::{Interpolation, Key};
+use etendue_core::track::{Interpolation, Key, RollingError};
 use etendue_core::{Motion, Track};
 use etendue_scene::Place;
 use etendue_scene::record::motion::{self, Course, Rolls, Trajectory, TrajectoryAxes};
@@ -47,16 +47,27 @@ pub(super) fn along(trajectory: &Trajectory, course: Option<&Course>, context: &
     through(&keys, course, &file.place, context)
 }
 
+/// How a wheel turns in the frame of its hub.
+pub(super) fn turning(hub: &Motion, rolls: &Rolls, context: &mut Context<'_>) -> Option<Motion> {
+    match hub.rolling(rolls.radius_m.value) {
+        Ok(turns) => Some(turns),
+        Err(RollingError::Still) => {
+            context.fault(
+                &rolls.place,
+                "\"rolls\" has no effect here, as nothing moves the wheel",
+                "give it keys, a trajectory or a frame that moves, or remove it",
+            );
+            None
+        }
+        Err(error @ RollingError::TooFar { .. }) => {
+            context.fault(&rolls.radius_m.place, error.to_string(), "");
+            None
+        }
+    }
+}
+
 /// A hub with the wheel that rolls on it; without one itself.
 pub(super) fn rolling(hub: Motion, rolls: Option<&Rolls>, context: &mut Context<'_>) -> Option<Motion> {
     let Some(rolls) = rolls else { return Some(hub) };
-    let rolling = hub.rolling(rolls.radius_m.value);
-    if rolling.is_none() {
-        context.fault(
-            &rolls.place,
-            "\"rolls\" has no effect here, as nothing moves the wheel",
-            "give it keys, a trajectory or a frame that moves, or remove it",
-        );
-    }
-    rolling
+    turning(&hub, rolls, context).map(|turns| hub.carrying(&turns))
 }

@@ -1,52 +1,86 @@
 //! The frames of a scene: from records to motions.
 
 use super::context::Context;
-use super::course::{along, rolling, through, trajectory};
+use super::course::{along, through, trajectory, turning};
 use etendue_core::Motion;
 use etendue_core::track::Key;
 use etendue_scene::record::Scene;
 use etendue_scene::record::frame::{Frame, FrameKey};
 use etendue_scene::{Placed, Unused};
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::cell::OnceCell;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// From each frame that is used to the world, by name.
+/// The frames that are used, by name.
 #[derive(Debug, Default)]
-pub(super) struct Frames<'a>(BTreeMap<&'a str, Motion>);
+pub(super) struct Frames<'a>(BTreeMap<&'a str, PlacedFrame<'a>>);
+
+/// A frame in its parent. The way to the world is made of these where it is asked for: what carries others alone holds no copy of all that carries it.
+#[derive(Debug)]
+struct PlacedFrame<'a> {
+    parent: Option<&'a str>,
+    /// The motion in the parent, and in that the turning of a wheel.
+    own: Vec<Motion>,
+    /// To the world.
+    to_world: OnceCell<Motion>,
+}
 
 impl<'a> Frames<'a> {
     /// Those of a scene.
     pub(super) fn of(scene: &'a Scene, unused: &Unused, context: &mut Context<'_>) -> Self {
-        let mut frames = Self::default();
+        let by_name: BTreeMap<&str, &Frame> =
+            scene.frames.iter().map(|frame| (frame.name.value.as_str(), frame)).collect();
+        let (mut frames, mut tried) = (Self::default(), BTreeSet::new());
         for frame in scene.frames.iter().filter(|frame| !unused.frames.contains(&frame.name.value)) {
-            frames.add(frame, scene, context);
+            // Parents first; what carries itself was refused where it was read.
+            let mut chain = Vec::new();
+            let mut next = Some(frame);
+            while let Some(frame) = next.filter(|frame| tried.insert(frame.name.value.as_str())) {
+                chain.push(frame);
+                next = frame.parent.as_ref().and_then(|name| by_name.get(name.value.as_str()).copied());
+            }
+            chain.into_iter().rev().for_each(|frame| frames.add(frame, context));
         }
         frames
     }
 
     /// What moves by `own` in a frame; in the world where none is named.
     pub(super) fn carrying(&self, frame: Option<&Placed<String>>, own: Motion) -> Motion {
-        // A frame that is not here has faults of its own.
-        match frame.and_then(|name| self.0.get(name.value.as_str())) {
+        match frame.and_then(|name| self.to_world(name.value.as_str())) {
             Some(frame) => frame.carrying(&own),
             None => own,
         }
     }
 
-    /// Parents first; what carries itself was refused where it was read.
-    fn add(&mut self, frame: &'a Frame, scene: &'a Scene, context: &mut Context<'_>) {
-        if self.0.contains_key(frame.name.value.as_str()) {
-            return;
+    /// `None` of a frame that is not here: it has faults of its own.
+    fn to_world(&self, frame: &str) -> Option<&Motion> {
+        let found = self.0.get(frame)?;
+        Some(found.to_world.get_or_init(|| Motion::nested(self.chain(frame))))
+    }
+
+    /// The motions from the world to a frame.
+    fn chain(&self, frame: &str) -> Vec<&Motion> {
+        let (mut chain, mut next) = (Vec::new(), self.0.get(frame));
+        while let Some(found) = next {
+            chain.extend(found.own.iter().rev());
+            next = found.parent.and_then(|parent| self.0.get(parent));
         }
-        let parent = frame.parent.as_ref().and_then(|name| scene.frames.iter().find(|frame| frame.name == *name));
-        if let Some(parent) = parent {
-            self.add(parent, scene, context);
+        chain.reverse();
+        chain
+    }
+
+    /// Adds a frame whose parents have been added.
+    fn add(&mut self, frame: &'a Frame, context: &mut Context<'_>) {
+        let Some(motion) = own_motion(frame, context) else { return };
+        let (name, parent) = (frame.name.value.as_str(), frame.parent.as_ref().map(|parent| parent.value.as_str()));
+        let mut own = vec![motion];
+        if let Some(rolls) = &frame.rolls {
+            let carriers = parent.map_or(Vec::new(), |parent| self.chain(parent));
+            let hub = Motion::nested(carriers.into_iter().chain(&own));
+            let Some(turns) = turning(&hub, rolls, context) else { return };
+            own.push(turns);
         }
-        let Some(own) = own_motion(frame, context) else { return };
-        let carried = self.carrying(frame.parent.as_ref(), own);
-        if let Some(motion) = rolling(carried, frame.rolls.as_ref(), context) {
-            self.0.insert(&frame.name.value, motion);
-        }
+        self.0.insert(name, PlacedFrame { parent, own, to_world: OnceCell::new() });
     }
 }
 

@@ -5,6 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 
+#: Faults that a message shows; ``faults`` has all.
+_MAX_SHOWN = 50
+
+
 @dataclass(frozen=True)
 class Fault:
     """One fault of an input. Lines and columns count from 1; None: not known, or an argument's."""
@@ -25,7 +29,9 @@ class InputError(Error, ValueError):
 
     def __init__(self, faults):
         self.faults = [Fault(message, file, line, column, _python_name(key)) for message, file, line, column, key in faults]
-        super().__init__("\n".join(fault.message for fault in self.faults))
+        more = len(self.faults) - _MAX_SHOWN
+        shown = [fault.message for fault in self.faults[:_MAX_SHOWN]] + [f"and {more} more"] * (more > 0)
+        super().__init__("\n".join(shown))
 
     def __reduce__(self):
         return (type(self), ([(f.message, f.file, f.line, f.column, f.key) for f in self.faults],))

@@ -22,18 +22,43 @@ pub(super) fn references(document: &Node, faults: &mut Faults) -> Vec<Use> {
     for named in [Named::Mesh, Named::Texture, Named::Material, Named::Class, Named::Frame] {
         let known = known(named);
         let defined: BTreeSet<_> = known.iter().copied().collect();
-        for (_, name) in uses.iter().filter(|(n, name)| *n == named && !defined.contains(name.as_str())) {
-            note_unknown(named.word(), name, &known, faults);
+        let unknown = uses.iter().filter(|(n, name)| *n == named && !defined.contains(name.as_str()));
+        for (number, (_, name)) in unknown.enumerate() {
+            match number < MAX_EXPLAINED {
+                true => note_unknown(named.word(), name, &known, faults),
+                false => {
+                    let what = named.word();
+                    faults.add(
+                        &name.place,
+                        format!("there is no {what} \"{}\"", name.value),
+                        format!("define the {what}"),
+                    );
+                }
+            }
         }
     }
     uses
 }
 
+/// Unknown names of a kind that are compared with the known ones: the work grows with the product of both numbers.
+const MAX_EXPLAINED: usize = 50;
+/// Known names that a message tells.
+const MAX_KNOWN: usize = 50;
+
 fn note_unknown(what: &str, name: &Placed<String>, known: &[&str], faults: &mut Faults) {
     let remedy = match (known, nearest(name, known)) {
         ([], _) => format!("define the {what}, the scene has none"),
-        (_, Some(near)) => format!("did you mean \"{near}\"? Known: {}", known.join(", ")),
-        (_, None) => format!("define the {what}, or use one that is known: {}", known.join(", ")),
+        (_, Some(near)) => format!("did you mean \"{near}\"? Known: {}", listed(known)),
+        (_, None) => format!("define the {what}, or use one that is known: {}", listed(known)),
     };
     faults.add(&name.place, format!("there is no {what} \"{}\"", name.value), remedy);
+}
+
+/// The first names.
+fn listed(names: &[&str]) -> String {
+    let first = names[..names.len().min(MAX_KNOWN)].join(", ");
+    match names.len().checked_sub(MAX_KNOWN) {
+        None | Some(0) => first,
+        Some(more) => format!("{first} and {more} more"),
+    }
 }

@@ -1,5 +1,7 @@
 //! `[[frames]]`: what moves and carries objects, lamps and cameras.
 
+use std::collections::BTreeMap;
+
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::motion::{Course, Rolls, check_course, check_ways, trajectory_way};
@@ -78,20 +80,42 @@ fn check(frame: &Frame, faults: &mut Faults) {
     check_course(frame.course.as_ref(), frame.keys.iter().map(|key| &key.time_s), faults);
 }
 
-/// Notes every frame that is carried by itself.
+/// Names of a circle that a message tells.
+const MAX_NAMES: usize = 8;
+
+/// Notes every frame that is carried by itself, in time linear in their number.
 pub(super) fn check_circles(frames: &[Frame], faults: &mut Faults) {
-    let parent = |frame: &Frame| frame.parent.as_ref().and_then(|name| frames.iter().find(|f| f.name == *name));
-    for frame in frames {
-        let mut chain = vec![frame.name.value.as_str()];
-        let mut above = parent(frame);
-        while let Some(found) = above.filter(|_| chain.len() <= frames.len()) {
-            chain.push(&found.name.value);
-            if let (true, Some(own)) = (found.name == frame.name, &frame.parent) {
-                let problem = format!("the frame carries itself: {}", chain.join(" in "));
-                faults.add(&own.place, problem, "name another parent, or none");
-                break;
-            }
-            above = parent(found);
+    let mut places = BTreeMap::new();
+    for (place, frame) in frames.iter().enumerate() {
+        places.entry(frame.name.value.as_str()).or_insert(place);
+    }
+    let parent = |place: usize| places.get(frames[place].parent.as_ref()?.value.as_str()).copied();
+    // Of each frame the first from which a walk along the parents came to it.
+    let mut reached_from = vec![usize::MAX; frames.len()];
+    for start in 0..frames.len() {
+        let mut next = Some(start);
+        while let Some(place) = next.filter(|place| reached_from[*place] == usize::MAX) {
+            reached_from[place] = start;
+            next = parent(place);
         }
+        // A walk that comes to its own way has found a circle, which no other walk enters anew.
+        let Some(first) = next.filter(|place| reached_from[*place] == start) else { continue };
+        let circle: Vec<usize> =
+            std::iter::successors(Some(first), |place| parent(*place).filter(|place| *place != first)).collect();
+        note_circle(&circle, frames, faults);
+    }
+}
+
+/// Notes each frame of a circle, each carried by the next and the last by the first.
+fn note_circle(circle: &[usize], frames: &[Frame], faults: &mut Faults) {
+    let name = |place: usize| frames[circle[place % circle.len()]].name.value.as_str();
+    for (place, frame) in circle.iter().enumerate() {
+        let Some(own) = &frames[*frame].parent else { continue };
+        let mut chain: Vec<&str> = (place..=place + circle.len().min(MAX_NAMES)).map(name).collect();
+        if circle.len() > MAX_NAMES {
+            chain.extend(["…", name(place)]);
+        }
+        let problem = format!("the frame carries itself: {}", chain.join(" in "));
+        faults.add(&own.place, problem, "name another parent, or none");
     }
 }

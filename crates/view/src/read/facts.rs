@@ -1,6 +1,7 @@
 //! What the side-car beside a file says.
 
 use etendue::Error;
+use etendue_io::sidecar;
 use serde_json::Value;
 use std::path::Path;
 
@@ -19,10 +20,7 @@ impl SideCar {
         let about = folder.parent().filter(|_| folder.ends_with("undistorted"));
         let files = [Some(folder), about].into_iter().flatten().map(|folder| folder.join("camera.json"));
         let Some(file) = files.into_iter().find(|file| file.is_file()) else { return Ok(Self::default()) };
-        let refuse = |why: String| Error::input(format!("{}: {why}", file.display()));
-        let text = std::fs::read_to_string(&file).map_err(|cause| refuse(format!("cannot be read: {cause}")))?;
-        let said = serde_json::from_str(&text)
-            .map_err(|cause| refuse(format!("not JSON ({cause}); remove it, or render again")))?;
+        let said = sidecar::read(&file).map_err(Error::input)?;
         Ok(Self { said })
     }
 

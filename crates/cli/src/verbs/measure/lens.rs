@@ -38,7 +38,10 @@ pub struct LensArgs {
 impl LensArgs {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let found = measure::lens(&self.into())?;
-        console.print(&if self.json { format!("{:#}\n", found.json()) } else { found.text() });
+        match self.json {
+            true => console.print_json(&format!("{:#}\n", found.json())),
+            false => console.print(&found.text()),
+        }
         Ok(())
     }
 }

@@ -31,7 +31,10 @@ impl ReportArgs {
         if let Some(file) = &self.html {
             write_file(file, report_page(report).as_bytes(), Existing::Replace)?;
         }
-        console.print(&if self.json { format!("{:#}\n", report.json()) } else { report.to_string() });
+        match self.json {
+            true => console.print_json(&format!("{:#}\n", report.json())),
+            false => console.print(&report.to_string()),
+        }
         Ok(())
     }
 }

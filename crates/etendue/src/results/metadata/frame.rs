@@ -1,13 +1,20 @@
 //! What is said of a frame that has a light of its own.
 
 use super::pose_rows;
+use etendue_io::{FileDigest, sidecar};
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_sensor::SensorState;
+use serde::Deserialize as _;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::path::Path;
 
 /// The keys of what the sensor remembers, and of the first frame that it remembers anything of.
 const STATE: &str = "sensor_state";
 const SINCE: &str = "sensor_since_frame";
+/// The keys of the digests of the frame's files, by name, and of the hash of all else that the file says.
+const FILES: &str = "files";
+const SHA256: &str = "sha256";
 
 /// A frame with its times and poses, and what is said of its `photograph`, where there is one.
 pub(crate) fn own_frame(plan: &Plan, camera: &CameraPlan, frame: u32, photograph: Option<Value>) -> Value {
@@ -33,11 +40,40 @@ pub(crate) fn with_state(mut facts: Value, after: &SensorState, since: u32) -> V
     facts
 }
 
-/// The same without it.
+/// The same with the digests of the frame's files and a hash of all that it says: what [`check_whole`] looks at.
+pub(crate) fn sealed(mut facts: Value, files: &BTreeMap<String, FileDigest>) -> Value {
+    facts[FILES] = json!(files);
+    facts[SHA256] = seal(&facts).into();
+    facts
+}
+
+/// Whether the facts are those of a frame as they were written, and the files in `folder` that they name too; the first that is not, in words.
+pub(crate) fn check_whole(facts: &Value, frame: u32, folder: &Path) -> Result<(), String> {
+    if facts["frame"] != frame {
+        return Err("it is the file of another frame".to_owned());
+    }
+    let mut unsealed = facts.clone();
+    let stated = unsealed.as_object_mut().and_then(|table| table.remove(SHA256));
+    if stated != Some(seal(&unsealed).into()) {
+        return Err("it was changed after it was written".to_owned());
+    }
+    let files = BTreeMap::<String, FileDigest>::deserialize(&facts[FILES]);
+    let files = files.map_err(|_| "it names no files of the frame".to_owned())?;
+    match files.iter().find(|(name, digest)| !digest.matches(&folder.join(name))) {
+        Some((name, _)) => Err(format!("{name} is gone or was changed")),
+        None => Ok(()),
+    }
+}
+
+/// The hash of facts, by their bytes in a file.
+fn seal(facts: &Value) -> String {
+    FileDigest::from_bytes(&sidecar::encode(facts).unwrap_or_default()).sha256
+}
+
+/// The facts without what only a run that goes on needs.
 pub(crate) fn without_state(mut facts: Value) -> Value {
     if let Some(table) = facts.as_object_mut() {
-        table.remove(STATE);
-        table.remove(SINCE);
+        [STATE, SINCE, FILES, SHA256].iter().for_each(|key| drop(table.remove(*key)));
     }
     facts
 }

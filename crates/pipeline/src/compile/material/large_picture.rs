@@ -34,6 +34,7 @@ pub(super) fn tiled(
         // What is there is damaged: it is made again.
         Some(Err(TiledError::Tiles(_))) | None => {}
     }
+    store.blocks.check_room(&key, &lengths).map_err(Refusal::Picture)?;
     let mut faulty = None;
     let made = store.blocks.make(&key, &lengths, &mut |out| {
         fill(image, reading, out).map_err(|refusal| match refusal {

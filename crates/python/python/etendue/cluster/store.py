@@ -50,11 +50,12 @@ class Store:
     def has(self, film, shard):
         """Whether a film of a shard is finished."""
         folder = self._shard(shard)
-        return (folder / film).is_file() and (folder / MANIFEST).is_file()
+        return not folder.is_symlink() and (folder / film).is_file() and (folder / MANIFEST).is_file()
 
     def add(self, film, shard, files):
         """A finished film with its shard's manifest, name to bytes. Adding it again changes nothing."""
         self._shard(shard).mkdir(exist_ok=True)
+        _check_link(self._shard(shard))
         self._check_beside(self._shard(shard) / MANIFEST, bytes(files[MANIFEST]))
         for name in (MANIFEST, film):
             self._write(self._shard(shard) / name, files[name])
@@ -130,6 +131,7 @@ class Store:
                 continue
             except OSError as cause:
                 raise _refused(self.folder, f"the folder cannot be made: {cause.strerror}") from None
+            _check_link(self.folder)
             why = "it is removed at once"
             self._taken = fcntl is None or self._is_locked()
             if self._taken:
@@ -154,12 +156,13 @@ class Store:
 
     def _empty(self):
         for entry in self.folder.iterdir():
-            shutil.rmtree(entry) if entry.is_dir() else entry.unlink()
+            shutil.rmtree(entry) if entry.is_dir() and not entry.is_symlink() else entry.unlink()
 
     def _write(self, path, content):
         new = path.with_name(path.name + ".new")
         try:
-            with open(new, "wb") as file:
+            new.unlink(missing_ok=True)
+            with open(new, "xb") as file:
                 file.write(content)
                 file.flush()
                 os.fsync(file.fileno())
@@ -168,6 +171,12 @@ class Store:
             with contextlib.suppress(OSError):
                 new.unlink()
             raise RunError(f"{path}: cannot be written: {cause.strerror}") from None
+
+
+def _check_link(folder):
+    """Nothing is written or removed through a link, as whoever made it chose where that is."""
+    if folder.is_symlink():
+        raise _refused(folder, "a symbolic link is in the place of a folder of results; remove it, or choose another output folder")
 
 
 def _refused(path, why):

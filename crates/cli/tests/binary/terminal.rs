@@ -1,0 +1,148 @@
+//! What reaches a terminal: text of files with its control characters escaped, and an error where results cannot be printed.
+
+use crate::support::{BALL, etendue, root, small, text};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+/// Control characters, and the override that turns text round.
+const STRANGE: &str = "\u{1b}[31m\u{1b}]0;owned\u{7}\u{9b}2J\u{202e}\u{7f}";
+
+#[track_caller]
+fn assert_plain(what: &str, printed: &str) {
+    let strange = |c: &char| c.is_control() && *c != '\n' && *c != '\t' || ('\u{202a}'..='\u{202e}').contains(c);
+    let found: Vec<char> = printed.chars().filter(strange).collect();
+    assert!(found.is_empty(), "{what}: {found:?} in {printed:?}");
+}
+
+/// An EXR file of one pixel with a strange channel and a strange comment.
+fn strange_exr() -> Vec<u8> {
+    let attribute = |name: &str, kind: &str, value: &[u8]| {
+        let length = (value.len() as u32).to_le_bytes();
+        [name.as_bytes(), b"\0", kind.as_bytes(), b"\0", &length, value].concat()
+    };
+    let channel = [STRANGE.as_bytes(), b"Y\0", &[2, 0, 0, 0, 0, 0, 0, 0], &[1, 0, 0, 0, 1, 0, 0, 0], b"\0"].concat();
+    let mut head = [20_000_630_u32.to_le_bytes(), 2_u32.to_le_bytes()].concat();
+    head.extend(attribute("channels", "chlist", &channel));
+    head.extend(attribute("compression", "compression", &[0]));
+    head.extend(attribute("dataWindow", "box2i", &[0; 16]));
+    head.extend(attribute("displayWindow", "box2i", &[0; 16]));
+    head.extend(attribute("lineOrder", "lineOrder", &[0]));
+    head.extend(attribute("pixelAspectRatio", "float", &1_f32.to_le_bytes()));
+    head.extend(attribute("screenWindowCenter", "v2f", &[0; 8]));
+    head.extend(attribute("screenWindowWidth", "float", &1_f32.to_le_bytes()));
+    head.extend(attribute("comments", "string", STRANGE.as_bytes()));
+    head.push(0);
+    let start = (head.len() as u64 + 8).to_le_bytes();
+    [&head[..], &start, &0_i32.to_le_bytes(), &4_i32.to_le_bytes(), &1_f32.to_le_bytes()].concat()
+}
+
+#[test]
+fn text_of_files_and_paths_is_shown_and_not_obeyed() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let file = |name: &str, bytes: &[u8]| {
+        fs::write(place.path().join(name), bytes).expect("written");
+        text(&place.path().join(name))
+    };
+    let exr = file("x.exr", &strange_exr());
+    let obj = format!("mtllib x.mtl\nusemtl {STRANGE}m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let obj = file("x.obj", obj.as_bytes());
+    file("x.mtl", format!("newmtl {STRANGE}m\nKd 1 0 0\n{STRANGE} 1\n").as_bytes());
+    let names = format!(
+        "[[scene.objects]]\nname = {}\nshape = {{ type = \"sphere\", radius_m = 1 }}\nmaterial = {}\n",
+        serde_json::to_string(STRANGE).expect("text").replace('\u{7f}', "\\u007f"),
+        serde_json::to_string(STRANGE).expect("text").replace('\u{7f}', "\\u007f")
+    );
+    let job = file("job.toml", format!("{BALL}{names}").as_bytes());
+    let mesh = "[[scene.meshes]]\nname = \"x\"\nfile = \"x.obj\"\nup_axis = \"z\"\n[[scene.objects]]\nname = \"x\"\nmesh = \"x\"\n";
+    let mesh = file("mesh.toml", format!("{BALL}{mesh}").as_bytes());
+    let sky = file(
+        "sky.toml",
+        BALL.replace(
+            "type = \"uniform\"\nluminance_cd_m2 = 30\nilluminant = \"D65\"",
+            "type = \"image\"\nfile = \"x.exr\"\nluminance_cd_m2_per_unit = 1",
+        )
+        .as_bytes(),
+    );
+    let lost = text(&place.path().join(format!("{STRANGE}.toml")));
+    for arguments in [
+        &["inspect", &exr][..],
+        &["inspect", &obj],
+        &["plan", &job],
+        &["plan", &mesh],
+        &["plan", &mesh, "--json"],
+        &["plan", &mesh, "--files"],
+        &["plan", &sky],
+        &["plan", &lost],
+        &["plan", &job, STRANGE],
+        &["render", &job, "--set", STRANGE],
+        &["compare", &exr, &exr, "--json"],
+        &["compare", &exr, &exr],
+    ] {
+        let ran = etendue(arguments);
+        assert_plain(&format!("stdout of {arguments:?}"), &ran.out);
+        assert_plain(&format!("stderr of {arguments:?}"), &ran.err);
+        assert!(!(ran.out + &ran.err).is_empty());
+    }
+    let shown = etendue(["inspect", &exr]).ok().out;
+    assert!(shown.contains("\\u{1b}[31m\\u{1b}]0;owned\\u{7}"), "{shown}");
+    let shown = etendue(["plan", &lost]).err;
+    assert!(shown.contains("\\u{202e}"), "{shown}");
+    let json = etendue(["compare", &exr, &exr, "--json"]).ok().out;
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    assert!(json.to_string().contains("\\u001b[31m"), "the document says the name itself: {json}");
+}
+
+fn shell(line: &str, arguments: &[&str]) -> Output {
+    let mut command = Command::new("sh");
+    command.args(["-c", line, env!("CARGO_BIN_EXE_etendue")]).args(arguments);
+    command.current_dir(root()).stdin(Stdio::null()).output().expect("a shell")
+}
+
+/// Every verb prints something: without a standard output none begins its work.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_standard_output_that_is_closed_is_an_error_of_every_verb() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = text(&place.path().join("out"));
+    let job = small();
+    for arguments in [
+        &["render", &job, "-o", &out, "--spp", "2"][..],
+        &["plan", &job],
+        &["schema", "job"],
+        &["inspect", &job],
+        &["view", "none"],
+        &["--help"],
+        &["--version"],
+    ] {
+        let ran = shell("exec \"$0\" \"$@\" >&-", arguments);
+        let told = String::from_utf8_lossy(&ran.stderr).into_owned();
+        assert_eq!(ran.status.code(), Some(2), "{arguments:?}: {told}");
+        assert_eq!(told.lines().count(), 1, "{told}");
+        assert!(told.contains("the standard output is closed"), "{told}");
+    }
+    assert!(!Path::new(&out).exists());
+    assert!(shell("exec \"$0\" \"$@\" >/dev/null", &["schema", "job"]).status.success());
+    // As Python's subprocess.DEVNULL has it, for reading and writing.
+    assert!(shell("exec \"$0\" \"$@\" 1<>/dev/null", &["schema", "job"]).status.success());
+}
+
+#[test]
+fn a_reader_that_goes_away_is_an_error() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = text(&place.path().join("out"));
+    let job = small();
+    for arguments in
+        [&["render", &job, "-o", &out, "--spp", "2"][..], &["schema", "job"], &["plan", &job, "--json"], &["--help"]]
+    {
+        let said = place.path().join("said");
+        let line = format!("{{ sleep 0.3; \"$0\" \"$@\" 2>'{}'; echo $? >&2; }} | true", said.display());
+        let ran = shell(&line, arguments);
+        let told = fs::read_to_string(&said).expect("its stderr");
+        assert_eq!(String::from_utf8_lossy(&ran.stderr).trim(), "1", "{arguments:?}: {told}");
+        assert_eq!(told.lines().filter(|line| line.starts_with("error: ")).count(), 1, "{told}");
+        assert!(told.contains("cannot be written to the standard output"), "{told}");
+    }
+    assert!(Path::new(&out).join("front/radiance.exr").exists(), "results that have their names are whole");
+}

@@ -1,0 +1,76 @@
+//! Which samples of a folder are whole, so that a run that goes on leaves them, and which are made anew.
+//!
+//! The record of a sample states what was drawn, the digests of the sample's files and a hash of itself. A sample is whole where all of that agrees with the set and
+//! with what is in the folder. Of samples that the run does not make only the records are looked at: what is made of all samples is made of them.
+
+use crate::draw::Drawn;
+use crate::format::Writer;
+use crate::record::SampleRecord;
+use crate::records::{Records, record_name};
+use crate::set::Set;
+use etendue::{Error, Message, Observer};
+use std::ops::Range;
+use std::path::Path;
+
+/// The samples of a folder, looked at by a run of some of them.
+pub(crate) struct DoneSamples<'a> {
+    pub(crate) set: &'a Set,
+    pub(crate) writers: &'a [Box<dyn Writer>],
+    pub(crate) root: &'a Path,
+    pub(crate) records: &'a Records,
+}
+
+impl DoneSamples<'_> {
+    /// Refuses records of samples that the run does not make and that cannot be used.
+    pub(crate) fn check_others(&self, samples: &Range<u32>) -> Result<(), Error> {
+        for sample in self.records.numbers().iter().filter(|sample| !samples.contains(sample)) {
+            if let Err(why) = self.record(*sample) {
+                let path = self.root.join(record_name(*sample));
+                return Err(Error::input(format!(
+                    "{}: {why}; make the sample anew: --samples {sample}..{} --resume",
+                    path.display(),
+                    sample + 1
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// The samples that a run that goes on makes: those that are not there or not whole. The observer is told of the latter.
+    pub(crate) fn left(&self, samples: &Range<u32>, observer: &dyn Observer) -> Vec<u32> {
+        let is_left = |sample: &u32| {
+            if self.records.numbers().binary_search(sample).is_err() {
+                return true;
+            }
+            let Err(why) = self.whole(*sample) else { return false };
+            let path = self.root.join(record_name(*sample));
+            observer.message(Message::Note(&format!("{}: {why}; sample {sample} is made anew", path.display())));
+            true
+        };
+        samples.clone().filter(is_left).collect()
+    }
+
+    /// A record of the set.
+    fn record(&self, sample: u32) -> Result<SampleRecord, String> {
+        let record = self.records.read(sample)?;
+        let drawn = Drawn::of(self.set.variations.as_ref(), self.set.seed, sample);
+        match (record.seed, &record.set) == (drawn.seed, &drawn.set()) && record.split == drawn.split {
+            true => Ok(record),
+            false => Err("it was drawn otherwise than this data set draws it".to_owned()),
+        }
+    }
+
+    /// A record whose files are as they were written.
+    fn whole(&self, sample: u32) -> Result<(), String> {
+        let record = self.record(sample)?;
+        let is_there = |name: &str| {
+            let digest = &record.files[name];
+            digest.matches(&self.root.join(name))
+                || self.writers.iter().any(|writer| writer.holds((name, &record), self.records, self.root))
+        };
+        match record.files.keys().find(|name| !is_there(name)) {
+            Some(name) => Err(format!("{name} is gone or was changed")),
+            None => Ok(()),
+        }
+    }
+}
