@@ -46,7 +46,7 @@ impl Job {
     /// With a picture file of linear numbers, first row on top.
     #[must_use]
     pub fn with_image(mut self, path: &str, width: u32, height: u32, rgb: Vec<[f32; 3]>) -> Self {
-        let asset = ImageAsset { width, height, pixels: ImagePixels::Rgb32F(rgb), hash: [0; 32] };
+        let asset = ImageAsset { width, height, pixels: ImagePixels::Rgb32F(rgb), to_rec_709: None, hash: [0; 32] };
         self.assets.images.insert(path.into(), asset);
         self
     }

@@ -225,7 +225,7 @@ pub(super) const PLAN: Target = Target {
     },
     read: |file| {
         let mut request = JobRequest::new(file);
-        request.textures = TextureMemory { limit_bytes: u64::MAX, cache: None };
+        request.textures = TextureMemory { limit_bytes: u64::MAX, ..TextureMemory::default() };
         match request.open() {
             Ok(job) => {
                 let _ = (job.summary(), job.report());

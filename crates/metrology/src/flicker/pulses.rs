@@ -67,7 +67,7 @@ pub(super) fn fitted(series: &TimeSeries, fourier: &FourierFit, exposure_s: f64)
     let [middle, duty] = [PHASE, DUTY].map(|i| start[i]);
     let dual = problem.begun(frequency_hz, middle, 1.0 - duty).map(|(dual, _)| dual);
     let found: Vec<FittedPulses> =
-        [Some(start), dual].into_iter().flatten().filter_map(|start| problem.from_start(start)).collect();
+        [Some(start), dual].into_iter().flatten().filter_map(|start| problem.fit_from(start)).collect();
     match &found[..] {
         [] => None,
         [only] => Some(*only),
@@ -118,7 +118,7 @@ fn modulation_of(found: &Fit, exposure_s: f64) -> Estimate {
 impl PulseProblem<'_> {
     /// The fit from a start; `None` where it finds none, or a light below nothing between the pulses (a share above 1 by more than three standard
     /// uncertainties).
-    fn from_start(&mut self, start: Vec<f64>) -> Option<FittedPulses> {
+    fn fit_from(&mut self, start: Vec<f64>) -> Option<FittedPulses> {
         self.start = start;
         let found = fit(&*self, &self.start).ok()?;
         let [share, duty] = [SHARE, DUTY].map(|i| found.estimate(i));

@@ -96,8 +96,9 @@ impl Reading<'_> {
     /// Refuses readings beyond the descriptor's bits, which is 0 where nobody states them.
     fn fits_bits(&self, file: &Path, image: &Image) -> Result<(), Error> {
         let bits = self.descriptor.bits;
+        let full = ((1_u64 << bits.min(32)) - 1) as f64;
         let greatest = image.samples().iter().copied().fold(0.0, f32::max);
-        if bits == 0 || f64::from(greatest) < f64::from(bits).exp2() {
+        if bits == 0 || f64::from(greatest) <= full {
             return Ok(());
         }
         let shifted = (1..=16 - bits.min(16)).rev().find(|shift| {
@@ -116,7 +117,7 @@ impl Reading<'_> {
         Err(Error::input(format!(
             "{}: readings up to {greatest}, where the descriptor says {bits} bits, which end at {}; {advice}",
             file.display(),
-            f64::from(bits).exp2() - 1.0
+            full
         )))
     }
 
