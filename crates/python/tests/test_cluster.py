@@ -5,6 +5,7 @@ import errno
 import inspect
 import os
 import re
+import resource
 import shutil
 import sys
 import types
@@ -209,10 +210,14 @@ def test_results_that_are_there_are_not_replaced_unasked(tmp_path):
 
 def test_a_store_that_cannot_be_written_is_a_run_that_failed(tmp_path):
     kept = opened(tmp_path)
-    (kept.folder / "shard-00000").mkdir()
-    (kept.folder / "shard-00000/front.film.exr.new").symlink_to("/dev/full")
-    with pytest.raises(etendue.RunError, match="No space left"):
-        kept.add("front.film.exr", 0, {"front.film.exr": b"film", "shard.json": b"{}"})
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    # Files of three bytes at most.
+    resource.setrlimit(resource.RLIMIT_FSIZE, (3, before[1]))
+    try:
+        with pytest.raises(etendue.RunError, match="File too large"):
+            kept.add("front.film.exr", 0, {"front.film.exr": b"film", "shard.json": b"{}"})
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
     assert not kept.has("front.film.exr", 0) and sorted(path.name for path in kept.folder.rglob("*.*")) == ["run.json", "shard.json"]
     kept.close()
 

@@ -67,7 +67,8 @@ pub(super) struct RawSurface {
     pub(super) line: usize,
     pub(super) curvature: f64,
     pub(super) conic: f64,
-    pub(super) asphere: [f64; ASPHERE_TERMS],
+    /// Coefficients of r², r⁴ …; `None`: all are 0.
+    pub(super) asphere: Option<Box<[f64; ASPHERE_TERMS]>>,
     pub(super) semi_aperture: Option<f64>,
     /// Whether the opening stops light, and is not a size for drawing.
     pub(super) rim: bool,
@@ -80,19 +81,28 @@ pub(super) struct RawSurface {
 
 impl RawSurface {
     pub(super) fn new(line: usize) -> Self {
-        let (curvature, conic, asphere) = (0.0, 0.0, [0.0; ASPHERE_TERMS]);
+        let (curvature, conic) = (0.0, 0.0);
         let glass = GlassAsset::Air;
         Self {
             line,
             curvature,
             conic,
-            asphere,
+            asphere: None,
             semi_aperture: None,
             rim: false,
             thickness: 0.0,
             glass,
             stop: false,
             aspheric: false,
+        }
+    }
+}
+
+impl RawSurface {
+    /// Sets the coefficient of r² (0), r⁴ (1) …
+    pub(super) fn set_coefficient(&mut self, place: usize, value: f64) {
+        if value != 0.0 || self.asphere.is_some() {
+            self.asphere.get_or_insert_default()[place] = value;
         }
     }
 }
@@ -137,7 +147,7 @@ impl Raw {
     pub(super) fn scale(&mut self, factor: f64) {
         for surface in &mut self.surfaces {
             surface.curvature /= factor;
-            surface.asphere = scaled_asphere(surface.asphere, factor);
+            surface.asphere = surface.asphere.take().map(|terms| Box::new(scaled_asphere(*terms, factor)));
             surface.semi_aperture = surface.semi_aperture.map(|semi| semi * factor);
             surface.thickness *= factor;
         }
@@ -227,7 +237,7 @@ fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
     SurfaceAsset {
         radius_mm: if s.curvature == 0.0 { f64::INFINITY } else { unit / s.curvature },
         conic: s.conic,
-        asphere: scaled_asphere(s.asphere, unit),
+        asphere: s.asphere.as_deref().map_or([0.0; ASPHERE_TERMS], |terms| scaled_asphere(*terms, unit)),
         semi_aperture_mm: s.semi_aperture.map(|a| a * unit),
         rim: s.rim && s.semi_aperture.is_some(),
         thickness_mm: s.thickness * unit,

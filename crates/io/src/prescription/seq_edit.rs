@@ -132,7 +132,7 @@ fn property(surface: &mut RawSurface, name: &str, w: &Words<'_>, value: usize) -
         },
         _ => {
             if let Some(place) = order(name) {
-                surface.asphere[place] = w.number(value)?;
+                surface.set_coefficient(place, w.number(value)?);
             }
         }
     }

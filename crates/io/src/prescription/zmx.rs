@@ -160,8 +160,8 @@ const EVEN_TERMS: f64 = 8.0;
 
 fn coefficient(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
     let (place, value) = (w.number(1)?, w.number(2)?);
-    match surface.asphere.get_mut((place - 1.0) as usize) {
-        Some(term) if (1.0..=EVEN_TERMS).contains(&place) => *term = value,
+    match place {
+        1.0..=EVEN_TERMS if place.fract() == 0.0 => surface.set_coefficient(place as usize - 1, value),
         _ if value == 0.0 => {}
         _ => return Err(w.fault(format!("PARM {place}; expected 1 to 8, the terms r² to r¹⁶"))),
     }

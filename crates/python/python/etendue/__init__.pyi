@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, TypeVar, final, overload
+from typing import Any, Literal, NamedTuple, TypeVar, final
 
 import numpy as np
 import numpy.typing as npt
@@ -183,11 +183,8 @@ class Results:
         """The camera of each name; where light depends on time, of the first frame: ``cameras`` has all."""
     def items(self) -> list[tuple[str, Camera]]:
         """Names and cameras, as ``keys`` and ``values``."""
-    @overload
-    def get(self, name: str, default: None = None) -> Camera | None:
+    def get(self, name: str, default: _Default | None = None) -> Camera | _Default | None:
         """The camera of a name, or ``default`` where there is none."""
-    @overload
-    def get(self, name: str, default: _Default) -> Camera | _Default: ...
     def camera(self, name: str, frame: int | None = None) -> Camera:
         """A camera by its name; where light depends on time, of one frame: the first unless another is named."""
     def save(self, folder: _Path, *, overwrite: bool = False) -> list[Path]:
@@ -309,11 +306,8 @@ class Frame:
         """The arrays, in the order of ``keys``."""
     def items(self) -> list[tuple[str, npt.NDArray[Any]]]:
         """Names and arrays, as ``keys`` and ``values``."""
-    @overload
-    def get(self, name: str, default: None = None) -> npt.NDArray[Any] | None:
+    def get(self, name: str, default: _Default | None = None) -> npt.NDArray[Any] | _Default | None:
         """The array of a name, or ``default`` where there is none."""
-    @overload
-    def get(self, name: str, default: _Default) -> npt.NDArray[Any] | _Default: ...
 
 class Estimate(NamedTuple):
     """A number with its standard uncertainty (None: not stated, or not finite) and unit ("" for none)."""

@@ -131,7 +131,7 @@ fn meshes(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     }
     match sizes.len().saturating_sub(LISTED_MESHES) {
         0 => Ok(()),
-        more => line(f, "mesh", format!("and {} more: etendue plan JOB --json", count(more, "mesh"))),
+        more => line(f, "mesh", format!("and {more} more: etendue plan JOB --json")),
     }
 }
 
