@@ -38,3 +38,46 @@ fn directions() -> impl Iterator<Item = Vec3> {
     let corner = move |i: usize| Vec3::new(side[i & 1], 0.9 * side[i >> 1 & 1], 0.8 * side[i >> 2]).normalize();
     faces.map(|face| (face + Vec3::new(0.011, 0.007, 0.013)).normalize()).chain((0..8).map(corner))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::render::test_scenes::{PINHOLE, plan};
+
+    fn warnings(lens: &str, objects: &str) -> String {
+        plan(lens, &format!("{objects}\n[scene.environment]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 1\n"))
+            .warnings()
+            .join("\n")
+    }
+
+    fn object(shape: &str, keys: &str) -> String {
+        format!("[[scene.objects]]\nname = \"it\"\nmaterial = \"grey\"\nshape = {{ {shape} }}\n{keys}\n")
+    }
+
+    #[test]
+    fn cameras_inside_objects_are_warned_of() {
+        let inside = "camera eye: it stands inside the object it";
+        assert!(
+            warnings(PINHOLE, &object("type = \"box\", size_m = [4, 2, 2]", "position_m = [1, 0, 0]")).contains(inside)
+        );
+        assert!(warnings(PINHOLE, &object("type = \"sphere\", radius_m = 2", "")).contains(inside));
+        let beside = warnings(PINHOLE, &object("type = \"box\", size_m = [4, 2, 2]", "position_m = [9, 0, 0]"));
+        assert_eq!(beside, "");
+    }
+
+    #[test]
+    fn implausible_sizes_and_fields_are_warned_of() {
+        let car = |size: &str| {
+            let keys = "class = \"car\"\nposition_m = [900, 0, 0]\n[scene.classes]\ncar = 1";
+            warnings(PINHOLE, &object(&format!("type = \"box\", size_m = {size}"), keys))
+        };
+        assert_eq!(car("[4.5, 1.8, 1.5]"), "");
+        assert!(car("[450, 180, 150]").contains("check the scale of its mesh"));
+        assert!(car("[0.0045, 0.0018, 0.0015]").contains("check the scale of its mesh"));
+        assert!(car("[1.8, 1.5, 4.5]").contains("check up_axis"));
+        let far = object("type = \"sphere\", radius_m = 1", "position_m = [9, 0, 0]");
+        for lens in ["focal_length_mm = 0.05", "focal_length_mm = 6000"] {
+            let found = warnings(&format!("type = \"pinhole\", {lens}, f_number = 2"), &far);
+            assert!(found.contains("a field of view of"), "{lens}: {found}");
+        }
+    }
+}
