@@ -1,8 +1,8 @@
-//! Whether the program was started without a standard output (`>&-`).
+//! Detects a program that was started without a standard output (`>&-`).
 //!
 //! Before `main` the runtime of Rust opens `/dev/null` in the place of standard streams that are closed, so that results would be lost without an error. The only
 //! moment to look is before it: functions that the loader calls first are listed in a section of the program (ELF `.init_array`, Mach-O `__mod_init_func`).
-//! Where there is no such list (Windows) nothing is known, and a closed output counts as an open one.
+//! Without such a list (Windows) a closed output counts as an open one.
 
 #[cfg(any(target_os = "linux", target_vendor = "apple"))]
 use core::ffi::c_int;
@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 static IS_CLOSED: AtomicBool = AtomicBool::new(false);
 
-/// Whether there was no standard output when the program was started.
+/// Returns true where there was no standard output when the program was started.
 pub(crate) fn is_closed() -> bool {
     IS_CLOSED.load(Ordering::Relaxed)
 }

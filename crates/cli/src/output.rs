@@ -1,4 +1,4 @@
-//! What the program prints: results to stdout, everything else to stderr. All text passes through [`etendue::terminal_text`].
+//! Printing: results to stdout, everything else to stderr. All text passes through [`etendue::terminal_text`].
 
 use etendue::{terminal_json, terminal_text};
 use std::io::{self, Write as _};
@@ -22,7 +22,7 @@ fn write_results(text: &str) {
     }
 }
 
-/// What is said of results that cannot be written.
+/// The error message of results that cannot be written.
 pub fn unwritten(cause: &io::Error) -> String {
     format!(
         "error: the results cannot be written to the standard output: {cause}; files that have their names are whole\n"

@@ -165,13 +165,13 @@ mod tests {
     fn without_a_terminal_there_is_a_line_a_minute() {
         let mut lines = Lines::default();
         let progress = |done| Progress { heading: "left", frame: None, unit: Unit::Tiles, done, total: 200 };
-        let told: Vec<String> = (0..=200).filter_map(|done| lines.due(progress(done), done as f64)).collect();
+        let printed: Vec<String> = (0..=200).filter_map(|done| lines.due(progress(done), done as f64)).collect();
         let expected = [
             "left: 30 % (60 of 200 tiles) after 60 s, about 140 s left\n",
             "left: 60 % (120 of 200 tiles) after 120 s, about 80 s left\n",
             "left: 90 % (180 of 200 tiles) after 180 s, about 20 s left\n",
         ];
-        assert_eq!(told, expected);
+        assert_eq!(printed, expected);
         // The next task has a clock of its own.
         assert_eq!(lines.due(progress(0), 230.0), None);
         assert_eq!(

@@ -1,4 +1,4 @@
-//! Which samples of a folder are whole, so that a run that goes on leaves them, and which are made anew.
+//! The samples of a folder that are whole, which a run that goes on leaves; all others are made anew.
 //!
 //! The record of a sample states what was drawn, the digests of the sample's files and a hash of itself. A sample is whole where all of that agrees with the set and
 //! with what is in the folder. Of samples that the run does not make only the records are looked at: what is made of all samples is made of them.
@@ -27,9 +27,8 @@ impl DoneSamples<'_> {
             if let Err(why) = self.record(*sample) {
                 let path = self.root.join(record_name(*sample));
                 return Err(Error::input(format!(
-                    "{}: {why}; make the sample anew: --samples {sample}..{} --resume",
-                    path.display(),
-                    sample + 1
+                    "{}: {why}; make sample {sample} anew, resuming in this folder",
+                    path.display()
                 )));
             }
         }
@@ -66,7 +65,7 @@ impl DoneSamples<'_> {
         let is_there = |name: &str| {
             let digest = &record.files[name];
             digest.matches(&self.root.join(name))
-                || self.writers.iter().any(|writer| writer.holds((name, &record), self.records, self.root))
+                || self.writers.iter().any(|writer| writer.holds(name, &record, self.records, self.root))
         };
         match record.files.keys().find(|name| !is_there(name)) {
             Some(name) => Err(format!("{name} is gone or was changed")),

@@ -9,7 +9,7 @@ use crate::picture;
 use crate::record::SampleRecord;
 use crate::records::{Records, record_name};
 use crate::request::DatasetRequest;
-use crate::set::{Set, hex};
+use crate::set::Set;
 use etendue::{Error, Existing, Job, JobRequest, Message, Observer, OutputFolder, RenderOptions, open_variations};
 use etendue_io::{hash, read_regular, sidecar};
 use etendue_scene::limits::DESCRIPTION;
@@ -44,7 +44,7 @@ pub fn dataset(
     let writers = writers(&set)?;
     let mut folder = OutputFolder::open(root, existing).map_err(Error::input)?;
     check_folder(&set, root, existing)?;
-    let left = samples_left((request, &set), &writers, (&folder, existing), observer)?;
+    let left = samples_left(&set, &writers, &folder, existing, &request.samples, observer)?;
     let mut run = Run { request, left, set: &set, writers: &writers, folder: &mut folder, observer, made: 0 };
     let written = run.samples();
     let made = run.made;
@@ -65,12 +65,13 @@ pub fn dataset(
 
 /// The samples that are made.
 fn samples_left(
-    (request, set): (&DatasetRequest, &Set),
+    set: &Set,
     writers: &[Box<dyn Writer>],
-    (folder, existing): (&OutputFolder, Existing),
+    folder: &OutputFolder,
+    existing: Existing,
+    samples: &Range<u32>,
     observer: &dyn Observer,
 ) -> Result<Vec<u32>, Error> {
-    let samples = &request.samples;
     if existing == Existing::Refuse {
         return Ok(samples.clone().collect());
     }
@@ -103,7 +104,7 @@ fn text_hash(request: &DatasetRequest) -> Result<Option<String>, Error> {
     let Some(file) = &request.variations else { return Ok(None) };
     let bytes =
         read_regular(file, &DESCRIPTION).map_err(|cause| Error::input(format!("{}: {cause}", file.display())))?;
-    Ok(Some(hex(&hash::of_bytes(&bytes))))
+    Ok(Some(hash::hex(&hash::of_bytes(&bytes))))
 }
 
 /// Refuses a folder that holds another data set, or one that nobody asked to go on with.

@@ -197,11 +197,6 @@ fn unfit_name(name: &str, names: &[&str], formats: &[SetFormat]) -> Option<(SetF
     Some((SetFormat::Mcap, format!("its topics have the names of those of {other}; rename it")))
 }
 
-/// Bytes as digits.
-pub(crate) fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

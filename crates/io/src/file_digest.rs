@@ -7,6 +7,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
+use crate::hash::{hex, of_bytes};
+
 /// Bytes that are read at once.
 const PIECE: usize = 1 << 20;
 
@@ -46,17 +48,16 @@ impl FileDigest {
             hash.update(&piece[..count]);
             bytes += count as u64;
         }
-        Ok(Self { bytes, sha256: hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect() })
+        Ok(Self { bytes, sha256: hex(&hash.finalize()) })
     }
 
     /// The digest of bytes.
     #[must_use]
     pub fn from_bytes(bytes: &[u8]) -> Self {
-        let sha256 = crate::hash::of_bytes(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-        Self { bytes: bytes.len() as u64, sha256 }
+        Self { bytes: bytes.len() as u64, sha256: hex(&of_bytes(bytes)) }
     }
 
-    /// Whether a regular file of this content is there; a link is none.
+    /// Returns true where a regular file of this content is at `path`; a link is none.
     #[must_use]
     pub fn matches(&self, path: &Path) -> bool {
         let is_of_size = path.symlink_metadata().is_ok_and(|found| found.is_file() && found.len() == self.bytes);

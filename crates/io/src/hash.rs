@@ -19,6 +19,12 @@ pub fn of_parts<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> ContentHash {
     of_bytes(&hashes)
 }
 
+/// Bytes in hexadecimal digits, lower case.
+#[must_use]
+pub fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -27,8 +33,7 @@ mod tests {
     fn the_hash_of_abc_is_the_standards_example() {
         // FIPS 180-4, appendix B.1.
         let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        let digits: String = of_bytes(b"abc").iter().map(|byte| format!("{byte:02x}")).collect();
-        assert_eq!(digits, expected);
+        assert_eq!(hex(&of_bytes(b"abc")), expected);
     }
 
     #[test]

@@ -94,7 +94,7 @@ impl From<&JobArgs> for JobRequest {
 }
 
 impl JobArgs {
-    /// Opens the job for what is told of it, and tells what the command line supersedes.
+    /// Opens the job to describe it, and notes what the command line supersedes.
     pub fn open(&self, console: &dyn Console, pool: &rayon::ThreadPool) -> Result<Job, Error> {
         Self::open_request(console, JobRequest::from(self).without_tiles(), pool)
     }

@@ -11,7 +11,7 @@ fn plan_of(folder: &Path, scene: &str) -> crate::support::Ran {
     etendue(["plan", &text(&job)])
 }
 
-/// Pieces of a turn were halved until moments could not be told apart: some 1e15 of them.
+/// Pieces of a turn were halved until moments could not be message apart: some 1e15 of them.
 #[test]
 fn a_wheel_that_turns_by_more_than_can_be_followed_is_refused() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -64,8 +64,8 @@ fn frames_in_frames_take_time_in_proportion_to_their_depth() {
     lost.refused(&["\"rolls\" has no effect here"]).says(&["errors in all"]);
     let unknown =
         (0..20_000).map(|i| format!("[[scene.frames]]\nname = \"f{i}\"\nparent = \"g{i}\"\n")).collect::<String>();
-    let told = plan_of(place.path(), &unknown).refused(&["there is no frame \"g0\""]);
-    assert!(told.err.lines().count() <= 52 && told.err.len() < 100_000, "{} bytes", told.err.len());
+    let message = plan_of(place.path(), &unknown).refused(&["there is no frame \"g0\""]);
+    assert!(message.err.lines().count() <= 52 && message.err.len() < 100_000, "{} bytes", message.err.len());
     // A debug build on a busy machine; with the square of the depth these were an hour.
     assert!(start.elapsed() < Duration::from_secs(120), "{:?}", start.elapsed());
 }
@@ -81,10 +81,10 @@ fn a_side_car_beyond_the_limit_is_refused_by_its_size() {
     fs::copy(checker, &picture).expect("copied");
     let sparse = fs::File::create(folder.join("camera.json")).expect("a file");
     sparse.set_len(3 << 30).expect("sparse");
-    let told = ["camera.json", "the file has 3072 MiB", "--limit description-mib=3072"];
-    etendue(["view", &text(&folder), "-o", &text(&place.path().join("page")), "--no-open"]).refused(&told);
+    let message = ["camera.json", "the file has 3072 MiB", "--limit description-mib=3072"];
+    etendue(["view", &text(&folder), "-o", &text(&place.path().join("page")), "--no-open"]).refused(&message);
     etendue(["inspect", &text(&folder.join("camera.json"))]).refused(&["camera.json", "3072 MiB"]);
-    etendue(["measure", "sfr", &text(&picture)]).refused(&told);
+    etendue(["measure", "sfr", &text(&picture)]).refused(&message);
     fs::write(folder.join("camera.json"), "{ \"program\": \"etendue\", ").expect("written");
     etendue(["view", &text(&folder), "-o", &text(&place.path().join("page")), "--no-open"])
         .refused(&["camera.json", "not JSON"]);

@@ -31,7 +31,7 @@ const CHART: &[(&str, &str)] = &[
     ("--points", ""),
 ];
 
-/// What a run says, how it ends, and which files it leaves.
+/// The output of a run, its exit status, and the files that it leaves.
 fn ran(words: &[&str], out: &Path) -> (i32, String, String, Vec<String>) {
     let made = etendue(words);
     let files = std::fs::read_dir(out).expect("a folder").map(|f| text(&f.expect("a file").path()));

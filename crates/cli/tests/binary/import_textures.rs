@@ -32,14 +32,14 @@ fn mean(scene: &str) -> ([f64; 3], String) {
          Camera \"perspective\" \"float fov\" 4.56\nWorldBegin\nLightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\n{scene}\n"
     );
     fs::write(&file, whole).expect("written");
-    let said = etendue(["import", &text(&file), "-o", &text(&made)]).ok().err.clone();
+    let notes = etendue(["import", &text(&file), "-o", &text(&made)]).ok().err.clone();
     etendue(["render", &text(&made.join("job.toml")), "-o", &text(&out), "--spp", "64"]).ok();
-    let told = etendue(["inspect", &text(&out.join("camera/radiance.exr"))]).ok();
+    let inspected = etendue(["inspect", &text(&out.join("camera/radiance.exr"))]).ok();
     let channel = |name: &str| -> f64 {
-        let line = told.out.lines().find(|line| line.split_whitespace().next() == Some(name)).expect("a preview");
+        let line = inspected.out.lines().find(|line| line.split_whitespace().next() == Some(name)).expect("a preview");
         line.split_whitespace().nth(3).expect("a mean").parse().expect("a number")
     };
-    (["R", "G", "B"].map(channel), said)
+    (["R", "G", "B"].map(channel), notes)
 }
 
 const PICTURE: &str = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"four.png\"\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\n";
@@ -63,8 +63,8 @@ fn pictures_lie_on_round_shapes_of_pbrt_as_there() {
     assert_mean(&format!("{PICTURE}Shape \"disk\" \"float radius\" 1"), [0.5, 0.5, 0.0]);
     // The middle of a cylinder about y, seen from the side.
     let tube = format!("{PICTURE}Rotate -90 1 0 0\nShape \"cylinder\" \"float zmin\" 0 \"float zmax\" 2");
-    let (found, said) = mean(&tube);
-    assert!(found.iter().sum::<f64>() > 0.5 && !said.contains("left out"), "{found:?}: {said}");
+    let (found, notes) = mean(&tube);
+    assert!(found.iter().sum::<f64>() > 0.5 && !notes.contains("left out"), "{found:?}: {notes}");
 }
 
 /// pbrt gives triangles the corners (0, 0), (1, 0), (1, 1) and patches those of the square.
@@ -88,6 +88,6 @@ fn spectra_given_inline_end_where_they_end() {
 fn a_medium_inside_glass_is_named() {
     let scene = "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 0.1 0.3 0.6 ] \"rgb sigma_s\" [ 1.2 0.8 0.4 ]\n\
                  MediumInterface \"m\" \"\"\nMaterial \"dielectric\" \"float eta\" 1.33\nShape \"sphere\" \"float radius\" 1";
-    let (_, said) = mean(scene);
-    assert!(said.contains("the medium \"m\" inside glass is left out"), "{said}");
+    let (_, notes) = mean(scene);
+    assert!(notes.contains("the medium \"m\" inside glass is left out"), "{notes}");
 }

@@ -74,8 +74,8 @@ fn an_aperture_on_a_plane_in_air_clips() {
         clipped.is("f_number", 12.26, 1e-2);
         clipped.is("focal_length_mm", 49.043, 1e-3);
         clipped.is("entrance_pupil_diameter_mm", 4.0, 1e-6);
-        let told = "surface 1 (line 16), not the stop, limits the bundle on the axis: f/12.261, where the stop alone would give f/9.809";
-        assert!(clipped.remarks().contains(told), "{}", clipped.remarks());
+        let message = "surface 1 (line 16), not the stop, limits the bundle on the axis: f/12.261, where the stop alone would give f/9.809";
+        assert!(clipped.remarks().contains(message), "{}", clipped.remarks());
     }
     // A larger one is there, and clips nothing on the axis.
     let wide = measured("wide.zmx", &plane("  CLAP 0 4 0\n"));
@@ -147,8 +147,8 @@ fn first_order_figures_are_of_the_primary_wavelength() {
         lens.is("first_order_wavelength_nm", nm, 1e-9);
         lens.is("focal_length_mm", focal(nm), 2e-8);
         let (_folder, words) = arguments("lens.seq", &file, &[]);
-        let told = etendue(words).ok().out;
-        assert!(told.contains(&format!("first order at         {nm} nm (fields at 587.56 nm)")), "{told}");
+        let message = etendue(words).ok().out;
+        assert!(message.contains(&format!("first order at         {nm} nm (fields at 587.56 nm)")), "{message}");
     }
     let zemax = zmx("", BK7)
         .replace("WAVM 1 0.58756 1\nPWAV 1", "WAVM 1 0.58756 1\nWAVM 2 0.55 1\nPWAV 2")
@@ -169,8 +169,8 @@ fn first_order_figures_are_of_the_primary_wavelength() {
 
 #[test]
 fn what_a_codev_file_changes_in_an_unknown_way_is_refused_with_its_line() {
-    for (edit, told) in [("RDY S1 Z2 25", "RDY of a zoom position"), ("INS S2", "INS is not modelled")] {
+    for (edit, message) in [("RDY S1 Z2 25", "RDY of a zoom position"), ("INS S2", "INS is not modelled")] {
         let (_folder, words) = arguments("lens.seq", &seq("50 4 NBK7_SCHOTT", "-50 47", edit), &[]);
-        etendue(words).refused(&["lens.seq", ":14", told]);
+        etendue(words).refused(&["lens.seq", ":14", message]);
     }
 }

@@ -1,4 +1,4 @@
-//! What reaches a terminal: text of files with its control characters escaped, and an error where results cannot be printed.
+//! Text on a terminal: of files with its control characters escaped, and an error where results cannot be printed.
 
 use crate::support::{BALL, etendue, root, small, text};
 use serde_json::Value;

@@ -106,7 +106,7 @@ fn the_result_does_not_depend_on_the_memory_of_textures() {
     assert!(plan.split_whitespace().collect::<Vec<_>>().join(" ").contains(told), "{plan}");
 }
 
-/// What is told of a job leaves nothing on the disk, and a job of others keeps its tiles where its results are.
+/// Describing a job leaves nothing on the disk, and a sandboxed job keeps its tiles where its results are.
 #[test]
 fn plans_write_no_tiles_and_those_of_sandboxed_jobs_are_in_their_output_folder() {
     let place = Place::new();

@@ -47,7 +47,7 @@ impl Track {
         let (mut knots_s, mut spans, mut angle) = (Vec::new(), Vec::new(), 0.0);
         for pair in times_s.windows(2) {
             let within_s = pair[0] + 0.5 * (pair[1] - pair[0]);
-            for piece in pieces((pair[0], pair[1]), &|time_s| rate_rad_s(time_s, within_s))? {
+            for piece in pieces(pair[0], pair[1], &|time_s| rate_rad_s(time_s, within_s))? {
                 knots_s.push(piece.start_s);
                 spans.push(turning(piece.cubic(angle)));
                 angle += piece.turns;
@@ -121,7 +121,7 @@ impl Piece {
 }
 
 /// As few pieces of one length as meet the tolerance; of more than are reasonable, those halved that do not.
-fn pieces((start_s, end_s): (f64, f64), rate_rad_s: &impl Fn(f64) -> f64) -> Result<Vec<Piece>, RollingError> {
+fn pieces(start_s: f64, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Result<Vec<Piece>, RollingError> {
     let mut made = vec![Piece::new(start_s, end_s, rate_rad_s)];
     check_pieces(&made)?;
     while !made.iter().all(Piece::is_met) {
@@ -179,7 +179,7 @@ mod tests {
         let amplitude = 1e10;
         let omega = core::f64::consts::PI;
         let rate = |time_s: f64, _: f64| amplitude * omega * crate::maths::f64::sin(omega * time_s);
-        let found = pieces((0.0, 1.0), &|time_s| rate(time_s, 0.5)).expect("below the greatest angle");
+        let found = pieces(0.0, 1.0, &|time_s| rate(time_s, 0.5)).expect("below the greatest angle");
         assert!(found.len() > MOST as usize && found.len() < 2 * MOST as usize, "{}", found.len());
         assert!(found.iter().all(Piece::is_met));
         assert!(found.windows(2).all(|pair| pair[0].start_s < pair[1].start_s));
@@ -191,13 +191,13 @@ mod tests {
     /// Where angles are rounded by more than the tolerance no number of polynomials meets it: halving would go on to the ends of the numbers of time.
     #[test]
     fn a_wheel_that_turns_by_more_than_can_be_followed_is_refused() {
-        let turn = |amplitude: f64| pieces((0.0, 1.0), &|time_s| amplitude * time_s * (1.0 - time_s));
+        let turn = |amplitude: f64| pieces(0.0, 1.0, &|time_s| amplitude * time_s * (1.0 - time_s));
         assert!(turn(5.9e12).is_ok_and(|found| found.len() <= MAX_PIECES));
         for amplitude in [1e14, 1e30, 1e300, f64::INFINITY, f64::NAN] {
             assert!(matches!(turn(amplitude), Err(RollingError::TooFar { .. })), "{amplitude}");
         }
         // To and fro, an angle of nothing in all.
-        let fro = |amplitude: f64| pieces((0.0, 1.0), &|time_s| amplitude * crate::maths::f64::sin(40.0 * time_s));
+        let fro = |amplitude: f64| pieces(0.0, 1.0, &|time_s| amplitude * crate::maths::f64::sin(40.0 * time_s));
         assert!(fro(1e10).is_ok() && fro(1e30).is_err());
     }
 }

@@ -107,7 +107,7 @@ impl Writer for WebDataset {
     }
 
     /// A part is a piece of the shard that has taken its place.
-    fn holds(&self, (name, record): (&str, &SampleRecord), records: &Records, root: &Path) -> bool {
+    fn holds(&self, name: &str, record: &SampleRecord, records: &Records, root: &Path) -> bool {
         let Some(digest) = record.files.get(name).filter(|_| name == part(record.sample)) else { return false };
         let shard = record.sample / self.shard_samples;
         let mut layout = self.layout.borrow_mut();

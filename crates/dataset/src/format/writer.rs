@@ -15,8 +15,8 @@ pub(crate) trait Writer {
         Ok(())
     }
 
-    /// Whether a file of a sample that is not in its place any more is, as it was written, part of another of the format.
-    fn holds(&self, _file: (&str, &SampleRecord), _records: &Records, _root: &Path) -> bool {
+    /// Returns true where a file of a sample that is no longer in its place is, as it was written, part of another file of the format.
+    fn holds(&self, _name: &str, _record: &SampleRecord, _records: &Records, _root: &Path) -> bool {
         false
     }
 

@@ -94,7 +94,7 @@ fn cut_note(image: &Image, file: &Path) -> Option<String> {
         let is_full = ends.1 >= 255.0 && (ends.1 as u32 + 1).is_power_of_two();
         low.or_else(|| is_full.then(|| named(ends.1, "the greatest: what is brighter is cut")).flatten())
     };
-    found.map(|found| format!("{}: {found}; modulation and its uncertainty do not count that", file.display()))
+    found.map(|found| format!("{}: {found}; the modulation and its uncertainty leave that out", file.display()))
 }
 
 fn read(request: &FlickerRequest) -> Result<(Sequence, Option<Truth>), Error> {

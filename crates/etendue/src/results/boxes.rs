@@ -31,7 +31,7 @@ pub(super) fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxe
 }
 
 fn object_json(plan: &Plan, (width, height): (usize, usize), object: &ObjectBoxes) -> Value {
-    let identity = plan.identities.get(object.id as usize - 1);
+    let identity = plan.identity(object.id);
     json!({
         "id": object.id,
         "name": identity.map(|identity| &identity.name),

@@ -2,7 +2,8 @@
 
 use crate::observer::{Message, Observer};
 use etendue_sensor::Raw;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// The key of a frame's facts in the side-car.
 pub(crate) const LEVELS: &str = "levels";
@@ -12,58 +13,120 @@ const CLIPPED: f64 = 0.99;
 /// Mean level over black below which a frame is warned of, DN: rounding.
 const BLACK_DN: f64 = 0.5;
 
-/// Mean and ends of the part of a frame that light reaches, as facts of its side-car. Clipped pixels are at the white level or above, black ones at the
-/// black level or below.
-pub(crate) fn facts(raw: &Raw) -> Value {
-    let area = raw.picture;
-    let rows = raw.plane.samples().chunks(raw.plane.width().max(1)).skip(area.y).take(area.height);
-    let (mut sum, mut clipped, mut black) = (0_u64, 0_u64, 0_u64);
-    for reading in rows.flat_map(|row| &row[area.x..area.x + area.width]) {
-        sum += u64::from(*reading);
-        clipped += u64::from(f64::from(*reading) >= raw.white_level_dn);
-        black += u64::from(f64::from(*reading) <= raw.black_level_dn);
-    }
-    let count = (area.width * area.height).max(1) as f64;
-    json!({
-        "mean_dn": sum as f64 / count,
-        "clipped_fraction": clipped as f64 / count,
-        "black_fraction": black as f64 / count,
-    })
+/// Mean and ends of the readings of a frame.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Levels {
+    /// Mean, DN.
+    mean_dn: f64,
+    /// Share of pixels at the white level or above.
+    clipped_fraction: f64,
+    /// Share of pixels at the black level or below.
+    black_fraction: f64,
 }
 
-/// Tells the caller the levels of a camera's frames in one line, a warning where all frames are white or black; nothing of a camera without raw frames.
-pub(crate) fn tell<'a>(camera: &str, frames: impl Iterator<Item = &'a Value>, observer: &dyn Observer) {
-    let found: Vec<[f64; 5]> = frames.filter_map(of_frame).collect();
-    if found.is_empty() {
-        return;
+impl Levels {
+    /// Those of the part of a frame that light reaches.
+    pub(crate) fn new(raw: &Raw) -> Self {
+        let area = raw.picture;
+        let rows = raw.plane.samples().chunks(raw.plane.width().max(1)).skip(area.y).take(area.height);
+        let (mut sum, mut clipped, mut black) = (0_u64, 0_u64, 0_u64);
+        for reading in rows.flat_map(|row| &row[area.x..area.x + area.width]) {
+            sum += u64::from(*reading);
+            clipped += u64::from(f64::from(*reading) >= raw.white_level_dn);
+            black += u64::from(f64::from(*reading) <= raw.black_level_dn);
+        }
+        let share = |count: u64| count as f64 / (area.width * area.height).max(1) as f64;
+        Self { mean_dn: share(sum), clipped_fraction: share(clipped), black_fraction: share(black) }
     }
-    let mean = |i: usize| found.iter().map(|frame| frame[i]).sum::<f64>() / found.len() as f64;
-    let [level, clipped, black, from, to] = [0, 1, 2, 3, 4].map(mean);
-    let share = 100.0 * (level - from) / (to - from);
+
+    /// The mean over frames; `None` of no frames.
+    fn mean(frames: &[Self]) -> Option<Self> {
+        let mean = |of: fn(&Self) -> f64| frames.iter().map(of).sum::<f64>() / frames.len() as f64;
+        (!frames.is_empty()).then(|| Self {
+            mean_dn: mean(|frame| frame.mean_dn),
+            clipped_fraction: mean(|frame| frame.clipped_fraction),
+            black_fraction: mean(|frame| frame.black_fraction),
+        })
+    }
+}
+
+/// A frame's facts, as far as its levels need them.
+#[derive(Deserialize)]
+struct FrameFacts {
+    levels: Levels,
+    black_level_dn: f64,
+    white_level_dn: f64,
+}
+
+/// Sends the observer the levels of a camera's frames in one line, as a warning where all frames are white or black; nothing of a camera without raw frames.
+pub(crate) fn report<'a>(camera: &str, frames: impl Iterator<Item = &'a Value>, observer: &dyn Observer) {
+    let found: Vec<FrameFacts> = frames.filter_map(|facts| FrameFacts::deserialize(facts).ok()).collect();
+    let levels: Vec<Levels> = found.iter().map(|frame| frame.levels).collect();
+    let (Some(mean), Some(first)) = (Levels::mean(&levels), found.first()) else { return };
+    // Black and white are the same in all frames of a camera.
+    let (black, white) = (first.black_level_dn, first.white_level_dn);
     let of = if found.len() > 1 { format!(" of {} frames", found.len()) } else { String::new() };
     let line = format!(
-        "camera {camera}: mean level{of} {level:.1} DN, {share:.2} % from black ({from:.0}) to white ({to:.0}); {:.2} % of the pixels are clipped, {:.2} % black",
-        100.0 * clipped,
-        100.0 * black
+        "camera {camera}: mean level{of} {:.1} DN, {:.2} % from black ({black:.0}) to white ({white:.0}); {:.2} % of the pixels are clipped, {:.2} % black",
+        mean.mean_dn,
+        100.0 * (mean.mean_dn - black) / (white - black),
+        100.0 * mean.clipped_fraction,
+        100.0 * mean.black_fraction
     );
-    if clipped >= CLIPPED {
+    if mean.clipped_fraction >= CLIPPED {
         observer.message(Message::Warning(&format!("{line}: shorten the exposure, or dim the scene")));
-    } else if level - from < BLACK_DN {
+    } else if mean.mean_dn - black < BLACK_DN {
         observer.message(Message::Warning(&format!("{line}: no light is recorded")));
     } else {
         observer.message(Message::Note(&line));
     }
 }
 
-/// Mean, clipped and black shares, black and white level of a frame.
-fn of_frame(facts: &Value) -> Option<[f64; 5]> {
-    let levels = facts.get(LEVELS)?;
-    let number = |of: &Value, key: &str| of.get(key)?.as_f64();
-    Some([
-        number(levels, "mean_dn")?,
-        number(levels, "clipped_fraction")?,
-        number(levels, "black_fraction")?,
-        number(facts, "black_level_dn")?,
-        number(facts, "white_level_dn")?,
-    ])
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+    use std::sync::Mutex;
+
+    #[derive(Default)]
+    struct Kept(Mutex<Vec<String>>);
+
+    impl Observer for Kept {
+        fn message(&self, message: Message<'_>) {
+            let text = match message {
+                Message::Note(text) => format!("note: {text}"),
+                Message::Warning(text) => format!("warning: {text}"),
+            };
+            self.0.lock().expect("one thread").push(text);
+        }
+    }
+
+    fn reported(frames: &[(f64, f64, f64)]) -> String {
+        let facts: Vec<Value> = frames
+            .iter()
+            .map(|(mean_dn, clipped_fraction, black_fraction)| {
+                let levels =
+                    Levels { mean_dn: *mean_dn, clipped_fraction: *clipped_fraction, black_fraction: *black_fraction };
+                json!({ LEVELS: levels, "black_level_dn": 64.0, "white_level_dn": 4064.0 })
+            })
+            .collect();
+        let kept = Kept::default();
+        report("front", facts.iter(), &kept);
+        kept.0.into_inner().expect("one thread").join("\n")
+    }
+
+    #[test]
+    fn white_and_black_frames_are_warned_of() {
+        assert_eq!(
+            reported(&[(1064.0, 0.25, 0.0), (3064.0, 0.75, 0.5)]),
+            "note: camera front: mean level of 2 frames 2064.0 DN, 50.00 % from black (64) to white (4064); 50.00 % of the pixels are clipped, \
+             25.00 % black"
+        );
+        assert!(
+            reported(&[(4063.0, 0.995, 0.0)]).starts_with("warning: ")
+                && reported(&[(4063.0, 0.985, 0.0)]).starts_with("note: ")
+        );
+        assert!(reported(&[(64.2, 0.0, 0.5)]).ends_with("no light is recorded"));
+        assert_eq!(reported(&[]), "");
+    }
 }

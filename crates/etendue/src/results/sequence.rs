@@ -82,7 +82,7 @@ impl Sequence {
         self.of(plan, camera, &(frame..frame + 1)).facts.insert(frame, facts);
     }
 
-    /// Writes what is made of all frames, and the side-cars; tells each camera's levels.
+    /// Writes what is made of all frames, and the side-cars, and reports each camera's levels.
     pub(crate) fn finish(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
         for known in &self.cameras {
             let camera = known.camera();
@@ -103,7 +103,7 @@ impl Sequence {
             }
             let mut writer = ResultWriter { prefix: camera.name.clone(), folder: &mut *folder };
             writer.json(Files::SIDECAR, &facts)?;
-            levels::tell(&camera.name, known.facts.values(), observer);
+            levels::report(&camera.name, known.facts.values(), observer);
         }
         Ok(())
     }

@@ -32,7 +32,8 @@ pub(crate) fn to_rec_709(file: &Path, stated: &Chromaticities) -> Result<Option<
 
 /// The attribute in words.
 pub(super) fn text(Chromaticities { red, green, blue, white }: &Chromaticities) -> String {
-    format!("red {red:?}, green {green:?}, blue {blue:?}, white {white:?}").replace("Vec2", "")
+    let pair = |v: &::exr::prelude::Vec2<f32>| format!("({}, {})", v.0, v.1);
+    format!("red {}, green {}, blue {}, white {}", pair(red), pair(green), pair(blue), pair(white))
 }
 
 /// How a file says that it is projected, in a word; nothing where it says nothing.

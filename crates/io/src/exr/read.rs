@@ -127,7 +127,7 @@ fn convert(channels: &mut [ExrChannel], matrix: &ColourMatrix) -> bool {
         return false;
     };
     for ((r, g), b) in r.iter_mut().zip(g).zip(b) {
-        [*r, *g, *b] = matrix.of([*r, *g, *b]);
+        [*r, *g, *b] = matrix.apply([*r, *g, *b]);
     }
     true
 }

@@ -96,9 +96,7 @@ impl RawSurface {
             aspheric: false,
         }
     }
-}
 
-impl RawSurface {
     /// Sets the coefficient of r² (0), r⁴ (1) …
     pub(super) fn set_coefficient(&mut self, place: usize, value: f64) {
         if value != 0.0 || self.asphere.is_some() {

@@ -9,7 +9,6 @@
 //! nothing about the lens as it stands and is passed over. Nothing of the programs is run.
 
 mod build;
-mod names;
 mod opening;
 mod private;
 mod seq;

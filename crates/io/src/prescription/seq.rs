@@ -16,11 +16,24 @@ use std::path::Path;
 use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
 
 use super::build::{Primary, Raw, RawSurface, by_number, named, successor};
-use super::names::{PASSED_OVER, REFUSED};
 use super::opening::Opening;
 use super::private::PrivateGlasses;
 use super::text::Words;
 use crate::Error;
+
+/// Commands that change the lens in a way that is not modelled.
+const REFUSED: &[&str] = &[
+    "XDE", "YDE", "ZDE", "ADE", "BDE", "CDE", "DAR", "BEN", "REV", "RET", "GRT", "DIF", "HOE", "SPS", "XTO", "YTO",
+    "CYL", "AAS", "ZOO", "NSS", "REFL", "GRX", "DOE", "REX", "REY", "ELX", "ELY", "ADX", "ADY", "ARO", "RDX", "CUX",
+    "KX", "RMD", "INS", "DEL", "COP", "FLI", "UDS", "XYP", "ZRN", "ZFR", "SPL", "TOR", "GRN",
+];
+
+/// Commands that leave the lens as it stands: weights and variables of optimisation, labels, the form of surfaces that their terms tell, and the end
+/// of input.
+const PASSED_OVER: &[&str] = &[
+    "GO", "LEN", "INI", "SLB", "DDM", "UID", "CCY", "CCX", "THC", "GLC", "KC", "AC", "BC", "CC", "DC", "EC", "FC",
+    "GC", "HC", "JC", "ASP", "SPH", "CON", "WTW", "WTF", "WTX", "WTY", "VUX", "VLX", "HIN", "EVA", "CA", "END",
+];
 
 pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> {
     let mut reader = Reader::default();

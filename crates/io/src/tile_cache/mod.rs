@@ -19,7 +19,6 @@ mod checksum;
 mod head;
 mod reader;
 mod room;
-mod unkept;
 mod writer;
 
 use std::path::{Path, PathBuf};
@@ -27,6 +26,7 @@ use std::sync::Arc;
 
 use etendue_core::blocks::{BlockKey, BlockStore, Blocks, Fill};
 
+use crate::hash::hex;
 use crate::within;
 use reader::TileFile;
 use room::OwnFiles;
@@ -72,7 +72,7 @@ impl TileCache {
 
     /// Where the blocks of a key are.
     fn file(&self, key: &BlockKey) -> PathBuf {
-        self.folder.join(format!("{}.tiles", digits(key)))
+        self.folder.join(format!("{}.tiles", hex(key)))
     }
 }
 
@@ -106,7 +106,7 @@ impl BlockStore for TileCache {
     fn make(&self, key: &BlockKey, lengths: &[u32], fill: Fill<'_>) -> Result<Arc<dyn Blocks>, String> {
         self.own.add(&self.file(key), head::bytes(lengths));
         if self.may == CacheUse::Read {
-            return unkept::make(fill);
+            return reader::first_block(fill);
         }
         self.prepare(head::bytes(lengths))?;
         let (file, checksums) = writer::write(&self.file(key), key, lengths, fill)?;
@@ -119,11 +119,6 @@ pub(crate) fn folder_of_user() -> PathBuf {
     let absolute = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
     let cache = absolute("XDG_CACHE_HOME").or_else(|| absolute("HOME").map(|home| home.join(".cache")));
     cache.unwrap_or_else(std::env::temp_dir).join("etendue")
-}
-
-/// Hexadecimal digits of a key.
-fn digits(key: &BlockKey) -> String {
-    key.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

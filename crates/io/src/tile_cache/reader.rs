@@ -1,10 +1,11 @@
-//! Blocks of one file.
+//! Blocks of one file, or those that are not kept.
 
 use std::fs::File;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use etendue_core::blocks::{BlockKey, Blocks};
+use etendue_core::blocks::{BlockKey, BlockWriter, Blocks, Fill};
 
 use super::checksum;
 use super::head::{HEAD_BYTES, head, offsets};
@@ -76,4 +77,34 @@ fn read_at(file: &File, mut bytes: &mut [u8], mut offset: u64) -> std::io::Resul
         (bytes, offset) = (&mut bytes[count..], offset + count as u64);
     }
     Ok(())
+}
+
+/// The first block of a picture.
+#[derive(Debug)]
+struct FirstBlock(Vec<u8>);
+
+impl Blocks for FirstBlock {
+    fn read(&self, block: usize, bytes: &mut [u8]) -> Result<(), String> {
+        if block == 0 && bytes.len() == self.0.len() {
+            bytes.copy_from_slice(&self.0);
+            return Ok(());
+        }
+        Err(format!("block {block} of this texture was not kept, as its job was opened for its plan alone"))
+    }
+}
+
+impl BlockWriter for FirstBlock {
+    fn write(&mut self, block: usize, bytes: &[u8]) -> Result<(), String> {
+        if block == 0 {
+            self.0 = bytes.to_vec();
+        }
+        Ok(())
+    }
+}
+
+/// Makes all blocks and keeps the first, which is all that a plan needs.
+pub(super) fn first_block(fill: Fill<'_>) -> Result<Arc<dyn Blocks>, String> {
+    let mut first = FirstBlock(Vec::new());
+    fill(&mut first)?;
+    Ok(Arc::new(first))
 }

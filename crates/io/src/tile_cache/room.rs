@@ -31,7 +31,7 @@ impl OwnFiles {
         }
         let (mib, most) = (needed.div_ceil(1 << 20), TEXTURE_CACHE.most());
         Err(format!(
-            "with its tiles those of the job take {mib} MiB, where the cache of textures may have {most} MiB; give smaller pictures or more --texture-memory, {}",
+            "the tiles of the job's textures take {mib} MiB, where the cache of textures may have {most} MiB; use smaller pictures, give textures more memory, {}",
             TEXTURE_CACHE.remedy_bytes(needed.into())
         ))
     }

@@ -1,9 +1,9 @@
 //! From what a maker states to a prescription that is open, in focus and checked.
 
-use super::axial_opening::AxialOpening;
 use super::elements;
 use super::error::PrescriptionError;
 use super::indices::IndexTable;
+use super::paraxial::AxialOpening;
 use super::{Prescription, PrescriptionParameters, check, focus, paraxial};
 
 impl Prescription {

@@ -1,12 +1,11 @@
 //! What makes a list of surfaces a lens.
 
 use super::Prescription;
-use super::axial_opening::{AxialOpening, OtherRims};
 use super::coating::Coating;
 use super::error::PrescriptionError;
+use super::paraxial::{AxialOpening, OtherRims};
 use super::surface::{Shape, Surface};
 use super::trace::{LensRay, Loss, Lost, Rims, Way, walk};
-use crate::wavelength::PRINCIPAL_NM;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
@@ -132,10 +131,10 @@ pub(super) fn axial_bundle(lens: &Prescription, other_rims: OtherRims) -> Result
     Ok(AxialOpening::STOP)
 }
 
-/// Where the ray at a share of the entrance pupil's radius is lost.
+/// The loss of the ray at a share of the entrance pupil's radius, at the reference wavelength; `None` where it comes through.
 fn lost_at(lens: &Prescription, share: f64) -> Option<Lost> {
     let ray = axial_ray(lens, share * lens.paraxial.entrance_radius_mm);
-    walk(&lens.elements, 0, Way::ToSensor, &lens.media(PRINCIPAL_NM), ray, &mut Rims::Clip).err()
+    walk(&lens.elements, 0, Way::ToSensor, &lens.media(lens.reference_nm), ray, &mut Rims::Clip).err()
 }
 
 /// The largest share that comes through, between one that does and one that does not.

@@ -9,7 +9,6 @@
 //!
 //! A [`Prescription`] is checked when it is made: afterwards nothing in it can fail but a ray.
 
-mod axial_opening;
 mod build;
 mod check;
 pub mod clear_apertures;
@@ -28,12 +27,12 @@ pub mod trace;
 use crate::wavelength::PRINCIPAL_NM;
 use glam::DVec3;
 use indices::{IndexTable, Media};
-use paraxial::Paraxial;
+use paraxial::{AxialOpening, Paraxial};
 use trace::{Element, Fullness, LensRay, Lost, Rims, Through, Way, walk};
 
-pub use axial_opening::OtherRims;
 pub use error::PrescriptionError;
 pub use focus::Focus;
+pub use paraxial::OtherRims;
 pub use surface::Surface;
 
 /// What a prescription is made of.
@@ -49,7 +48,7 @@ pub struct PrescriptionParameters {
     pub defocus_mm: f64,
     /// The wavelength of first-order quantities, of focusing and of the f-number, nm.
     pub reference_nm: f64,
-    /// What becomes of a rim other than the stop's that clips the bundle on the axis.
+    /// The treatment of a rim other than the stop's that clips the bundle on the axis.
     pub other_rims: OtherRims,
 }
 
@@ -77,7 +76,7 @@ pub struct Prescription {
     stop: usize,
     reference_nm: f64,
     paraxial: Paraxial,
-    axial_opening: axial_opening::AxialOpening,
+    axial_opening: AxialOpening,
     sensor_position_mm: f64,
     focus_distance_m: f64,
     magnification: f64,

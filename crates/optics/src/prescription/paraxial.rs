@@ -34,6 +34,30 @@ pub struct Paraxial {
     pub petzval_radius_mm: f64,
 }
 
+/// The treatment of a rim other than the stop's that clips the bundle on the axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OtherRims {
+    /// The surfaces are no lens: that rim would be the stop.
+    Refused,
+    /// It clips, as rims and baffles of makers' files do: pupils and f-number are those of the bundle that is left, their places those of the
+    /// stop's images.
+    Clip,
+}
+
+/// The opening of the bundle on the axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct AxialOpening {
+    /// Its radius at the entrance pupil over that of the stop's image.
+    pub(super) share: f64,
+    /// The surface whose rim limits it, where that is not the stop.
+    pub(super) limit: Option<usize>,
+}
+
+impl AxialOpening {
+    /// Limited by the stop.
+    pub(super) const STOP: Self = Self { share: 1.0, limit: None };
+}
+
 impl Paraxial {
     /// f/(2 · entrance radius).
     #[must_use]

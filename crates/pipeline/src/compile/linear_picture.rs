@@ -5,7 +5,7 @@ use etendue_spectra::colour;
 
 /// Linear sRGB of a picture; bytes are taken as sRGB-encoded.
 pub(super) fn linear(picture: &ImageAsset) -> Vec<[f32; 3]> {
-    let colour = |p: [f32; 3]| picture.to_rec_709.map_or(p, |matrix| matrix.of(p));
+    let colour = |p: [f32; 3]| picture.to_rec_709.map_or(p, |matrix| matrix.apply(p));
     match &picture.pixels {
         ImagePixels::Gray8(p) => p.iter().map(|g| [colour::decode_byte(*g); 3]).collect(),
         ImagePixels::Gray16(p) => p.iter().map(|g| [f32::from(*g) / 65_535.0; 3]).collect(),

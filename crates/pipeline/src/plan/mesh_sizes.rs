@@ -3,7 +3,8 @@
 use crate::plan::Plan;
 use crate::render::boxes::SolidBox;
 use etendue_tracer::geometry::{MeshId, Shape};
-use std::collections::BTreeMap;
+use glam::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Triangles of boxes, which have no file, at most: meshes of no more are not listed.
 const OF_A_BOX: usize = 12;
@@ -60,8 +61,8 @@ pub fn mesh_sizes(plan: &Plan) -> Vec<MeshSize> {
     let mut found: Vec<MeshSize> = Vec::new();
     for instance in plan.world.instances() {
         let Shape::Mesh(id) = instance.shape else { continue };
-        let identity = (instance.instance_id as usize).checked_sub(1).and_then(|place| plan.identities.get(place));
-        let (Some(identity), triangles) = (identity, plan.world.mesh(id).triangles().len()) else { continue };
+        let Some(identity) = plan.identity(instance.instance_id) else { continue };
+        let triangles = plan.world.mesh(id).triangles().len();
         if triangles <= OF_A_BOX {
             continue;
         }
@@ -75,32 +76,36 @@ pub fn mesh_sizes(plan: &Plan) -> Vec<MeshSize> {
     found
 }
 
-/// Warnings of road users that are too small or too large, or of vehicles that stand on end.
+/// Warnings of road users that are too small or too large, or of vehicles that stand on end: of each shape and class the first object.
 pub(super) fn warnings(plan: &Plan) -> Vec<String> {
-    let mut found = Vec::new();
+    let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
     for instance in plan.world.instances() {
-        let identity = (instance.instance_id as usize).checked_sub(1).and_then(|place| plan.identities.get(place));
-        let Some((identity, class)) = identity.and_then(|identity| Some((identity, identity.class.as_ref()?))) else {
+        let Some(identity) = plan.identity(instance.instance_id) else { continue };
+        let Some(class) = identity.class.as_ref().map(|class| class.to_lowercase().replace([' ', '_'], "-")) else {
             continue;
         };
-        let class = class.to_lowercase().replace([' ', '_'], "-");
-        if !ROAD_USERS.contains(&class.as_str()) {
+        let mesh = match instance.shape {
+            Shape::Mesh(id) => Some(id),
+            Shape::Sphere { .. } => None,
+        };
+        if !ROAD_USERS.contains(&class.as_str()) || !seen.insert((mesh, class.clone())) {
             continue;
         }
-        let (size, _) = SolidBox::in_world(plan, instance, 0.0);
-        let [length, width, height] = size.to_array();
-        let measures = format!("{length:.4} × {width:.4} × {height:.4} m (length, width, height)");
-        let longest = size.max_element();
-        let name = &identity.name;
-        if !(ROAD_USER_M[0]..=ROAD_USER_M[1]).contains(&longest) {
-            found.push(format!(
-                "{name}: a {class} of {measures}: check the scale of its mesh, which is metres per unit of the file"
-            ));
-        } else if LONG.contains(&class.as_str()) && height > ON_END * length.max(width) {
-            found.push(format!(
-                "{name}: a {class} that stands on end, {measures}: check up_axis and forward_axis of its mesh"
-            ));
-        }
+        let (size_m, _) = SolidBox::in_world(plan, instance, 0.0);
+        found.extend(fault(&class, size_m).map(|fault| format!("{}: {fault}", identity.name)));
     }
     found
+}
+
+/// The fault of a road user's size along its own axes, m.
+fn fault(class: &str, size_m: DVec3) -> Option<String> {
+    let DVec3 { x: length, y: width, z: height } = size_m;
+    let measures = format!("{length:.4} × {width:.4} × {height:.4} m (length, width, height)");
+    if !(ROAD_USER_M[0]..=ROAD_USER_M[1]).contains(&size_m.max_element()) {
+        return Some(format!(
+            "a {class} of {measures}: check the scale of its mesh, which is metres per unit of the file"
+        ));
+    }
+    let is_on_end = LONG.contains(&class) && height > ON_END * length.max(width);
+    is_on_end.then(|| format!("a {class} that stands on end, {measures}: check up_axis and forward_axis of its mesh"))
 }

@@ -126,6 +126,12 @@ fn is_identity(axes: &DMat3) -> bool {
 }
 
 impl Plan {
+    /// The object of an identity in the ground truth; `None` of 0, the background.
+    #[must_use]
+    pub fn identity(&self, id: u32) -> Option<&Identity> {
+        self.identities.get((id as usize).checked_sub(1)?)
+    }
+
     /// The camera of a name.
     #[must_use]
     pub fn camera(&self, name: &str) -> Option<&CameraPlan> {

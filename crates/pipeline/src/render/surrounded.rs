@@ -1,4 +1,4 @@
-//! Whether a camera stands inside a solid object, where it sees the inside of its surface alone.
+//! Cameras inside a solid object, which see the inside of its surface alone.
 
 use crate::plan::{CameraPlan, Plan};
 use crate::render::exposure::{FilmExposure, Shot};
@@ -27,8 +27,7 @@ pub(crate) fn surrounding_object<'p>(plan: &'p Plan, camera: &CameraPlan) -> Opt
         }
     }
     let instance = plan.world.instances().get(object? as usize)?;
-    let identity = plan.identities.get((instance.instance_id as usize).checked_sub(1)?)?;
-    Some(&identity.name)
+    plan.identity(instance.instance_id).map(|identity| identity.name.as_str())
 }
 
 fn directions() -> impl Iterator<Item = Vec3> {

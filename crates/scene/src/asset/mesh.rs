@@ -65,14 +65,14 @@ pub struct ImageAsset {
     pub hash: [u8; 32],
 }
 
-/// From linear colours of other primaries, row by row.
+/// Converts linear colours from other primaries, row by row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ColourMatrix(pub [[f64; 3]; 3]);
 
 impl ColourMatrix {
-    /// The colour of another.
+    /// Converts a linear colour.
     #[must_use]
-    pub fn of(&self, colour: [f32; 3]) -> [f32; 3] {
+    pub fn apply(&self, colour: [f32; 3]) -> [f32; 3] {
         let [r, g, b] = colour.map(f64::from);
         self.0.map(|row| (row[0] * r + row[1] * g + row[2] * b) as f32)
     }
@@ -84,10 +84,10 @@ impl ImageAsset {
     pub fn in_rec_709(mut self) -> Self {
         if let Some(matrix) = self.to_rec_709.take() {
             match &mut self.pixels {
-                ImagePixels::Rgb32F(pixels) => pixels.iter_mut().for_each(|p| *p = matrix.of(*p)),
+                ImagePixels::Rgb32F(pixels) => pixels.iter_mut().for_each(|p| *p = matrix.apply(*p)),
                 ImagePixels::Rgba32F(pixels) => {
                     for [r, g, b, _] in pixels {
-                        [*r, *g, *b] = matrix.of([*r, *g, *b]);
+                        [*r, *g, *b] = matrix.apply([*r, *g, *b]);
                     }
                 }
                 ImagePixels::Gray8(_) | ImagePixels::Gray16(_) | ImagePixels::Rgb8(_) | ImagePixels::Rgba8(_) => {}

@@ -88,13 +88,13 @@ impl Reading<'_> {
         if whole && size != expected {
             return Err(Error::input(format!("{}: {}", file.display(), TransferError::Size { size, expected })));
         }
-        self.fits_bits(file, &image)?;
+        self.check_bits(file, &image)?;
         self.pictures.step();
         Ok(image)
     }
 
     /// Refuses readings beyond the descriptor's bits, which is 0 where nobody states them.
-    fn fits_bits(&self, file: &Path, image: &Image) -> Result<(), Error> {
+    fn check_bits(&self, file: &Path, image: &Image) -> Result<(), Error> {
         let bits = self.descriptor.bits;
         let full = ((1_u64 << bits.min(32)) - 1) as f64;
         let greatest = image.samples().iter().copied().fold(0.0, f32::max);

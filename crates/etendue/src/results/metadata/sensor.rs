@@ -104,6 +104,6 @@ pub(crate) fn frame(number: u32, file: Option<String>, raw: &Raw) -> Value {
         "picture_in_raw_px": [area.x, area.y, area.width, area.height],
         "companding_knees_dn": raw.companding.as_ref().map(|c| c.knees.clone()),
         "charge_e": raw.accounts.iter().map(account).collect::<Vec<_>>(),
-        (levels::LEVELS): levels::facts(raw),
+        (levels::LEVELS): levels::Levels::new(raw),
     })
 }

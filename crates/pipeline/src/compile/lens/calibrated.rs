@@ -102,14 +102,14 @@ fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibra
 }
 
 /// How far from the middle of the image, of its width or height, a principal point is taken for that of another image size.
-const FAR: f64 = 0.25;
+const FAR_SHARE: f64 = 0.25;
 
 /// Warns of a principal point outside the image, or far from its middle, as of a calibration of another resolution.
 fn warn_of_principal_point(record: &Calibrated, raster: &Raster, context: &mut Context<'_>) {
     let size = glam::DVec2::new(raster.width() as f64, raster.height() as f64);
     let principal = raster.principal_px();
     let off = ((principal - 0.5 * size) / size).abs().max_element();
-    if off <= FAR {
+    if off <= FAR_SHARE {
         return;
     }
     let place = if off > 0.5 { "outside the image" } else { "far from the middle of the image" };

@@ -45,7 +45,7 @@ fn colours(pixels: &ImagePixels, Reading { encoded, scale, .. }: Reading, to_rec
     let linear = |v: f32| if encoded { colour::decode(v) } else { v };
     let scaled = |p: [f32; 3]| {
         let linear = p.map(linear);
-        to_rec_709.map_or(linear, |matrix| matrix.of(linear)).map(|v| v * scale)
+        to_rec_709.map_or(linear, |matrix| matrix.apply(linear)).map(|v| v * scale)
     };
     match pixels {
         ImagePixels::Gray8(pixels) => bytes(pixels.iter().map(|g| [*g; 3]).collect()),

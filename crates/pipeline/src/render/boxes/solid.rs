@@ -54,8 +54,7 @@ impl SolidBox {
 
 /// The rotation from an object's axes to the world at a time.
 fn object_axes(plan: &Plan, instance: &Instance, time_s: f64) -> DMat3 {
-    let identity = (instance.instance_id as usize).checked_sub(1).and_then(|place| plan.identities.get(place));
-    let axes = identity.map_or(DMat3::IDENTITY, |identity| identity.axes);
+    let axes = plan.identity(instance.instance_id).map_or(DMat3::IDENTITY, |identity| identity.axes);
     orthonormalised(&(instance.to_world.at(time_s).matrix3 * axes))
 }
 

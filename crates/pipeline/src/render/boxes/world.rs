@@ -34,7 +34,7 @@ pub fn world_objects(plan: &Plan, time_s: f64) -> Vec<WorldObject> {
 }
 
 fn object(plan: &Plan, instance: &Instance, time_s: f64) -> Option<WorldObject> {
-    let identity = plan.identities.get(instance.instance_id as usize - 1)?;
+    let identity = plan.identity(instance.instance_id)?;
     let (size_m, stance) = SolidBox::in_world(plan, instance, time_s);
     let centre = instance.to_world.at(time_s).inverse().transform_point3(stance.centre_m);
     Some(WorldObject {
