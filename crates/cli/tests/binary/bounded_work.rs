@@ -3,7 +3,6 @@
 use crate::support::{BALL, etendue, text};
 use std::fs;
 use std::path::Path;
-use std::time::{Duration, Instant};
 
 fn plan_of(folder: &Path, scene: &str) -> crate::support::Ran {
     let job = folder.join("job.toml");
@@ -11,7 +10,7 @@ fn plan_of(folder: &Path, scene: &str) -> crate::support::Ran {
     etendue(["plan", &text(&job)])
 }
 
-/// Pieces of a turn were halved until moments could not be message apart: some 1e15 of them.
+/// Pieces of such a turn were halved as long as times could be distinguished: some 1e15 times.
 #[test]
 fn a_wheel_that_turns_by_more_than_can_be_followed_is_refused() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -50,11 +49,10 @@ fn chain(count: usize, first: &str, each: &str) -> String {
     )
 }
 
-/// 30 000 frames within each other took minutes, and more than a thread's stack.
+/// 30 000 frames within each other took minutes, and more than a thread's stack. With the square of the depth these take an hour.
 #[test]
 fn frames_in_frames_take_time_in_proportion_to_their_depth() {
     let place = tempfile::tempdir().expect("a temporary folder");
-    let start = Instant::now();
     plan_of(place.path(), &chain(30_000, "", "")).ok();
     let circle = plan_of(place.path(), &chain(30_000, "parent = \"f29999\"\n", ""));
     circle
@@ -64,10 +62,8 @@ fn frames_in_frames_take_time_in_proportion_to_their_depth() {
     lost.refused(&["\"rolls\" has no effect here"]).says(&["errors in all"]);
     let unknown =
         (0..20_000).map(|i| format!("[[scene.frames]]\nname = \"f{i}\"\nparent = \"g{i}\"\n")).collect::<String>();
-    let message = plan_of(place.path(), &unknown).refused(&["there is no frame \"g0\""]);
-    assert!(message.err.lines().count() <= 52 && message.err.len() < 100_000, "{} bytes", message.err.len());
-    // A debug build on a busy machine; with the square of the depth these were an hour.
-    assert!(start.elapsed() < Duration::from_secs(120), "{:?}", start.elapsed());
+    let refusal = plan_of(place.path(), &unknown).refused(&["there is no frame \"g0\""]);
+    assert!(refusal.err.lines().count() <= 52 && refusal.err.len() < 100_000, "{} bytes", refusal.err.len());
 }
 
 /// The side-car beside a picture is read as all that describes: up to its limit.

@@ -157,7 +157,7 @@ fn samples_whose_files_or_record_are_not_whole_are_made_anew() {
         }
     };
     spoil(record, &edit("\"frame\": 0", "\"frame\": 7"));
-    resume("2..4").refused(&["samples/000001.json", "changed after it was written", "--samples 1..2 --resume"]);
+    resume("2..4").refused(&["samples/000001.json", "changed after it was written", "make sample 1 anew"]);
     resume("0..3").ok().says(&["sample 1 is made anew"]);
     assert!(place.files("out") == whole);
     spoil(record, &|file| _ = fs::copy(file.with_file_name("000002.json"), file).expect("copied"));
