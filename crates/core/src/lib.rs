@@ -19,6 +19,7 @@ pub mod blocks;
 mod camera_path;
 pub mod distribution;
 mod effect_status;
+mod exact_time;
 pub mod field;
 pub mod frame;
 pub mod kept_cube;
@@ -39,6 +40,7 @@ mod wavelength_density;
 
 pub use camera_path::CameraPath;
 pub use effect_status::EffectStatus;
+pub use exact_time::{Cycle, Epoch, ExactTime};
 pub use field::{FieldRay, RadianceField};
 pub use frame::{Basis, CameraPose};
 pub use kept_cube::KeptCube;

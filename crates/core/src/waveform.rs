@@ -8,7 +8,7 @@ mod mains;
 #[cfg(test)]
 mod tests;
 
-use crate::TimeInterval;
+use crate::{Cycle, ExactTime, TimeInterval};
 use levels::{Levels, Piece};
 use mains::Mains;
 
@@ -19,6 +19,8 @@ pub const MAX_LEVEL: f64 = 1e6;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waveform {
     shape: Shape,
+    /// How it recurs; `None` where it does not.
+    cycle: Option<Cycle>,
     /// By how much all of it is later, s.
     delay_s: f64,
 }
@@ -152,7 +154,8 @@ impl Waveform {
             Piece { length_s: fall_s, from: peak, to: 0.0 },
             Piece { length_s: dark_s, from: 0.0, to: 0.0 },
         ];
-        Ok(Self::of_levels(Levels::recurring(-0.5 * rise_s, &pieces, period_s)))
+        let levels = Levels::recurring(-0.5 * rise_s, &pieces, period_s);
+        Ok(Self { cycle: Some(Cycle::Frequency(frequency_hz)), ..Self::of_levels(levels) })
     }
 
     /// The light of a lamp on mains of `frequency_hz`, 1 + m cos(2π · 2f t): brightest at the time 0 and twice a period of the mains,
@@ -165,7 +168,8 @@ impl Waveform {
         if !(0.0..=1.0).contains(&depth) {
             return Err(WaveformError::Depth { depth });
         }
-        Ok(Self { shape: Shape::Mains(Mains { frequency_hz, depth }), delay_s: 0.0 })
+        let cycle = Some(Cycle::Frequency(2.0 * frequency_hz));
+        Ok(Self { shape: Shape::Mains(Mains { frequency_hz, depth }), cycle, delay_s: 0.0 })
     }
 
     /// Levels at rising times (s): held before the first and after the last, or with a `period_s` recurring, the last row followed
@@ -219,13 +223,21 @@ impl Waveform {
     }
 
     fn of_levels(levels: Levels) -> Self {
-        Self { shape: Shape::Levels(levels), delay_s: 0.0 }
+        let cycle = levels.period_s().map(Cycle::Period);
+        Self { shape: Shape::Levels(levels), cycle, delay_s: 0.0 }
     }
 
     /// The same later by `delay_s`, which is finite.
     #[must_use]
     pub fn later(self, delay_s: f64) -> Self {
         Self { delay_s: self.delay_s + delay_s, ..self }
+    }
+
+    /// The same later by a delay that may be far from zero; of what recurs the phase is kept as [`Cycle::reduced_s`] does.
+    #[must_use]
+    pub fn later_by(self, delay: ExactTime) -> Self {
+        let delay_s = self.cycle.map_or_else(|| delay.seconds(), |cycle| cycle.reduced_s(delay));
+        self.later(delay_s)
     }
 
     /// The level at a simulated time, s; at a jump the one after it.

@@ -75,11 +75,12 @@ pub(crate) fn each(
             warn(&format!("{camera}, frame {frame}: {count} pixels have no valid light; their digital number is 0"));
         }
         let (extension, bytes) = file?;
-        let (pose, time_s) = results.pose(frame);
+        let (pose, time) = results.pose(frame);
         let record = PictureRecord {
             camera: camera.to_owned(),
             frame,
-            time_s,
+            time_s: time.seconds(),
+            time: (!time.is_number()).then(|| time.to_string()),
             extension: extension.to_owned(),
             width_px,
             height_px,

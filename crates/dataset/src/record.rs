@@ -2,6 +2,7 @@
 
 use crate::draw::Split;
 use etendue::FileDigest;
+use etendue_core::ExactTime;
 use etendue_io::sidecar;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -47,6 +48,9 @@ pub(crate) struct PictureRecord {
     pub(crate) frame: u32,
     /// Half-way through the exposure.
     pub(crate) time_s: f64,
+    /// The same with all digits, where the number is rounded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) time: Option<String>,
     /// `png` or `jpg`.
     pub(crate) extension: String,
     pub(crate) width_px: usize,
@@ -58,6 +62,13 @@ pub(crate) struct PictureRecord {
     /// From the camera's frame to the frame that carries it.
     pub(crate) mount: Option<Pose>,
     pub(crate) objects: Vec<ObjectRecord>,
+}
+
+impl PictureRecord {
+    /// Half-way through the exposure, exactly.
+    pub(crate) fn exact_time(&self) -> ExactTime {
+        self.time.as_ref().and_then(|text| text.parse().ok()).unwrap_or_else(|| self.time_s.into())
+    }
 }
 
 /// A place and a rotation.

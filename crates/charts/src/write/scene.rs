@@ -5,6 +5,7 @@ use crate::ink::{Ink, Paint};
 use crate::light::Light;
 use crate::panel::Panel;
 use crate::shape::Fill;
+use etendue_core::ExactTime;
 use etendue_scene::record::light::Modulation;
 use etendue_scene::record::light::modulation::{PwmModulation, Recurring};
 use etendue_scene::record::material::{Diffuse, Emitter};
@@ -80,7 +81,7 @@ fn material(ink: &Ink, drawing: &Drawing, light: &Light) -> Material {
         }
         Paint::Glow(share) => glowing(name, SurfaceEmission::new(emission(light, *share))),
         Paint::Pulses { share, frequency_hz, duty, delay_s } => {
-            let timing = Recurring { delay_s: Some((*delay_s).into()), ..Recurring::default() };
+            let timing = Recurring { delay_s: Some(ExactTime::from(*delay_s).into()), ..Recurring::default() };
             let modulation = Some(Modulation::Pwm(PwmModulation::new(*frequency_hz, *duty, timing)));
             glowing(name, SurfaceEmission { modulation, ..SurfaceEmission::new(emission(light, *share)) })
         }

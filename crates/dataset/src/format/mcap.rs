@@ -22,7 +22,8 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
-const NS: f64 = 1e9;
+/// The last second of a stamp of ROS, of 32 bits: on 19 January 2038, counted from 1970.
+const LAST_S: i64 = i32::MAX as i64;
 
 /// A message of a topic.
 struct Message {
@@ -39,7 +40,12 @@ pub(super) struct Mcap(RefCell<Vec<Message>>);
 impl Writer for Mcap {
     fn picture(&self, _set: &Set, picture: &Picture<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {
         let record = &picture.record;
-        let time_ns = (record.time_s * NS).round().max(0.0) as u64;
+        let time = record.exact_time();
+        let time_ns = u64::try_from(time.nanoseconds()).ok().filter(|_| time.whole_s() <= LAST_S);
+        let Some(time_ns) = time_ns else {
+            let problem = format!("a picture of camera {} is taken at {time} s", record.camera);
+            return Err(Error::input(format!("{problem}, and MCAP with ROS messages has times from 0 to {LAST_S} s")));
+        };
         let at = (time_ns, record.camera.as_str());
         let matrix = record.camera_matrix_px.expect("checked for all cameras of the format");
         let size = (record.width_px, record.height_px);

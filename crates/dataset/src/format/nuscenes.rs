@@ -141,7 +141,7 @@ fn place(set: &Set, picture: &PictureRecord) -> u32 {
 }
 
 fn time_us(picture: &PictureRecord) -> i64 {
-    (1e6 * picture.time_s).round() as i64
+    (picture.exact_time().nanoseconds() + 500).div_euclid(1000) as i64
 }
 
 fn sample_token(record: &SampleRecord, frame: u32) -> String {

@@ -105,7 +105,7 @@ fn intervals(frames: &BTreeSet<u32>) -> Vec<Value> {
 
 fn frame(sample: u32, pictures: &[&PictureRecord]) -> Value {
     let streams = pictures.iter().map(|picture| {
-        let facts = json!({ "uri": uri(sample, picture), "stream_properties": { "sync": { "timestamp": picture.time_s.to_string() } } });
+        let facts = json!({ "uri": uri(sample, picture), "stream_properties": { "sync": { "timestamp": picture.exact_time().to_string() } } });
         (picture.camera.clone(), facts)
     });
     let transforms = pictures.iter().map(|picture| {
@@ -127,10 +127,11 @@ fn frame(sample: u32, pictures: &[&PictureRecord]) -> Value {
     let objects = objects.into_iter().map(|(id, (boxes, shares, solid))| {
         (id.to_string(), json!({ "object_data": { "bbox": boxes, "cuboid": [solid], "num": shares } }))
     });
-    let first_s = pictures.iter().map(|picture| picture.time_s).fold(f64::INFINITY, f64::min);
+    let times = pictures.iter().map(|picture| picture.exact_time());
+    let first = times.reduce(|a, b| if b < a { b } else { a }).unwrap_or_default();
     json!({
         "frame_properties": {
-            "timestamp": first_s.to_string(),
+            "timestamp": first.to_string(),
             "streams": streams.collect::<Map<_, _>>(),
             "transforms": transforms.collect::<Map<_, _>>(),
         },

@@ -1,6 +1,7 @@
 //! Nodes of glTF files that move, as frames with keys and objects in them.
 
 use super::naming::{Names, path_between, rounded};
+use etendue_core::ExactTime;
 use etendue_core::maths::f64 as maths;
 use etendue_core::track::slerp;
 use etendue_io::mesh::{GLTF_CUBIC_KEYS as CUBIC_KEYS, GLTF_MIN_TURN, GltfMotion, GltfMover, GltfTrack};
@@ -58,7 +59,8 @@ pub(super) fn add_moving(
         let mut frame = Frame::new(name.as_str(), way.placement(times.first().copied().unwrap_or(0.0)));
         if times.len() > 1 {
             frame = Frame::new(name.as_str(), FramePlacement::default());
-            frame.keys = times.iter().map(|time_s| FrameKey::new(*time_s, way.placement(*time_s))).collect();
+            frame.keys =
+                times.iter().map(|time_s| FrameKey::new(ExactTime::from(*time_s), way.placement(*time_s))).collect();
         }
         frame.parent = mover.parent.map(|parent| moving.frames[parent].0.as_str().into());
         scene.frames.push(frame);
@@ -201,7 +203,10 @@ fn scale_keys(track: &GltfTrack<3>) -> Vec<Keyframe> {
     times.dedup();
     let key = |time_s: f64| {
         let scale = to_world(DVec3::from_array(track.at(time_s, straight)));
-        Keyframe::new(time_s, Transform { scale: Some(scale.to_array().into()), ..Transform::default() })
+        Keyframe::new(
+            ExactTime::from(time_s),
+            Transform { scale: Some(scale.to_array().into()), ..Transform::default() },
+        )
     };
     times.into_iter().map(key).collect()
 }

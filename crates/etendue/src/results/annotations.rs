@@ -71,7 +71,7 @@ impl CameraResults {
     /// All objects of the world half-way through a frame's first exposure, whether the camera sees them or not.
     #[must_use]
     pub fn world_objects(&self, frame: u32) -> Vec<WorldObject> {
-        world_objects(&self.plan, self.pose(frame).1)
+        world_objects(&self.plan, self.camera().timing.capture(frame, 0).middle_s())
     }
 
     fn frame_view(&self) -> FrameView<'_> {

@@ -1,5 +1,6 @@
 //! The boxes of a frame as JSON.
 
+use super::metadata::times;
 use etendue_pipeline::boxes::{ObjectBoxes, PixelBox, SolidBox, Stance};
 use etendue_pipeline::frame_view::FrameView;
 use etendue_pipeline::plan::Plan;
@@ -9,10 +10,9 @@ use serde_json::{Value, json};
 pub(super) fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxes]) -> Value {
     let raster = &frame.camera.body.raster;
     let size = (raster.width(), raster.height());
-    json!({
+    let mut said = json!({
         "camera": frame.camera.name,
         "frame": frame.frame,
-        "time_s": frame.interval().middle_s(),
         "width_px": size.0,
         "height_px": size.1,
         "conventions": {
@@ -27,7 +27,10 @@ pub(super) fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxe
             "id": "as instance.ID of the ground truth, the same in all frames",
         },
         "objects": boxes.iter().map(|object| object_json(plan, size, object)).collect::<Vec<_>>(),
-    })
+    });
+    let timing = &frame.camera.timing;
+    times::add(&mut said, timing, "time", timing.frame_middle(frame.frame));
+    said
 }
 
 fn object_json(plan: &Plan, (width, height): (usize, usize), object: &ObjectBoxes) -> Value {

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::render_options::RenderOptions;
 use crate::rig;
 use etendue_core::quantity::MeanElectrons;
-use etendue_core::{CameraPose, Plane};
+use etendue_core::{CameraPose, ExactTime, Plane};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::photograph::{Frame, Light, take, take_with_breakdown};
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
@@ -134,9 +134,9 @@ impl CameraResults {
 
     /// Where the camera stands half-way through a frame's first exposure, and when that is, s: what `frame.NNNN.json` states.
     #[must_use]
-    pub fn pose(&self, frame: u32) -> (CameraPose, f64) {
+    pub fn pose(&self, frame: u32) -> (CameraPose, ExactTime) {
         let camera = self.camera();
-        (rig::pose(camera, frame), camera.timing.capture(frame, 0).middle_s())
+        (rig::pose(camera, frame), camera.timing.frame_middle(frame))
     }
 
     /// The plan that the camera is of.

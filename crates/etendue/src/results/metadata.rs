@@ -2,6 +2,7 @@
 
 mod frame;
 mod sensor;
+pub(super) mod times;
 
 pub(crate) use frame::{check_whole, own_frame, sealed, state_of, with_state, without_state};
 pub(crate) use sensor::{frame, sensor};
@@ -29,7 +30,6 @@ const VIEWS: &str = "pupil_views";
 
 /// Facts of light that depends on time: the exposure time that it was gathered over, and when the stated pose holds.
 pub(crate) const EXPOSURE_S: &str = "exposure_s";
-const POSE_TIME_S: &str = "pose_time_s";
 
 const THROUGH_LENS: &str = "through the lens, pixel centres at +0.5, x right, y down; pose: camera x right, y down, \
                             z forward, origin at the centre of the entrance pupil, to world x forward, y left, z up, m";
@@ -59,7 +59,7 @@ pub(crate) fn provenance(plan: &Plan, camera: &CameraPlan, frame: u32) -> Proven
         version: VERSION.to_owned(),
         camera: camera.name.clone(),
         frame: frame.into(),
-        time_s: camera.timing.frame_start_s(frame),
+        time_s: camera.timing.frame_start(frame).seconds(),
         geometry: THROUGH_LENS.to_owned(),
         camera_to_world: Some(pose_rows(&camera.path.at(middle_s(camera, frame)))),
         further: further(settings).chain(passes_fact(camera)).chain(exposure_facts(camera, frame)).collect(),
@@ -101,10 +101,13 @@ fn exposure_facts(camera: &CameraPlan, frame: u32) -> Vec<(String, String)> {
     if camera.time == TimeDependence::None {
         return Vec::new();
     }
-    let exposure_s = camera.body.exposure.exposure_s;
-    [(EXPOSURE_S, exposure_s), (POSE_TIME_S, middle_s(camera, frame))]
-        .map(|(name, s)| (name.to_owned(), s.to_string()))
-        .to_vec()
+    let timing = &camera.timing;
+    let starts = times::facts(timing, "time", timing.frame_start(frame));
+    let poses = times::facts(timing, "pose_time", timing.frame_middle(frame));
+    let texts = starts.into_iter().filter(|(name, _)| name == "time").chain(poses);
+    let text = |value: Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    let exposure = (EXPOSURE_S.to_owned(), camera.body.exposure.exposure_s.to_string());
+    std::iter::once(exposure).chain(texts.map(|(name, value)| (name, text(value)))).collect()
 }
 
 /// Half-way through a frame's first exposure, s: when its pose holds.
@@ -270,7 +273,6 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
             "route": if settings.route == Route::Lens { "lens" } else { "pupil" },
             "depth_of_field": (settings.route != Route::Lens).then(|| depth_of_field(&camera.depth_of_field)),
         },
-        "time_s": camera.timing.frame_start_s(first),
         "frame_period_s": camera.timing.period_s,
         "files": files,
         "ground_truth": {
@@ -288,6 +290,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
             "ids": "instances and materials: place in the list, from 1; 0 is the background",
         },
     });
+    times::add(&mut facts, &camera.timing, "time", camera.timing.frame_start(first));
     if let Some(passes) = passes(camera) {
         facts["sampling"]["passes"] = json!(passes);
     }

@@ -6,12 +6,15 @@ use crate::error::Error;
 use etendue_io::{OutputFolder, read_regular};
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};
 use etendue_scene::limits::DESCRIPTION;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// What a track says of its object, not of its frames.
 const OF_OBJECT: [&str; 3] = ["id", "name", "class"];
+
+/// What it says of the frame, beside the boxes.
+const OF_FRAME: [&str; 3] = ["frame", "time_s", "time"];
 
 /// Writes `tracks.json`.
 pub(super) fn write_tracks(camera: &CameraPlan, frames: &Range<u32>, folder: &mut OutputFolder) -> Result<(), Error> {
@@ -46,19 +49,19 @@ struct Tracks {
 impl Tracks {
     /// Adds a frame's boxes.
     fn add(&mut self, mut boxes: Value) {
-        let (frame, time_s) = (boxes["frame"].clone(), boxes["time_s"].clone());
+        let moment: Map<String, Value> =
+            OF_FRAME.iter().filter_map(|key| Some(((*key).to_owned(), boxes.get(*key)?.clone()))).collect();
         self.conventions = boxes["conventions"].take();
         let Value::Array(objects) = boxes["objects"].take() else { return };
         for mut object in objects {
             let (Some(id), Some(keys)) = (object["id"].as_u64(), object.as_object_mut()) else { continue };
             let of_object = OF_OBJECT.map(|key| (key.to_owned(), keys.remove(key).unwrap_or(Value::Null)));
-            keys.insert("frame".to_owned(), frame.clone());
-            keys.insert("time_s".to_owned(), time_s.clone());
+            keys.extend(moment.clone());
             let (_, seen) =
                 self.objects.entry(id).or_insert_with(|| (Value::Object(of_object.into_iter().collect()), Vec::new()));
             seen.push(object);
         }
-        self.frames.push(json!({ "frame": frame, "time_s": time_s }));
+        self.frames.push(Value::Object(moment));
     }
 
     fn into_json(mut self, camera: &CameraPlan) -> Value {

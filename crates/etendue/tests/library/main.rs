@@ -3,6 +3,7 @@
 mod annotations;
 mod dropped_effects;
 mod examples;
+mod far_times;
 mod flicker;
 mod panics;
 mod progress;

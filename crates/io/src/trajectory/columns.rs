@@ -1,5 +1,6 @@
 //! Which column says what.
 
+use etendue_core::ExactTime;
 use etendue_scene::asset::TrajectoryRow;
 use etendue_scene::record::transform::yaw_pitch_roll_quaternion;
 use glam::{DQuat, DVec3};
@@ -51,8 +52,12 @@ impl Columns {
         Ok(Self { place, rotation })
     }
 
-    /// A row whose columns have these values.
-    pub(super) fn row(&self, value: impl Fn(usize) -> Result<f64, String>) -> Result<TrajectoryRow, String> {
+    /// A row whose columns have these values; `exact` is asked for the time.
+    pub(super) fn row(
+        &self,
+        value: impl Fn(usize) -> Result<f64, String>,
+        exact: impl Fn(usize) -> Result<ExactTime, String>,
+    ) -> Result<TrajectoryRow, String> {
         let [time, x, y, z] = self.place;
         let rotation = match self.rotation {
             Rotation::None => DQuat::IDENTITY,
@@ -68,7 +73,7 @@ impl Columns {
                 quaternion
             }
         };
-        Ok(TrajectoryRow { time_s: value(time)?, position_m: DVec3::new(value(x)?, value(y)?, value(z)?), rotation })
+        Ok(TrajectoryRow { time: exact(time)?, position_m: DVec3::new(value(x)?, value(y)?, value(z)?), rotation })
     }
 }
 

@@ -12,12 +12,16 @@ pub(super) fn read(file: &Path, text: &str) -> Result<Read, Error> {
     let columns = Columns::of(&head.cells).map_err(|what| Error::at(file, head.line, what))?;
     let unread = head.cells.iter().filter(|name| !is_known(name)).map(|name| (*name).to_owned()).collect();
     let read = rows.map(|row| {
-        let value = |column: usize| {
-            let name = head.cells[column];
-            let cell = row.cells.get(column).ok_or_else(|| format!("the row ends before \"{name}\""))?;
-            number(cell).ok_or_else(|| format!("found \"{cell}\" as \"{name}\"; expected a number"))
+        let cell = |column: usize| {
+            let cell = row.cells.get(column).copied();
+            cell.ok_or_else(|| format!("the row ends before \"{}\"", head.cells[column]))
         };
-        let found = columns.row(value).map_err(|what| Error::at(file, row.line, what))?;
+        let wrong =
+            |column: usize, cell: &str| format!("found \"{cell}\" as \"{}\"; expected a number", head.cells[column]);
+        let value =
+            |column: usize| number(cell(column)?).ok_or_else(|| wrong(column, cell(column).unwrap_or_default()));
+        let exact = |column: usize| cell(column)?.parse().map_err(|_| wrong(column, cell(column).unwrap_or_default()));
+        let found = columns.row(value, exact).map_err(|what| Error::at(file, row.line, what))?;
         Ok((row.line, found))
     });
     Ok((read.collect::<Result<_, _>>()?, unread))

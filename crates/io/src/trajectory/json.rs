@@ -6,6 +6,7 @@ use serde_json::{Map, Value};
 
 use super::columns::{Columns, Read, is_known};
 use crate::Error;
+use etendue_core::ExactTime;
 
 pub(super) fn read(file: &Path, text: &str) -> Result<Read, Error> {
     let entries: Vec<Map<String, Value>> = serde_json::from_str(text).map_err(|cause| {
@@ -22,12 +23,23 @@ pub(super) fn read(file: &Path, text: &str) -> Result<Read, Error> {
         if let Some(other) = entry.keys().find(|key| is_known(key) && !names.contains(&key.as_str())) {
             return Err(fault(format!("gives \"{other}\", which the first does not; give it in all or in none")));
         }
-        let value = |column: usize| {
+        let given = |column: usize| {
             let name = names[column];
-            let found = entry.get(name).ok_or_else(|| format!("does not give \"{name}\", which the first does"))?;
-            found.as_f64().ok_or_else(|| format!("found {found} as \"{name}\"; expected a number"))
+            entry.get(name).ok_or_else(|| format!("does not give \"{name}\", which the first does"))
         };
-        Ok((*line, columns.row(value).map_err(fault)?))
+        let wrong = |column: usize, found: &Value| format!("found {found} as \"{}\"; expected a number", names[column]);
+        let value = |column: usize| {
+            let found = given(column)?;
+            found.as_f64().ok_or_else(|| wrong(column, found))
+        };
+        let exact = |column: usize| {
+            let found = given(column)?;
+            let read = found
+                .as_str()
+                .map_or_else(|| found.as_f64().and_then(ExactTime::from_seconds), |text| text.parse().ok());
+            read.ok_or_else(|| wrong(column, found))
+        };
+        Ok((*line, columns.row(value, exact).map_err(fault)?))
     });
     Ok((read.collect::<Result<_, _>>()?, unread))
 }

@@ -5,7 +5,7 @@
 //!
 //! | names | |
 //! | --- | --- |
-//! | `time_s` | s by the logger's clock, rising, each time once |
+//! | `time_s` | s by the logger's clock, rising, each time once; in JSON a number, or text where that is rounded |
 //! | `x_m`, `y_m`, `z_m` | place, m |
 //! | `qw`, `qx`, `qy`, `qz` | rotation, a quaternion of length 1 to a hundredth |
 //! | `yaw_deg`, `pitch_deg`, `roll_deg` | or rotation about z, then y, then x of what turns, degrees |
@@ -39,10 +39,10 @@ pub fn read_trajectory(file: &Path) -> Result<TrajectoryAsset, Error> {
     }
     for pair in rows.windows(2) {
         let [(before_line, before), (line, row)] = [pair[0], pair[1]];
-        if row.time_s <= before.time_s {
-            let (time_s, before_s) = (row.time_s, before.time_s);
+        if row.time <= before.time {
+            let (time, before) = (row.time, before.time);
             let what = format!(
-                "the time {time_s} s follows {before_s} s of line {before_line}: sort the rows by rising time, each once"
+                "the time {time} s follows {before} s of line {before_line}: sort the rows by rising time, each once"
             );
             return Err(Error::at(file, line, what));
         }

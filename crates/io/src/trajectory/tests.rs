@@ -26,9 +26,9 @@ fn columns_are_found_by_their_names() {
     for (name, content) in [("a.csv", csv), ("a.json", json), ("b.csv", blanks)] {
         let asset = read(name, content).expect("legal");
         let [first, second] = asset.rows[..] else { panic!("two rows") };
-        assert_eq!((first.time_s, first.position_m), (10.25, DVec3::new(1.0, -2.0, 0.5)));
+        assert_eq!((first.time.seconds(), first.position_m), (10.25, DVec3::new(1.0, -2.0, 0.5)));
         assert_eq!(
-            (second.time_s, second.position_m, second.rotation),
+            (second.time.seconds(), second.position_m, second.rotation),
             (11.0, DVec3::new(4.5, -2.0, 0.5), DQuat::IDENTITY)
         );
         assert!((first.rotation * DVec3::X - DVec3::Y).length() < 1e-15);

@@ -19,7 +19,7 @@ pub(super) fn camera_path(pose: &Pose, frames: &Frames<'_>, context: &mut Contex
         (None, []) => still(&pose.to_camera_pose()?),
         (None, [only]) => still(&only.to_camera_pose()?),
         (None, keys) => {
-            let keys: Vec<Key> = keys.iter().map(key).collect::<Option<_>>()?;
+            let keys: Vec<Key> = keys.iter().map(|k| key(k, context)).collect::<Option<_>>()?;
             through(&keys, course, pose.stated_at(), context)?
         }
     };
@@ -41,8 +41,8 @@ fn still(pose: &CameraPose) -> Motion {
     Motion::still(DAffine3::from_mat3_translation(pose.rotation, pose.position_m))
 }
 
-fn key(key: &PoseKey) -> Option<Key> {
+fn key(key: &PoseKey, context: &mut Context<'_>) -> Option<Key> {
     let CameraPose { position_m, rotation } = key.to_camera_pose()?;
     let rotation = DQuat::from_mat3(&rotation);
-    Some(Key { time_s: key.time_s.value, position_m, rotation, scale: DVec3::ONE })
+    Some(Key { time_s: context.since_epoch_s(&key.time_s), position_m, rotation, scale: DVec3::ONE })
 }

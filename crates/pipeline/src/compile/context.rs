@@ -2,8 +2,9 @@
 
 use super::coverage::Coverage;
 use crate::plan::remark::{Remark, Weight};
+use etendue_core::{Epoch, ExactTime};
 use etendue_scene::asset::Assets;
-use etendue_scene::{Fault, Place, stated};
+use etendue_scene::{Fault, Place, Placed, stated};
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
@@ -11,6 +12,8 @@ use std::fmt::Display;
 #[derive(Debug)]
 pub(super) struct Context<'a> {
     pub(super) assets: &'a Assets,
+    /// What times are counted from.
+    pub(super) epoch: Epoch,
     pub(super) faults: Vec<Fault>,
     pub(super) remarks: Vec<Remark>,
     /// What the command line supersedes.
@@ -20,9 +23,22 @@ pub(super) struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    pub(super) fn new(assets: &'a Assets) -> Self {
+    pub(super) fn new(assets: &'a Assets, epoch: Epoch) -> Self {
         let (faults, remarks, notices) = (Vec::new(), Vec::new(), Vec::new());
-        Self { assets, faults, remarks, notices, coverage: Coverage::default() }
+        Self { assets, epoch, faults, remarks, notices, coverage: Coverage::default() }
+    }
+
+    /// A time since the epoch, s; where a number in the file cannot tell it to a nanosecond, with a remark.
+    pub(super) fn since_epoch_s(&mut self, time: &Placed<ExactTime>) -> f64 {
+        let step_s = time.value.step_s();
+        if time.value.is_number() && time.value.fraction_s() != 0.0 && step_s > 1e-9 {
+            let text = format!(
+                "a number this far from zero is rounded to a multiple of {:.1} ns; write it as text, in quotes, to keep all its digits",
+                1e9 * step_s
+            );
+            self.warn_on(&time.place, text);
+        }
+        self.epoch.to(time.value)
     }
 
     /// Notes a fault at `place`.

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use etendue_core::track::{Interpolation, Key, RollingError};
-use etendue_core::{Motion, Track};
+use etendue_core::{ExactTime, Motion, Track};
 use etendue_scene::Place;
 use etendue_scene::record::motion::{self, Course, Rolls, Trajectory, TrajectoryAxes};
 use glam::DVec3;
@@ -36,12 +36,13 @@ pub(super) fn along(trajectory: &Trajectory, course: Option<&Course>, context: &
     if !asset.unread.is_empty() {
         context.remark_on(file.value.display(), format!("not read: {}", asset.unread.join(", ")));
     }
-    let offset_s = trajectory.time_offset_s.as_ref().map_or(0.0, |offset| offset.value);
+    let offset = trajectory.time_offset_s.as_ref().map_or(ExactTime::default(), |offset| offset.value);
+    let epoch = context.epoch;
     let axes = trajectory.axes.as_ref().map_or(TrajectoryAxes::Flu, |axes| axes.value);
     let key = |row: &_| {
         let row = axes.turned(row);
         let (position_m, rotation) = (row.position_m, row.rotation);
-        Key { time_s: row.time_s + offset_s, position_m, rotation, scale: DVec3::ONE }
+        Key { time_s: epoch.to(row.time + offset), position_m, rotation, scale: DVec3::ONE }
     };
     let keys: Vec<Key> = asset.rows.iter().map(key).collect();
     through(&keys, course, &file.place, context)

@@ -92,13 +92,13 @@ fn own_motion(frame: &Frame, context: &mut Context<'_>) -> Option<Motion> {
         (None, []) => Some(Motion::still(frame.placement.to_parent())),
         (None, [only]) => Some(Motion::still(only.placement.to_parent())),
         (None, keys) => {
-            let key = |key: &FrameKey| Key {
-                time_s: key.time_s.value,
+            let mut key = |key: &FrameKey| Key {
+                time_s: context.since_epoch_s(&key.time_s),
                 position_m: key.placement.position(),
                 rotation: key.placement.quaternion(),
                 scale: DVec3::ONE,
             };
-            let keys: Vec<Key> = keys.iter().map(key).collect();
+            let keys: Vec<Key> = keys.iter().map(&mut key).collect();
             through(&keys, course, &frame.place, context)
         }
     }

@@ -30,7 +30,7 @@ pub(super) fn lamp_motions(
         return Some(vec![frames.carrying(frame, own)]);
     }
     if let keys @ [_, _, ..] = &placement.keys[..] {
-        let keys: Vec<Key> = keys.iter().map(|stated| key(stated, main)).collect::<Option<_>>()?;
+        let keys: Vec<Key> = keys.iter().map(|stated| key(stated, main, context)).collect::<Option<_>>()?;
         let own = through(&keys, course, &placement.place, context)?.after(&DAffine3::from_mat3(turn));
         return Some(vec![frames.carrying(frame, own)]);
     }
@@ -46,10 +46,10 @@ pub(super) fn lamp_motions(
     own.chain(placement.keys.iter().map(of_key)).chain(placement.instances.iter().map(of_instance)).collect()
 }
 
-fn key(key: &LampKey, main: MainAxis) -> Option<Key> {
+fn key(key: &LampKey, main: MainAxis, context: &mut Context<'_>) -> Option<Key> {
     let rotation = DQuat::from_mat3(&axes(key.aim.as_ref(), &key.position_m, main)?);
     let position_m = DVec3::from_array(key.position_m.value);
-    Some(Key { time_s: key.time_s.value, position_m, rotation, scale: DVec3::ONE })
+    Some(Key { time_s: context.since_epoch_s(&key.time_s), position_m, rotation, scale: DVec3::ONE })
 }
 
 fn axes(aim: Option<&LampAim>, position: &Placed<[f64; 3]>, main: MainAxis) -> Option<DMat3> {

@@ -58,7 +58,7 @@ use crate::plan::shared_light;
 use crate::plan::{CameraBody, CameraPasses, CameraPlan, LightOwner, Plan, SourceSpectra, TimeDependence};
 use camera_path::{camera_path, mount};
 use context::Context;
-use etendue_core::{CameraPath, TimeInterval};
+use etendue_core::{CameraPath, Epoch, TimeInterval};
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
@@ -76,7 +76,7 @@ pub use weather::compile_weather;
 /// # Errors
 /// All contradictions, with their places.
 pub fn compile(description: &Description, assets: &Assets, choices: &Choices) -> Result<Plan, Vec<Fault>> {
-    let mut context = Context::new(assets);
+    let mut context = Context::new(assets, timing::epoch(description.sequence.as_ref()));
     let plan = planned(description, choices, &mut context);
     let faults = context.into_faults();
     plan.filter(|_| faults.is_empty()).ok_or(faults)
@@ -95,7 +95,7 @@ pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Ve
 /// # Errors
 /// As [`compile_camera`].
 pub fn compile_camera_with_remarks(camera: &Camera, assets: &Assets) -> Result<(CameraBody, Vec<String>), Vec<Fault>> {
-    let mut context = Context::new(assets);
+    let mut context = Context::new(assets, Epoch::default());
     let body = camera::body(camera, &mut context);
     let remarks = grouped(&context.remarks).iter().map(ToString::to_string).collect();
     let faults = context.into_faults();

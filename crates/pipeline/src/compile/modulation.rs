@@ -1,8 +1,8 @@
 //! Strengths that change over time: from records to waveforms.
 
 use super::context::Context;
-use etendue_core::Waveform;
 use etendue_core::random::number_of_name;
+use etendue_core::{ExactTime, Waveform};
 use etendue_scene::record::light::Modulation;
 use etendue_scene::record::light::modulation::Phases;
 
@@ -25,7 +25,8 @@ pub(super) fn waveform(record: &Modulation, context: &mut Context<'_>) -> Option
     };
     let place = record.file().map_or(record.place(), |file| &file.place);
     let waveform = context.accept(place, record.waveform(&rows))?;
-    Some(waveform.later(record.timing().delay_s.as_ref().map_or(0.0, |delay| delay.value)))
+    let delay = record.timing().delay_s.as_ref().map_or(ExactTime::default(), |delay| delay.value);
+    Some(waveform.later_by(delay - context.epoch.start()))
 }
 
 /// Whether every place of the light has a phase of its own.

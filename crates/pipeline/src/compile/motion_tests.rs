@@ -47,7 +47,7 @@ fn motion(plan: &Plan) -> &Motion {
 
 fn rows() -> Vec<TrajectoryRow> {
     let row = |time_s: f64, x: f64, yaw_deg: f64| TrajectoryRow {
-        time_s,
+        time: time_s.into(),
         position_m: DVec3::new(x, 0.5 * x, 0.25),
         rotation: yaw_pitch_roll_quaternion([yaw_deg, 5.0, -3.0]),
     };
@@ -140,7 +140,7 @@ fn lamps_and_cameras_move() {
                 { time_s = 1, position_m = [2, 0, 1], look_at_m = [2, 1, 1] }]\n";
     let driven = "trajectory = { file = \"drive.csv\" }\n";
     let row = |time_s: f64| TrajectoryRow {
-        time_s,
+        time: time_s.into(),
         position_m: DVec3::new(2.0 * time_s, 0.0, 1.0),
         rotation: yaw_pitch_roll_quaternion([90.0 * time_s, 0.0, 0.0]),
     };

@@ -40,13 +40,13 @@ pub(super) fn placements<'o>(
             rolling(frames.carrying(frame, own), object.rolls.as_ref(), context)
         }
         (None, keys) => {
-            let key = |key: &Keyframe| Key {
-                time_s: key.time_s.value,
+            let mut key = |key: &Keyframe| Key {
+                time_s: context.since_epoch_s(&key.time_s),
                 position_m: key.transform.position(),
                 rotation: key.transform.quaternion(),
                 scale: key.transform.factors(),
             };
-            let keys: Vec<Key> = keys.iter().map(key).collect();
+            let keys: Vec<Key> = keys.iter().map(&mut key).collect();
             let own = through(&keys, course, &object.place, context)?;
             rolling(frames.carrying(frame, own), object.rolls.as_ref(), context)
         }

@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use crate::plan::{CameraBody, CameraPlan, Jitter, Route, TimeDependence, Timing};
+use etendue_core::Epoch;
 use etendue_scene::record::{self, Electronics, Sequence};
 use etendue_scene::{CameraSetup, Place};
 use etendue_tracer::accel::World;
@@ -10,6 +11,14 @@ use etendue_tracer::lights::Sources;
 
 /// Relative difference of a sequence's frame rate and a sensor's frame period that is taken for rounding.
 const RATE_TOLERANCE: f64 = 1e-6;
+
+/// The greatest age of drops that change, s: five million steps.
+const MAX_DROPS_AGE_S: f64 = 1e5;
+
+/// What the times of a job are counted from.
+pub(super) fn epoch(sequence: Option<&Sequence>) -> Epoch {
+    sequence.and_then(|s| s.start_s.as_ref()).map_or(Epoch::default(), |start| Epoch::near(start.value))
+}
 
 /// The timing of a camera of a job.
 pub(super) fn timing(
@@ -24,7 +33,8 @@ pub(super) fn timing(
     let offset_s = trigger.offset_s.as_ref().map_or(0.0, |o| o.value);
     let half_width_s = trigger.jitter_s.as_ref().map_or(0.0, |j| j.value);
     let timing = Timing {
-        start_s: sequence.and_then(|s| s.start_s.as_ref()).map_or(0.0, |s| s.value) + offset_s,
+        epoch: context.epoch,
+        start_s: sequence.and_then(|s| s.start_s.as_ref()).map_or(0.0, |start| context.since_epoch_s(start)) + offset_s,
         period_s: period_s(sequence, sensor, context),
         jitter: (half_width_s > 0.0).then_some(Jitter { half_width_s, seed, camera: index }),
         exposure: body.exposure.clone(),
@@ -47,6 +57,7 @@ pub(super) fn depend(
     let carried = objects.chain(lamps).any(|motion| motion.as_still().is_none());
     let moves = carried || deforms || air_moves;
     for camera in cameras {
+        check_drops(camera, context);
         camera.time = match () {
             () if moves || !camera.path.is_still() || has_changing_front(camera) => TimeDependence::Motion,
             () if is_modulated => TimeDependence::Lights,
@@ -65,6 +76,17 @@ pub(super) fn depend(
             let problem = "rows that are read in turn see different moments, and a row of the undistorted twin is of several of them";
             context.fault(&camera.body.place, problem, "give a \"global\" shutter, or remove \"undistorted\"");
         }
+    }
+}
+
+/// Drops are followed step by step from their beginning, which takes as long as they are old.
+fn check_drops(camera: &CameraPlan, context: &mut Context<'_>) {
+    let course = camera.body.front.as_ref().and_then(|front| front.course());
+    let age_s = course.map_or(0.0, |course| camera.timing.frame_start_s(0) - course.start_s);
+    if age_s > MAX_DROPS_AGE_S {
+        let problem =
+            format!("the drops begin {age_s:.0} s before frame 0; at most {MAX_DROPS_AGE_S} s can be followed");
+        context.fault(&camera.body.place, problem, "give the drops a \"start_s\" shortly before that of the sequence");
     }
 }
 

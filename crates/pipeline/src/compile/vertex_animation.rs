@@ -5,6 +5,7 @@
 //! file need not be so in the next.
 
 use super::context::Context;
+use etendue_core::Epoch;
 use etendue_scene::asset::{MeshAsset, MeshFrameAsset};
 use etendue_scene::record;
 use etendue_scene::record::vertex_animation::FrameRepeat;
@@ -35,7 +36,7 @@ pub(super) fn mesh(
     if context.faults.len() > before {
         return None;
     }
-    Some(Weld::new(&found, asset).mesh(record, asset))
+    Some(Weld::new(&found, asset).mesh(record, asset, context.epoch))
 }
 
 /// A corner of a face: its part, and its number in it.
@@ -119,12 +120,17 @@ impl<'a> Weld<'a> {
         }
     }
 
-    fn mesh(self, record: &record::VertexAnimation, asset: &MeshAsset) -> Result<(Mesh, Dropped), MeshError> {
+    fn mesh(
+        self,
+        record: &record::VertexAnimation,
+        asset: &MeshAsset,
+        epoch: Epoch,
+    ) -> Result<(Mesh, Dropped), MeshError> {
         let repeat = match record.repeats() {
             FrameRepeat::Hold => Repeat::Hold,
             FrameRepeat::Loop => Repeat::Loop,
         };
-        let animation = VertexAnimation::new(self.frames, record.frame_times_s(), repeat)?;
+        let animation = VertexAnimation::new(self.frames, record.frame_times_s(epoch), repeat)?;
         Mesh::animated(animation, self.uvs, self.triangles, asset.slots.clone())
     }
 }

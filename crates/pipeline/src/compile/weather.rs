@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::{medium, precipitation, spectrum};
 use crate::camera::weather::{Airlight, Falling, Weather};
-use etendue_core::Motion;
+use etendue_core::{Epoch, Motion};
 use etendue_scene::Fault;
 use etendue_scene::asset::Assets;
 use etendue_scene::record::weather::{self as record, Fog};
@@ -18,7 +18,7 @@ const SKY_DEG: f64 = 10.0;
 /// # Errors
 /// All contradictions, with their places.
 pub fn compile_weather(weather: &record::Weather, assets: &Assets) -> Result<Weather, Vec<Fault>> {
-    let mut context = Context::new(assets);
+    let mut context = Context::new(assets, Epoch::default());
     let airlight = airlight(&weather.airlight, &mut context);
     let mut media: Vec<_> = weather.fog.iter().filter_map(|fog| self::fog(fog, &mut context)).collect();
     let falls = precipitation::precipitation(weather.precipitation.as_ref(), &mut media, &mut context);

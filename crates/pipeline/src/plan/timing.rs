@@ -1,8 +1,8 @@
 //! When a camera's frames, captures and rows are exposed.
 
 use super::row_exposure::RowExposure;
-use etendue_core::TimeInterval;
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+use etendue_core::{Epoch, ExactTime, TimeInterval};
 
 /// Whether, and how, a camera's light depends on time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,10 +16,12 @@ pub enum TimeDependence {
     Motion,
 }
 
-/// When a camera's frames, captures and rows are exposed, in simulated time.
+/// When a camera's frames, captures and rows are exposed, in simulated time since an epoch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timing {
-    /// When frame 0 begins but for its jitter, s.
+    /// What the times are counted from.
+    pub epoch: Epoch,
+    /// When frame 0 begins but for its jitter, s since the epoch.
     pub start_s: f64,
     /// From frame to frame, s; `None` where no rate is stated: only frame 0 has a time of its own.
     pub period_s: Option<f64>,
@@ -41,11 +43,23 @@ pub struct Jitter {
 }
 
 impl Timing {
-    /// When a frame begins, s.
+    /// When a frame begins, s since the epoch.
     #[must_use]
     pub fn frame_start_s(&self, frame: u32) -> f64 {
         let deviation = self.jitter.map_or(0.0, |jitter| jitter.deviation_s(frame));
         self.start_s + self.period_s.map_or(0.0, |period_s| f64::from(frame) * period_s) + deviation
+    }
+
+    /// When a frame begins.
+    #[must_use]
+    pub fn frame_start(&self, frame: u32) -> ExactTime {
+        self.epoch.time(self.frame_start_s(frame))
+    }
+
+    /// Half-way through the first capture of a frame: when its pose and its ground truth hold.
+    #[must_use]
+    pub fn frame_middle(&self, frame: u32) -> ExactTime {
+        self.epoch.time(self.capture(frame, 0).middle_s())
     }
 
     /// The exposure of a row of the sensor in a capture of a frame; rows that are not read have that of the nearest.
@@ -83,7 +97,7 @@ mod tests {
         exposure.captures.push(CaptureTiming { start_s: 0.01, exposure_ratio: 0.25 });
         assert!((exposure.longest_row_s() - (0.01 + 0.0025)).abs() < 1e-12);
         assert!((exposure.reading_s() - 20e-5).abs() < 1e-12);
-        let timing = Timing { start_s: 100.0, period_s: Some(0.04), jitter: None, exposure };
+        let timing = Timing { epoch: Epoch::default(), start_s: 100.0, period_s: Some(0.04), jitter: None, exposure };
         let row = timing.row(3, 1, 15);
         assert!((row.start_s() - (100.12 + 0.01 + 5e-5)).abs() < 1e-12 && (row.length_s() - 0.0025).abs() < 1e-12);
         assert_eq!(timing.row(3, 1, 0), timing.row(3, 1, 10), "rows that are not read have the time of the nearest");
@@ -94,7 +108,13 @@ mod tests {
     #[test]
     fn jitter_is_even_bounded_and_each_frames_own() {
         let jitter = Some(Jitter { half_width_s: 0.002, seed: 5, camera: 1 });
-        let timing = Timing { start_s: 1.0, period_s: Some(0.04), jitter, exposure: RowExposure::global(1, 0.0) };
+        let timing = Timing {
+            epoch: Epoch::default(),
+            start_s: 1.0,
+            period_s: Some(0.04),
+            jitter,
+            exposure: RowExposure::global(1, 0.0),
+        };
         let deviations: Vec<f64> = (0..4096).map(|k| timing.frame_start_s(k) - 1.0 - 0.04 * f64::from(k)).collect();
         assert!(deviations.iter().all(|d| d.abs() <= 0.002 + 1e-12));
         let n = deviations.len() as f64;

@@ -3,7 +3,7 @@
 use crate::plan::{CameraPlan, RowExposure, Timing};
 use crate::{Choices, Plan, compile};
 use etendue_core::track::{Interpolation, Key};
-use etendue_core::{CameraPath, CameraPose, Shutter, Track};
+use etendue_core::{CameraPath, CameraPose, Epoch, Shutter, Track};
 use etendue_scene::asset::Assets;
 use etendue_scene::{Description, Overrides};
 use etendue_tracer::accel::{World, WorldBuilder};
@@ -79,6 +79,6 @@ pub(super) fn pose_of(plan: &Plan) -> CameraPose {
 /// The plan's camera on a path, with frames of 10 ms every 0.1 s, the second at 0 s.
 pub(super) fn camera(plan: &Plan, path: &CameraPath, shutter: &Shutter) -> CameraPlan {
     let exposure = RowExposure { shutter: *shutter, ..RowExposure::global(24, 0.01) };
-    let timing = Timing { start_s: -0.1, period_s: Some(0.1), jitter: None, exposure };
+    let timing = Timing { epoch: Epoch::default(), start_s: -0.1, period_s: Some(0.1), jitter: None, exposure };
     CameraPlan { path: path.clone(), timing, ..plan.cameras[0].clone() }
 }

@@ -1,6 +1,7 @@
 //! Places over time, as a file has them.
 
 use crate::record::motion::TrajectoryAxes;
+use etendue_core::ExactTime;
 use glam::{DMat3, DQuat, DVec3};
 
 /// The rows of a trajectory, in the axes of the file.
@@ -17,8 +18,8 @@ pub struct TrajectoryAsset {
 /// Where something is at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrajectoryRow {
-    /// By the file's clock, s.
-    pub time_s: f64,
+    /// By the file's clock.
+    pub time: ExactTime,
     /// m.
     pub position_m: DVec3,
     /// From what moves to the file's world; of length 1 to a hundredth.
@@ -44,7 +45,7 @@ impl TrajectoryAxes {
             Self::Flu => row.rotation,
             Self::Frd | Self::Rdf => turn * row.rotation * turn.conjugate(),
         };
-        TrajectoryRow { time_s: row.time_s, position_m: self.to_world() * row.position_m, rotation }
+        TrajectoryRow { time: row.time, position_m: self.to_world() * row.position_m, rotation }
     }
 }
 
@@ -62,8 +63,8 @@ mod tests {
             (TrajectoryAxes::Rdf, DVec3::new(2.0, -1.0, 3.0), quarter(DVec3::Y)),
         ];
         for (axes, position_m, rotation) in rows {
-            let row = axes.turned(&TrajectoryRow { time_s: 4.0, position_m, rotation });
-            assert_eq!((row.time_s, row.position_m), (4.0, DVec3::new(3.0, -2.0, 1.0)));
+            let row = axes.turned(&TrajectoryRow { time: 4.0.into(), position_m, rotation });
+            assert_eq!((row.time.seconds(), row.position_m), (4.0, DVec3::new(3.0, -2.0, 1.0)));
             assert!((row.rotation * DVec3::X - DVec3::NEG_Y).length() < 1e-15, "{axes:?}");
             assert!((row.rotation * DVec3::Z - DVec3::Z).length() < 1e-15, "{axes:?}");
         }

@@ -6,7 +6,8 @@ use super::rule::{Kind, Rule};
 use crate::document::{Node, Value};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::written::Item;
+use crate::written::{Item, Value as Said};
+use etendue_core::ExactTime;
 
 /// A finite number; `unit` is named where it is missing or wrong ("" for a pure number).
 pub(crate) const fn number(unit: &'static str) -> Number {
@@ -137,6 +138,46 @@ fn as_f64(node: &Node) -> Option<f64> {
         )]
         Value::Whole(v) => Some(v as f64),
         _ => None,
+    }
+}
+
+/// A time in seconds, which a text carries more exactly than a number where it is far from zero.
+pub(crate) const fn time() -> Time {
+    Time
+}
+
+/// See [`time`].
+#[derive(Clone, Copy)]
+pub(crate) struct Time;
+
+impl Rule for Time {
+    type Out = Placed<ExactTime>;
+    fn takes(&self, kind: Kind) -> bool {
+        matches!(kind, Kind::Number | Kind::Text)
+    }
+    fn expected(&self) -> String {
+        "a time (s) from -1e15 to 1e15, as a number or as text, \"1700000000.0000001\"".to_owned()
+    }
+    fn schema(&self) -> Json {
+        let digits = json!({ "type": "string", "examples": ["1700000000.0000001"] });
+        json!({ "anyOf": [number("s").schema(), digits] })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
+        let read = match &node.value {
+            Value::Text(text) => text.parse().ok(),
+            _ => as_f64(node).and_then(ExactTime::from_seconds),
+        };
+        match read {
+            Some(time) => Some(Placed::new(time, node.place.clone())),
+            None => self.refuse(node, faults),
+        }
+    }
+    fn write(&self, value: &Self::Out) -> Option<Item> {
+        let said = match value.value.is_number() {
+            true => Said::Number(value.value.seconds()),
+            false => Said::Text(value.value.to_string()),
+        };
+        Some(Item::at(&value.place, said))
     }
 }
 

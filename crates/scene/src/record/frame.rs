@@ -1,5 +1,7 @@
 //! `[[frames]]`: what moves and carries objects, lamps and cameras.
 
+use etendue_core::ExactTime;
+
 use std::collections::BTreeMap;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
@@ -8,7 +10,7 @@ use super::motion::{Course, Rolls, check_course, check_ways, trajectory_way};
 use super::transform::{yaw_pitch_roll, yaw_pitch_roll_quaternion};
 use crate::fault::{Faults, Named};
 use crate::place::{Place, Placed};
-use crate::reader::{list, name_of, number, record, text, vector};
+use crate::reader::{list, name_of, number, record, text, time, vector};
 
 record! {
     /// A frame that things are placed in, and move with.
@@ -32,7 +34,7 @@ record! {
     /// Where a frame is at a time.
     pub struct FrameKey {
         /// Simulated time, s.
-        required time_s: Placed<f64> = number("s");
+        required time_s: Placed<ExactTime> = time();
         /// Where it is.
         inside placement: FramePlacement;
     }

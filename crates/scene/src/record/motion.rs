@@ -1,10 +1,12 @@
 //! Motion: what objects, frames, lamps and cameras that move say alike.
 
+use etendue_core::ExactTime;
+
 use std::path::PathBuf;
 
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{choice, number, path, record};
+use crate::reader::{choice, number, path, record, time};
 
 choice! {
     /// How something moves from key to key. Before the first key and after the last it holds still.
@@ -37,7 +39,7 @@ record! {
         /// not read.
         required file: Placed<PathBuf> = path(&["csv", "json"]);
         /// Added to the file's times, s. Default: 0.
-        optional time_offset_s: Placed<f64> = number("s");
+        optional time_offset_s: Placed<ExactTime> = time();
         /// What the file's axes point at. Default: "flu", those of the world.
         optional axes: Placed<TrajectoryAxes> = choice();
     }
@@ -82,15 +84,15 @@ pub(super) fn trajectory_way(course: Option<&Course>) -> Option<(&'static str, P
 /// What contradicts keys at these times.
 pub(super) fn check_course<'a>(
     course: Option<&Course>,
-    times_s: impl Iterator<Item = &'a Placed<f64>>,
+    times: impl Iterator<Item = &'a Placed<ExactTime>>,
     faults: &mut Faults,
 ) {
-    let times_s: Vec<&Placed<f64>> = times_s.collect();
-    for pair in times_s.windows(2) {
+    let times: Vec<&Placed<ExactTime>> = times.collect();
+    for pair in times.windows(2) {
         check_order(pair[0], pair[1], faults);
     }
     let Some(Course { interpolation: Some(interpolation), trajectory: None, .. }) = course else { return };
-    if times_s.len() < 2 {
+    if times.len() < 2 {
         faults.add(
             &interpolation.place,
             "\"interpolation\" has no effect here, nothing moves from key to key",
@@ -99,7 +101,7 @@ pub(super) fn check_course<'a>(
     }
 }
 
-fn check_order(before: &Placed<f64>, after: &Placed<f64>, faults: &mut Faults) {
+fn check_order(before: &Placed<ExactTime>, after: &Placed<ExactTime>, faults: &mut Faults) {
     let (before_s, after_s) = (before.value, after.value);
     if after_s == before_s {
         faults.add(&after.place, format!("two keys are both at {after_s} s"), "give each key a time of its own");

@@ -1,11 +1,13 @@
 //! `[[objects]]`: what stands where, of which material and class.
 
+use etendue_core::ExactTime;
+
 use super::motion::{Course, Rolls, check_course, check_ways, trajectory_way};
 use super::shape::Shape;
 use super::transform::Transform;
 use crate::fault::{Faults, Named};
 use crate::place::Placed;
-use crate::reader::{keyed, keyed_by_name, list, name_of, number, record, text};
+use crate::reader::{keyed, keyed_by_name, list, name_of, number, record, text, time};
 
 record! {
     /// A mesh or a shape in the world, once or many times.
@@ -50,7 +52,7 @@ record! {
     /// Where an object stands at a time.
     pub struct Keyframe {
         /// Simulated time, s.
-        required time_s: Placed<f64> = number("s");
+        required time_s: Placed<ExactTime> = time();
         /// Where it stands.
         inside transform: Transform;
     }

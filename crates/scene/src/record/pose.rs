@@ -1,13 +1,13 @@
 //! Where a camera stands and looks, or moves.
 
-use etendue_core::CameraPose;
+use etendue_core::{CameraPose, ExactTime};
 use glam::{DMat3, DVec3};
 
 use super::motion::{Course, check_course, check_ways, trajectory_way};
 use super::transform::yaw_pitch_roll;
 use crate::fault::{Faults, Named};
 use crate::place::{Place, Placed};
-use crate::reader::{keyed, list, name_of, number, record, vector};
+use crate::reader::{keyed, list, name_of, number, record, time, vector};
 
 record! {
     /// Where a camera stands and looks, or moves.
@@ -32,7 +32,7 @@ record! {
     /// Where a camera stands and looks at a time.
     pub struct PoseKey check(check_key) {
         /// Simulated time, s.
-        required time_s: Placed<f64> = number("s");
+        required time_s: Placed<ExactTime> = time();
         /// Where the centre of the entrance pupil stands in the world, m.
         required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
         /// Where it looks.

@@ -1,7 +1,9 @@
 //! `[sequence]`: when the frames of a job are taken.
 
+use etendue_core::ExactTime;
+
 use crate::place::Placed;
-use crate::reader::{number, record};
+use crate::reader::{number, record, time};
 
 record! {
     /// When the frames of a job are taken. Frame k begins at start_s + k / frame_rate_hz, for each camera later by its
@@ -9,7 +11,8 @@ record! {
     pub struct Sequence {
         /// Frames a second, Hz, above 0; 1/"frame_period_s" of a sensor that states one.
         required frame_rate_hz: Placed<f64> = number("Hz").above(0.0);
-        /// Simulated time at which frame 0 begins, s. Default: 0.
-        optional start_s: Placed<f64> = number("s");
+        /// Simulated time at which frame 0 begins, s; a Unix time, for example. A number far from zero is rounded (to 0.24 µs at 1.7·10⁹ s, to
+        /// 1.9 µs at 10¹⁰ s); text, such as "1700000000.0000001", is not. So it is with all times. Default: 0.
+        optional start_s: Placed<ExactTime> = time();
     }
 }

@@ -1,10 +1,12 @@
 //! Meshes whose vertices move, from one file for each of several times.
 
+use etendue_core::{Cycle, Epoch, ExactTime};
+
 use std::path::{Path, PathBuf};
 
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, keyed, list, number, path, record, whole};
+use crate::reader::{choice, keyed, list, number, path, record, time, whole};
 
 record! {
     /// Vertices that move within their mesh: the same mesh in several files, one for each time. From one to the next every vertex goes
@@ -20,7 +22,7 @@ record! {
         /// When the vertices are those of each file.
         inside times: FrameTimes;
         /// Added to all times, s. Default: 0.
-        optional time_offset_s: Placed<f64> = number("s");
+        optional time_offset_s: Placed<ExactTime> = time();
         /// What follows the last file and precedes the first. Default: "hold".
         optional repeat: Placed<FrameRepeat> = choice();
     }
@@ -33,7 +35,7 @@ keyed! {
         /// after the last.
         rate_hz => Rate(Placed<f64>) = number("Hz").above(0.0).at_most(1e6);
         /// A time for each file, s, rising; in a loop one more, at which the first comes again.
-        times_s => Times(Vec<Placed<f64>>) = list(number("s"), 2);
+        times_s => Times(Vec<Placed<ExactTime>>) = list(time(), 2);
     }
 }
 
@@ -62,14 +64,27 @@ impl VertexAnimation {
         self.repeat.as_ref().map_or(FrameRepeat::Hold, |repeat| repeat.value)
     }
 
-    /// The time of each file, s, and of a loop that at which the first comes again.
+    /// The time of each file since the epoch, s, and of a loop that at which the first comes again. A loop far from the epoch is moved by
+    /// whole periods to near it.
     #[must_use]
-    pub fn frame_times_s(&self) -> Vec<f64> {
-        let offset_s = self.time_offset_s.as_ref().map_or(0.0, |offset| offset.value);
-        match &self.times {
-            FrameTimes::Rate(rate) => (0..self.times_needed()).map(|i| offset_s + i as f64 / rate.value).collect(),
-            FrameTimes::Times(times_s) => times_s.iter().map(|time_s| offset_s + time_s.value).collect(),
-        }
+    pub fn frame_times_s(&self, epoch: Epoch) -> Vec<f64> {
+        let offset = self.time_offset_s.as_ref().map_or(ExactTime::default(), |offset| offset.value) - epoch.start();
+        let times: Vec<ExactTime> = match &self.times {
+            FrameTimes::Rate(rate) => {
+                (0..self.times_needed()).map(|i| offset + (i as f64 / rate.value).into()).collect()
+            }
+            FrameTimes::Times(times) => times.iter().map(|time| offset + time.value).collect(),
+        };
+        let (first, last) = (times[0], times[times.len() - 1]);
+        let cycle = match &self.times {
+            FrameTimes::Rate(rate) => Cycle::Frequency(rate.value / self.count.value as f64),
+            FrameTimes::Times(_) => Cycle::Period((last - first).seconds()),
+        };
+        let moved = match self.repeats() {
+            FrameRepeat::Loop => ExactTime::from(cycle.reduced_s(first)) - first,
+            FrameRepeat::Hold => ExactTime::default(),
+        };
+        times.into_iter().map(|time| (time + moved).seconds()).collect()
     }
 
     fn times_needed(&self) -> u64 {
@@ -114,7 +129,7 @@ fn check(animation: &VertexAnimation, faults: &mut Faults) {
     check_times(animation, times_s, faults);
 }
 
-fn check_times(animation: &VertexAnimation, times_s: &[Placed<f64>], faults: &mut Faults) {
+fn check_times(animation: &VertexAnimation, times_s: &[Placed<ExactTime>], faults: &mut Faults) {
     let (found, needed, files) = (times_s.len(), animation.times_needed(), animation.count.value);
     if found as u64 != needed {
         let problem = match animation.repeats() {
@@ -137,6 +152,7 @@ fn check_times(animation: &VertexAnimation, times_s: &[Placed<f64>], faults: &mu
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::place::Place;
 
     #[test]
     fn a_number_stands_once_in_a_name() {
@@ -145,6 +161,27 @@ mod tests {
         for name in ["walk.obj", "%x.obj", "%3d.obj", "%00d.obj", "%0d.obj", "%d-%d.obj", "%+3d.obj", "%012d.obj"] {
             assert_eq!(parts(name), None, "{name}");
         }
+    }
+
+    /// A loop of 0.4 s that began at 0 s is in the same phase after any number of periods, and one that holds is long over.
+    #[test]
+    fn loops_keep_their_phase_at_unix_times() {
+        let animation = |repeat: FrameRepeat| VertexAnimation {
+            place: Place::unstated(),
+            files: PathBuf::from("a_%d.obj").into(),
+            first: None,
+            count: 10.into(),
+            times: FrameTimes::Rate(25.0.into()),
+            time_offset_s: None,
+            repeat: Some(repeat.into()),
+        };
+        let epoch = Epoch::near("1700000000.1".parse().expect("a time"));
+        // 1.7e9 s are 4.25e9 periods.
+        let near = animation(FrameRepeat::Loop).frame_times_s(Epoch::default());
+        let far = animation(FrameRepeat::Loop).frame_times_s(epoch);
+        // Sums and differences with whole seconds below 2^31 round to 2^-53 of a second each.
+        assert!(near.len() == far.len() && near.iter().zip(&far).all(|(a, b)| (a - b).abs() < 1e-15), "{far:?}");
+        assert_eq!(animation(FrameRepeat::Hold).frame_times_s(epoch)[0], -1.7e9);
     }
 
     #[test]

@@ -19,6 +19,7 @@ use crate::record::SampleRecord;
 use crate::records::Records;
 use crate::set::Set;
 use etendue::{Error, OutputFolder, WorldObject};
+use etendue_core::ExactTime;
 use etendue_core::maths::f64::atan2;
 use glam::{DMat3, DVec3};
 use kind::Kind;
@@ -31,22 +32,22 @@ const VERSION: [u64; 3] = [3, 8, 0];
 
 /// The messages of the frames of the sample that is being made.
 #[derive(Default)]
-pub(super) struct Osi(RefCell<BTreeMap<u32, (f64, Message)>>);
+pub(super) struct Osi(RefCell<BTreeMap<u32, (ExactTime, Message)>>);
 
 impl Writer for Osi {
     fn picture(&self, set: &Set, picture: &Picture<'_>, _folder: &mut OutputFolder) -> Result<(), Error> {
         let record = &picture.record;
         if set.cameras.first() == Some(&record.camera) {
-            let message = ground_truth(record.time_s, &picture.world_objects());
-            self.0.borrow_mut().insert(record.frame, (record.time_s, message));
+            let message = ground_truth(record.exact_time(), &picture.world_objects());
+            self.0.borrow_mut().insert(record.frame, (record.exact_time(), message));
         }
         Ok(())
     }
 
     fn sample(&self, _set: &Set, record: &SampleRecord, folder: &mut OutputFolder) -> Result<(), Error> {
         let frames = self.0.take();
-        let first_s = frames.values().next().map_or(0.0, |(time_s, _)| *time_s);
-        let name = name::of(first_s, VERSION, frames.len(), record.sample);
+        let first = frames.values().next().map_or(ExactTime::default(), |(time, _)| *time);
+        let name = name::of(first.seconds(), VERSION, frames.len(), record.sample);
         let mut bytes = Vec::new();
         for (_, message) in frames.values() {
             let length = u32::try_from(message.bytes().len());
@@ -63,10 +64,10 @@ impl Writer for Osi {
 }
 
 /// `GroundTruth`.
-fn ground_truth(time_s: f64, objects: &[WorldObject]) -> Message {
+fn ground_truth(time: ExactTime, objects: &[WorldObject]) -> Message {
     let [major, minor, patch] = VERSION;
     let version = Message::default().varint(1, major).varint(2, minor).varint(3, patch);
-    let message = Message::default().message(1, &version).message(2, &timestamp(time_s));
+    let message = Message::default().message(1, &version).message(2, &timestamp(time));
     objects.iter().fold(message, |message, object| {
         let kind = object.class.as_deref().and_then(|class| Kind::of(class, object.moves));
         match kind {
@@ -78,10 +79,10 @@ fn ground_truth(time_s: f64, objects: &[WorldObject]) -> Message {
 }
 
 /// `Timestamp`: whole seconds, and what is left in ns, not below 0.
-fn timestamp(time_s: f64) -> Message {
-    let whole = time_s.floor();
-    let nanos = ((time_s - whole) * 1e9).round().min(999_999_999.0);
-    Message::default().varint(1, whole as i64 as u64).varint(2, nanos as u64)
+fn timestamp(time: ExactTime) -> Message {
+    let ns = time.nanoseconds();
+    let (whole, rest) = (ns.div_euclid(1_000_000_000), ns.rem_euclid(1_000_000_000));
+    Message::default().varint(1, whole as i64 as u64).varint(2, rest as u64)
 }
 
 /// `StationaryObject`.
@@ -158,7 +159,7 @@ mod tests {
 
     #[test]
     fn times_before_the_beginning_have_nanoseconds_above_0() {
-        assert_eq!(timestamp(-0.25), Message::default().varint(1, u64::MAX).varint(2, 750_000_000));
-        assert_eq!(timestamp(2.0), Message::default().varint(1, 2).varint(2, 0));
+        assert_eq!(timestamp((-0.25).into()), Message::default().varint(1, u64::MAX).varint(2, 750_000_000));
+        assert_eq!(timestamp(2.0.into()), Message::default().varint(1, 2).varint(2, 0));
     }
 }

@@ -1,6 +1,6 @@
 //! What is said of a frame that has a light of its own.
 
-use super::pose_rows;
+use super::{pose_rows, times};
 use etendue_io::{FileDigest, sidecar};
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_sensor::SensorState;
@@ -22,9 +22,12 @@ pub(crate) fn own_frame(plan: &Plan, camera: &CameraPlan, frame: u32, photograph
     let pose = |time_s: f64| pose_rows(&camera.path.at(time_s));
     let mut facts = photograph.unwrap_or_else(|| json!({ "frame": frame }));
     facts["plan_hash"] = plan.hash_text().into();
-    facts["time_s"] = camera.timing.frame_start_s(frame).into();
-    facts["exposure"] = json!({ "start_s": exposure.start_s(), "end_s": exposure.end_s() });
-    facts["pose_time_s"] = exposure.middle_s().into();
+    let timing = &camera.timing;
+    facts["exposure"] = json!({});
+    times::add(&mut facts["exposure"], timing, "start", timing.epoch.time(exposure.start_s()));
+    times::add(&mut facts["exposure"], timing, "end", timing.epoch.time(exposure.end_s()));
+    times::add(&mut facts, timing, "time", timing.frame_start(frame));
+    times::add(&mut facts, timing, "pose_time", timing.frame_middle(frame));
     facts["camera_to_world"] = json!(pose(exposure.middle_s()));
     if camera.time == TimeDependence::Motion && camera.path.still_over(exposure).is_none() {
         facts["camera_to_world_start"] = json!(pose(exposure.start_s()));

@@ -1,5 +1,7 @@
 //! Drops of water on a wind-screen.
 
+use super::super::context::Context;
+use etendue_core::ExactTime;
 use etendue_optics::PRINCIPAL_NM;
 use etendue_optics::front::{Course, Curve, DropsParameters, Sliding, Wiper};
 use etendue_scene::record::front::drops::{self as record, DropAmount};
@@ -10,7 +12,7 @@ use glam::DVec2;
 const SIZE_EXPONENT: f64 = 8.0 / 3.0;
 const CONTACT_ANGLE_DEG: f64 = 60.0;
 
-pub(super) fn drops(r: &record::Drops) -> DropsParameters {
+pub(super) fn drops(r: &record::Drops, context: &mut Context<'_>) -> DropsParameters {
     let contact_angle_deg = r.contact_angle_deg.as_ref().map_or(CONTACT_ANGLE_DEG, |a| a.value);
     DropsParameters {
         offset_mm: r.offset_mm.as_ref().map_or(DVec2::ZERO, |o| DVec2::from_array(o.value)),
@@ -21,12 +23,13 @@ pub(super) fn drops(r: &record::Drops) -> DropsParameters {
         contact_angle_rad: contact_angle_deg.to_radians(),
         index: water(r.dispersion.as_ref().is_none_or(|d| d.value)),
         seed: r.seed.as_ref().map_or(0, |s| s.value),
-        course: r.changes().then(|| course(r)),
+        course: r.changes().then(|| course(r, context)),
     }
 }
 
-fn course(r: &record::Drops) -> Course {
-    let start_s = r.start_s.as_ref().map_or(0.0, |s| s.value);
+fn course(r: &record::Drops, context: &mut Context<'_>) -> Course {
+    let zero_s = context.epoch.to(ExactTime::default());
+    let start_s = r.start_s.as_ref().map_or(zero_s, |start| context.since_epoch_s(start));
     let sliding =
         |s: &record::Sliding| Sliding { speed_mm_s: s.speed_mm_s.value, still_radius_mm: s.still_radius_mm.value };
     let wiper = |w: &record::Wiper| Wiper {
@@ -35,7 +38,7 @@ fn course(r: &record::Drops) -> Course {
         angles_rad: w.angles_deg.value.map(f64::to_radians),
         sweep_s: w.sweep_s.value,
         period_s: w.period_s.value,
-        start_s: w.start_s.as_ref().map_or(start_s, |s| s.value),
+        start_s: w.start_s.as_ref().map_or(start_s, |start| context.since_epoch_s(start)),
     };
     Course {
         start_s,

@@ -38,7 +38,10 @@ pub(super) fn windscreen(r: &record::Windscreen, context: &mut Context<'_>) -> O
     };
     let glass = context.accept(&r.place, Windscreen::new(parameters))?;
     match &r.drops {
-        Some(record) => context.accept(&record.place, glass.with_drops(drops(record))),
+        Some(record) => {
+            let drops = drops(record, context);
+            context.accept(&record.place, glass.with_drops(drops))
+        }
         None => Some(glass),
     }
 }

@@ -44,7 +44,7 @@ pub(super) fn frames(camera: &CameraPlan) -> Option<String> {
         Some(period_s) => format!("{} a second", figure(1.0 / period_s)),
     };
     let jitter = timing.jitter.map_or_else(String::new, |j| format!(" ± {} s of jitter", j.half_width_s));
-    Some(format!("{rate}, from {} s on{jitter}; {why}", timing.start_s))
+    Some(format!("{rate}, from {} s on{jitter}; {why}", timing.epoch.time(timing.start_s)))
 }
 
 /// The shutter in words; `None` where nobody describes one and nothing depends on it.

@@ -1,8 +1,10 @@
 //! Drops of water on a wind-screen.
 
+use etendue_core::ExactTime;
+
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{flag, keyed, number, record, vector, whole};
+use crate::reader::{flag, keyed, number, record, time, vector, whole};
 use crate::record::render::MAX_SEED;
 
 record! {
@@ -33,7 +35,7 @@ record! {
         optional seed: Placed<u64> = whole(0, MAX_SEED);
         /// Simulated time at which they lie on the glass as they fell, s; until then they do not change. Frames long after it take longer: each is
         /// followed from there. Default: 0.
-        optional start_s: Placed<f64> = number("s");
+        optional start_s: Placed<ExactTime> = time();
         /// How long a drop of "max_radius_mm" takes to dry, s, above 0; the square of a radius falls evenly with time. Default: they do not dry.
         optional drying_s: Placed<f64> = number("s").above(0.0);
         /// Drops that fall on the rectangle after "start_s", 1/s, above 0 … 10 000. Default: none.
@@ -71,7 +73,7 @@ record! {
         /// From the beginning of one sweep to that of the next, s, at least twice "sweep_s"; the blade rests in between.
         required period_s: Placed<f64> = number("s").above(0.0);
         /// Simulated time of the first sweep, s. Default: "start_s" of the drops.
-        optional start_s: Placed<f64> = number("s");
+        optional start_s: Placed<ExactTime> = time();
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use etendue_core::ExactTime;
 use etendue_core::waveform::{Between, MAX_LEVEL, Pulses, Waveform, WaveformError};
 
 use super::placement::LampPlacement;
@@ -9,7 +10,7 @@ use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::AssetKind;
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{Number, choice, flag, keyed, list, number, path, record, variants, vector, whole};
+use crate::reader::{Number, choice, flag, keyed, list, number, path, record, time, variants, vector, whole};
 
 variants! {
     /// How the strength of a light changes over time. With "pwm" and "mains" the stated strength is the mean over time, what a
@@ -138,7 +139,7 @@ record! {
     /// How much later all of it is.
     pub struct Recurring {
         /// By how much all of it is later, s. Default: 0.
-        optional delay_s: Placed<f64> = number("s");
+        optional delay_s: Placed<ExactTime> = time();
         /// Whether all places of the light (its instances, the objects of the material) go up and down together. Default: "common".
         optional phases: Placed<Phases> = choice();
     }

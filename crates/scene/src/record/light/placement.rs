@@ -1,10 +1,12 @@
 //! Where a lamp stands and where it points.
 
+use etendue_core::ExactTime;
+
 use glam::{DMat3, DVec3};
 
 use crate::fault::{Faults, Named};
 use crate::place::{Place, Placed};
-use crate::reader::{keyed, list, name_of, number, record, text, vector};
+use crate::reader::{keyed, list, name_of, number, record, text, time, vector};
 use crate::record::motion::{Course, check_course, check_ways, trajectory_way};
 use crate::record::transform::yaw_pitch_roll;
 
@@ -49,7 +51,7 @@ record! {
     /// Where a lamp stands at a time.
     pub struct LampKey check(check_key) {
         /// Simulated time, s.
-        required time_s: Placed<f64> = number("s");
+        required time_s: Placed<ExactTime> = time();
         /// Where it stands in the world, m.
         required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
         /// Where it points. Default: not turned.

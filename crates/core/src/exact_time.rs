@@ -1,0 +1,298 @@
+//! Simulated time far from zero: whole seconds beside a fraction, and the epoch that times within a job are counted from.
+//!
+//! An f64 of 1.7·10⁹ s (a Unix time) has steps of 0.24 µs, and one of 10¹⁰ s of 1.9 µs. What a user states is therefore held as whole
+//! seconds and a fraction, and a job that begins far from zero counts its times from a whole second near its beginning.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// A point of simulated time or a difference of two: whole seconds and a fraction of a second of the same sign.
+///
+/// The order is that of time. Resolution: 10⁻¹⁶ s, whatever the whole seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+pub struct ExactTime {
+    whole_s: i64,
+    /// Above −1 and below 1; 0 or of the sign of `whole_s`.
+    fraction_s: f64,
+}
+
+impl ExactTime {
+    /// The greatest distance from zero, s: whole seconds up to it are exact in an f64.
+    pub const MAX_S: f64 = 1e15;
+
+    /// The time of a number of seconds, exactly; `None` where it is not finite or beyond [`ExactTime::MAX_S`].
+    #[must_use]
+    pub fn from_seconds(seconds: f64) -> Option<Self> {
+        let is_legal = seconds.abs() <= Self::MAX_S;
+        is_legal.then(|| Self { whole_s: seconds.trunc() as i64, fraction_s: seconds.fract() })
+    }
+
+    /// The nearest f64, s; of a time made by [`ExactTime::from_seconds`] the same number.
+    #[must_use]
+    pub fn seconds(self) -> f64 {
+        self.whole_s as f64 + self.fraction_s
+    }
+
+    /// Its whole seconds, towards zero.
+    #[must_use]
+    pub fn whole_s(self) -> i64 {
+        self.whole_s
+    }
+
+    /// Its fraction of a second: 0, or of the sign of the time.
+    #[must_use]
+    pub fn fraction_s(self) -> f64 {
+        self.fraction_s
+    }
+
+    /// Whole nanoseconds since zero, the nearest.
+    #[must_use]
+    pub fn nanoseconds(self) -> i128 {
+        i128::from(self.whole_s) * 1_000_000_000 + (self.fraction_s * 1e9).round() as i128
+    }
+
+    /// The step of an f64 at this time, s: to what [`ExactTime::seconds`] tells it.
+    #[must_use]
+    pub fn step_s(self) -> f64 {
+        let seconds = self.seconds().abs();
+        seconds.next_up() - seconds
+    }
+
+    /// Whether a number in a file says the same.
+    #[must_use]
+    pub fn is_number(self) -> bool {
+        Self::from_seconds(self.seconds()) == Some(self)
+    }
+
+    fn new(whole_s: i64, fraction_s: f64) -> Self {
+        let carried = fraction_s.trunc();
+        let (mut whole_s, mut fraction_s) = (whole_s + carried as i64, fraction_s - carried);
+        if whole_s > 0 && fraction_s < 0.0 {
+            (whole_s, fraction_s) = (whole_s - 1, fraction_s + 1.0);
+        } else if whole_s < 0 && fraction_s > 0.0 {
+            (whole_s, fraction_s) = (whole_s + 1, fraction_s - 1.0);
+        }
+        // A sum with 1 may have rounded up to it.
+        match fraction_s.abs() < 1.0 {
+            true => Self { whole_s, fraction_s },
+            false => Self { whole_s: whole_s + fraction_s as i64, fraction_s: 0.0 },
+        }
+    }
+}
+
+impl std::ops::Add for ExactTime {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self::new(self.whole_s + other.whole_s, self.fraction_s + other.fraction_s)
+    }
+}
+
+impl std::ops::Sub for ExactTime {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.whole_s - other.whole_s, self.fraction_s - other.fraction_s)
+    }
+}
+
+impl From<f64> for ExactTime {
+    /// As [`ExactTime::from_seconds`], clamped; 0 for NaN.
+    fn from(seconds: f64) -> Self {
+        Self::from_seconds(seconds.clamp(-Self::MAX_S, Self::MAX_S)).unwrap_or_default()
+    }
+}
+
+impl fmt::Display for ExactTime {
+    /// Decimal seconds that [`FromStr`] reads back as the same time: `1700000000.0000001`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let fraction = self.fraction_s.abs().to_string();
+        let sign = if self.whole_s < 0 || self.fraction_s < 0.0 { "-" } else { "" };
+        write!(f, "{sign}{}{}", self.whole_s.unsigned_abs(), fraction.trim_start_matches('0'))
+    }
+}
+
+/// The text is no time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no decimal number of seconds from -1e15 to 1e15")]
+pub struct NoTime;
+
+impl FromStr for ExactTime {
+    type Err = NoTime;
+
+    /// Decimal seconds such as `-12.5`, or with an exponent, which are read as an f64.
+    fn from_str(text: &str) -> Result<Self, NoTime> {
+        let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
+        let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+        let is_digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+        if !is_digits(whole) || !is_digits(fraction) || whole.len() > 15 || digits.len() == fraction.len() + 1 {
+            let seconds: f64 = text.parse().map_err(|_| NoTime)?;
+            return Self::from_seconds(seconds).ok_or(NoTime);
+        }
+        let whole_s: i64 = whole.parse().map_err(|_| NoTime)?;
+        let fraction_s = format!("0.{fraction}0").parse().map_err(|_| NoTime)?;
+        let sum = Self::new(whole_s, fraction_s);
+        Ok(if text.starts_with('-') { Self::default() - sum } else { sum })
+    }
+}
+
+/// The whole second of simulated time that all times of a job are counted from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Epoch {
+    whole_s: i64,
+}
+
+impl Epoch {
+    /// Distance from zero from which a job has an epoch of its own, s. An f64 tells times below it to 1.2·10⁻¹⁰ s.
+    const FAR_S: f64 = 1e6;
+
+    /// The epoch of a job that begins at `start`: zero unless that is far from zero.
+    #[must_use]
+    pub fn near(start: ExactTime) -> Self {
+        Self { whole_s: if start.seconds().abs() < Self::FAR_S { 0 } else { start.whole_s } }
+    }
+
+    /// Whether times are counted from zero.
+    #[must_use]
+    pub fn is_zero(self) -> bool {
+        self.whole_s == 0
+    }
+
+    /// Seconds from the epoch to `time`.
+    #[must_use]
+    pub fn to(self, time: ExactTime) -> f64 {
+        ExactTime { whole_s: time.whole_s - self.whole_s, ..time }.seconds()
+    }
+
+    /// The time that is `since_s` after the epoch.
+    #[must_use]
+    pub fn time(self, since_s: f64) -> ExactTime {
+        ExactTime { whole_s: self.whole_s, fraction_s: 0.0 } + since_s.into()
+    }
+
+    /// The epoch as a time.
+    #[must_use]
+    pub fn start(self) -> ExactTime {
+        self.time(0.0)
+    }
+}
+
+/// What recurs: by its frequency where that is what is known, as 1/f is rounded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cycle {
+    /// So often a second, Hz.
+    Frequency(f64),
+    /// After so many seconds.
+    Period(f64),
+}
+
+impl Cycle {
+    /// The period, s.
+    #[must_use]
+    pub fn period_s(self) -> f64 {
+        match self {
+            Self::Frequency(frequency_hz) => 1.0 / frequency_hz,
+            Self::Period(period_s) => period_s,
+        }
+    }
+
+    /// A delay of the same phase: the same number where it is near zero, else less than a period from zero but for its fraction of a
+    /// second. Error of the phase: 3·10⁻⁸ periods or less of what the frequency or the period says exactly.
+    #[must_use]
+    pub fn reduced_s(self, delay: ExactTime) -> f64 {
+        if delay.seconds().abs() < Epoch::FAR_S {
+            return delay.seconds();
+        }
+        let whole_s = match self {
+            Self::Frequency(frequency_hz) => periods(frequency_hz, delay.whole_s) / frequency_hz,
+            // The remainder of f64 is exact.
+            Self::Period(period_s) => delay.whole_s as f64 % period_s,
+        };
+        whole_s + delay.fraction_s
+    }
+}
+
+/// The fraction of `frequency_hz` × `whole_s`. Whole numbers of Hz add none, and of the rest two parts of 25 bits and more are
+/// multiplied, whose products round to 3·10⁻⁸.
+fn periods(frequency_hz: f64, whole_s: i64) -> f64 {
+    const PART: i64 = 1 << 25;
+    let rest = frequency_hz.fract();
+    let (high, low) = (whole_s / PART, whole_s % PART);
+    let of_high = (rest * PART as f64).fract() * high as f64;
+    (of_high.fract() + (rest * low as f64).fract()).fract()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn time(text: &str) -> ExactTime {
+        text.parse().unwrap_or_else(|_| panic!("{text}"))
+    }
+
+    #[test]
+    fn numbers_go_through_unchanged() {
+        for seconds in [0.0, -0.0, 0.1, -0.25, 1e-300, 12.34, -7.9, 1.7e9, 1e10 + 0.5, -1e15] {
+            let exact = ExactTime::from_seconds(seconds).expect("within the range");
+            assert_eq!(exact.seconds(), seconds);
+            assert_eq!(exact.to_string().parse(), Ok(exact), "{seconds}");
+            assert!(exact.is_number());
+        }
+        for seconds in [f64::NAN, f64::INFINITY, -1.1e15] {
+            assert_eq!(ExactTime::from_seconds(seconds), None);
+        }
+    }
+
+    #[test]
+    fn text_keeps_nanoseconds_at_any_distance() {
+        assert_eq!(time("1700000000.000000001").nanoseconds(), 1_700_000_000_000_000_001);
+        assert_eq!(time("-10000000000.000000001").nanoseconds(), -10_000_000_000_000_000_001);
+        assert_eq!(time("1700000000.0000001").to_string(), "1700000000.0000001");
+        assert!(!time("1700000000.0000001").is_number());
+        assert_eq!(
+            [time("5"), time("+.5"), time("-2."), time("1e3")].map(ExactTime::seconds),
+            [5.0, 0.5, -2.0, 1000.0]
+        );
+        for text in ["", ".", "-", "1.2.3", "1_000", "nan", "inf", "1e16", "12:30", "0x10"] {
+            assert_eq!(text.parse::<ExactTime>(), Err(NoTime), "{text}");
+        }
+    }
+
+    #[test]
+    fn sums_carry_and_times_are_in_order() {
+        assert_eq!((time("1.75") + time("0.5")).to_string(), "2.25");
+        assert_eq!((time("1.25") - time("2")).to_string(), "-0.75");
+        assert_eq!((time("-1.5") + time("2")).to_string(), "0.5");
+        assert_eq!((time("1") + time("-0.00000000000000000001")).seconds(), 1.0);
+        let rising = ["-2", "-1.5", "-1.25", "-0.5", "0", "0.25", "1", "1.125"].map(time);
+        assert!(rising.array_windows().all(|[a, b]| a < b));
+    }
+
+    #[test]
+    fn an_epoch_keeps_what_lies_near_it() {
+        let epoch = Epoch::near(time("1700000000.25"));
+        assert_eq!(epoch.to(time("1700000000.0000001")), 1e-7);
+        assert_eq!(epoch.time(1e-7).to_string(), "1700000000.0000001");
+        assert_eq!(epoch.to(ExactTime::default()), -1.7e9);
+        assert!(Epoch::near(time("-999999.5")).is_zero() && !Epoch::near(time("-1e6")).is_zero());
+    }
+
+    /// Exact products of integers: 2^k periods of a binary fraction of a hertz, and of 59.94 Hz by rational arithmetic.
+    #[test]
+    fn phases_hold_at_any_distance() {
+        let phase = |cycle: Cycle, text: &str| (cycle.reduced_s(time(text)) / cycle.period_s()).rem_euclid(1.0);
+        for far in ["1700000000", "10000000000", "999999999999999"] {
+            assert_eq!(Cycle::Frequency(1e6).reduced_s(time(far)), 0.0);
+            let whole: i64 = far.parse().expect("digits");
+            let eighths = (whole % 8) as f64 / 8.0;
+            assert_eq!(phase(Cycle::Frequency(50.125), far), eighths);
+            // The f64 nearest to 59.94 is m/2^47.
+            let m = (59.94 * 2_f64.powi(47)) as i128;
+            let exact = ((m * i128::from(whole)) % (1 << 47)) as f64 / 2_f64.powi(47);
+            assert!((phase(Cycle::Frequency(59.94), far) - exact).abs() < 1e-7, "{far}");
+        }
+        assert_eq!(Cycle::Period(0.25).reduced_s(time("1700000000.125")), 0.125);
+        assert_eq!(Cycle::Period(7.0).reduced_s(time("-1700000003")), -2.0);
+        assert_eq!(Cycle::Period(0.3).reduced_s(time("10.5")), 10.5);
+    }
+}
