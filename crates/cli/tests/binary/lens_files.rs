@@ -174,3 +174,12 @@ fn what_a_codev_file_changes_in_an_unknown_way_is_refused_with_its_line() {
         etendue(words).refused(&["lens.seq", ":14", message]);
     }
 }
+
+/// What another program says of a surface and this one does not read is noted once, with its first line; how it is drawn is not.
+#[test]
+fn keywords_of_a_surface_that_are_not_read_are_noted() {
+    let lens = zmx("", BK7).replace("  CURV", "  COMM front\n  COAT AR\n  CURV");
+    let remarks = measured("coated.zmx", &lens).remarks();
+    assert_eq!(remarks.matches("COAT of a surface is not read").count(), 1, "{remarks}");
+    assert!(!remarks.contains("COMM"), "{remarks}");
+}

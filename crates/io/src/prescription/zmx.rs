@@ -6,6 +6,7 @@
 //!
 //! Glasses are read in `zmx_glass.rs`.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use etendue_scene::asset::{LensFields, PrescriptionAsset};
@@ -21,6 +22,7 @@ pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> 
     for (i, line) in text.lines().enumerate() {
         let words = Words { file, line: i + 1, words: line.split_whitespace().collect() };
         if !words.words.is_empty() {
+            reader.note_unknown(&words, line.starts_with([' ', '\t']));
             reader.command(&words)?;
         }
     }
@@ -34,7 +36,16 @@ struct Reader {
     field_kind: usize,
     counts: [usize; 2],
     heights: Vec<f64>,
+    /// Keywords of surfaces that are not read, noted once each.
+    unknown: BTreeSet<String>,
 }
+
+/// Keywords of a surface, which stand indented below its SURF: those that are read, and those that say how it is drawn (HIDE, MIRR, SLAB,
+/// COMM), propagated by diffraction (POPS), mounted (MEMA, OEMA, FIMP) or found (MAZH), which changes no image.
+const OF_SURFACE: [&str; 26] = [
+    "TYPE", "CURV", "CONI", "PARM", "DISZ", "CLAP", "FLAP", "DIAM", "STOP", "OBDC", "GLAS", "SQAP", "ELAP", "OBSC",
+    "SQOB", "ELOB", "UDAD", "COMM", "HIDE", "MIRR", "SLAB", "POPS", "FIMP", "MEMA", "OEMA", "MAZH",
+];
 
 impl Reader {
     fn command(&mut self, w: &Words<'_>) -> Result<(), Error> {
@@ -79,6 +90,15 @@ impl Reader {
                 Some(surface) => property(surface, w),
                 None => Ok(()),
             },
+        }
+    }
+
+    /// Notes keywords of a surface that are not read: coatings (COAT), and what is not known.
+    fn note_unknown(&mut self, w: &Words<'_>, indented: bool) {
+        let name = w.word(0);
+        let of_surface = indented && !self.raw.surfaces.is_empty() && !OF_SURFACE.contains(&name);
+        if of_surface && self.unknown.insert(name.to_owned()) {
+            self.raw.notes.push(format!("line {}: {name} of a surface is not read", w.line));
         }
     }
 

@@ -132,6 +132,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     air::remark(&cameras, &media, context);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
+    surroundings::warn_of_enclosed(scene, &frames, &world, &material_table, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
     let rendered = cameras.iter().map(|camera| camera.settings.range_nm);
     if let Some(remark) = rendered.reduce(coverage::around).and_then(|range_nm| context.coverage.remark(range_nm)) {

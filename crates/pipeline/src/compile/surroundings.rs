@@ -1,8 +1,11 @@
-//! Cameras that stand in glass or water: said in the plan, as their light is dimmed and n² times as bright.
+//! Cameras that stand in glass or water, whose light is dimmed and n² times as bright, and media that lie there, which have no effect.
 
 use super::context::Context;
+use super::frames::Frames;
+use super::medium::inner_points;
 use crate::plan::CameraPlan;
 use etendue_core::TimeInterval;
+use etendue_scene::record::Scene;
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::World;
 use etendue_tracer::integrator::Surroundings;
@@ -46,6 +49,31 @@ pub(super) fn remark(
                     name(open)
                 ),
             );
+        }
+    }
+}
+
+/// Warns of media that lie in a transparent solid with all that is looked at of them.
+pub(super) fn warn_of_enclosed(
+    scene: &Scene,
+    frames: &Frames<'_>,
+    world: &World,
+    material_table: &MaterialTable,
+    context: &mut Context<'_>,
+) {
+    if !material_table.has_solids() {
+        return;
+    }
+    let is_enclosed = |point| {
+        let view = world.render_space_for_few(point, TimeInterval::default());
+        Surroundings::of(&view, material_table).solid.is_some()
+    };
+    for medium in &scene.media {
+        let points = inner_points(medium, frames, context);
+        if !points.is_empty() && points.into_iter().all(is_enclosed) {
+            let text = "lies inside a transparent solid, which displaces media: it has no effect; solids absorb by their material's \
+                        own transmittance, and scattering inside them is not modelled";
+            context.warn_on(format!("medium \"{}\"", medium.name.value), text);
         }
     }
 }

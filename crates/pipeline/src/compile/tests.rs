@@ -4,6 +4,7 @@ mod modulation;
 
 use super::{Choices, compile};
 use crate::Plan;
+use crate::plan::remark::{Remark, Weight};
 use etendue_optics::effects::PointSpread;
 use etendue_scene::asset::{Assets, ImageAsset, ImagePixels};
 use etendue_scene::{Description, Overrides, preset};
@@ -52,6 +53,28 @@ fn a_camera_in_water_is_told() {
     };
     assert!(ball(0.0).iter().any(|r| r.text.starts_with("stands inside \"water\"")), "{:?}", ball(0.0));
     assert!(!ball(5.0).iter().any(|r| r.text.contains("stands inside")));
+}
+
+/// Solids displace media, so that milk in a glass would be clear water without a word.
+#[test]
+fn a_medium_within_glass_is_warned_of_and_one_beside_it_is_not() {
+    let glass = "[[scene.materials]]\nname = \"glass\"\ntype = \"dielectric\"\nindex = 1.5\n\
+                 [[scene.objects]]\nname = \"ball\"\nmaterial = \"glass\"\nshape = { type = \"sphere\", radius_m = 1 }\nposition_m = [5, 0, 1]\n";
+    let warned = |medium: &str| {
+        let medium = format!("[[scene.media]]\nname = \"milk\"\nextinction_per_m = 2\n{medium}");
+        let remarks = plan(&format!("{glass}{medium}")).expect("no fault").remarks;
+        let is_of_milk = |remark: &&Remark| remark.about.as_deref() == Some("medium \"milk\"");
+        remarks.iter().filter(is_of_milk).map(|remark| remark.weight == Weight::Warning).collect::<Vec<_>>()
+    };
+    assert_eq!(warned("shape = { type = \"sphere\", radius_m = 1 }\nposition_m = [5, 0, 1]\n"), [true]);
+    assert_eq!(warned("shape = { type = \"box\", size_m = [0.5, 0.5, 0.5] }\nposition_m = [5, 0.2, 1]\n"), [true]);
+    for beside in [
+        "",
+        "shape = { type = \"sphere\", radius_m = 3 }\nposition_m = [5, 0, 1]\n",
+        "shape = { type = \"box\", size_m = [1, 1, 1] }\n",
+    ] {
+        assert!(warned(beside).is_empty(), "{beside}");
+    }
 }
 
 fn light(keys: &str) -> Result<Plan, String> {
