@@ -7,3 +7,4 @@ mod flicker;
 mod panics;
 mod progress;
 mod rig;
+mod scale;
