@@ -31,4 +31,4 @@ pub use ink::{Ink, Paint};
 pub use light::{Light, Meter};
 pub use panel::Panel;
 pub use ray_camera::{Footprint, RasterRay, RayCamera};
-pub use write::{ChartFile, Contents, Request, files, picture};
+pub use write::{ChartFile, Contents, Request, camera_file, files, picture};

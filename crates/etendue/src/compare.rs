@@ -1,4 +1,4 @@
-//! Two results side by side: errors with their uncertainty.
+//! Two results side by side: errors A − B, of the first against the second, with their uncertainty.
 //!
 //! Channels that carry a variance (`variance.NAME` beside `NAME`) are compared by a Z test with a family-wise
 //! significance over all channels; identities and everything without variance must be equal.
@@ -16,7 +16,7 @@ use std::path::Path;
 pub struct ChannelComparison {
     /// The channel's name.
     pub name: String,
-    /// Errors of B against A; `None` for identities.
+    /// Errors A − B of A against the reference B; `None` for identities.
     pub errors: Option<ErrorSummary>,
     /// Samples that are not equal bit for bit.
     pub unequal: usize,

@@ -46,6 +46,9 @@ pub struct JobRequest {
     /// Whether light comes in passes, by a schedule that doubles where neither the job nor a time says others, and what is saved
     /// is refined and can be resumed after each.
     pub progressive: bool,
+    /// Size of every camera's picture over that of its sensor, `1/4` or `0.25`, with larger pixels; `None`: as each camera says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<String>,
     /// The integrator of every camera; `None`: the job's, or path.
     pub integrator: Option<Integrator>,
     /// A preset for what the job file leaves open.
@@ -77,6 +80,7 @@ impl JobRequest {
             noise: None,
             time_s: None,
             progressive: false,
+            scale: None,
             integrator: None,
             quality: None,
             camera: None,
@@ -176,6 +180,9 @@ impl JobRequest {
         if let Some(integrator) = self.integrator {
             let level = integrator.name();
             flag("integrator", "integrator", format!("\"{level}\""), level);
+        }
+        if let Some(scale) = &self.scale {
+            overrides.push_sensor(&format!("--scale {scale}"), "scale", scale);
         }
         overrides
     }

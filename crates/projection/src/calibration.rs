@@ -98,6 +98,16 @@ impl Calibration {
         Ok(Self { greatest_angle_rad: Some(angle_rad), ..self })
     }
 
+    /// The same camera with pixels of `k` × `k` of its own. In raster coordinates, in which the corner of the picture is the origin, every
+    /// length is 1/k of what it was: the matrix whole, so that polynomials in pixels stay. A size that does not divide is rounded down.
+    #[must_use]
+    pub fn with_larger_pixels(self, k: usize) -> Self {
+        let CameraMatrix { fx, fy, skew, cx, cy } = self.matrix;
+        let by = k as f64;
+        let matrix = CameraMatrix { fx: fx / by, fy: fy / by, skew: skew / by, cx: cx / by, cy: cy / by };
+        Self { matrix, size_px: self.size_px.map(|side| side / k), ..self }
+    }
+
     /// The camera model.
     #[must_use]
     pub fn model(&self) -> &Model {

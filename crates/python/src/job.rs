@@ -29,7 +29,7 @@ impl Job {
     ///
     /// description: the path of a job file (TOML), or its keys as a dict.
     /// set: changes of keys, as --set: a dict of dotted keys to values (None takes a key out), or texts key=value.
-    /// spp, noise, time_s (s), progressive, seed, integrator, quality, camera: as the options of `etendue render`.
+    /// spp, noise, time_s (s), progressive, scale ("1/4" or 0.25), seed, integrator, quality, camera: as the options of `etendue render`.
     /// files: files that the job names, made here: names to dicts or texts (TOML).
     /// meshes: meshes that the job names: names to dicts of positions (n, 3), triangles (m, 3), and where they are wanted normals (n, 3) and uvs (n, 2),
     /// in the unit and axes that the job states for the mesh.
@@ -40,7 +40,7 @@ impl Job {
     /// Raises InputError with every fault of all files.
     #[staticmethod]
     #[pyo3(signature = (
-        description, *, set = None, spp = None, noise = None, time_s = None, progressive = false, seed = None, integrator = None, quality = None,
+        description, *, set = None, spp = None, noise = None, time_s = None, progressive = false, scale = None, seed = None, integrator = None, quality = None,
         camera = None, files = None, meshes = None, folder = None, sandbox = None, texture_memory_mb = 512, cache = None, film_memory_mb = 2048,
         scratch = None,
     ))]
@@ -53,6 +53,7 @@ impl Job {
         noise: Option<f64>,
         time_s: Option<f64>,
         progressive: bool,
+        scale: Option<&Bound<'_, PyAny>>,
         seed: Option<u64>,
         integrator: Option<&str>,
         quality: Option<&str>,
@@ -75,6 +76,7 @@ impl Job {
             noise,
             time_s,
             progressive,
+            scale: scale.map(|scale| Ok::<_, PyErr>(scale.str()?.to_cow()?.into_owned())).transpose()?,
             seed,
             integrator: integrator.map(|word| of_word(word, "integrator", &integrators)).transpose()?,
             quality: quality.map(|word| of_word(word, "quality", &qualities)).transpose()?,

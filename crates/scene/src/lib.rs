@@ -30,8 +30,8 @@ pub mod written;
 
 pub use fault::{Fault, Faults, stated};
 pub use load::{
-    CameraSetup, Description, ReadText, Trigger, Unused, load_camera, load_datasheet, load_laboratory, load_variations,
-    load_weather, stated_render_keys,
+    CameraSetup, Description, ReadText, Trigger, Unused, edit, load_camera, load_datasheet, load_laboratory,
+    load_variations, load_weather, stated_render_keys,
 };
 pub use overrides::Overrides;
 pub use place::{Place, Placed};

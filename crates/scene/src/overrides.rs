@@ -45,12 +45,22 @@ impl From<&str> for Text {
     }
 }
 
-/// A key of `[render]` that a flag of the command line sets for all cameras.
+/// A key that a flag of the command line sets for all cameras.
 #[derive(Clone, Debug)]
 struct Flag {
+    table: FlagTable,
     key: &'static str,
     value: String,
     text: Arc<str>,
+}
+
+/// The table of a flag's key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum FlagTable {
+    /// `[render]` of the job.
+    Render,
+    /// `[sensor]` of each camera, in the job or in its own file.
+    Sensors,
 }
 
 impl Overrides {
@@ -72,7 +82,12 @@ impl Overrides {
     /// Sets `key` of `[render]` for all cameras, over what files and the other changes say; faults are told of the flag of
     /// the command line `text`.
     pub fn push_render(&mut self, text: &str, key: &'static str, value: &str) {
-        self.flags.push(Flag { key, value: value.to_owned(), text: text.into() });
+        self.flags.push(Flag { table: FlagTable::Render, key, value: value.to_owned(), text: text.into() });
+    }
+
+    /// The same of `key` of each camera's `[sensor]`: of all cameras of a job, or of the camera of a camera file.
+    pub fn push_sensor(&mut self, text: &str, key: &'static str, value: &str) {
+        self.flags.push(Flag { table: FlagTable::Sensors, key, value: value.to_owned(), text: text.into() });
     }
 
     /// Applies those that say which files are read (`early`), or the others.
@@ -96,10 +111,15 @@ impl Overrides {
 }
 
 impl Flag {
-    /// Sets the key in the job, and takes it out of its cameras.
     fn apply(&self, document: &mut Node) {
-        let (file, key): (Arc<Path>, _) = (document.place.file().into(), join("render", self.key));
-        let place = |key: &str| Place::flag(file.clone(), self.text.clone(), key.into());
+        match self.table {
+            FlagTable::Render => self.apply_to_render(document),
+            FlagTable::Sensors => self.apply_to_sensors(document),
+        }
+    }
+
+    /// Sets the key in the job, and takes it out of its cameras.
+    fn apply_to_render(&self, document: &mut Node) {
         let Some(job) = document.as_table_mut() else { return };
         if let Some(Node { value: Value::List(cameras), .. }) = job.get_mut("cameras") {
             for camera in cameras {
@@ -108,14 +128,45 @@ impl Flag {
                 }
             }
         }
-        let Some(render) = entry_or_table(job, "render", &place("render")).as_table_mut() else { return };
-        render.remove(self.key);
-        let at = |key: &Arc<str>| Place::set(file.clone(), self.text.clone(), key.clone());
+        let place = self.place(document, "render");
+        let Some(job) = document.as_table_mut() else { return };
+        self.set(entry_or_table(job, "render", &place));
+    }
+
+    /// Sets the key in the sensor of each camera; a camera without one is refused when it is read.
+    fn apply_to_sensors(&self, document: &mut Node) {
+        let Some(table) = document.as_table_mut() else { return };
+        if let Some(Node { value: Value::List(cameras), .. }) = table.get_mut("cameras") {
+            cameras.iter_mut().filter_map(sensor_of_entry).for_each(|sensor| self.set(sensor));
+        } else if let Some(sensor) = table.get_mut("sensor") {
+            self.set(sensor);
+        }
+    }
+
+    /// Sets the key in `table`.
+    fn set(&self, table: &mut Node) {
+        let key: Arc<str> = join(&table.place.key(), self.key).into();
+        let place = self.place(table, &key);
+        let at = |key: &Arc<str>| Place::set(place.file().into(), self.text.clone(), key.clone());
         let value =
             parse_override(&self.value, &key, &at).map_or_else(|| Value::Text(self.value.clone()), |node| node.value);
-        let node = Node { place: place(&key), value };
-        render.entries.push(Entry { key: self.key.to_owned(), place: place(&key), node });
+        let Some(table) = table.as_table_mut() else { return };
+        table.remove(self.key);
+        let node = Node { place: place.clone(), value };
+        table.entries.push(Entry { key: self.key.to_owned(), place, node });
     }
+
+    fn place(&self, node: &Node, key: &str) -> Place {
+        Place::flag(node.place.file().into(), self.text.clone(), key.into())
+    }
+}
+
+/// The sensor of a camera of a job, in its entry or in its file.
+fn sensor_of_entry(entry: &mut Node) -> Option<&mut Node> {
+    let entry = entry.as_table_mut()?;
+    let is_in_file = entry.get("file").is_some_and(|file| file.as_table().is_some());
+    let camera = if is_in_file { entry.get_mut("file")?.as_table_mut()? } else { entry };
+    camera.get_mut("sensor")
 }
 
 fn note_no_pair(document: &Node, text: &Text, faults: &mut Faults) {

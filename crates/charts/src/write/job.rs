@@ -39,7 +39,8 @@ fn camera_entry(station: &CameraStation, series: bool) -> Table {
 }
 
 /// The camera file of a station. A dark frame has that of the exposure before it.
-pub(super) fn camera_file(station: &CameraStation) -> String {
+#[must_use]
+pub fn camera_file(station: &CameraStation) -> String {
     match station.exposure_s {
         Some(_) => format!("{}.toml", station.name.replace("dark", "exposure")),
         None => "camera.toml".to_owned(),

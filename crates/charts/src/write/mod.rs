@@ -13,6 +13,7 @@ mod truth;
 use print::{print_name, print_of};
 
 pub use file::{ChartFile, Contents};
+pub use job::camera_file;
 pub use picture::picture;
 pub use request::Request;
 

@@ -18,7 +18,7 @@ const OUTLINE: usize = 32;
 /// `truth.json`.
 pub(super) fn truth(request: &Request<'_>) -> String {
     let drawing = request.drawing;
-    let facts = json!({
+    let mut facts = json!({
         "format": 1,
         "program": "etendue",
         "chart": request.chart.name(),
@@ -53,6 +53,12 @@ pub(super) fn truth(request: &Request<'_>) -> String {
         "patches": drawing.patches.iter().map(|p| patch(p, request)).collect::<Vec<_>>(),
         "cameras": cameras(request),
     });
+    if !request.changes.is_empty() {
+        facts["conventions"]["changed_keys"] = json!(
+            "changes of the job's keys that are made after the chart is drawn: all other facts are those of the chart without them"
+        );
+        facts["changed_keys"] = json!(request.changes);
+    }
     let mut text = String::new();
     lay_out(&facts, 0, &mut text);
     text.push('\n');

@@ -44,6 +44,7 @@ fn made(chart: &Chart, stations: &[CameraStation]) -> Vec<ChartFile> {
         remove: &[],
         specimen: Some(1),
         seed: 3,
+        changes: &[],
     })
 }
 

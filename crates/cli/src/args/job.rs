@@ -35,6 +35,10 @@ pub struct JobArgs {
     /// sensor), at most render.max_spp
     #[arg(long, value_name = "F", conflicts_with = "spp")]
     pub noise: Option<f64>,
+    /// Size of every picture over that of its sensor, 1/K or the same as a decimal fraction: the same field of view with K × K times larger pixels
+    /// and the same mean level, as sensor.scale says it
+    #[arg(long, value_name = "1/K")]
+    pub scale: Option<String>,
     /// How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]
     #[arg(long, value_parser = choice(INTEGRATORS))]
     pub integrator: Option<Integrator>,
@@ -78,6 +82,7 @@ impl From<&JobArgs> for JobRequest {
             noise: a.noise,
             time_s: None,
             progressive: false,
+            scale: a.scale.clone(),
             integrator: a.integrator,
             quality: a.quality,
             camera: a.camera.clone(),

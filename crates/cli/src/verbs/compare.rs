@@ -10,10 +10,10 @@ use std::path::PathBuf;
 /// `etendue compare`
 #[derive(Debug, Args)]
 pub struct Compare {
-    /// One result: an EXR or PNG file
+    /// One result: an EXR or PNG file; errors are A − B
     #[arg(value_name = "A")]
     pub a: PathBuf,
-    /// The other, of the same size and channels
+    /// The other, of the same size and channels: the reference, which is subtracted from A
     #[arg(value_name = "B")]
     pub b: PathBuf,
     /// Print JSON
@@ -22,7 +22,7 @@ pub struct Compare {
     /// Family-wise probability of calling equal images different, for images that carry their variance
     #[arg(long, value_name = "P", default_value_t = 0.001)]
     pub significance: f64,
-    /// Where they differ, write A, B and their difference as pictures into this folder
+    /// Where they differ, write A, B and |A − B| as pictures into this folder
     #[arg(long, value_name = "DIR")]
     pub difference: Option<PathBuf>,
 }
@@ -33,8 +33,8 @@ impl Compare {
         let comparison = compare(a, b, self.significance)?;
         let (channels, differ) = (&comparison.channels, comparison.differs());
         match self.json {
-            true => console.print_json(&as_json(channels, differ)),
-            false => console.print(&as_table(channels, differ)),
+            true => console.print_json(&as_json(self, channels, differ)),
+            false => console.print(&as_table(self, channels, differ)),
         }
         if !differ {
             return Ok(());
@@ -46,11 +46,19 @@ impl Compare {
     }
 }
 
-fn as_table(findings: &[ChannelComparison], differ: bool) -> String {
+fn as_table(compare: &Compare, findings: &[ChannelComparison], differ: bool) -> String {
     let widest = findings.iter().map(|f| f.name.len()).max().unwrap_or(0).max("channel".len());
     let mut text = format!(
-        "{:widest$}  {:>11} {:>11} {:>11} {:>11} {:>9} {:>9}  verdict\n",
-        "channel", "rmse", "bias", "± (1 σ)", "max |error|", "max |z|", "unequal"
+        "difference = A − B = {} − {}\n{:widest$}  {:>11} {:>11} {:>11} {:>11} {:>9} {:>9}  verdict\n",
+        compare.a.display(),
+        compare.b.display(),
+        "channel",
+        "rmse",
+        "bias",
+        "± (1 σ)",
+        "max |error|",
+        "max |z|",
+        "unequal"
     );
     for f in findings {
         let _ = write!(text, "{:widest$}", f.name);
@@ -77,9 +85,12 @@ fn as_table(findings: &[ChannelComparison], differ: bool) -> String {
     text
 }
 
-fn as_json(findings: &[ChannelComparison], differ: bool) -> String {
+fn as_json(compare: &Compare, findings: &[ChannelComparison], differ: bool) -> String {
     let channels: Vec<Value> = findings.iter().map(channel_json).collect();
-    let text = json!({ "differ": differ, "channels": channels }).to_string();
+    let text = json!({
+        "difference": "a - b", "a": compare.a.display().to_string(), "b": compare.b.display().to_string(), "differ": differ, "channels": channels,
+    })
+    .to_string();
     format!("{text}\n")
 }
 

@@ -261,3 +261,69 @@ fn nonsense_is_refused_and_leaves_nothing() {
     etendue(["chart", "flat-field", "--camera", &camera, "-o", &text(&kept)])
         .refused(&["already there", "--overwrite"]);
 }
+
+/// A change of the camera changes the chart with it: half the focal length sees twice the width at the same distance.
+#[test]
+fn set_changes_the_written_job_and_its_camera() {
+    let place = Place::new();
+    let usual = place.chart("dots", &["--distance-m", "2"]);
+    let usual = truth(&usual)["seen"]["field_mm"][0].as_f64().expect("a width");
+    let options = [
+        "--distance-m",
+        "2",
+        "--overwrite",
+        "--set",
+        "cameras.camera.lens.focal_length_mm=1",
+        "--set",
+        "cameras.camera.lens.distortion=null",
+        "--set",
+        "render.spp=7",
+        "--set",
+        "cameras.camera.output.raw=true",
+        "--set",
+        "scene.environment.luminance_cd_m2=42",
+    ];
+    let changed = place.chart("dots", &options);
+    let facts = truth(&changed);
+    let width = facts["seen"]["field_mm"][0].as_f64().expect("a width");
+    // The axis is 50 of 96 px from the left: twice 50 px of 8 µm at 1 mm and 2 m.
+    assert!((width - 1600.0).abs() < 1e-3 && width > 1.5 * usual, "{width} mm, before {usual} mm");
+    let set: Vec<&str> = options.iter().copied().skip(8).filter(|option| *option != "--set").collect();
+    assert_eq!(facts["changed_keys"], serde_json::json!(set));
+    let read = |name: &str| std::fs::read_to_string(changed.join(name)).expect("a file");
+    let [job, scene, camera] = ["job.toml", "scene.toml", "camera.toml"].map(read);
+    assert!(job.contains("spp = 7") && job.contains("raw = true"), "{job}");
+    assert!(scene.contains("luminance_cd_m2 = 42"), "{scene}");
+    assert!(camera.contains("focal_length_mm = 1") && camera.contains("\"lens.distortion\""), "{camera}");
+    let plan = etendue(["plan", &text(&changed.join("job.toml"))]).ok().out;
+    assert!(plan.contains("7 samples a pixel") && plan.contains("pinhole, 1 mm"), "{plan}");
+}
+
+/// A wrong key is told as `render` tells it of the same job.
+#[test]
+fn wrong_keys_of_a_chart_are_those_of_its_job() {
+    let place = Place::new();
+    let folder = place.chart("dots", &[]);
+    let (job, camera) = (text(&folder.join("job.toml")), text(&place.path("small.toml")));
+    let [out, render] = ["new", "render"].map(|name| text(&place.path(name)));
+    for change in [
+        "render.sp=16",
+        "render.spp=0",
+        "cameras.front.lens.f_number=4",
+        "cameras.camera.sensor.widht_px=32",
+        "scene.environment.luminance=1",
+        "spp",
+        "scene.objects.nothing=null",
+    ] {
+        let expected = etendue(["render", &job, "-o", &render, "--set", change]);
+        let found = etendue(["chart", "dots", "--camera", &camera, "-o", &out, "--set", change]);
+        let folder = text(&folder);
+        let lines = |lines: &str| lines.replace(&folder, "").replace(&out, "");
+        assert_eq!((found.status, lines(&found.err)), (2, lines(&expected.err)), "{change}");
+        assert!(!place.path("new").exists(), "{change} left something");
+    }
+    // The exposures of a series are the chart's own.
+    let series = ["chart", "flat-field", "--exposures", "3", "--camera", "ccd-mono", "-o", &out];
+    etendue(series.iter().chain(&["--set", "cameras.exposure-01.sensor.exposure_s=0.005"]))
+        .refused(&["cameras.exposure-01.sensor.exposure_s=0.005", "the exposures of a series"]);
+}

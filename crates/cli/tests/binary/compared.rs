@@ -56,6 +56,11 @@ fn measurements_are_compared_by_their_uncertainties() {
     assert!((number(&k1["e_n"]) - 0.5_f64.sqrt()).abs() < 1e-9, "{k1}");
     assert!((number(&k1["relative_error_percent"]) - 1.0).abs() < 1e-9, "{k1}");
     assert_eq!(k1["verdict"], "agrees");
+    assert_eq!(report["settings"]["difference"], "a - b");
+    assert_eq!(report["notes"][0], format!("differences are A − B: {a} − {b}"));
+    let turned: Value = serde_json::from_str(&compare(&b, &a).out).expect("JSON");
+    let k1 = row(&turned, "quantities", "quantity", "forward_k1");
+    assert!((number(&k1["relative_error_percent"]) + 100.0 / 101.0).abs() < 1e-9, "0.1 − 0.101 over 0.101: {k1}");
     // A count is laid beside the other and not tested.
     assert_eq!(row(&report, "quantities", "quantity", "points")["verdict"], Value::Null);
     let curve = row(&report, "curves", "curve", "curve");
@@ -71,8 +76,9 @@ fn equal_measurements_agree_and_are_drawn() {
     let plot = text(&folder.path().join("both.svg"));
     let said = etendue(["measure", "compare", &a, &a, "--plot", &plot]).ok().out;
     assert!(said.contains("forward_k1") && !said.contains("differs"), "{said}");
+    assert!(said.contains(&format!("A − B: {a} − {a}")) && said.contains("(A − B)/|B| %"), "{said}");
     let drawn = std::fs::read_to_string(&plot).expect("a plot");
-    assert!(drawn.contains("relative error"), "both curves and their relative error");
+    assert!(drawn.contains("relative error of A against B"), "both curves and their relative error");
 }
 
 /// The forward camera declares k1 = −0.12 in its principal distance: 4.6 mm focused at 10 m, 4.6 · 10/(10 − 0.0046) mm. Within half of

@@ -12,6 +12,7 @@ mod bad_results;
 mod bad_sensors;
 mod black_boxes;
 mod bounded_work;
+mod box_formats;
 mod branches;
 mod browser;
 mod bytes;

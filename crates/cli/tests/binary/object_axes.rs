@@ -8,9 +8,9 @@ use std::fs;
 use std::path::Path;
 
 /// Length, width and height of a car, m.
-const SIZE_M: DVec3 = DVec3::new(2.8, 1.5, 1.3);
+pub(crate) const SIZE_M: DVec3 = DVec3::new(2.8, 1.5, 1.3);
 /// The axes of a file that point forward and upwards: z up, y up as in every glTF, and less usual ones.
-const AXES: [(&str, &str); 5] = [("x", "z"), ("z", "y"), ("-z", "y"), ("-x", "y"), ("y", "-z")];
+pub(crate) const AXES: [(&str, &str); 5] = [("x", "z"), ("z", "y"), ("-z", "y"), ("-x", "y"), ("y", "-z")];
 
 fn axis(name: &str) -> DVec3 {
     let vector = match name.trim_start_matches('-') {
@@ -22,7 +22,7 @@ fn axis(name: &str) -> DVec3 {
 }
 
 /// The car as a file with these axes; its origin is on the ground.
-fn obj(forward: &str, up: &str) -> String {
+pub(crate) fn obj(forward: &str, up: &str) -> String {
     let (forward, up) = (axis(forward), axis(up));
     let to_file = DMat3::from_cols(forward, up.cross(forward), up);
     let corner = |i: u32| DVec3::from([i & 1, i >> 1 & 1, i >> 2].map(f64::from)) - DVec3::new(0.5, 0.5, 0.0);
@@ -32,7 +32,7 @@ fn obj(forward: &str, up: &str) -> String {
 }
 
 /// A camera that looks along x at the car, which is turned about the vertical by `turn_deg`.
-fn job(forward: &str, up: &str, turn_deg: f64) -> String {
+pub(crate) fn job(forward: &str, up: &str, turn_deg: f64) -> String {
     format!(
         "format = 1\n[sequence]\nframe_rate_hz = 10\n[[cameras]]\nname = \"front\"\nposition_m = [0, 0, 1.5]\nlook_at_m = [10, 0, 1.5]\n\
          lens = {{ type = \"pinhole\", focal_length_mm = 4, f_number = 4 }}\n\
@@ -49,17 +49,17 @@ fn job(forward: &str, up: &str, turn_deg: f64) -> String {
 }
 
 /// The numbers of a KITTI label behind its type.
-fn label(folder: &Path) -> Vec<f64> {
+pub(crate) fn label(folder: &Path) -> Vec<f64> {
     let file = folder.join("kitti/front/training/label_2/000000.txt");
     let text = fs::read_to_string(file).expect("a label");
     text.split_whitespace().skip(1).map(|word| word.parse().expect("a number")).collect()
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().expect("an array").iter().map(|number| number.as_f64().expect("a number")).collect()
 }
 
-fn assert_near(found: &[f64], expected: &[f64], about: &str) {
+pub(crate) fn assert_near(found: &[f64], expected: &[f64], about: &str) {
     let is_near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5);
     assert!(found.len() == expected.len() && is_near, "{about}: {found:?}, expected {expected:?}");
 }

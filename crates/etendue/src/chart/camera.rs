@@ -35,8 +35,8 @@ enum Source {
 }
 
 impl ChartCamera {
-    /// Reads and compiles a camera file, or a reference camera by its name.
-    pub(super) fn load(given: &str) -> Result<Self, Error> {
+    /// Reads and compiles a camera file, or a reference camera by its name, with changes `key=value` of its keys.
+    pub(super) fn load(given: &str, changes: &[String]) -> Result<Self, Error> {
         let stand_in = STAND_INS.iter().find(|(name, _)| *name == given);
         let source = match stand_in {
             Some((name, text)) => Source::StandIn(format!("{name}.toml"), text),
@@ -55,7 +55,7 @@ impl ChartCamera {
             Some(text) if file == path => Ok(text.to_owned()),
             _ => read_text(file),
         };
-        let camera = load_camera(&path, &read, &Overrides::default()).map_err(|f| Error::inputs(f.list()))?;
+        let camera = load_camera(&path, &read, &Overrides::new(changes)).map_err(|f| Error::inputs(f.list()))?;
         let assets = load_assets(&asset::of_camera(&camera)).map_err(Error::inputs)?;
         Ok(Self { body: compile_camera(&camera, &assets).map_err(Error::inputs)?, source })
     }
@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn stand_ins_are_whole() {
         for (name, _) in STAND_INS {
-            let camera = ChartCamera::load(name).unwrap_or_else(|failure| panic!("{name}: {failure}"));
+            let camera = ChartCamera::load(name, &[]).unwrap_or_else(|failure| panic!("{name}: {failure}"));
             assert_eq!(camera.body.sensor.is_some(), name != "laboratory");
         }
     }

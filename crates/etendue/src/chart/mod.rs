@@ -1,15 +1,19 @@
 //! A chart as a scene ready to render, with its truth beside it.
 
 mod camera;
+mod changes;
 mod exposure;
 mod own_camera;
 
 use crate::error::Error;
 use crate::ranges::whole;
 use camera::ChartCamera;
+use changes::Changes;
 pub use etendue_charts::design;
 pub use etendue_charts::{Chart, ChartError, Exposures, Spacing};
-use etendue_charts::{Contents, Footprint, Meter, RasterRay, RayCamera, Request, camera_stations, files, picture};
+use etendue_charts::{
+    Contents, Footprint, Meter, RasterRay, RayCamera, Request, camera_file, camera_stations, files, picture,
+};
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
 use etendue_io::photograph::Encoding;
@@ -18,6 +22,7 @@ use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::light_meter::LightMeter;
 use glam::DVec2;
 pub use own_camera::ChartBeforeCamera;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The distance of a sheet before a camera that is focused nowhere in particular, m.
@@ -41,6 +46,8 @@ pub struct ChartRequest {
     pub chart: Chart,
     /// The camera: a camera file (its name ends in `.toml`), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory.
     pub camera: String,
+    /// Changes of the written job's keys, `key=value`, e.g. `render.spp=16` or `cameras.camera.lens.f_number=4`: the chart is drawn for the changed camera.
+    pub set: Vec<String>,
     /// Distance of the sheet from the entrance pupil, m, above 0; `None`: where the camera is focused, or 1.
     pub distance_m: Option<f64>,
     /// Width of what the camera sees of the sheet, mm, above 0: the distance follows.
@@ -71,6 +78,7 @@ impl ChartRequest {
         Self {
             chart,
             camera: camera.into(),
+            set: Vec::new(),
             distance_m: None,
             width_mm: None,
             illuminant: "D65".to_owned(),
@@ -89,10 +97,57 @@ impl ChartRequest {
 /// Makes a chart as a scene with its job, cameras and truth in a folder; answers with the files' paths.
 ///
 /// # Errors
-/// Where the camera cannot be used, the chart does not fit it, or the folder cannot be written.
+/// Where the camera cannot be used, the chart does not fit it, a change is none of the job's keys, or the folder cannot be written.
 pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Result<Vec<PathBuf>, Error> {
     whole("--views", request.views, 1..=200)?;
-    let camera = ChartCamera::load(&request.camera)?;
+    let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+    let changes = Changes(&request.set);
+    let of_camera = changes.of_camera();
+    if !of_camera.is_empty() {
+        // Faults of keys are those of the job whose keys they are, before anything is drawn for the changed camera.
+        let unchanged = drawn(request, &[], folder.path())?;
+        changes.check(folder.path(), &unchanged.texts())?;
+    }
+    let mut files = drawn(request, &of_camera, folder.path())?;
+    if !request.set.is_empty() {
+        let mut texts = files.texts();
+        changes.check(folder.path(), &texts)?;
+        changes.write(folder.path(), &files.camera_files, &mut texts)?;
+        files.replace(texts);
+    }
+    folder.claim(files.all.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
+    files.all.iter().try_for_each(|(name, bytes)| folder.write(name, bytes).map_err(Error::run))?;
+    folder.commit().map_err(Error::run)
+}
+
+/// The files of a chart, by their names in its folder.
+struct ChartFiles {
+    all: Vec<(String, Vec<u8>)>,
+    /// Those of its cameras.
+    camera_files: Vec<String>,
+}
+
+impl ChartFiles {
+    /// The files of the format.
+    fn texts(&self) -> BTreeMap<String, String> {
+        let is_text = |name: &str| name.ends_with(".toml");
+        let texts = self.all.iter().filter(|(name, _)| is_text(name));
+        texts.map(|(name, bytes)| (name.clone(), String::from_utf8_lossy(bytes).into_owned())).collect()
+    }
+
+    /// Puts other texts in the place of those of the same names.
+    fn replace(&mut self, mut texts: BTreeMap<String, String>) {
+        for (name, bytes) in &mut self.all {
+            if let Some(text) = texts.remove(name) {
+                *bytes = text.into_bytes();
+            }
+        }
+    }
+}
+
+/// The files of the chart that is asked for, drawn for its camera with `changes` of its keys.
+fn drawn(request: &ChartRequest, changes: &[String], folder: &Path) -> Result<ChartFiles, Error> {
+    let camera = ChartCamera::load(&request.camera, changes)?;
     let body = &camera.body;
     let ray = |at: DVec2| {
         let (front, _) = body.truth_ray(at)?;
@@ -118,7 +173,7 @@ pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Re
     if request.hand_held {
         stations = stations.into_iter().zip(0..).map(|(station, nth)| station.hand_held(request.seed, nth)).collect();
     }
-    let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+    let base = camera.base(folder)?;
     let files = Request {
         chart: &request.chart,
         drawing: &drawing,
@@ -127,13 +182,13 @@ pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Re
         meter: meter.as_ref(),
         light: &light,
         stations: &stations,
-        camera: &camera.base(folder.path())?,
+        camera: &base,
         remove: camera.removed_keys(),
         specimen: camera.specimen(&stations),
         seed: request.seed,
+        changes: &Changes(&request.set).of_job(),
     };
-    write(&files, &camera, request.png_dpi, &mut folder)?;
-    folder.commit().map_err(Error::run)
+    chart_files(&files, &camera, request.png_dpi)
 }
 
 fn refused(error: ChartError) -> Error {
@@ -161,23 +216,17 @@ fn footprint(request: &ChartRequest, camera: &ChartCamera, ray_camera: &RayCamer
     ray_camera.footprint(distance_m).map_err(refused)
 }
 
-fn write(
-    request: &Request<'_>,
-    camera: &ChartCamera,
-    png_dpi: Option<f64>,
-    folder: &mut OutputFolder,
-) -> Result<(), Error> {
-    let files = files(request);
+fn chart_files(request: &Request<'_>, camera: &ChartCamera, png_dpi: Option<f64>) -> Result<ChartFiles, Error> {
     let print = png_dpi.map(|dpi| picture(request.drawing, dpi)).transpose().map_err(refused)?;
     let print = print.map(|plane| encode_display(&plane, &Encoding::Srgb)).transpose().map_err(Error::run)?;
     let stand_in = camera.stand_in().map(|(name, text)| (name, text.as_bytes().to_vec()));
     let mut all: Vec<(String, Vec<u8>)> = stand_in.into_iter().collect();
-    for file in files {
+    for file in files(request) {
         all.push((file.name, bytes(file.contents)?));
     }
     all.extend(print.map(|bytes| ("chart.png".to_owned(), bytes)));
-    folder.claim(all.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
-    all.iter().try_for_each(|(name, bytes)| folder.write(name, bytes).map_err(Error::run))
+    let camera_files = request.stations.iter().map(camera_file).collect::<BTreeSet<_>>().into_iter().collect();
+    Ok(ChartFiles { all, camera_files })
 }
 
 fn bytes(contents: Contents) -> Result<Vec<u8>, Error> {

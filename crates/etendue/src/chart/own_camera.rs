@@ -45,7 +45,7 @@ impl ChartBeforeCamera {
         let file = folder.join(CAMERA);
         write(&file, &File::new(of_constant_exposure(setup.camera).to_table()))?;
         let given = file.to_string_lossy().into_owned();
-        let focus_m = ChartCamera::load(&given)?.body.lens.focus_distance_m();
+        let focus_m = ChartCamera::load(&given, &[])?.body.lens.focus_distance_m();
         let far = focus_m.filter(|m| !(m.is_finite() && *m < FAR_M)).map(|_| FAR_M);
         let request = ChartRequest { camera: given, distance_m: request.distance_m.or(far), ..request.clone() };
         make(&request, (folder, Existing::Refuse))?;

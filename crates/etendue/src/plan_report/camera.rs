@@ -18,6 +18,8 @@ pub struct CameraReport {
     pub light_of: String,
     /// Columns and rows of the sensor.
     pub sensor_px: [usize; 2],
+    /// Their number over that of the sensor as described, in a row: 1, or 0.25 of `--scale 1/4`.
+    pub scale: f64,
     /// Columns and rows that are rendered: with the margin of effects, or of the stored radiance.
     pub film_px: [u32; 2],
     /// How its light depends on time: "none", "lights", "motion".
@@ -180,6 +182,7 @@ impl CameraReport {
             index: camera.index,
             light_of: camera.light.camera.clone(),
             sensor_px: [raster.width(), raster.height()],
+            scale: 1.0 / camera.body.scale as f64,
             film_px: [width, height],
             time: match camera.time {
                 TimeDependence::None => "none",

@@ -8,3 +8,4 @@ mod flicker;
 mod panics;
 mod progress;
 mod rig;
+mod scale;

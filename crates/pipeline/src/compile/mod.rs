@@ -35,6 +35,7 @@ mod precipitation;
 mod processing;
 mod row_exposure;
 mod samples;
+mod scale;
 mod sensor;
 mod settings;
 mod shape;

@@ -335,7 +335,7 @@ pub(super) fn depth_of_field(render: &Render, body: &CameraBody, context: &mut C
                 context.fault(&blend.place, "nothing is blurred by this", "add \"near_m\" or \"far_m\"");
                 return None;
             }
-            context.accept(&blend.place, FastBlend::new(parameters(blend))).map(DepthOfField::Fast)
+            context.accept(&blend.place, FastBlend::new(parameters(blend, body.scale))).map(DepthOfField::Fast)
         }
         Some(render::DepthOfField::Named(method)) => match method.value {
             DepthMethod::Physical if blurs => Some(DepthOfField::Physical),
@@ -349,10 +349,17 @@ pub(super) fn depth_of_field(render: &Render, body: &CameraBody, context: &mut C
     }
 }
 
-fn parameters(blend: &render::FastBlend) -> FastParameters {
+/// The blur shrinks with the picture of a camera whose pixels are `scale` times as large.
+fn parameters(blend: &render::FastBlend, scale: u64) -> FastParameters {
     let [blurred_near_m, sharp_near_m] = blend.near_m.as_ref().map_or([0.0; 2], |range| range.value);
     let [sharp_far_m, blurred_far_m] = blend.far_m.as_ref().map_or([f64::INFINITY; 2], |range| range.value);
-    FastParameters { sharp_near_m, sharp_far_m, blurred_near_m, blurred_far_m, blur_px: blend.blur_px.value }
+    FastParameters {
+        sharp_near_m,
+        sharp_far_m,
+        blurred_near_m,
+        blurred_far_m,
+        blur_px: blend.blur_px.value / scale as f64,
+    }
 }
 
 fn route(

@@ -95,6 +95,8 @@ pub struct CameraBody {
     pub place: Place,
     /// The pixel grid.
     pub raster: Raster,
+    /// How many pixels of the described sensor one pixel has in a row and in a column: 4 of scale 1/4.
+    pub scale: u64,
     /// The lens.
     pub lens: Lens,
     /// What stands in front of it; `None` where nothing does.

@@ -84,6 +84,7 @@ class Job:
         noise: float | None = None,
         time_s: float | None = None,
         progressive: bool = False,
+        scale: str | float | None = None,
         seed: int | None = None,
         integrator: Literal["flat", "direct", "path"] | None = None,
         quality: Literal["draft", "standard", "reference"] | None = None,
@@ -101,7 +102,7 @@ class Job:
 
         description: the path of a job file (TOML), or its keys as a dict.
         set: changes of keys, as ``--set``: a dict of dotted keys to values (None takes a key out), or texts ``key=value``.
-        spp, noise, time_s, progressive, seed, integrator, quality, camera: as the options of ``etendue render``.
+        spp, noise, time_s, progressive, scale ("1/4" or 0.25), seed, integrator, quality, camera: as the options of ``etendue render``.
         files: files that the job names, made here: names to dicts or texts (TOML).
         meshes: meshes that the job names: names to dicts of ``positions`` (n, 3), ``triangles`` (m, 3), and where they are wanted ``normals`` (n, 3)
         and ``uvs`` (n, 2), in the unit and axes that the job states for the mesh.

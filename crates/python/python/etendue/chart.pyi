@@ -22,6 +22,7 @@ def dots(
     views: int | None = None,
     hand_held: bool = False,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -42,6 +43,7 @@ def dots(
     views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
     hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -64,6 +66,7 @@ def checkerboard(
     views: int | None = None,
     hand_held: bool = False,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -83,6 +86,7 @@ def checkerboard(
     views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
     hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -106,6 +110,7 @@ def circles(
     views: int | None = None,
     hand_held: bool = False,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -126,6 +131,7 @@ def circles(
     views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
     hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -149,6 +155,7 @@ def flat_field(
     highest: float | None = None,
     levels: Sequence[float] | None = None,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -169,6 +176,7 @@ def flat_field(
     highest: The same in the longest [default: 1.3].
     levels: The shares themselves, e.g. 0.01,0.1,0.5,1.2. One, or a sequence of them.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -192,6 +200,7 @@ def backlit(
     levels: Sequence[float] | None = None,
     dark: bool = False,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -212,6 +221,7 @@ def backlit(
     levels: The shares themselves, e.g. 0.01,0.1,0.5,1.2. One, or a sequence of them.
     dark: A dark frame for each exposure.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -234,6 +244,7 @@ def slanted_edges(
     angle_deg: float | None = None,
     contrast: float | None = None,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -253,6 +264,7 @@ def slanted_edges(
     angle_deg: By how much it is turned clockwise, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45. Default: 5.
     contrast: Luminance of light over dark. Default: 4.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -276,6 +288,7 @@ def slanted_star(
     angle_deg: float | None = None,
     contrast: float | None = None,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -296,6 +309,7 @@ def slanted_star(
     angle_deg: By how much it is turned clockwise, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45. Default: 5.
     contrast: Luminance of light over dark. Default: 4.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -315,6 +329,7 @@ def siemens_star(
     cycles: int | None = None,
     binary: bool = False,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -331,6 +346,7 @@ def siemens_star(
     cycles: Cycles around the centre. Default: 72.
     binary: In black and white instead of a cosine.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -350,6 +366,7 @@ def dead_leaves(
     smallest_px: float | None = None,
     largest_ratio: float | None = None,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -366,6 +383,7 @@ def dead_leaves(
     smallest_px: Radius of the smallest leaves, px. Default: 1.
     largest_ratio: Radius of the largest leaves over the side of the chart. Default: 0.2.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -386,6 +404,7 @@ def oecf_steps(
     density: float | None = None,
     backlit: bool = False,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -403,6 +422,7 @@ def oecf_steps(
     density: Density of the darkest step [default: 2, with --backlit 3].
     backlit: A transparency on a light box in the dark instead of a print in even light.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -420,6 +440,7 @@ def oecf_steps(
 def colorchecker(
     *,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -434,6 +455,7 @@ def colorchecker(
     """The 24 patches of the ColorChecker by their measured spectra: colour error.
 
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -455,6 +477,7 @@ def contrast_patches(
     pitch_mm: float | None = None,
     decades: float | None = None,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -473,6 +496,7 @@ def contrast_patches(
     pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
     decades: Decades of luminance from the brightest patch to the darkest. Default: 3.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -494,6 +518,7 @@ def flare(
     pitch_mm: float | None = None,
     trap_ratio: float | None = None,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -512,6 +537,7 @@ def flare(
     pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
     trap_ratio: Diameter of a trap's opening over the distance between traps. Default: 0.25.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -531,6 +557,7 @@ def led_flicker(
     frequencies_hz: Sequence[float] | None = None,
     duty_cycles: Sequence[float] | None = None,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -547,6 +574,7 @@ def led_flicker(
     frequencies_hz: Frequencies of the columns, Hz. One, or a sequence of them. Default: 90,110,200,400.
     duty_cycles: Duties of the rows: shares of the period that a pulse lasts. One, or a sequence of them. Default: 0.1,0.25,0.5.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -568,6 +596,7 @@ def points(
     pitch_mm: float | None = None,
     diameter_px: float | None = None,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -586,6 +615,7 @@ def points(
     pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
     diameter_px: Diameter of a lamp, px of the picture's middle. Default: 0.5.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -605,6 +635,7 @@ def depth_wedge(
     steps: int | None = None,
     far_ratio: float | None = None,
     camera: str | None = None,
+    set: Mapping[str, Any] | Sequence[str] | None = None,
     distance_m: float | None = None,
     width_mm: float | None = None,
     illuminant: str | None = None,
@@ -621,6 +652,7 @@ def depth_wedge(
     steps: Steps of the staircase. Default: 8.
     far_ratio: Distance of the farthest panel over that of the nearest. Default: 3.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.

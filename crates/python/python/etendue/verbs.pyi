@@ -40,6 +40,7 @@ def rig(
     set: Mapping[str, Any] | Sequence[str] | None = None,
     spp: int | None = None,
     noise: float | None = None,
+    scale: str | None = None,
     integrator: Literal["flat", "direct", "path"] | None = None,
     quality: Literal["draft", "standard", "reference"] | None = None,
     camera: str | None = None,
@@ -61,6 +62,7 @@ def rig(
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
     spp: Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's].
     noise: As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp.
+    scale: Size of every picture over that of its sensor, 1/K or the same as a decimal fraction: the same field of view with K × K times larger pixels and the same mean level, as sensor.scale says it.
     integrator: How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]. One of flat, direct, path.
     quality: A preset of samples and bounces, for what the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
@@ -85,6 +87,7 @@ def tradeoff(
     set: Mapping[str, Any] | Sequence[str] | None = None,
     spp: int | None = None,
     noise: float | None = None,
+    scale: str | None = None,
     integrator: Literal["flat", "direct", "path"] | None = None,
     quality: Literal["draft", "standard", "reference"] | None = None,
     camera: str | None = None,
@@ -110,6 +113,7 @@ def tradeoff(
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
     spp: Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's].
     noise: As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp.
+    scale: Size of every picture over that of its sensor, 1/K or the same as a decimal fraction: the same field of view with K × K times larger pixels and the same mean level, as sensor.scale says it.
     integrator: How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]. One of flat, direct, path.
     quality: A preset of samples and bounces, for what the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
@@ -138,6 +142,7 @@ def dataset(
     set: Mapping[str, Any] | Sequence[str] | None = None,
     spp: int | None = None,
     noise: float | None = None,
+    scale: str | None = None,
     integrator: Literal["flat", "direct", "path"] | None = None,
     quality: Literal["draft", "standard", "reference"] | None = None,
     camera: str | None = None,
@@ -164,6 +169,7 @@ def dataset(
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
     spp: Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's].
     noise: As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp.
+    scale: Size of every picture over that of its sensor, 1/K or the same as a decimal fraction: the same field of view with K × K times larger pixels and the same mean level, as sensor.scale says it.
     integrator: How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]. One of flat, direct, path.
     quality: A preset of samples and bounces, for what the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
@@ -383,10 +389,10 @@ def compare(
 ) -> dict[str, Any]:
     """Compare two results: errors with their uncertainty; exit status 1 where they differ.
 
-    a: One result: an EXR or PNG file.
-    b: The other, of the same size and channels.
+    a: One result: an EXR or PNG file; errors are A − B.
+    b: The other, of the same size and channels: the reference, which is subtracted from A.
     significance: Family-wise probability of calling equal images different, for images that carry their variance. Default: 0.001.
-    difference: Where they differ, write A, B and their difference as pictures into this folder.
+    difference: Where they differ, write A, B and |A − B| as pictures into this folder.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a dict.

@@ -128,8 +128,13 @@ fn own_tree(file: &Path, read: &ReadText<'_>, named: &Place, faults: &mut Faults
             return None;
         }
     };
+    own_tree_of(file, &text, faults)
+}
+
+/// What the text of a file itself says.
+pub(super) fn own_tree_of(file: &Path, text: &str, faults: &mut Faults) -> Option<Node> {
     let before = faults.count();
-    let mut tree = parse(&Arc::from(file), &text, faults);
+    let mut tree = parse(&Arc::from(file), text, faults);
     if faults.count() > before {
         return None;
     }

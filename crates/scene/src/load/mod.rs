@@ -2,6 +2,7 @@
 
 mod base;
 mod check;
+mod edit;
 mod files;
 mod names;
 mod read_text;
@@ -11,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use crate::asset::{AssetRequest, requests};
 use crate::document::Node;
+pub use edit::edit;
 pub use read_text::ReadText;
 pub use usage::Unused;
 

@@ -12,6 +12,11 @@ pub(crate) const fn any_value() -> AnyValue {
     AnyValue
 }
 
+/// A value as it stands, whatever its key; `None` of what is no value of the format.
+pub(crate) fn unread_item(node: &Node) -> Option<Item> {
+    AnyValue.read(node, &mut Faults::none())
+}
+
 /// See [`any_value`].
 pub(crate) struct AnyValue;
 

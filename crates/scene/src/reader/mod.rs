@@ -11,7 +11,7 @@ mod rule;
 mod table;
 mod word;
 
-pub(crate) use any_value::any_value;
+pub(crate) use any_value::{any_value, unread_item};
 pub(crate) use macros::{choice, keyed, record, variant, variants};
 pub(crate) use number::{Number, among, number, percentile, time, vector, whole};
 pub(crate) use rule::{Kind, Rule, RuleExt, either, exactly, keyed_by_name, list, record};

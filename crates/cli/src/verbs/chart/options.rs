@@ -15,6 +15,10 @@ pub struct Common {
     /// The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory
     #[arg(long, value_name = "CAMERA.toml", default_value = "web")]
     pub camera: String,
+    /// Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for
+    /// the changed camera, and the files hold the change
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
     /// Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1]
     #[arg(long, value_name = "M", conflicts_with = "width_mm", allow_negative_numbers = true)]
     pub distance_m: Option<f64>,
@@ -44,6 +48,7 @@ impl Common {
     /// A chart by these options, in one view without a series.
     pub fn request(&self, chart: Chart) -> ChartRequest {
         ChartRequest {
+            set: self.set.clone(),
             distance_m: self.distance_m,
             width_mm: self.width_mm,
             illuminant: self.illuminant.clone(),

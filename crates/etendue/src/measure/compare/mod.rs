@@ -1,6 +1,6 @@
 //! `measure compare`: two cameras' measurements side by side.
 //!
-//! Every quantity that both sides know, and every curve: difference, relative error against the second side and the normalised error
+//! Every quantity that both sides know, and every curve: difference A − B (first less second), relative error against the second side and the normalised error
 //! E_n (ISO 13528) by both standard uncertainties. |E_n| > 1 is a difference; of curves the largest |E_n| with a limit
 //! that allows for their number of points.
 
@@ -72,6 +72,8 @@ pub fn compare(request: &CompareRequest) -> Result<MeasurementComparison, Error>
         Report::new("compare", "two measurements side by side, E_n after ISO 13528 (± one standard uncertainty)");
     report.setting("a", names[0].clone());
     report.setting("b", names[1].clone());
+    report.setting("difference", "a - b".to_owned());
+    report.note(format!("differences are A − B: {} − {}", names[0], names[1]));
     report.setting("kind", a.kind.clone());
     let differing = [quantities(&mut report, &a, &b), curves(&mut report, &a, &b)].concat();
     unmatched(&mut report, &a, &b);
@@ -141,7 +143,7 @@ fn quantities(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
         ("unit", "unit"),
         ("a", "A"),
         ("b", "B"),
-        ("relative_error_percent", "error %"),
+        ("relative_error_percent", "(A − B)/|B| %"),
         ("e_n", "E_n"),
         ("verdict", "verdict"),
     ];
@@ -180,9 +182,9 @@ fn curves(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
     let columns = vec![
         ("curve", "curve"),
         ("points", "points"),
-        ("largest_difference", "largest difference"),
+        ("largest_difference", "largest A − B"),
         ("at", "at"),
-        ("largest_relative_error_percent", "largest error %"),
+        ("largest_relative_error_percent", "largest (A − B)/|B| %"),
         ("e_n", "E_n"),
         ("e_n_at", "at"),
         ("limit", "limit"),
@@ -214,7 +216,7 @@ fn mean_table(curve: &Curve, gaps: &[Gap]) -> Table {
     };
     Table {
         key: "means",
-        columns: vec![("curve", "curve"), ("at", "at"), ("a", "A"), ("b", "B"), ("difference", "difference")],
+        columns: vec![("curve", "curve"), ("at", "at"), ("a", "A"), ("b", "B"), ("difference", "A − B")],
         rows: gaps.iter().map(row).collect(),
     }
 }
@@ -274,9 +276,9 @@ fn error(a: &Curve, gaps: &[Gap]) -> Plot {
         Some((gap.x, 100.0 * gap.relative()?, 200.0 * u / gap.b.value.abs()))
     });
     Plot {
-        title: format!("{}: relative error (bars: 95 %)", a.name),
+        title: format!("{}: relative error of A against B (bars: 95 %)", a.name),
         x: x_axis(a),
-        y: Axis::linear("A less B over B, %").showing(&[0.0]),
+        y: Axis::linear("(A − B)/|B|, %").showing(&[0.0]),
         series: vec![Series::with_errors("", Mark::Points, points)],
     }
 }

@@ -1,6 +1,7 @@
 //! A camera known by where its pixels look.
 
 use super::super::context::Context;
+use super::super::scale::{divisor, full_raster};
 use super::{focus_m, projection, transmittance};
 use etendue_optics::{CalibratedParameters, Falloff, FalloffBy, Lens, OpticsError, PupilStance};
 use etendue_projection::{Calibration, Raster};
@@ -17,13 +18,19 @@ pub(super) fn lens(
     raster: &Raster,
     context: &mut Context<'_>,
 ) -> Option<(Lens, Raster)> {
+    let full = context.accept(&record.place, full_raster(raster, divisor(sensor)))?;
     let (place, calibration) = match &record.view {
         View::Projection(projection) => {
-            (&record.place, projection::calibration(projection, &record.place, raster, context)?)
+            (&record.place, projection::calibration(projection, &record.place, &full, context)?)
         }
-        View::Calibration(file) => (&file.file.place, imported(file, context)?),
+        View::Calibration(file) => {
+            let calibration = imported(file, context)?;
+            context.accept(&sensor.place, check_size(&calibration, &full))?;
+            (&file.file.place, calibration)
+        }
     };
     one_principal_point(record, sensor, context)?;
+    let calibration = calibration.with_larger_pixels(divisor(sensor) as usize);
     let calibration = match &record.greatest_angle_deg {
         None => calibration,
         Some(angle) => context.accept(&angle.place, calibration.limited_to(angle.value.to_radians()))?,
@@ -99,6 +106,16 @@ fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibra
         context.remark_on(file.file.value.display(), note);
     }
     Some(asset.calibration.clone())
+}
+
+/// Refuses a picture that is not the calibration's, both as the sensor and the file describe them.
+fn check_size(calibration: &Calibration, full: &Raster) -> Result<(), OpticsError> {
+    let [width, height] = calibration.size_px();
+    let (got_width, got_height) = (full.width(), full.height());
+    match [got_width, got_height] == [width, height] {
+        true => Ok(()),
+        false => Err(OpticsError::CalibratedSize { got_width, got_height, width, height }),
+    }
 }
 
 /// How far from the middle of the image, of its width or height, a principal point is taken for that of another image size.

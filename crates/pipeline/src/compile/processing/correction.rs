@@ -57,17 +57,25 @@ pub(super) fn defects(record: &record::Processing, picture: &Delivered, context:
 
 fn defect_map(file: &Placed<PathBuf>, picture: &Delivered, context: &mut Context<'_>) -> Option<Vec<[u32; 2]>> {
     let table = table(file, 2, "columns and rows of defective pixels", context)?;
-    let Delivered { width, height, .. } = *picture;
+    let k = picture.scale as usize;
+    let (width, height) = (picture.width * k, picture.height * k);
+    // A larger pixel with a defective part is defective.
     let inside = |row: &[f64]| {
         let whole = row.iter().all(|v| *v >= 0.0 && v.fract() == 0.0);
-        (whole && row[0] < width as f64 && row[1] < height as f64).then_some([row[0] as u32, row[1] as u32])
+        let is_inside = whole && row[0] < width as f64 && row[1] < height as f64;
+        is_inside.then(|| [row[0], row[1]].map(|at| (at as usize / k) as u32))
     };
     let pixels: Option<Vec<_>> = table.rows().map(inside).collect();
     if pixels.is_none() {
         let problem = format!("the map of defects names a pixel outside the picture of {width} × {height}");
         context.fault(&file.place, problem, "give columns and rows as whole numbers, counted from 0");
     }
-    pixels
+    let mut pixels = pixels?;
+    if k > 1 {
+        pixels.sort_unstable();
+        pixels.dedup();
+    }
+    Some(pixels)
 }
 
 pub(super) fn shading(

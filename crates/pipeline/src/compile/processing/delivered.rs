@@ -9,11 +9,13 @@ pub(super) struct Delivered {
     pub(super) height: usize,
     /// Where the optical axis meets it, px.
     pub(super) principal_px: [f64; 2],
+    /// How many pixels of the described sensor one pixel has in a row and in a column.
+    pub(super) scale: u64,
 }
 
 impl Delivered {
-    pub(super) fn of(sensor: &Sensor, raster: &Raster) -> Self {
+    pub(super) fn of(sensor: &Sensor, raster: &Raster, scale: u64) -> Self {
         let (width, height) = sensor.picture_size(raster.width(), raster.height());
-        Self { width, height, principal_px: sensor.in_picture(raster.principal_px().to_array()) }
+        Self { width, height, principal_px: sensor.in_picture(raster.principal_px().to_array()), scale }
     }
 }

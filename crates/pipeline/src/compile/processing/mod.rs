@@ -17,15 +17,16 @@ use etendue_scene::record::processing::detail::NoiseReductionKind;
 use etendue_scene::record::processing::{self as description, output};
 use etendue_sensor::Sensor;
 
-/// How the sensor's raw pictures are developed; `None` with the faults noted.
+/// How the raw pictures of the sensor, whose pixels are `scale` times as large as described, are developed; `None` with the faults noted.
 pub(super) fn development(
     record: &record::Processing,
     sensor: &Sensor,
     raster: &Raster,
+    scale: u64,
     context: &mut Context<'_>,
 ) -> Option<Development> {
     let before = context.faults.len();
-    let picture = Delivered::of(sensor, raster);
+    let picture = Delivered::of(sensor, raster, scale);
     let black_level = correction::black_level(record.black_level.as_ref(), sensor, context);
     let defects = correction::defects(record, &picture, context);
     let shading = correction::shading(record.shading.as_ref(), &picture, context);

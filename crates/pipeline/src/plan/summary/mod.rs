@@ -298,6 +298,7 @@ fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
 fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let raster = &camera.body.raster;
     let size = format!("{} × {} px of {} µm", raster.width(), raster.height(), 1000.0 * raster.pitch_mm().x);
+    let size = size + &scale(camera);
     let Some(sensor) = &camera.body.sensor else {
         return line(f, "sensor", format!("{size}; no electronics are described, so no electrons are made"));
     };
@@ -318,6 +319,13 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let silent: Vec<_> = silent.into_iter().map(|(name, _)| name).collect();
     line(f, "", format!("left out, as not described: {}", silent.join(", ")))?;
     line(f, "", range(&sensor.dynamic_range()))
+}
+
+/// That the pixels are larger than described, and of what picture.
+fn scale(camera: &CameraPlan) -> String {
+    let (raster, k) = (&camera.body.raster, camera.body.scale);
+    let (width, height) = (raster.width() as u64 * k, raster.height() as u64 * k);
+    if k == 1 { String::new() } else { format!(" (scale 1/{k} of {width} × {height} px)") }
 }
 
 /// What range of light a frame holds.

@@ -7,6 +7,7 @@ mod electronics;
 pub mod exposure;
 pub mod hdr;
 pub mod read_out;
+mod scale;
 pub mod shutter;
 
 use crate::fault::Faults;
@@ -15,6 +16,7 @@ use crate::reader::{number, record, vector, whole};
 
 pub use efficiency::QuantumEfficiency;
 pub use electronics::Electronics;
+pub use scale::Scale;
 pub use shutter::Shutter;
 
 record! {
@@ -26,6 +28,10 @@ record! {
         required height_px: Placed<u64> = whole(1, 65_536);
         /// Distance of the pixels' centres, µm, above 0; pixels are square.
         required pixel_pitch_um: Placed<f64> = number("µm").above(0.0);
+        /// Size of the picture over that of the sensor as described here, "1/k" or the same as a decimal fraction: the same field of view with
+        /// larger pixels, each in the place of k × k. All other keys describe the full sensor, and docs/sensor.md says how each of them scales.
+        /// `--scale` sets it for all cameras. Default: 1.
+        optional scale: Placed<Scale> = scale::ScaleRule;
         /// Share of a pixel's area that is sensitive (a centred square), above 0 and at most 1. Default: 1.
         optional fill_factor: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Where the optical axis meets the picture, raster coordinates (the top-left corner is 0, 0), px.

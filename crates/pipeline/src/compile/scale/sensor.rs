@@ -1,0 +1,120 @@
+//! The sensor with pixels of k × k. Every key is named here, so that a new one is decided upon: docs/sensor.md has the reasons.
+
+use super::neighbours;
+use etendue_core::maths::f64::pow;
+use etendue_scene::record::sensor::Shutter;
+use etendue_scene::record::sensor::charge::{Blooming, Dark, Direction, Smear};
+use etendue_scene::record::sensor::hdr::Hdr;
+use etendue_scene::record::sensor::read_out::Response;
+use etendue_scene::record::{Electronics, Sensor};
+
+/// Makes the pixels k times as wide and as high.
+pub(super) fn enlarge(sensor: &mut Sensor, k: f64) {
+    let Sensor {
+        place: _,
+        width_px,
+        height_px,
+        pixel_pitch_um,
+        scale: _,
+        fill_factor: _,
+        principal_point_px,
+        shutter,
+        electronics,
+    } = sensor;
+    for pixels in [width_px, height_px] {
+        pixels.value /= k as u64;
+    }
+    pixel_pitch_um.value *= k;
+    principal_point_px.iter_mut().for_each(|point| point.value = point.value.map(|px| px / k));
+    if let Some(Shutter::Rolling(rows) | Shutter::GlobalReset(rows)) = shutter {
+        rows.row_time_us.value *= k;
+    }
+    electronics.iter_mut().for_each(|electronics| enlarge_electronics(electronics, k));
+}
+
+fn enlarge_electronics(electronics: &mut Electronics, k: f64) {
+    let Electronics {
+        place: _,
+        exposure_s: _,
+        cfa: _,
+        quantum_efficiency: _,
+        full_well_e,
+        read_noise_e: _,
+        dark_current_e_s,
+        gain_dn_per_e,
+        black_level_dn: _,
+        bits: _,
+        noise: _,
+        frame_period_s: _,
+        analogue_gain: _,
+        digital_gain: _,
+        auto_exposure: _,
+        angle_response: _,
+        crosstalk,
+        non_uniformity: _,
+        dark,
+        smear,
+        lag: _,
+        brighter_fatter_per_e,
+        blooming,
+        response,
+        inter_pixel_capacitance,
+        row_noise_e: _,
+        column_noise_e: _,
+        rts_noise: _,
+        optical_black: _,
+        roi_px,
+        binning: _,
+        skipping: _,
+        hdr,
+        companding: _,
+    } = electronics;
+    let area = k * k;
+    full_well_e.value *= area;
+    gain_dn_per_e.value /= area;
+    dark_current_e_s.iter_mut().for_each(|current| current.value *= area);
+    dark.iter_mut().for_each(|dark| enlarge_dark(dark, area));
+    brighter_fatter_per_e.iter_mut().for_each(|shift| shift.value /= area * k);
+    [crosstalk, inter_pixel_capacitance].into_iter().flatten().for_each(|shares| neighbours::enlarge(shares, k));
+    if let Some(Smear::FrameTransfer(transfer)) = smear {
+        transfer.line_shift_s.value *= k;
+    }
+    blooming.iter_mut().for_each(|blooming| enlarge_blooming(blooming, k));
+    response.iter_mut().for_each(|response| enlarge_response(response, area));
+    roi_px.iter_mut().for_each(|region| region.value = region.value.map(|px| px / k));
+    hdr.iter_mut().for_each(|hdr| enlarge_captures(hdr, area));
+}
+
+/// Sources of dark current lie on the area: of those of hot and blinking pixels, as many as before. A pixel of n parts has one or more with the
+/// probability 1 − (1 − p)ⁿ, and then n p/(1 − (1 − p)ⁿ) on average: the mean current of the sensor is n times as large exactly.
+fn enlarge_dark(dark: &mut Dark, area: f64) {
+    let hot = dark.hot.iter_mut().map(|hot| (&mut hot.share.value, &mut hot.mean_e_s.value));
+    let blinking = dark.dark_current_rts.iter_mut().map(|rts| (&mut rts.share.value, &mut rts.mean_e_s.value));
+    for (share, mean_e_s) in hot.chain(blinking) {
+        let sources = area * *share;
+        *share = 1.0 - pow(1.0 - *share, area);
+        *mean_e_s *= sources / *share;
+    }
+}
+
+/// Of what overflows a share is lost with every pixel on its way: along a column k of them to a larger pixel, and k² steps of a walk to all sides.
+fn enlarge_blooming(blooming: &mut Blooming, k: f64) {
+    let steps = match blooming.direction.value {
+        Direction::Column => k,
+        Direction::Around => k * k,
+    };
+    let fraction = &mut blooming.overflow_fraction.value;
+    *fraction = pow(*fraction, steps).max(f64::MIN_POSITIVE);
+}
+
+fn enlarge_response(response: &mut Response, area: f64) {
+    match response {
+        Response::Knees(line) => line.knees.iter_mut().for_each(|knee| knee.value[0] *= area),
+        Response::Logarithmic(logarithm) => logarithm.from_e.value *= area,
+    }
+}
+
+fn enlarge_captures(hdr: &mut Hdr, area: f64) {
+    let wells = hdr.captures.iter_mut().filter_map(|capture| capture.full_well_e.as_mut());
+    wells.for_each(|well| well.value *= area);
+}

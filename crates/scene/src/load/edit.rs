@@ -1,0 +1,113 @@
+//! Changes of keys written into the text of a file, for programs that write files which a user has changed.
+
+use std::path::Path;
+
+use super::files::own_tree_of;
+use crate::document::{Entry, Node, Value};
+use crate::fault::Faults;
+use crate::overrides::Overrides;
+use crate::place::Place;
+use crate::reader::unread_item;
+use crate::written::{File, Item, Table, Value as Said};
+
+/// The text of `file` with changes `key=value` of its keys, without its comments; values of a base stay there. A key that is taken out (`null`) is taken out
+/// of the base by "remove" where the file does not state it itself.
+///
+/// # Errors
+/// Where the text is none of the format, or a change has no place in it.
+pub fn edit(file: &Path, text: &str, changes: &[String]) -> Result<String, Faults> {
+    let mut faults = Faults::none();
+    let table = own_tree_of(file, text, &mut faults).and_then(|mut tree| {
+        changes.iter().for_each(|change| apply(&mut tree, change, &mut faults));
+        section(&tree)
+    });
+    faults.or(table).map(|table| File::new(table).to_string())
+}
+
+fn apply(tree: &mut Node, change: &str, faults: &mut Faults) {
+    let key = removed_key(change);
+    let has_base = tree.as_table().is_some_and(|table| table.get("base").is_some());
+    match key {
+        Some(key) if has_base && !states(tree, key) => take_out_of_base(tree, key),
+        _ => {
+            let overrides = Overrides::new([change]);
+            overrides.apply(tree, true, faults);
+            overrides.apply(tree, false, faults);
+        }
+    }
+}
+
+/// The key that a change takes out.
+fn removed_key(change: &str) -> Option<&str> {
+    let (key, value) = change.split_once('=')?;
+    (value.trim() == "null").then_some(key.trim())
+}
+
+/// Whether the file states a key itself.
+fn states(tree: &Node, key: &str) -> bool {
+    key.split('.').try_fold(tree, |node, part| node.as_table()?.get(part)).is_some()
+}
+
+fn take_out_of_base(tree: &mut Node, key: &str) {
+    let place = tree.place.clone();
+    let entry = Node { place: place.clone(), value: Value::Text(key.to_owned()) };
+    let Some(table) = tree.as_table_mut() else { return };
+    match table.get_mut("remove").map(|node| &mut node.value) {
+        Some(Value::List(list)) => list.push(entry),
+        _ => {
+            let node = Node { place: place.clone(), value: Value::List(vec![entry]) };
+            // Behind "base", before the tables.
+            table.entries.insert(1, Entry { key: "remove".to_owned(), place, node });
+        }
+    }
+}
+
+/// The tree as sections of a file.
+fn section(tree: &Node) -> Option<Table> {
+    let mut said = Table::new();
+    for entry in &tree.as_table()?.entries {
+        said.put(&entry.key, item(&entry.node)?);
+    }
+    Some(said)
+}
+
+/// A table, or a list of tables, as sections; other values as they are read.
+fn item(node: &Node) -> Option<Item> {
+    match &node.value {
+        Value::Table(_) => Some(section(node)?.into()),
+        Value::List(list) if !list.is_empty() && list.iter().all(|entry| entry.as_table().is_some()) => {
+            let tables: Vec<Item> = list.iter().map(item).collect::<Option<_>>()?;
+            Some(Item::at(&Place::unstated(), Said::List(tables)))
+        }
+        _ => unread_item(node),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::edit;
+    use std::path::Path;
+
+    fn edited(text: &str, changes: &[&str]) -> String {
+        let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+        edit(Path::new("a.toml"), text, &changes).expect("an edited file")
+    }
+
+    #[test]
+    fn changes_are_written_where_the_key_is() {
+        let text =
+            "# a comment\nformat = 1\nspeed = -2\n[render]\nspp = 4 # few\n[[cameras]]\nname = \"a\"\nat = [0, 1.5]\n";
+        let found = edited(text, &["render.spp=16", "cameras.a.output.raw=true", "speed=null"]);
+        assert_eq!(
+            found,
+            "format = 1\n\n[render]\nspp = 16\n\n[[cameras]]\nname = \"a\"\nat = [0, 1.5]\noutput = { raw = true }\n"
+        );
+    }
+
+    #[test]
+    fn what_a_base_says_is_taken_out_by_remove() {
+        let text = "format = 1\nbase = \"b.toml\"\n[sensor]\nbits = 8\n";
+        let found = edited(text, &["sensor.dark=null", "sensor.bits=null", "isp=null"]);
+        assert_eq!(found, "format = 1\nbase = \"b.toml\"\nremove = [\"sensor.dark\", \"isp\"]\n\n[sensor]\n");
+    }
+}
