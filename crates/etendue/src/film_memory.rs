@@ -3,9 +3,7 @@
 use crate::error::Error;
 use etendue_io::ScratchFolder;
 use etendue_pipeline::Plan;
-use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::{CameraPlan, FilmLimit};
-use etendue_pipeline::render::layout;
+use etendue_pipeline::plan::FilmLimit;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -33,27 +31,8 @@ impl FilmMemory {
     }
 }
 
-/// Refuses a folder for scratch files that cannot be written, and films for which the system has no memory, before anything is rendered.
+/// Refuses a folder for scratch files that cannot be written.
 pub(crate) fn check(plan: &Plan) -> Result<(), Error> {
     let store = plan.cameras.iter().find_map(|camera| plan.scratch(camera));
-    store.map_or(Ok(()), |store| store.room(0).map(|_| ()).map_err(Error::input))?;
-    plan.cameras.iter().try_for_each(|camera| check_memory(plan, camera))
-}
-
-/// Asks the system for the memory of a camera's film and gives it back: what was asked for later, in parts, would end the process.
-fn check_memory(plan: &Plan, camera: &CameraPlan) -> Result<(), Error> {
-    let ((width, height), layout) = (camera.film_size(), layout(camera));
-    let (width, height) = (width as usize, height as usize);
-    let bytes = match plan.scratch(camera) {
-        Some(_) => Film::bytes_beside_cube(width, height, &layout),
-        None => Film::bytes(width, height, &layout),
-    };
-    Vec::<u8>::new().try_reserve_exact(bytes as usize).map_err(|_| {
-        Error::run(format!(
-            "camera {}: the system does not give the {:.0} MB of memory that its film takes; make room, render fewer pixels or bands, or keep more of it on \
-             the disk with --film-memory",
-            camera.name,
-            bytes / 1e6
-        ))
-    })
+    store.map_or(Ok(()), |store| store.room(0).map(|_| ()).map_err(Error::input))
 }

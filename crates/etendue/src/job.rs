@@ -6,6 +6,7 @@ use crate::exposures::Exposures;
 use crate::film_memory::{self, FilmMemory};
 use crate::integrator::Integrator;
 use crate::memory::MemoryFiles;
+use crate::memory_limits::MemoryLimits;
 use crate::observer::{Message, Observer};
 use crate::plan_report::PlanReport;
 use crate::quality::Quality;
@@ -68,6 +69,9 @@ pub struct JobRequest {
     /// How much memory films may take, and where those are kept that take more. It belongs to the machine as well.
     #[serde(skip)]
     pub films: FilmMemory,
+    /// The memory that is free for the run, which is refused where it needs more. It belongs to the machine as well; by default nothing is known.
+    #[serde(skip)]
+    pub memory: MemoryLimits,
 }
 
 impl JobRequest {
@@ -88,6 +92,7 @@ impl JobRequest {
             sandbox: None,
             textures: TextureMemory::default(),
             films: FilmMemory::default(),
+            memory: MemoryLimits::default(),
         }
     }
 
@@ -99,6 +104,15 @@ impl JobRequest {
             self.textures.cache_use = CacheUse::KeepInOutput;
         }
         self
+    }
+
+    /// How much memory textures may take. Those of a sandboxed job that names no folder for tiles and has no output folder are all in memory: nothing is
+    /// written outside of the folders that it was given.
+    fn texture_memory(&self) -> TextureMemory {
+        let has_no_folder =
+            self.sandbox.is_some() && self.textures.cache.is_none() && self.textures.cache_use == CacheUse::Keep;
+        let limit_bytes = if has_no_folder { u64::MAX } else { self.textures.limit_bytes };
+        TextureMemory { limit_bytes, ..self.textures.clone() }
     }
 
     /// The same for what is told of a job without rendering it: no tiles of textures are written.
@@ -125,7 +139,7 @@ impl JobRequest {
         let sandbox = self.folders()?.noting();
         let description = Description::load(&self.job, &|path| files.read(path, &sandbox), &self.overrides());
         let description = description.map_err(|faults| Error::inputs(faults.list()))?;
-        let assets = complete_assets(files.assets().clone(), &description.assets(), &self.textures, &sandbox);
+        let assets = complete_assets(files.assets().clone(), &description.assets(), &self.texture_memory(), &sandbox);
         let assets = assets.map_err(Error::inputs)?;
         let plan = compile(&description, &assets, &self.choices()).map_err(Error::inputs)?;
         let mut plan = self.narrowed(plan)?;
@@ -331,7 +345,7 @@ impl Job {
         take: impl FnMut(CameraResults) -> Result<(), Error>,
     ) -> Result<(), Error> {
         self.warn(observer);
-        film_memory::check(&self.plan)?;
+        self.check_memory(&options.frames)?;
         if let Some(total_s) = self.request.time_s {
             check_frames(&self.plan, &options.frames)?;
             let mut light = timed::light(&self.plan, total_s, options, observer, &mut progress.borrow_mut())?;
@@ -405,6 +419,12 @@ impl Job {
         progress.into_inner().finish(&folder)?;
         kept.all();
         Ok(written)
+    }
+
+    /// Refuses films that cannot be kept, and a run of these frames that needs more memory than is free, before anything is rendered.
+    pub(crate) fn check_memory(&self, frames: &Range<u32>) -> Result<(), Error> {
+        film_memory::check(&self.plan)?;
+        self.request.memory.check(&self.plan, self.request.time_s.map(|_| frames.len()))
     }
 
     /// Writes where all cameras stand and how they project, over frames, in the files of ROS, Kalibr and COLMAP; answers with their paths. Nothing is

@@ -8,7 +8,6 @@ use crate::delivery::{check_finite, check_frames, shots_of};
 use crate::error::Error;
 use crate::exposures::Exposures;
 use crate::film_file::{self, FilmOrigin, film_name};
-use crate::film_memory;
 use crate::job::{Job, JobRequest};
 use crate::observer::Observer;
 use crate::render_options::MAX_FRAMES;
@@ -112,7 +111,7 @@ impl Job {
     ) -> Result<(), Error> {
         let (plan, frames, shard) = (self.plan(), &asked.frames, asked.spec.shard()?);
         self.warn(observer);
-        film_memory::check(plan)?;
+        self.check_memory(frames)?;
         check_frames(plan, frames)?;
         let films: Vec<_> =
             self.films(frames).filter(|(group, shot)| names.contains(&film_name(group[0], *shot))).collect();

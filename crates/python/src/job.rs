@@ -88,6 +88,7 @@ impl Job {
                 ..TextureMemory::default()
             },
             films: FilmMemory { limit_bytes: u64::from(film_memory_mb) * 1_000_000, scratch },
+            memory: etendue_cli::free_memory(),
             ..JobRequest::new(&path)
         };
         let mut files = meshes::files(path.parent().unwrap_or(Path::new("")), files, meshes)?;

@@ -3,6 +3,7 @@
 use super::choice::{Word, choice};
 use super::run::whole;
 use crate::console::Console;
+use crate::memory;
 use clap::Args;
 use etendue::{Error, FilmMemory, Integrator, Job, JobRequest, Message, Quality, TextureMemory};
 use std::path::PathBuf;
@@ -94,6 +95,7 @@ impl From<&JobArgs> for JobRequest {
                 ..TextureMemory::default()
             },
             films: FilmMemory { limit_bytes: u64::from(a.film_memory) * 1_000_000, scratch: a.scratch.clone() },
+            memory: memory::free(),
         }
     }
 }

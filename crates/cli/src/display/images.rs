@@ -2,80 +2,75 @@
 
 use super::tev;
 use etendue::ImageTile;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-/// Images by name, and which tiles of them are not sent yet.
+/// Tiles that are not sent yet: of the newest image, and of the one before it what is left. Images before these are complete, or the viewer is too slow to
+/// show them: their tiles are left out, so that a film of many frames takes the memory of two at most.
 #[derive(Default)]
 pub struct Images {
-    images: Vec<Image>,
-    /// Image, first row and column, rows and columns.
-    waiting: BTreeSet<(usize, [u32; 2], [u32; 2])>,
+    waiting: VecDeque<Image>,
+    /// Names of images that the viewer has.
+    created: BTreeSet<String>,
 }
+
+/// Images with tiles that wait.
+const MAX_WAITING: usize = 2;
 
 struct Image {
     name: String,
     size_px: [u32; 2],
     channels: &'static [&'static str],
-    /// One channel after the other.
-    values: Vec<f32>,
-    is_created: bool,
+    /// Values, one channel after the other, by the place of the tile.
+    tiles: BTreeMap<Place, Vec<f32>>,
+}
+
+/// Where a tile is, in the order in which tiles are sent.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Place {
+    first_row: u32,
+    first_column: u32,
+    rows: u32,
+    columns: u32,
 }
 
 impl Images {
     /// Takes a tile over.
     pub fn put(&mut self, tile: &ImageTile<'_>) {
-        let place = self.images.iter().position(|image| image.name == tile.image).unwrap_or_else(|| {
-            self.images.push(Image::of(tile));
-            self.images.len() - 1
+        let place = self.waiting.iter().position(|image| image.name == tile.image).unwrap_or_else(|| {
+            self.waiting.push_back(Image::of(tile));
+            self.waiting.drain(..self.waiting.len().saturating_sub(MAX_WAITING));
+            self.waiting.len() - 1
         });
-        self.images[place].put(tile);
-        let [x, y] = tile.first_px;
-        let [width, height] = tile.tile_px;
-        self.waiting.insert((place, [y, x], [height, width]));
+        self.waiting[place].tiles.insert(Place::of(tile), tile.values.to_vec());
     }
 
     /// The packets that send the next tile; `None` where all are sent.
     pub fn next(&mut self) -> Option<Vec<u8>> {
-        let (place, [y, x], [height, width]) = self.waiting.pop_first()?;
-        let image = &mut self.images[place];
-        let mut packets = match std::mem::replace(&mut image.is_created, true) {
-            true => Vec::new(),
-            false => tev::create_image(&image.name, image.size_px, image.channels),
+        let image = self.waiting.front_mut()?;
+        let Some((place, values)) = image.tiles.pop_first() else {
+            self.waiting.pop_front();
+            return self.next();
         };
-        let values = image.values_of([x, y], [width, height]);
-        packets.extend(tev::update_image(&image.name, image.channels, [x, y], [width, height], &values));
+        let mut packets = match self.created.insert(image.name.clone()) {
+            true => tev::create_image(&image.name, image.size_px, image.channels),
+            false => Vec::new(),
+        };
+        let (first_px, size_px) = ([place.first_column, place.first_row], [place.columns, place.rows]);
+        packets.extend(tev::update_image(&image.name, image.channels, first_px, size_px, &values));
         Some(packets)
     }
 }
 
 impl Image {
     fn of(tile: &ImageTile<'_>) -> Self {
-        let (size_px, channels) = (tile.size_px, tile.channels);
-        let values = vec![0.0; size_px[0] as usize * size_px[1] as usize * channels.len()];
-        Self { name: tile.image.to_owned(), size_px, channels, values, is_created: false }
+        Self { name: tile.image.to_owned(), size_px: tile.size_px, channels: tile.channels, tiles: BTreeMap::new() }
     }
+}
 
-    /// Where the rows of a rectangle are among the values, channel after channel.
-    fn rows(
-        &self,
-        [x, y]: [u32; 2],
-        [width, height]: [u32; 2],
-    ) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
-        let [columns, rows] = self.size_px.map(|px| px as usize);
-        let first = move |channel: usize, row: u32| (channel * rows + row as usize) * columns + x as usize;
-        let of_channel = move |channel| (y..y + height).map(move |row| first(channel, row));
-        (0..self.channels.len()).flat_map(of_channel).map(move |first| first..first + width as usize)
-    }
-
-    fn put(&mut self, tile: &ImageTile<'_>) {
-        let rows = self.rows(tile.first_px, tile.tile_px);
-        for (row, values) in rows.zip(tile.values.chunks(tile.tile_px[0] as usize)) {
-            self.values[row].copy_from_slice(values);
-        }
-    }
-
-    fn values_of(&self, first_px: [u32; 2], size_px: [u32; 2]) -> Vec<f32> {
-        self.rows(first_px, size_px).flat_map(|row| self.values[row].iter().copied()).collect()
+impl Place {
+    fn of(tile: &ImageTile<'_>) -> Self {
+        let ([first_column, first_row], [columns, rows]) = (tile.first_px, tile.tile_px);
+        Self { first_row, first_column, rows, columns }
     }
 }
 
@@ -98,5 +93,34 @@ mod tests {
         assert_eq!(images.next(), Some(created));
         assert_eq!(images.next(), Some(update([0, 2], &[5.0; 4])));
         assert_eq!(images.next(), None);
+    }
+
+    /// A film of 20 frames of 4 × 3 px in two channels, whose viewer takes nothing: the values that wait are those of two frames, and were those of all.
+    #[test]
+    fn a_film_takes_the_memory_of_two_frames() {
+        let mut images = Images::default();
+        let names: Vec<String> = (0..20).map(|frame| format!("front, frame {frame}")).collect();
+        for name in &names {
+            for first_px in [[0, 0], [2, 0], [0, 2]] {
+                images.put(&ImageTile { image: name, ..tile(first_px, &[1.0, 2.0, 3.0, 4.0]) });
+            }
+        }
+        let waiting: usize = images.waiting.iter().flat_map(|image| image.tiles.values()).map(Vec::len).sum();
+        assert_eq!(waiting, 2 * 3 * 4);
+        let sent = std::iter::from_fn(|| images.next()).count();
+        assert_eq!((sent, images.waiting.len()), (6, 0), "nothing is held when all is sent");
+    }
+
+    /// Passes of several films take turns; a viewer makes an image once.
+    #[test]
+    fn an_image_that_comes_again_is_made_once() {
+        let mut images = Images::default();
+        let update = |image, values: &[f32]| tev::update_image(image, &["R", "G"], [2, 1], [2, 1], values);
+        for (image, is_new) in [("a", true), ("b", true), ("a", false)] {
+            images.put(&ImageTile { image, ..tile([2, 1], &[1.0; 4]) });
+            let made = if is_new { tev::create_image(image, [4, 3], &["R", "G"]) } else { Vec::new() };
+            assert_eq!(images.next(), Some([made, update(image, &[1.0; 4])].concat()));
+            assert_eq!(images.next(), None);
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! `measure cdp`: contrast detection probability of pairs of patches.
 
+use super::clipping::region;
 use super::picture_input::{PictureInput, refused};
 use super::readings::Readings;
 use crate::error::Error;
@@ -79,6 +80,11 @@ pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
     }
     let mut report = report(&found);
     report.encoding(&readings.stated);
+    for (pair, _) in &found {
+        for at in [pair.darker, pair.brighter] {
+            report.note_cut(&region("patch", at), &readings.part(at, "--darker")?, settings.full_scale);
+        }
+    }
     left_out.into_iter().for_each(|reason| report.note(format!("left out: patches at {reason}")));
     Ok(report)
 }

@@ -73,6 +73,11 @@ pub(crate) fn measured(request: &ColourRequest) -> Result<(Report, Seen), Error>
     let found = found.map_err(|error| refused(&request.picture, error))?;
     let mut report = report(&patches, &found);
     report.encoding(&colours[1].stated);
+    for patch in &patches {
+        for (channel, name) in patch.pixels.iter().zip(["red", "green", "blue"]) {
+            report.note_cut(&format!("{}, {name}", patch.name.replace('_', " ")), channel, full_scale);
+        }
+    }
     Ok((report, Seen { patches, black, full_scale, shared_px, white_xyz }))
 }
 

@@ -1,5 +1,6 @@
 //! `measure flare`: light in traps that send none.
 
+use super::clipping::region;
 use super::picture_input::{PictureInput, refused};
 use super::readings::{Readings, field_position};
 use super::truth::place::TrapPlace;
@@ -53,6 +54,12 @@ pub fn flare(request: &FlareRequest) -> Result<Report, Error> {
     let places: Vec<[usize; 4]> = traps.iter().map(|t| t.trap).collect();
     let mut report = report(&places, &found, readings.picture_px);
     report.encoding(&readings.stated);
+    for place in &traps {
+        report.note_cut(&region("trap", place.trap), &readings.part(place.trap, "--trap")?, full_scale);
+        for white in &place.whites {
+            report.note_cut(&region("white", *white), &readings.part(*white, "--white")?, full_scale);
+        }
+    }
     if let Some(truth) = request.input.truth.read(&CHARTS)?
         && let Some(own) = truth.light_of_traps()
     {

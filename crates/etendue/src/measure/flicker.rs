@@ -69,32 +69,10 @@ pub fn flicker(request: &FlickerRequest) -> Result<Report, Error> {
         Some(truth) => lamps(&sequence, truth, request, &mut report)?,
     }
     sequence.frames.iter().for_each(|frame| report.encoding(&frame.stated));
-    let cut = sequence.frames.iter().zip(&request.frames).filter_map(|(frame, file)| cut_note(&frame.image, file));
-    cut.for_each(|note| report.note(note));
+    for (frame, file) in sequence.frames.iter().zip(&request.frames) {
+        report.note_cut(&file.display().to_string(), &frame.image, sequence.levels.1);
+    }
     Ok(report)
-}
-
-/// Share of pixels with the least or the greatest reading of a frame above which it is taken for cut there.
-const CUT_SHARE: f64 = 0.1;
-
-/// Names a frame whose readings are cut below or above, so that the light's extremes are not in it.
-fn cut_note(image: &Image, file: &Path) -> Option<String> {
-    let samples = image.samples();
-    let ends = samples.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), s| (low.min(*s), high.max(*s)));
-    let share = |end: f32| samples.iter().filter(|sample| **sample == end).count() as f64 / samples.len() as f64;
-    let named = |end: f32, what: &str| {
-        let share = share(end);
-        (share > CUT_SHARE).then(|| format!("{:.1} % of the readings are {end}, {what}", 100.0 * share))
-    };
-    let found = if ends.0 == ends.1 {
-        named(ends.0, "all of them: it is black or white throughout")
-    } else {
-        let low = (ends.0 == 0.0).then(|| named(ends.0, "the least: what is darker is cut")).flatten();
-        // The greatest number of 8, 10, 12, … bits.
-        let is_full = ends.1 >= 255.0 && (ends.1 as u32 + 1).is_power_of_two();
-        low.or_else(|| is_full.then(|| named(ends.1, "the greatest: what is brighter is cut")).flatten())
-    };
-    found.map(|found| format!("{}: {found}; the modulation and its uncertainty leave that out", file.display()))
 }
 
 fn read(request: &FlickerRequest) -> Result<(Sequence, Option<Truth>), Error> {

@@ -8,6 +8,7 @@ mod calibrate;
 mod cdp;
 mod chart_points;
 mod chromatic;
+mod clipping;
 pub(crate) mod colour;
 mod compare;
 mod dark_current;

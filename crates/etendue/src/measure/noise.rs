@@ -1,5 +1,6 @@
 //! `measure noise`: temporal and fixed-pattern noise of an even surface, or of each patch of a chart.
 
+use super::clipping::Cut;
 use super::picture_input::{PictureInput, refused};
 use super::readings::Readings;
 use super::truth::Truth;
@@ -42,11 +43,21 @@ struct Surface {
     stack: Option<Stack>,
     /// Why it is left out.
     fault: Option<String>,
+    /// The first of its frames that is cut.
+    cut: Option<(PathBuf, Cut)>,
 }
 
 impl Surface {
     fn new(patch: Option<Patch>, at: Option<[usize; 4]>) -> Self {
-        Self { patch, at, stack: None, fault: None }
+        Self { patch, at, stack: None, fault: None, cut: None }
+    }
+
+    /// Names it and the first of its frames that is cut.
+    fn cut_note(&self) -> Option<String> {
+        let (file, cut) = self.cut.as_ref()?;
+        let patch = self.patch.as_ref().map_or_else(String::new, |patch| format!("{}, ", patch.name));
+        let told = "the noise and its uncertainty leave that out";
+        Some(format!("{patch}{}: {}; {told}", file.display(), cut.words()))
     }
 
     fn take(&mut self, file: &Path, readings: &Readings, full_scale: Option<f64>) -> Result<(), Error> {
@@ -56,6 +67,7 @@ impl Surface {
             Err(fault) if self.patch.is_some() => self.fault = Some(fault.to_string()),
             checked => checked.map_err(|error| refused(file, error))?,
         }
+        self.cut = self.cut.take().or_else(|| Some((file.to_owned(), Cut::of(&frame, full_scale)?)));
         let stack = self.stack.get_or_insert_with(|| Stack::new(frame.width(), frame.height()));
         stack.push(&frame).map_err(|error| refused(file, error))
     }
@@ -85,6 +97,11 @@ pub fn noise(request: &NoiseRequest) -> Result<Report, Error> {
         many => patches(many, black).map_err(|reason| refused(&request.frames[0], reason))?,
     };
     encodings.iter().for_each(|stated| report.encoding(stated));
+    surfaces
+        .iter()
+        .filter(|surface| surface.fault.is_none())
+        .filter_map(Surface::cut_note)
+        .for_each(|note| report.note(note));
     Ok(report)
 }
 

@@ -1,5 +1,6 @@
 //! `measure oecf`: the tone curve from a series of exposures, or from steps in one picture.
 
+use super::clipping::Cut;
 use super::picture_input::{PictureInput, refused};
 use super::readings::{Readings, SignalLevels};
 use super::truth::Truth;
@@ -64,6 +65,13 @@ pub fn oecf(request: &OecfRequest) -> Result<Report, Error> {
     };
     let oecf = Oecf::new(measured.points.clone()).map_err(|error| refused(&request.pictures[0], error))?;
     let mut report = report(&oecf, &measured);
+    // What is clipped ends the curve; what is black is taken for a reading.
+    for (point, cut) in measured.points.iter().zip(&measured.cuts) {
+        if let Some(cut @ (Cut::Black { .. } | Cut::Throughout { reading: ..=0.0 })) = cut {
+            let (exposure, unit) = (point.exposure, measured.unit);
+            report.note(format!("exposure {exposure} {unit}: {}; its point leaves that out", cut.words()));
+        }
+    }
     measured.left_out.iter().for_each(|name| report.note(format!("left out: {name} is not whole in the picture")));
     if let Some(channel) = &request.input.selection.channel {
         report.setting("channel", channel.clone());
@@ -85,14 +93,23 @@ struct Measured {
     unit: &'static str,
     left_out: Vec<String>,
     encoding: Stated,
+    /// Of each point where its readings are cut.
+    cuts: Vec<Option<Cut>>,
 }
 
 impl Measured {
-    fn new(points: Vec<ExposurePoint>, levels: &SignalLevels, readings: &Readings) -> Self {
+    fn new(measured: Vec<(ExposurePoint, Option<Cut>)>, levels: &SignalLevels, readings: &Readings) -> Self {
+        let (points, cuts) = measured.into_iter().unzip();
         let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
         let encoding = readings.stated.clone();
-        Self { points, readings: kind(readings), black, full_scale, unit: "", left_out: Vec::new(), encoding }
+        Self { points, readings: kind(readings), black, full_scale, unit: "", left_out: Vec::new(), encoding, cuts }
     }
+}
+
+/// The point of an exposure of an even surface, and where its readings are cut.
+fn point(exposure: f64, surface: &Image, levels: &SignalLevels, readings: &Readings) -> (ExposurePoint, Option<Cut>) {
+    let full_scale = levels.full_scale(readings);
+    (ExposurePoint::of(exposure, surface, full_scale, readings.shared_px), Cut::of(surface, full_scale))
 }
 
 /// What the readings are: decoded ones no longer tell of the tone curve of the file.
@@ -144,9 +161,8 @@ fn exposure_beside(file: &Path) -> Result<f64, Error> {
 fn exposures(request: &OecfRequest) -> Result<Measured, Error> {
     let series = series(request)?;
     let levels = &request.input.levels;
-    let point =
-        |(exposure, r): &(f64, Readings)| ExposurePoint::of(*exposure, &r.image, levels.full_scale(r), r.shared_px);
-    Ok(Measured::new(series.iter().map(point).collect(), levels, &series[0].1))
+    let points = series.iter().map(|(exposure, readings)| point(*exposure, &readings.image, levels, readings));
+    Ok(Measured::new(points.collect(), levels, &series[0].1))
 }
 
 /// The middle of an even chart at its cameras' exposures; each picture lies in the folder of its camera.
@@ -169,11 +185,11 @@ fn shots(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
     }
     copies(request, &series)?;
     let levels = &request.input.levels;
-    let point = |(exposure, r): &(f64, Readings)| {
-        let middle = r.part(truth.middle(r)?, "--truth")?;
-        Ok(ExposurePoint::of(*exposure, &middle, levels.full_scale(r), r.shared_px))
+    let of_middle = |(exposure, readings): &(f64, Readings)| {
+        let middle = readings.part(truth.middle(readings)?, "--truth")?;
+        Ok(point(*exposure, &middle, levels, readings))
     };
-    let points = series.iter().map(point).collect::<Result<Vec<_>, Error>>()?;
+    let points = series.iter().map(of_middle).collect::<Result<Vec<_>, Error>>()?;
     Ok(Measured { unit: "cd s/m²", ..Measured::new(points, levels, &series[0].1) })
 }
 
@@ -192,11 +208,11 @@ fn patches(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
     let (patches, left_out) = truth.patches(&readings)?;
     truth.shown(picture, &patches, &readings)?;
     let levels = &request.input.levels;
-    let point = |patch: &super::truth::place::Patch| {
+    let of_patch = |patch: &super::truth::place::Patch| {
         let surface = readings.part(patch.at, &patch.name)?;
-        Ok(ExposurePoint::of(patch.luminance_cd_m2, &surface, levels.full_scale(&readings), readings.shared_px))
+        Ok(point(patch.luminance_cd_m2, &surface, levels, &readings))
     };
-    let points = patches.iter().map(point).collect::<Result<Vec<_>, Error>>()?;
+    let points = patches.iter().map(of_patch).collect::<Result<Vec<_>, Error>>()?;
     Ok(Measured { unit: "cd/m²", left_out, ..Measured::new(points, levels, &readings) })
 }
 
@@ -217,7 +233,7 @@ fn steps(request: &OecfRequest, table: &Path) -> Result<Measured, Error> {
             )));
         }
         let surface = readings.part(whole.map(|v| v as usize), &place)?;
-        Ok(ExposurePoint::of(luminance, &surface, request.input.levels.full_scale(&readings), readings.shared_px))
+        Ok(point(luminance, &surface, &request.input.levels, &readings))
     };
     Ok(Measured::new(lines.map(step).collect::<Result<_, _>>()?, &request.input.levels, &readings))
 }

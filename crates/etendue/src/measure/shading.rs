@@ -100,6 +100,7 @@ impl FlatFieldRequest {
         readings.independent(&self.picture, 1)?;
         self.check(&readings)?;
         report.encoding(&readings.stated);
+        report.note_cut(&self.picture.display().to_string(), &readings.image, self.input.levels.full_scale(&readings));
         let shading =
             measure_shading(&readings.image, &self.settings(&readings, blocks)).map_err(|e| self.refused(&e))?;
         let (columns, rows) = readings.picture_px;
@@ -196,6 +197,10 @@ pub fn shading(request: &ShadingRequest) -> Result<Report, Error> {
             report.encoding(&colours[1].stated);
             let settings = flat.settings(&colours[1], blocks);
             let [red, green, blue] = &colours;
+            for (channel, name) in colours.iter().zip(["red", "green", "blue"]) {
+                let name = format!("{}, {name}", flat.picture.display());
+                report.note_cut(&name, &channel.image, flat.input.levels.full_scale(channel));
+            }
             let found = colour_shading([&red.image, &green.image, &blue.image], &settings);
             in_colour(&mut report, &found.map_err(|e| flat.refused(&e))?);
         }

@@ -118,6 +118,8 @@ pub fn star(request: &StarRequest) -> Result<Report, Error> {
     let mut report =
         Report::new("star", "Siemens star after ISO 12233, over its outer circle (± one standard uncertainty)");
     report.encoding(&readings.stated);
+    let levels = &request.input.levels;
+    report.note_cut(&request.picture.display().to_string(), &readings.image, levels.full_scale(&readings));
     report.figure("centre_x_px", "centre, x", "px", Estimate::new(x, 0.01 * step));
     report.figure("centre_y_px", "centre, y", "px", Estimate::new(y, 0.01 * step));
     let row = |p: &StarPoint| {
@@ -178,6 +180,7 @@ pub fn texture(request: &TextureRequest) -> Result<Report, Error> {
     let points = found.points;
     let mut report = Report::new("texture", "response to a texture against its reference (± one standard uncertainty)");
     [&picture.stated, &reference.stated].into_iter().for_each(|stated| report.encoding(stated));
+    report.note_cut(&request.picture.display().to_string(), &picture.image, picture.full_scale);
     report.fact("shift_x_px", "picture right of the reference, taken off", "px", found.shift_px[0]);
     report.fact("shift_y_px", "picture below the reference, taken off", "px", found.shift_px[1]);
     if even.is_none() {

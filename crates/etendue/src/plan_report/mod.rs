@@ -2,6 +2,7 @@
 
 mod camera;
 mod effect;
+mod memory;
 mod remark;
 mod scene;
 
@@ -10,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 pub use camera::{CameraReport, CostReport, FilmPart, LensSummary, LightsReport, SettingsReport};
 pub use effect::{EffectReport, IfDroppedReport, Need};
+pub use memory::{CameraMemoryReport, MemoryReport, StageReport};
 pub use remark::{RemarkReport, RemarkWeight};
 pub use scene::{SceneReport, SkyReport};
 
@@ -26,6 +28,8 @@ pub struct PlanReport {
     pub scene: SceneReport,
     /// The cameras of the job, or the one that was asked for.
     pub cameras: Vec<CameraReport>,
+    /// The memory of the whole run.
+    pub memory: MemoryReport,
     /// What compiling found that is no fault, equal ones once.
     pub remarks: Vec<RemarkReport>,
     /// What a rendering repeats of them, and of the lights, in sentences.
@@ -43,6 +47,7 @@ impl PlanReport {
             hash: plan.hash_text(),
             scene: SceneReport::of(plan),
             cameras: plan.cameras.iter().map(|camera| CameraReport::of(plan, camera)).collect(),
+            memory: MemoryReport::of(plan),
             remarks: RemarkReport::all(plan),
             warnings: plan.warnings(),
             notices: plan.notices.clone(),

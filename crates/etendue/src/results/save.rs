@@ -6,14 +6,14 @@ use super::files::Files;
 use super::frames::{Wanted, write_frames};
 use super::metadata;
 use super::sequence::Sequence;
-use super::writer::{Encoder, ResultWriter};
+use super::writer::ResultWriter;
 use crate::error::Error;
 use crate::observer::Observer;
 use crate::rig;
 use etendue_core::quantity::Radiance;
 use etendue_io::exr::{
-    self, Layer, Lengths, SpectralBands, encode_ground_truth, ground_truth_image, layers_image, plane_image,
-    radiance_image, spectral_image,
+    self, Layer, Lengths, SpectralBands, encode_ground_truth, ground_truth_image, ground_truth_of_planes, layers_image,
+    plane_image, radiance_image, spectral_image,
 };
 use etendue_io::{Existing, OutputFolder, png};
 use etendue_pipeline::Plan;
@@ -156,17 +156,20 @@ impl CameraResults {
         if is_large(&self.plan, self.camera()) {
             return self.write_large_truth(writer);
         }
-        let (truth, facts) = (self.ground_truth(), self.provenance());
-        let mut files: Vec<(String, Encoder<'_>)> = Vec::new();
+        let truth = self.ground_truth();
         if products.ground_truth {
-            let encode = || encode_ground_truth(&planes(&truth), &facts);
-            files.push((self.file(Files::GROUND_TRUTH), Box::new(encode)));
+            self.write_truth_planes(&truth, writer)?;
         }
-        if let Some(per_metre) = products.depth_png_per_m {
-            let depth = &truth.depth;
-            files.push((self.file(Files::DEPTH), Box::new(move || png::encode_depth16(depth, per_metre))));
+        match products.depth_png_per_m {
+            Some(per_metre) => writer.write(&self.file(Files::DEPTH), png::encode_depth16(&truth.depth, per_metre)),
+            None => Ok(()),
         }
-        writer.write_together(files)
+    }
+
+    fn write_truth_planes(&self, truth: &GroundTruth, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let name = self.file(Files::GROUND_TRUTH);
+        let image = ground_truth_of_planes(&planes(truth), &self.provenance());
+        writer.exr(&name, image.map_err(|error| Error::Run(format!("{name}: {error}")))?)
     }
 
     /// The same of planes that are larger than films may be in memory: found when they are written, some rows at a time.

@@ -16,7 +16,7 @@ use super::encode_error::EncodeError;
 /// Blocks a thread that wait, compressed, to be written.
 const BLOCKS_A_THREAD: usize = 8;
 /// Bytes of the blocks that wait, before they are compressed; one waits at least.
-const WAITING_BYTES: usize = 256 << 20;
+pub const WAITING_BYTES: usize = 32 << 20;
 
 /// Writes the file.
 pub(super) fn compress(headers: Headers, image: &ImageRows<'_>, sink: impl Write + Seek) -> Result<(), EncodeError> {

@@ -44,6 +44,17 @@ pub struct GroundTruth<'a> {
 /// # Errors
 /// Where there is no plane, or planes have different sizes.
 pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> Result<Vec<u8>, EncodeError> {
+    ground_truth_of_planes(truth, provenance)?.into_bytes()
+}
+
+/// The same file, to be written.
+///
+/// # Errors
+/// Where there is no plane.
+pub fn ground_truth_of_planes<'a>(
+    truth: &GroundTruth<'a>,
+    provenance: &Provenance,
+) -> Result<ExrImage<'a>, EncodeError> {
     let (width, height) = truth.size().ok_or(EncodeError::NoChannels)?;
     let mut image = ExrImage::new(width, height, provenance);
     for (name, layer) in truth.layers() {
@@ -55,7 +66,7 @@ pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> 
     }
     let has_gaps = truth.depth.is_some_and(|depth| depth.samples().iter().any(|z| z.is_nan()));
     state(&mut image, truth, has_gaps);
-    image.into_bytes()
+    Ok(image)
 }
 
 /// Ground truth that is found some rows at a time.

@@ -40,10 +40,11 @@ mod spectral_read;
 #[cfg(test)]
 pub(crate) mod tests_support;
 
+pub use compress::WAITING_BYTES;
 pub use cryptomatte::{CryptomatteLayer, cryptomatte_id, cryptomatte_image};
 pub use encode::ExrImage;
 pub use encode_error::EncodeError;
-pub use ground_truth::{GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_image};
+pub use ground_truth::{GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_image, ground_truth_of_planes};
 pub use layers::{Layer, encode_layers, layers_image};
 pub use motion::{MotionTruth, NeighbourTruth, VISIBILITY, encode_disparity, encode_motion};
 pub use name::{SpectralChannel, Stokes, channel_name, parse_channel_name};

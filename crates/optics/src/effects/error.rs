@@ -42,6 +42,19 @@ pub enum EffectsError {
         /// The steepest that is held, µm.
         limit_um: f64,
     },
+    /// A diffraction pattern that is far wider than it can be held.
+    #[error(
+        "the diffraction pattern of f/{f_number:.1} spreads light over hundreds of pixels of {pixel_um:.3} µm, farther than is computed; f/{most:.1} is the most: \
+         give a smaller \"f_number\" or larger pixels, or remove [effects.psf]"
+    )]
+    WidePattern {
+        /// Working f-number.
+        f_number: f64,
+        /// The largest that is computed.
+        most: f64,
+        /// Distance of pixels, µm.
+        pixel_um: f64,
+    },
     /// A function too wide for displaced samples.
     #[error(
         "only {core:.2} of the light falls near enough to displace samples by (all within a pixel, none beyond 2.5 px; {least} is the least): remove \

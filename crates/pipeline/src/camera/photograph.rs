@@ -46,9 +46,10 @@ impl Light {
             return disk_light::seen(camera, film, &cube, depth);
         }
         match &camera.settings.route {
-            Route::Lens => Ok(Self::through_lens(&camera.body, film)),
+            Route::Lens => Ok(Self::through_lens(camera, film)),
             Route::Pupil(projection) => {
                 let radiance = film.radiance().expect("the route at the pupil keeps a cube");
+                drop(film);
                 let distance = depth.map(|depth| &depth.distance);
                 let stored = Stored { projection, radiance: &radiance.mean, distance };
                 let light = Self::of_stored(&camera.body, &stored, &camera.depth_of_field)?;
@@ -57,8 +58,10 @@ impl Light {
         }
     }
 
-    fn through_lens(body: &CameraBody, film: Film) -> Self {
-        let radiance = film.radiance().map(|CubeEstimate { mean, variance }| CubeEstimate {
+    fn through_lens(camera: &CameraPlan, film: Film) -> Self {
+        let body = &camera.body;
+        let radiance = if camera.products.radiance { film.radiance() } else { None };
+        let radiance = radiance.map(|CubeEstimate { mean, variance }| CubeEstimate {
             mean: picture(body, mean),
             variance: picture(body, variance),
         });

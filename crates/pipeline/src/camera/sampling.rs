@@ -3,6 +3,7 @@
 use crate::camera::effects::plane_of_picture;
 use crate::plan::{CameraPlan, Route};
 use crate::render::film::Film;
+use crate::render::gather::stored_variance;
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Quantity, Variance};
 use etendue_sensor::Sensor;
@@ -13,7 +14,7 @@ pub struct SamplingPlanes {
     /// Samples of each pixel.
     pub samples: Plane<Identity>,
     /// Variance of each pixel's mean by its samples, e⁻² of the described exposure; (W/m²)² of irradiance where no electrons are made, (W·m⁻²·sr⁻¹)² of radiance at the pupil. `None` where neither
-    /// electrons are summed nor noise is watched, NaN where a single replicate knows none.
+    /// electrons are summed nor noise is watched, and of a single replicate, which knows none.
     pub monte_carlo: Option<Plane<Variance>>,
     /// Variance of a pixel's signal from frame to frame by the sensor ([`etendue_sensor::TemporalNoise`]), e⁻² of the described exposure. `None`
     /// where no electrons are summed.
@@ -30,9 +31,10 @@ impl SamplingPlanes {
         let rate = film.electron_rate.as_ref().map(|rate| (rate.mean.samples(), &rate.variance));
         let watched = || film.watched.as_ref().map(|watched| (watched.mean.samples(), &watched.variance));
         let known = rate.or_else(watched);
-        let monte_carlo = known.map(|(_, variance)| scaled(variance, exposure_s * exposure_s));
+        let is_known = film.replicates > 1;
+        let monte_carlo = known.filter(|_| is_known).map(|(_, variance)| scaled(variance, exposure_s * exposure_s));
         let sensor = noise.zip(known).map(|(noise, (means, variance))| {
-            let of = |mean: &f32| noise.variance_e2(f64::from(*mean) * exposure_s) as f32;
+            let of = |mean: &f32| stored_variance(noise.variance_e2(f64::from(*mean) * exposure_s));
             Plane::from_samples(variance.width(), variance.height(), means.iter().map(of).collect())
                 .expect("one sample a pixel")
         });
@@ -45,7 +47,7 @@ impl SamplingPlanes {
 }
 
 fn scaled(variance: &Plane<Variance>, by: f64) -> Plane<Variance> {
-    variance.map(|value| (f64::from(value) * by) as f32)
+    variance.map(|value| stored_variance(f64::from(value) * by))
 }
 
 /// Without the film's margin, where it is the picture's.

@@ -2,6 +2,7 @@
 
 mod annotations;
 mod camera;
+mod camera_memory;
 mod development;
 pub mod effects;
 mod film_bytes;
@@ -10,6 +11,7 @@ mod film_limit;
 pub(crate) mod film_needs;
 pub(crate) mod fingerprint;
 mod frame_cost;
+mod frame_memory;
 mod irradiance_effect;
 mod mesh_sizes;
 mod mount;
@@ -19,12 +21,14 @@ mod precipitation;
 mod products;
 pub mod remark;
 mod row_exposure;
+mod run_memory;
 mod settings;
 pub(crate) mod shared_light;
 mod source_spectra;
 pub mod summary;
 mod texture_use;
 mod timing;
+mod view_memory;
 mod warnings;
 mod wavelength_sampling;
 
@@ -38,6 +42,7 @@ use std::sync::Arc;
 
 pub use annotations::{Annotations, CorrespondenceFormat, DisparityProduct};
 pub use camera::{CameraBody, CameraPlan, LightOwner};
+pub use camera_memory::{CameraMemory, ROWS_WAITING_BYTES, StageMemory};
 pub use development::{Development, PictureFormat};
 pub use film_bytes::FilmBytes;
 pub use film_cost::Share;
@@ -50,6 +55,7 @@ pub use passes::{MAX_PASSES, PARTS, Pass, PassAt, Passes};
 pub use precipitation::Precipitation;
 pub use products::{Products, RawFormat};
 pub use row_exposure::{CaptureTiming, RowExposure, RowSkipping};
+pub use run_memory::RunMemory;
 pub use settings::{AdaptiveSampling, Route, Settings};
 pub use source_spectra::SourceSpectra;
 pub use timing::{Jitter, TimeDependence, Timing};

@@ -27,9 +27,14 @@ impl BandReader for OverWeight {
     }
 }
 
-/// A value over a function of the weight; 0 where no light passes the lens.
+/// A value over a function of the weight; 0 where no light passes the lens. What is beyond 32 bits, as of a weight whose square is 0 in them, is the greatest
+/// number.
 pub(crate) fn over(value: f32, weight: f32, divisor: fn(f32) -> f32) -> f32 {
-    if weight > 0.0 { value / divisor(weight) } else { 0.0 }
+    if weight <= 0.0 || value == 0.0 {
+        return 0.0;
+    }
+    let quotient = value / divisor(weight);
+    if quotient == f32::INFINITY && value.is_finite() { f32::MAX } else { quotient }
 }
 
 /// A part of larger bands.
@@ -54,5 +59,21 @@ impl BandReader for PartOfBands {
             to.copy_from_slice(&from[x..x + self.width]);
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::over;
+
+    /// A pupil of f/10²⁰, and light of 10³⁰: the variance of their radiance has no 32 bits.
+    #[test]
+    fn no_variance_of_a_narrow_pupil_is_infinite() {
+        let square = |weight: f32| weight * weight;
+        assert_eq!(over(1e-30, 1e-25, square), f32::MAX);
+        assert_eq!(over(1e30, 1e-5, square), f32::MAX);
+        assert_eq!((over(0.0, 1e-25, square), over(1.0, 0.0, square)), (0.0, 0.0));
+        assert!(over(f32::NAN, 1e-5, square).is_nan(), "not known");
+        assert_eq!(over(3.0, 2.0, square), 0.75);
     }
 }

@@ -1,7 +1,7 @@
 //! The light of a whole frame: f32 means and variances, filled tile by tile by one owner each.
 
 use crate::render::band_views::over;
-use crate::render::gather::{Layout, PixelLight};
+use crate::render::gather::{Layout, PixelLight, stored_variance};
 use crate::render::tile::Tile;
 use crate::render::tile_bands::TileBands;
 use crate::render::tiled_cube::TiledCube;
@@ -33,7 +33,7 @@ impl Estimate<ElectronRate> {
     pub fn exposed(&self, exposure_s: f64) -> Estimate<MeanElectrons> {
         Estimate {
             mean: exposed(self.mean.clone(), exposure_s),
-            variance: exposed(self.variance.clone(), exposure_s * exposure_s),
+            variance: self.variance.map(|value| stored_variance(f64::from(value) * exposure_s * exposure_s)),
         }
     }
 }
@@ -216,16 +216,16 @@ impl Film {
                 plane.set(x, y, *mean as f32);
             }
             for (plane, variance) in cube.variance.planes_mut().iter_mut().zip(light.band_variances()) {
-                plane.set(x, y, *variance as f32);
+                plane.set(x, y, stored_variance(*variance));
             }
         }
         if let (Some(estimate), Some((mean, variance))) = (&mut self.electron_rate, light.electrons()) {
             estimate.mean.set(x, y, mean as f32);
-            estimate.variance.set(x, y, variance as f32);
+            estimate.variance.set(x, y, stored_variance(variance));
         }
         if let (Some(estimate), Some((mean, variance))) = (&mut self.watched, light.watched()) {
             estimate.mean.set(x, y, mean as f32);
-            estimate.variance.set(x, y, variance as f32);
+            estimate.variance.set(x, y, stored_variance(variance));
         }
         self.weight.set(x, y, light.weight_sr() as f32);
         self.samples.set(x, y, light.samples());

@@ -137,6 +137,11 @@ impl Gather {
     }
 }
 
+/// A variance as it is stored: one beyond 32 bits is the greatest number, which then is a lower bound; NaN, of what is not known, stays.
+pub(crate) fn stored_variance(value: f64) -> f32 {
+    if value > f64::from(f32::MAX) { f32::MAX } else { value as f32 }
+}
+
 /// The light of one pixel: means and their variances.
 #[derive(Clone, Debug)]
 pub struct PixelLight {
@@ -269,5 +274,29 @@ mod tests {
         let light = gather.light(&layout, 1, sums.not_finite());
         assert_eq!(light.not_finite(), 1);
         assert!(light.electrons().is_some_and(|(mean, _)| mean.is_nan()));
+    }
+
+    /// Two replicates of 10³⁰ and 3 · 10³⁰: the mean has 32 bits, its variance of 10⁶⁰ has not.
+    #[test]
+    fn a_variance_that_is_stored_is_never_infinite() {
+        use crate::render::film::Film;
+        use etendue_core::random::Pixel;
+        let bands = Bands::covering(500.0, 501.0, 1.0);
+        let layout = Layout { bands, folded: true, watched: false };
+        let (mut sums, mut gather) = (Sums::new(layout), Gather::new(&layout));
+        for value in [1e30, 3e30] {
+            let wavelengths = Wavelengths::<1>::uniform(500.0, 501.0, 0.5);
+            sums.add(1.0, Spectral::splat(value), &wavelengths, Some(&Spectrum::constant(1.0)));
+            gather.end_replicate(&mut sums, 1);
+        }
+        let light = gather.light(&layout, 2, 0);
+        let mut film = Film::new(1, 1, &layout, 2);
+        film.store(Pixel { x: 0, y: 0 }, &light);
+        assert_eq!(film.not_finite_samples(), 0, "the means are good");
+        let exposed = film.electron_rate.as_ref().map(|rate| rate.exposed(2.0)).expect("folded");
+        let cube = film.cube().expect("a band");
+        let variances = [cube.variance.planes()[0].at(0, 0), exposed.variance.at(0, 0)];
+        assert_eq!(variances, [f32::MAX; 2]);
+        assert!((exposed.mean.at(0, 0) / 4e30 - 1.0).abs() < 1e-6 && cube.mean.planes()[0].at(0, 0).is_finite());
     }
 }

@@ -1,6 +1,6 @@
 //! The bands of a tile of a film: what is written to a scratch file at once.
 
-use crate::render::gather::PixelLight;
+use crate::render::gather::{PixelLight, stored_variance};
 use crate::render::tile::Tile;
 use etendue_core::quantity::{Irradiance, Variance};
 use etendue_core::random::Pixel;
@@ -53,9 +53,10 @@ impl TileBands {
     /// Stores the light of a pixel.
     pub(super) fn store(&mut self, pixel: Pixel, light: &PixelLight) {
         let place = self.place(pixel);
-        let light = light.bands().iter().chain(light.band_variances());
-        for (plane, value) in self.samples.chunks_exact_mut(self.tile.len()).zip(light) {
-            plane[place] = *value as f32;
+        let means = light.bands().iter().map(|mean| *mean as f32);
+        let variances = light.band_variances().iter().map(|variance| stored_variance(*variance));
+        for (plane, value) in self.samples.chunks_exact_mut(self.tile.len()).zip(means.chain(variances)) {
+            plane[place] = value;
         }
     }
 

@@ -108,6 +108,9 @@ pub fn ground_truth(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) ->
     TruthRows::new(plan, camera, frame, simd).rows(0..camera.body.raster.height())
 }
 
+/// Rows whose looks are in memory at the same time: as many as a block of an EXR file has.
+const STRIP_ROWS: usize = 16;
+
 /// The ground truth of a camera, some rows at a time.
 #[derive(Debug)]
 pub struct TruthRows<'a> {
@@ -146,6 +149,12 @@ impl<'a> TruthRows<'a> {
         raster.width() as f64 * raster.height() as f64 * (numbers * size_of::<f32>()) as f64
     }
 
+    /// Bytes of what the pixels of some rows see, while planes are made of it.
+    #[must_use]
+    pub fn strip_bytes(camera: &CameraPlan) -> f64 {
+        (STRIP_ROWS * camera.body.raster.width() * size_of::<Look>()) as f64
+    }
+
     /// Whether some pixel has no depth along the axis: it has no ray, or does not look ahead. Nothing is traced.
     #[must_use]
     pub fn has_gaps(&self) -> bool {
@@ -160,41 +169,74 @@ impl<'a> TruthRows<'a> {
     /// Planes of some rows, on the caller's pool.
     #[must_use]
     pub fn rows(&self, rows: Range<usize>) -> GroundTruth {
-        let (width, height) = (self.camera.body.raster.width(), rows.len());
-        let viewpoint = |i: usize| &self.viewpoints[rows.start + i / width];
-        let look = |i: usize| {
-            let centre = DVec2::new((i % width) as f64, (rows.start + i / width) as f64) + 0.5;
-            look(&self.view, self.material_table, (self.camera, viewpoint(i)), centre)
-        };
-        let looks: Vec<Look> = (0..width * height).into_par_iter().map(look).collect();
+        let mut truth = self.empty(rows.len());
+        for first in rows.clone().step_by(STRIP_ROWS) {
+            let strip = first..(first + STRIP_ROWS).min(rows.end);
+            let looks = self.looks(strip.clone());
+            self.store(&mut truth, (first - rows.start) * self.size().0, strip, &looks);
+        }
+        truth
+    }
+
+    /// Planes of as many rows, all of them empty.
+    fn empty(&self, height: usize) -> GroundTruth {
+        let width = self.size().0;
+        let vectors = |is_asked: bool| is_asked.then(|| Plane::new(width, height));
         GroundTruth {
-            depth: plane(&looks, width, height, |l| l.seen.depth()),
-            distance: plane(&looks, width, height, |l| l.seen.distance()),
-            normal: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.normal)),
-            position: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.position_m)),
-            position_low: is_far(self.camera).then(|| {
-                let rest = |truth: &Truth| truth.position_m - truth.position_m.as_vec3().as_dvec3();
-                plane(&looks, width, height, |l| l.seen.vector(rest))
-            }),
-            camera_space_position: self.camera.products.camera_space_position.then(|| {
-                let points = looks.iter().enumerate().map(|(i, look)| {
-                    let in_camera = |truth: &Truth| viewpoint(i).pose.point_to_camera(truth.position_m);
-                    look.seen.vector(in_camera)
-                });
-                Plane::from_samples(width, height, points.collect()).expect("one sample a pixel")
-            }),
-            instance: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.instance_id)),
-            semantic: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.semantic_id)),
-            material: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.material + 1)),
-            ray: plane(&looks, width, height, |l| l.ray),
-            mirror: has_mirror(self.camera).then(|| plane(&looks, width, height, Look::mirror)),
+            depth: Plane::new(width, height),
+            distance: Plane::new(width, height),
+            normal: Plane::new(width, height),
+            position: Plane::new(width, height),
+            position_low: vectors(is_far(self.camera)),
+            camera_space_position: vectors(self.camera.products.camera_space_position),
+            instance: Plane::new(width, height),
+            semantic: Plane::new(width, height),
+            material: Plane::new(width, height),
+            ray: Plane::new(width, height),
+            mirror: vectors(has_mirror(self.camera)),
+        }
+    }
+
+    /// What the pixels of some rows see.
+    fn looks(&self, rows: Range<usize>) -> Vec<Look> {
+        let width = self.size().0;
+        let look = |i: usize| {
+            let row = rows.start + i / width;
+            let centre = DVec2::new((i % width) as f64, row as f64) + 0.5;
+            look(&self.view, self.material_table, (self.camera, &self.viewpoints[row]), centre)
+        };
+        (0..width * rows.len()).into_par_iter().map(look).collect()
+    }
+
+    /// Stores what the pixels of `rows` see, from the sample `at` of the planes on.
+    fn store(&self, truth: &mut GroundTruth, at: usize, rows: Range<usize>, looks: &[Look]) {
+        let rest = |truth: &Truth| truth.position_m - truth.position_m.as_vec3().as_dvec3();
+        fill(&mut truth.depth, at, looks, |l| l.seen.depth());
+        fill(&mut truth.distance, at, looks, |l| l.seen.distance());
+        fill(&mut truth.normal, at, looks, |l| l.seen.vector(|truth| truth.normal));
+        fill(&mut truth.position, at, looks, |l| l.seen.vector(|truth| truth.position_m));
+        fill(&mut truth.instance, at, looks, |l| l.seen.identity(|truth| truth.instance_id));
+        fill(&mut truth.semantic, at, looks, |l| l.seen.identity(|truth| truth.semantic_id));
+        fill(&mut truth.material, at, looks, |l| l.seen.identity(|truth| truth.material + 1));
+        fill(&mut truth.ray, at, looks, |l| l.ray);
+        if let Some(plane) = &mut truth.position_low {
+            fill(plane, at, looks, |l| l.seen.vector(rest));
+        }
+        if let Some(plane) = &mut truth.mirror {
+            fill(plane, at, looks, Look::mirror);
+        }
+        if let Some(plane) = &mut truth.camera_space_position {
+            let viewpoints = self.viewpoints[rows].iter().flat_map(|v| std::iter::repeat_n(v, self.size().0));
+            let samples = plane.samples_mut()[at..].iter_mut();
+            for ((sample, look), viewpoint) in samples.zip(looks).zip(viewpoints) {
+                *sample = look.seen.vector(|truth| viewpoint.pose.point_to_camera(truth.position_m));
+            }
         }
     }
 
     /// The depth along the axis alone, found some rows at a time, on the caller's pool.
     #[must_use]
     pub fn depth(&self) -> Plane<Length> {
-        const STRIP_ROWS: usize = 64;
         let (width, height) = self.size();
         let starts = (0..height).step_by(STRIP_ROWS);
         let strips = starts.flat_map(|y| self.rows(y..(y + STRIP_ROWS).min(height)).depth.into_samples());
@@ -272,8 +314,9 @@ pub(crate) fn is_there(view: &RenderSpace<'_>, material_table: &MaterialTable, p
     material_table.opacity(point.material, &at) >= 0.5
 }
 
-fn plane<Q: Quantity>(looks: &[Look], width: usize, height: usize, of: impl Fn(&Look) -> Q::Sample) -> Plane<Q> {
-    Plane::from_samples(width, height, looks.iter().map(of).collect()).expect("one sample a pixel")
+/// Stores a sample of each look, from the sample `at` of the plane on.
+fn fill<Q: Quantity>(plane: &mut Plane<Q>, at: usize, looks: &[Look], of: impl Fn(&Look) -> Q::Sample) {
+    plane.samples_mut()[at..].iter_mut().zip(looks).for_each(|(sample, look)| *sample = of(look));
 }
 
 impl Look {

@@ -47,6 +47,11 @@ impl Blas {
         Self { nodes, halves, root }
     }
 
+    /// Bytes of its nodes and triangles.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice()) + size_of_val(self.halves.as_slice())
+    }
+
     #[inline(always)]
     fn packet(&self, leaf: usize) -> Packet<'_> {
         Packet::new(&self.halves, leaf / 2, leaf / 2 + leaf % 2)

@@ -212,6 +212,14 @@ impl World {
         &self.meshes[id.0 as usize]
     }
 
+    /// Bytes of meshes, trees and instances.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let meshes: usize = self.meshes.iter().map(Mesh::bytes).sum();
+        let trees: usize = self.trees.iter().map(Blas::bytes).sum();
+        meshes + trees + size_of_val(self.instances.as_slice())
+    }
+
     /// What was spent on the trees.
     #[must_use]
     pub fn tree_quality(&self) -> TreeQuality {

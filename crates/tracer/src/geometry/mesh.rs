@@ -42,6 +42,15 @@ pub struct Dropped {
 }
 
 impl Mesh {
+    /// Bytes of its vertices and triangles; of one whose vertices move those of all its frames.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let vertices = size_of_val(self.positions.as_slice()) + size_of_val(self.normals.as_slice());
+        let triangles = size_of_val(self.triangles.as_slice()) + size_of_val(self.slots.as_slice());
+        let frames = self.animation.as_ref().map_or(0, |animation| animation.frames().len() * vertices);
+        vertices + size_of_val(self.uvs.as_slice()) + triangles + size_of_val(self.facets.as_slice()) + frames
+    }
+
     /// A checked mesh. `normals` and `uvs` are one a vertex or empty; `slots` (material slots) one a triangle, or empty
     /// for slot 0 throughout. Triangles kept stay in their order; a primitive is counted among those kept. Runs on the caller's
     /// thread pool.

@@ -7,6 +7,8 @@ pub(crate) struct Found {
     pub(crate) data: TransferData,
     pub(crate) figures: Figures,
     pub(crate) fixed: Option<Fixed>,
+    /// Notes of pictures that are cut and decide the result.
+    pub(crate) cuts: Vec<String>,
 }
 
 /// Of the stacks.

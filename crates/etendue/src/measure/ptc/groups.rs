@@ -66,7 +66,7 @@ pub(crate) fn of_groups(groups: &[Group]) -> Result<Found, TransferError> {
         }
         None => None,
     };
-    Ok(Found { data, figures, fixed })
+    Ok(Found { data, figures, fixed, cuts: Vec::new() })
 }
 
 /// The stacks of the fixed patterns: without light and with it.

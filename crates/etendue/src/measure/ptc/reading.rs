@@ -2,6 +2,7 @@
 
 use super::found::{Fixed, Found};
 use crate::error::Error;
+use crate::measure::clipping::Cut;
 use crate::measure::pictures::Pictures;
 use crate::measure::readings::Selection;
 use etendue_io::emva_descriptor::{DescribedLevel, EmvaDescriptor};
@@ -50,9 +51,27 @@ impl Reading<'_> {
         }
         let levels: Vec<Level> = levels.into_iter().map(|(level, _)| level).collect();
         let data = TransferData::new(&levels).map_err(refused)?;
+        let cuts = self.cuts(&pairs, &data)?;
         let figures = data.figures().map_err(refused)?;
         let fixed = self.fixed_patterns(&stacks, &data, &figures)?;
-        Ok(Found { data, figures, fixed })
+        Ok(Found { data, figures, fixed, cuts })
+    }
+
+    /// Notes of pictures that are cut and decide the result: of dark levels, and of those up to 70 % of saturation. Beyond, clipped ones belong to the
+    /// series, and the standard leaves them out.
+    fn cuts(&self, pairs: &[&DescribedLevel], data: &TransferData) -> Result<Vec<String>, Error> {
+        let most = data.bright()[data.sensitivity_end() - 1].photons;
+        let full_scale = Some(self.descriptor.bits).filter(|bits| *bits > 0);
+        let full_scale = full_scale.map(|bits| ((1_u64 << bits.min(32)) - 1) as f64);
+        let used = pairs.iter().filter(|level| level.photons <= most);
+        let note = |level: &&&DescribedLevel| {
+            let file = &level.files[0];
+            let image = self.selection.raw(file)?.image;
+            let cut = Cut::of(&image, full_scale);
+            Ok(cut.map(|cut| format!("{}: {}; the figures leave that out", file.display(), cut.words())))
+        };
+        let notes = used.map(|level| note(&level)).collect::<Result<Vec<_>, Error>>()?;
+        Ok(notes.into_iter().flatten().collect())
     }
 
     fn pair(&self, level: &DescribedLevel) -> Result<(Level, Vec<u64>), Error> {

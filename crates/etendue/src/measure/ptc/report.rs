@@ -25,6 +25,7 @@ pub(crate) fn report(request: &PtcRequest, found: &Found) -> Report {
     if found.data.dark().len() < 3 {
         report.note("the dark current needs dark levels of at least three exposure times");
     }
+    found.cuts.iter().for_each(|cut| report.note(cut));
     report.table(curve(&found.data));
     report.camera(camera(found));
     plots::draw(&mut report, found);

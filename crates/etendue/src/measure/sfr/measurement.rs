@@ -5,6 +5,7 @@ use super::refusal::failure;
 use super::report::report;
 use super::request::SfrRequest;
 use crate::error::Error;
+use crate::measure::clipping::region;
 use crate::measure::picture_input::refused;
 use crate::measure::readings::{Readings, field_position};
 use crate::measure::truth::Truth;
@@ -56,7 +57,11 @@ pub(crate) fn responses(request: &SfrRequest) -> Result<(Report, Vec<Sfr>), Erro
         let (sought, error) = &left_out[0];
         return Err(failure(request, sought, error));
     }
-    let report = report(request, &found, &left_out, &readings);
+    let mut report = report(request, &found, &left_out, &readings);
+    let full_scale = request.input.levels.full_scale(&readings);
+    for one in found.iter().filter(|one| one.sought.spoke.is_none()) {
+        report.note_cut(&region("edge", one.sought.at), &readings.part(one.sought.at, "--edge")?, full_scale);
+    }
     Ok((report, found.into_iter().map(|one| one.sfr).collect()))
 }
 

@@ -126,6 +126,7 @@ impl Psf {
         let corner_mm = picture.max_radius_mm();
         let varies = psf.stretch(corner_mm)[0] > SAME || psf.parameters.wavefront.iter().any(ZernikeTerm::varies);
         psf.patches = psf.parameters.patches.unwrap_or(if varies { PATCHES } else { [1, 1] });
+        psf.check_step(picture.pitch_mm().min_element())?;
         psf.check_slope(picture.pitch_mm().min_element())?;
         Ok(psf)
     }
@@ -191,6 +192,20 @@ impl Psf {
         let tangent = radius_mm / self.exit_mm;
         let across = (1.0 + tangent * tangent).sqrt();
         [across * across * across, across]
+    }
+
+    /// Points of the pattern must lie as near to each other as pixels: its steps are at most a thirty-second of λN, and those of a small aperture are wide.
+    fn check_step(&self, pitch_mm: f64) -> Result<(), EffectsError> {
+        let steps = self.fineness(VISIBLE_NM.1, pitch_mm);
+        let step_mm = VISIBLE_NM.1 * MM_PER_NM * self.f_number / steps;
+        if step_mm <= pitch_mm {
+            return Ok(());
+        }
+        Err(EffectsError::WidePattern {
+            f_number: self.f_number,
+            most: pitch_mm * steps / (VISIBLE_NM.1 * MM_PER_NM),
+            pixel_um: pitch_mm / MM_PER_UM,
+        })
     }
 
     /// Rays must land within the pattern at all visible wavelengths.

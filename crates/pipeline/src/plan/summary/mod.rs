@@ -20,7 +20,7 @@ use crate::plan::mesh_sizes::{MeshSize, mesh_sizes};
 use crate::plan::remark::{Weight, grouped};
 use crate::plan::texture_use::TextureUse;
 use crate::plan::{
-    AdaptiveSampling, CameraPlan, FilmBytes, Passes, Plan, Products, RawFormat, Route, Settings, SkyFacts,
+    AdaptiveSampling, CameraPlan, FilmBytes, Passes, Plan, Products, RawFormat, Route, RunMemory, Settings, SkyFacts,
 };
 use crate::render::block::Blocks;
 use crate::render::{light_counts, training};
@@ -49,11 +49,19 @@ impl Display for Summary<'_> {
             writeln!(f)?;
             self::camera(plan, camera, f)?;
         }
+        writeln!(f)?;
+        memory(plan, f)?;
         writeln!(f, "\n{LEGEND}")?;
         section(f, "warnings", &plan.warnings())?;
         let notes = grouped(&plan.remarks).into_iter().filter(|remark| remark.weight == Weight::Note);
         section(f, "remarks", &notes.map(|remark| remark.to_string()).collect::<Vec<_>>())
     }
+}
+
+/// The memory of the whole run.
+fn memory(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
+    let memory = RunMemory::planned(plan);
+    line(f, "memory", format!("{:.0} MB for the whole run: {}", memory.bytes() / 1e6, memory.parts()))
 }
 
 fn section(f: &mut Formatter<'_>, heading: &str, sentences: &[String]) -> fmt::Result {

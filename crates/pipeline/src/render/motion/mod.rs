@@ -57,6 +57,14 @@ struct Look {
     neighbours: Vec<neighbour::Found>,
 }
 
+/// Bytes that a pixel takes at most while its motion against `neighbours` frames is found: what it sees, and the planes of it.
+pub(crate) fn bytes_of_pixel(neighbours: usize) -> f64 {
+    // An allocation has two words beside it.
+    let look = size_of::<Look>() + neighbours * size_of::<neighbour::Found>() + 2 * size_of::<usize>();
+    let planes = size_of::<[f32; 2]>() + size_of::<[f32; 3]>() + size_of::<f32>();
+    (look + planes + (neighbours + 1) * size_of::<neighbour::Found>()) as f64
+}
+
 /// The truth of motion of a frame against others of the same world, on the caller's pool.
 #[must_use]
 pub fn motion_truth(plan: &Plan, frame: &FrameView<'_>, others: &[FrameView<'_>], simd: Simd) -> MotionTruth {
