@@ -287,8 +287,9 @@ mod tests {
             let eighths = (whole % 8) as f64 / 8.0;
             assert_eq!(phase(Cycle::Frequency(50.125), far), eighths);
             // The f64 nearest to 59.94 is m/2^47.
-            let m = (59.94 * 2_f64.powi(47)) as i128;
-            let exact = ((m * i128::from(whole)) % (1 << 47)) as f64 / 2_f64.powi(47);
+            let scale = (1_i64 << 47) as f64;
+            let m = (59.94 * scale) as i128;
+            let exact = ((m * i128::from(whole)) % (1 << 47)) as f64 / scale;
             assert!((phase(Cycle::Frequency(59.94), far) - exact).abs() < 1e-7, "{far}");
         }
         assert_eq!(Cycle::Period(0.25).reduced_s(time("1700000000.125")), 0.125);

@@ -77,7 +77,7 @@ fn remedies(camera: &CameraPlan) -> String {
         (products.undistorted.is_some(), "no output.undistorted"),
         (products.signal_breakdown, "output.signal_breakdown = false"),
     ];
-    let asked = asked.into_iter().filter_map(|(is_asked, key)| is_asked.then(|| key.to_owned()));
+    let asked = asked.into_iter().filter(|(is_asked, _)| *is_asked).map(|(_, key)| key.to_owned());
     let size = format!("smaller width_px and height_px of [sensor] of camera {name}");
     let bands = spectra.then(|| "a larger render.band_width_nm".to_owned());
     let keys: Vec<String> = [size].into_iter().chain(bands).chain(asked).collect();

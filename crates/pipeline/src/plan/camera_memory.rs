@@ -15,6 +15,8 @@ use etendue_optics::DepthOfField;
 const WRITING_BYTES: f64 = 2.0 * ROWS_WAITING_BYTES as f64;
 /// Bytes of rows that wait to be compressed at most.
 pub const ROWS_WAITING_BYTES: usize = 32 << 20;
+/// Planes of distances and depths at the pupil: as the threads made them, and put together.
+const PUPIL_PLANES: f64 = 4.0;
 /// A number of a plane.
 const NUMBER: f64 = size_of::<f32>() as f64;
 
@@ -43,10 +45,12 @@ impl CameraMemory {
         // A frame that the sensor remembers is held while the other files are made.
         let remembers = camera.body.sensor.as_ref().is_some_and(|sensor| sensor.remembers());
         let kept = if remembers && camera.time != TimeDependence::None { frame.held } else { 0.0 };
-        let light = sizes.light() + kept;
+        let light = sizes.light() + kept + sizes.films_kept();
+        let distances = if sizes.is_at_pupil { light + view.beside(PUPIL_PLANES * sizes.film_plane) } else { 0.0 };
         let stages = [
             ("its light is gathered", view.beside(sizes.films())),
             ("its film becomes light on the sensor", sizes.seen(threads)),
+            ("distances at its pupil are found", distances),
             ("the spectra of its light are written", light + sizes.spectra_files()),
             ("its frames are made and written", light + frame.most),
             ("its ground truth is made and written", light + view.beside(sizes.ground_truth())),
@@ -118,6 +122,11 @@ impl<'a> Sizes<'a> {
         // A run in passes makes pictures of a copy of the film so far.
         let refined = if self.camera.pass_count() > 1 { 1.0 } else { 0.0 };
         self.film * self.captures * (copies + refined)
+    }
+
+    /// Films that are kept for cameras of the same light that follow.
+    fn films_kept(&self) -> f64 {
+        if self.group > 1 { self.film * self.captures } else { 0.0 }
     }
 
     fn has_ghosts(&self) -> f64 {
