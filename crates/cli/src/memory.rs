@@ -1,18 +1,18 @@
-//! The memory that is free for a run, as Linux states it. What cannot be read limits nothing.
+//! The memory that is free for a run, as Linux states it. A limit that cannot be read is not applied.
 
 use etendue::{MemoryLimit, MemoryLimits};
 use std::path::{Path, PathBuf};
 
-/// Limits of control groups above this are none: the kernel's word for no limit is the largest number of pages.
+/// Limits of control groups from this value on mean "no limit": version 1 states the largest number of pages.
 const NO_LIMIT_BYTES: u64 = 1 << 60;
 
-/// What is free at this moment.
+/// Returns the memory that is free at this moment.
 #[must_use]
 pub fn free() -> MemoryLimits {
     free_by(&|path| std::fs::read_to_string(path).ok())
 }
 
-/// The same by files that `read` reads.
+/// As [`free`], with the files that `read` returns.
 fn free_by(read: &dyn Fn(&Path) -> Option<String>) -> MemoryLimits {
     let process = || {
         let limit = address_space(&read(Path::new("/proc/self/limits"))?)?;
@@ -25,24 +25,24 @@ fn free_by(read: &dyn Fn(&Path) -> Option<String>) -> MemoryLimits {
     MemoryLimits { free_bytes: limits.into_iter().filter_map(|(limit, free)| Some((limit, free?))).collect() }
 }
 
-/// The soft limit of the address space in /proc/self/limits, bytes; `None` where it is unlimited.
+/// Returns the soft limit of the address space in /proc/self/limits, bytes; `None` if it is unlimited.
 fn address_space(limits: &str) -> Option<u64> {
     let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
     line.split_whitespace().next()?.parse().ok()
 }
 
-/// A size of a line `NAME: N kB`, bytes.
+/// Returns the size in a line `NAME: N kB`, bytes.
 fn kib_of(text: &str, name: &str) -> Option<u64> {
     let line = text.lines().find_map(|line| line.strip_prefix(name))?;
     line.split_whitespace().next()?.parse::<u64>().ok()?.checked_mul(1024)
 }
 
-/// A hierarchy of control groups: where it is mounted, and its files.
+/// A hierarchy of control groups: its mount point and the names of its files.
 struct Hierarchy {
     mount: &'static str,
     limit: &'static str,
     used: &'static str,
-    /// The line of `memory.stat` with the file pages that the kernel takes back first.
+    /// The line of `memory.stat` with the file pages that the kernel reclaims first.
     reclaimable: &'static str,
 }
 
@@ -55,7 +55,7 @@ const VERSION_1: Hierarchy = Hierarchy {
 const VERSION_2: Hierarchy =
     Hierarchy { mount: "/sys/fs/cgroup", limit: "memory.max", used: "memory.current", reclaimable: "inactive_file " };
 
-/// What is free in the groups of /proc/self/cgroup and those about them, bytes; `None` where none has a limit.
+/// Returns the memory that is free in the groups of /proc/self/cgroup and their parents, bytes; `None` if none has a limit.
 fn free_in_groups(groups: &str, read: &dyn Fn(&Path) -> Option<String>) -> Option<u64> {
     let group = |line: &str| {
         let mut parts = line.splitn(3, ':');
@@ -65,14 +65,14 @@ fn free_in_groups(groups: &str, read: &dyn Fn(&Path) -> Option<String>) -> Optio
             names => names.split(',').any(|name| name == "memory").then(|| (VERSION_1, PathBuf::from(path))),
         }
     };
-    let of_group = |(hierarchy, path): (Hierarchy, PathBuf)| {
+    let free_of_group = |(hierarchy, path): (Hierarchy, PathBuf)| {
         let free = |at: &Path| free_in(&hierarchy, at.strip_prefix("/").unwrap_or(at), read);
         path.ancestors().filter_map(free).min()
     };
-    groups.lines().filter_map(group).filter_map(of_group).min()
+    groups.lines().filter_map(group).filter_map(free_of_group).min()
 }
 
-/// What is free in one group, bytes. In a container the path may be that of the host, which is not there.
+/// Returns the memory that is free in one group, bytes. In a container the path may be that of the host, which does not exist there.
 fn free_in(hierarchy: &Hierarchy, group: &Path, read: &dyn Fn(&Path) -> Option<String>) -> Option<u64> {
     let folder = Path::new(hierarchy.mount).join(group);
     let number = |name: &str| read(&folder.join(name))?.trim().parse::<u64>().ok();
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_read_limits_nothing() {
+    fn limits_that_cannot_be_read_are_not_applied() {
         assert_eq!(free_of(&[]), []);
         let unlimited = LIMITS.replace("512000000", "unlimited");
         let status = ("/proc/self/status", "VmSize:\t  1000 kB\n");
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn an_address_space_is_free_beyond_what_the_process_has() {
+    fn free_address_space_is_the_limit_less_the_size_of_the_process() {
         let status = ("/proc/self/status", "Name:\tetendue\nVmPeak:\t 2000 kB\nVmSize:\t  1000 kB\n");
         let (limits, memory) =
             (("/proc/self/limits", LIMITS), ("/proc/meminfo", "MemFree: 5 kB\nMemAvailable:    7 kB\n"));
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn the_tightest_group_of_version_2_counts() {
+    fn the_tightest_group_of_version_2_applies() {
         let files = [
             ("/proc/self/cgroup", "0::/jobs/mine\n"),
             ("/sys/fs/cgroup/jobs/mine/memory.max", "max\n"),
@@ -136,10 +136,11 @@ mod tests {
         let own = "/sys/fs/cgroup/memory/pod/a:b";
         let limit = format!("{own}/memory.limit_in_bytes");
         let (used, stat) = (format!("{own}/memory.usage_in_bytes"), format!("{own}/memory.stat"));
-        let files = |most| [groups, (&limit[..], most), (&used, "300\n"), (&stat, "total_inactive_file 100\n")];
+        let files =
+            |limit_text| [groups, (&limit[..], limit_text), (&used, "300\n"), (&stat, "total_inactive_file 100\n")];
         assert_eq!(free_of(&files("1000\n")), [(ControlGroup, 800)]);
         assert_eq!(free_of(&files("9223372036854771712\n")), []);
-        // In a container the group is the root of what is mounted.
+        // In a container the group is the root of the mounted hierarchy.
         let mounted = ("/sys/fs/cgroup/memory/memory.limit_in_bytes", "2000\n");
         assert_eq!(free_of(&[groups, mounted]), [(ControlGroup, 2000)]);
     }

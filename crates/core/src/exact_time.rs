@@ -1,6 +1,6 @@
 //! Simulated time far from zero: whole seconds beside a fraction, and the epoch that times within a job are counted from.
 //!
-//! An f64 of 1.7·10⁹ s (a Unix time) has steps of 0.24 µs, and one of 10¹⁰ s of 1.9 µs. What a user states is therefore held as whole
+//! An f64 of 1.7·10⁹ s (a Unix time) has steps of 0.24 µs, and one of 10¹⁰ s of 1.9 µs. Times of a job are therefore stored as whole
 //! seconds and a fraction, and a job that begins far from zero counts its times from a whole second near its beginning.
 
 use std::fmt;
@@ -8,7 +8,7 @@ use std::str::FromStr;
 
 /// A point of simulated time or a difference of two: whole seconds and a fraction of a second of the same sign.
 ///
-/// The order is that of time. Resolution: 10⁻¹⁶ s, whatever the whole seconds.
+/// It is ordered by time. Resolution: 10⁻¹⁶ s, whatever the whole seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct ExactTime {
     whole_s: i64,
@@ -20,45 +20,45 @@ impl ExactTime {
     /// The greatest distance from zero, s: whole seconds up to it are exact in an f64.
     pub const MAX_S: f64 = 1e15;
 
-    /// The time of a number of seconds, exactly; `None` where it is not finite or beyond [`ExactTime::MAX_S`].
+    /// Returns the exact time of a number of seconds; `None` if it is not finite or beyond [`ExactTime::MAX_S`].
     #[must_use]
     pub fn from_seconds(seconds: f64) -> Option<Self> {
         let is_legal = seconds.abs() <= Self::MAX_S;
         is_legal.then(|| Self { whole_s: seconds.trunc() as i64, fraction_s: seconds.fract() })
     }
 
-    /// The nearest f64, s; of a time made by [`ExactTime::from_seconds`] the same number.
+    /// Returns the nearest f64, s; for a time from [`ExactTime::from_seconds`] it is the same number.
     #[must_use]
     pub fn seconds(self) -> f64 {
         self.whole_s as f64 + self.fraction_s
     }
 
-    /// Its whole seconds, towards zero.
+    /// Returns the whole seconds, rounded towards zero.
     #[must_use]
     pub fn whole_s(self) -> i64 {
         self.whole_s
     }
 
-    /// Its fraction of a second: 0, or of the sign of the time.
+    /// Returns the fraction of a second: 0, or with the sign of the time.
     #[must_use]
     pub fn fraction_s(self) -> f64 {
         self.fraction_s
     }
 
-    /// Whole nanoseconds since zero, the nearest.
+    /// Returns the time rounded to whole nanoseconds.
     #[must_use]
     pub fn nanoseconds(self) -> i128 {
         i128::from(self.whole_s) * 1_000_000_000 + (self.fraction_s * 1e9).round() as i128
     }
 
-    /// The step of an f64 at this time, s: to what [`ExactTime::seconds`] tells it.
+    /// Returns the spacing of f64 values at this time, s: the resolution of [`ExactTime::seconds`].
     #[must_use]
     pub fn step_s(self) -> f64 {
         let seconds = self.seconds().abs();
         seconds.next_up() - seconds
     }
 
-    /// Whether a number in a file says the same.
+    /// Whether a number in a file represents the time exactly.
     #[must_use]
     pub fn is_number(self) -> bool {
         Self::from_seconds(self.seconds()) == Some(self)
@@ -72,7 +72,7 @@ impl ExactTime {
         } else if whole_s < 0 && fraction_s > 0.0 {
             (whole_s, fraction_s) = (whole_s + 1, fraction_s - 1.0);
         }
-        // A sum with 1 may have rounded up to it.
+        // The sum with 1 may have been rounded up to 1.
         match fraction_s.abs() < 1.0 {
             true => Self { whole_s, fraction_s },
             false => Self { whole_s: whole_s + fraction_s as i64, fraction_s: 0.0 },
@@ -112,9 +112,9 @@ impl fmt::Display for ExactTime {
     }
 }
 
-/// The text is no time.
+/// Error: the text is not a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no decimal number of seconds from -1e15 to 1e15")]
+#[error("expected a decimal number of seconds from -1e15 to 1e15")]
 pub struct NoTime;
 
 impl FromStr for ExactTime {
@@ -143,10 +143,10 @@ pub struct Epoch {
 }
 
 impl Epoch {
-    /// Distance from zero from which a job has an epoch of its own, s. An f64 tells times below it to 1.2·10⁻¹⁰ s.
+    /// Minimum distance from zero of the epoch of a job, s. Below it the spacing of f64 values is at most 1.2·10⁻¹⁰ s.
     const FAR_S: f64 = 1e6;
 
-    /// The epoch of a job that begins at `start`: zero unless that is far from zero.
+    /// Returns the epoch of a job that begins at `start`: zero unless `start` is far from zero.
     #[must_use]
     pub fn near(start: ExactTime) -> Self {
         Self { whole_s: if start.seconds().abs() < Self::FAR_S { 0 } else { start.whole_s } }
@@ -158,36 +158,36 @@ impl Epoch {
         self.whole_s == 0
     }
 
-    /// Seconds from the epoch to `time`.
+    /// Returns the seconds from the epoch to `time`.
     #[must_use]
     pub fn to(self, time: ExactTime) -> f64 {
         ExactTime { whole_s: time.whole_s - self.whole_s, ..time }.seconds()
     }
 
-    /// The time that is `since_s` after the epoch.
+    /// Returns the time that is `since_s` after the epoch.
     #[must_use]
     pub fn time(self, since_s: f64) -> ExactTime {
         ExactTime { whole_s: self.whole_s, fraction_s: 0.0 } + since_s.into()
     }
 
-    /// The epoch as a time.
+    /// Returns the epoch as a time.
     #[must_use]
     pub fn start(self) -> ExactTime {
         self.time(0.0)
     }
 }
 
-/// What recurs: by its frequency where that is what is known, as 1/f is rounded.
+/// The frequency or period of a periodic process, whichever is stated exactly: 1/f would be rounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cycle {
-    /// So often a second, Hz.
+    /// Frequency, Hz.
     Frequency(f64),
-    /// After so many seconds.
+    /// Period, s.
     Period(f64),
 }
 
 impl Cycle {
-    /// The period, s.
+    /// Returns the period, s.
     #[must_use]
     pub fn period_s(self) -> f64 {
         match self {
@@ -196,8 +196,8 @@ impl Cycle {
         }
     }
 
-    /// A delay of the same phase: the same number where it is near zero, else less than a period from zero but for its fraction of a
-    /// second. Error of the phase: 3·10⁻⁸ periods or less of what the frequency or the period says exactly.
+    /// Returns a delay of the same phase: the same number if it is near zero, else one less than a period from zero plus its fraction of
+    /// a second. The phase is accurate to 3·10⁻⁸ periods for the stated frequency or period.
     #[must_use]
     pub fn reduced_s(self, delay: ExactTime) -> f64 {
         if delay.seconds().abs() < Epoch::FAR_S {
@@ -212,8 +212,8 @@ impl Cycle {
     }
 }
 
-/// The fraction of `frequency_hz` × `whole_s`. Whole numbers of Hz add none, and of the rest two parts of 25 bits and more are
-/// multiplied, whose products round to 3·10⁻⁸.
+/// Returns the fractional part of `frequency_hz` × `whole_s`. The whole Hz contribute none; their remainder is multiplied by two parts of
+/// `whole_s` of 25 bits and more, and these products are rounded to 3·10⁻⁸.
 fn periods(frequency_hz: f64, whole_s: i64) -> f64 {
     const PART: i64 = 1 << 25;
     let rest = frequency_hz.fract();
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_go_through_unchanged() {
+    fn numbers_are_unchanged_by_conversion() {
         for seconds in [0.0, -0.0, 0.1, -0.25, 1e-300, 12.34, -7.9, 1.7e9, 1e10 + 0.5, -1e15] {
             let exact = ExactTime::from_seconds(seconds).expect("within the range");
             assert_eq!(exact.seconds(), seconds);
@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn an_epoch_keeps_what_lies_near_it() {
+    fn times_near_an_epoch_keep_all_digits() {
         let epoch = Epoch::near(time("1700000000.25"));
         assert_eq!(epoch.to(time("1700000000.0000001")), 1e-7);
         assert_eq!(epoch.time(1e-7).to_string(), "1700000000.0000001");

@@ -19,7 +19,7 @@ pub const MAX_LEVEL: f64 = 1e6;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waveform {
     shape: Shape,
-    /// How it recurs; `None` where it does not.
+    /// Frequency or period; `None` if the waveform is not periodic.
     cycle: Option<Cycle>,
     /// By how much all of it is later, s.
     delay_s: f64,
@@ -233,7 +233,7 @@ impl Waveform {
         Self { delay_s: self.delay_s + delay_s, ..self }
     }
 
-    /// The same later by a delay that may be far from zero; of what recurs the phase is kept as [`Cycle::reduced_s`] does.
+    /// Returns the waveform delayed by a time that may be far from zero; a periodic one keeps its phase as in [`Cycle::reduced_s`].
     #[must_use]
     pub fn later_by(self, delay: ExactTime) -> Self {
         let delay_s = self.cycle.map_or_else(|| delay.seconds(), |cycle| cycle.reduced_s(delay));

@@ -48,7 +48,7 @@ pub(crate) struct PictureRecord {
     pub(crate) frame: u32,
     /// Half-way through the exposure.
     pub(crate) time_s: f64,
-    /// The same with all digits, where the number is rounded.
+    /// The same time with all digits, if the number is rounded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) time: Option<String>,
     /// `png` or `jpg`.
@@ -65,7 +65,7 @@ pub(crate) struct PictureRecord {
 }
 
 impl PictureRecord {
-    /// Half-way through the exposure, exactly.
+    /// Returns the exact middle of the exposure.
     pub(crate) fn exact_time(&self) -> ExactTime {
         self.time.as_ref().and_then(|text| text.parse().ok()).unwrap_or_else(|| self.time_s.into())
     }

@@ -31,7 +31,7 @@ impl FilmMemory {
     }
 }
 
-/// Refuses a folder for scratch files that cannot be written.
+/// Checks that the folder for scratch files can be written.
 pub(crate) fn check(plan: &Plan) -> Result<(), Error> {
     let store = plan.cameras.iter().find_map(|camera| plan.scratch(camera));
     store.map_or(Ok(()), |store| store.room(0).map(|_| ()).map_err(Error::input))

@@ -47,7 +47,7 @@ pub struct JobRequest {
     /// Whether light comes in passes, by a schedule that doubles where neither the job nor a time says others, and what is saved
     /// is refined and can be resumed after each.
     pub progressive: bool,
-    /// Size of every camera's picture over that of its sensor, `1/4` or `0.25`, with larger pixels; `None`: as each camera says.
+    /// Size of every camera's image over that of its sensor, `1/4` or `0.25`, with larger pixels; `None`: `sensor.scale` of each camera.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<String>,
     /// The integrator of every camera; `None`: the job's, or path.
@@ -69,7 +69,7 @@ pub struct JobRequest {
     /// How much memory films may take, and where those are kept that take more. It belongs to the machine as well.
     #[serde(skip)]
     pub films: FilmMemory,
-    /// The memory that is free for the run, which is refused where it needs more. It belongs to the machine as well; by default nothing is known.
+    /// The memory that is free for the run; a run that needs more is refused. It is a property of the machine as well; by default no limit is known.
     #[serde(skip)]
     pub memory: MemoryLimits,
 }
@@ -106,8 +106,8 @@ impl JobRequest {
         self
     }
 
-    /// How much memory textures may take. Those of a sandboxed job that names no folder for tiles and has no output folder are all in memory: nothing is
-    /// written outside of the folders that it was given.
+    /// Returns the memory limit of textures. A sandboxed job without a folder for tiles and without an output folder keeps all textures in memory: it writes
+    /// nothing outside the folders that it may use.
     fn texture_memory(&self) -> TextureMemory {
         let has_no_folder =
             self.sandbox.is_some() && self.textures.cache.is_none() && self.textures.cache_use == CacheUse::Keep;
@@ -421,7 +421,7 @@ impl Job {
         Ok(written)
     }
 
-    /// Refuses films that cannot be kept, and a run of these frames that needs more memory than is free, before anything is rendered.
+    /// Refuses films that cannot be stored, and a run of these frames that needs more memory than is free, before anything is rendered.
     pub(crate) fn check_memory(&self, frames: &Range<u32>) -> Result<(), Error> {
         film_memory::check(&self.plan)?;
         self.request.memory.check(&self.plan, self.request.time_s.map(|_| frames.len()))

@@ -1,4 +1,4 @@
-//! The memory that a machine has for a run, against what the run needs.
+//! Comparison of the memory that is free for a run with the memory that the run needs.
 
 use crate::error::Error;
 use etendue_pipeline::Plan;
@@ -15,23 +15,23 @@ pub enum MemoryLimit {
     Machine,
 }
 
-/// How much memory a run may take, of each limit that is known the bytes that are still free. No result depends on it. Libraries do not look at the
-/// machine: who calls them says what is free.
+/// The memory that a run may take: the free bytes of each known limit. No result depends on it. The library does not query the machine: the caller
+/// states what is free.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MemoryLimits {
-    /// Limits that are not listed are not known, and refuse nothing.
+    /// Limits that are not listed are unknown and not applied.
     pub free_bytes: Vec<(MemoryLimit, u64)>,
 }
 
 impl MemoryLimits {
-    /// The limit that leaves least.
+    /// Returns the limit with the fewest free bytes.
     #[must_use]
     pub fn tightest(&self) -> Option<(MemoryLimit, u64)> {
         self.free_bytes.iter().copied().min_by_key(|(_, bytes)| *bytes)
     }
 
-    /// Refuses a run that needs more memory than is free, before its first sample. `held_moments`: films of all cameras are held together, of so many
-    /// moments each.
+    /// Refuses a run that needs more memory than is free, before its first sample. `held_moments`: the films of all cameras are in memory together,
+    /// with this number of moments each.
     pub(crate) fn check(&self, plan: &Plan, held_moments: Option<usize>) -> Result<(), Error> {
         let Some((limit, free)) = self.tightest() else { return Ok(()) };
         let memory = RunMemory::new(plan, rayon::current_num_threads());
@@ -39,7 +39,7 @@ impl MemoryLimits {
             Some(moments) => memory.holding_films(plan, moments),
             None => memory,
         };
-        // What is free is known from before the job was read, so that the scene counts and the program does not.
+        // The free memory was measured before the job was read: the scene counts and the program does not.
         if memory.beyond_program() <= free as f64 {
             return Ok(());
         }
@@ -50,7 +50,7 @@ impl MemoryLimits {
             free as f64 / 1e6,
             limit.words(),
             memory.parts(),
-            camera.map_or_else(|| "make room".to_owned(), remedies),
+            camera.map_or_else(|| "free memory or give the run more".to_owned(), remedies),
         )))
     }
 }
@@ -65,7 +65,7 @@ impl MemoryLimit {
     }
 }
 
-/// The keys that lower what a camera takes.
+/// Returns the keys that reduce the memory of a camera.
 fn remedies(camera: &CameraPlan) -> String {
     let name = &camera.name;
     let products = &camera.products;
@@ -82,7 +82,7 @@ fn remedies(camera: &CameraPlan) -> String {
     let bands = spectra.then(|| "a larger render.band_width_nm".to_owned());
     let keys: Vec<String> = [size].into_iter().chain(bands).chain(asked).collect();
     format!(
-        "less is needed with {}; --film-memory and --texture-memory keep more of films and textures on the disk; or give the run more memory",
+        "reduce it with {}; keep more of films and textures on the disk with --film-memory and --texture-memory; or give the run more memory",
         keys.join(", ")
     )
 }

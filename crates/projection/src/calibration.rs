@@ -98,8 +98,8 @@ impl Calibration {
         Ok(Self { greatest_angle_rad: Some(angle_rad), ..self })
     }
 
-    /// The same camera with pixels of `k` × `k` of its own. In raster coordinates, in which the corner of the picture is the origin, every
-    /// length is 1/k of what it was: the matrix whole, so that polynomials in pixels stay. A size that does not divide is rounded down.
+    /// Returns the same camera with `k` × `k` of its pixels combined into one. In raster coordinates, whose origin is the corner of the image, every
+    /// length is divided by k: the whole matrix is scaled, so that polynomials in pixels are unchanged. A size that does not divide is rounded down.
     #[must_use]
     pub fn with_larger_pixels(self, k: usize) -> Self {
         let CameraMatrix { fx, fy, skew, cx, cy } = self.matrix;

@@ -45,7 +45,7 @@ impl From<&str> for Text {
     }
 }
 
-/// A key that a flag of the command line sets for all cameras.
+/// A key that a command-line option sets for all cameras.
 #[derive(Clone, Debug)]
 struct Flag {
     table: FlagTable,
@@ -54,7 +54,7 @@ struct Flag {
     text: Arc<str>,
 }
 
-/// The table of a flag's key.
+/// The table that contains the key of a flag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum FlagTable {
     /// `[render]` of the job.
@@ -85,7 +85,7 @@ impl Overrides {
         self.flags.push(Flag { table: FlagTable::Render, key, value: value.to_owned(), text: text.into() });
     }
 
-    /// The same of `key` of each camera's `[sensor]`: of all cameras of a job, or of the camera of a camera file.
+    /// Adds a flag that sets `key` in `[sensor]` of each camera: of all cameras of a job, or of the camera of a camera file.
     pub fn push_sensor(&mut self, text: &str, key: &'static str, value: &str) {
         self.flags.push(Flag { table: FlagTable::Sensors, key, value: value.to_owned(), text: text.into() });
     }
@@ -118,7 +118,7 @@ impl Flag {
         }
     }
 
-    /// Sets the key in the job, and takes it out of its cameras.
+    /// Sets the key in the job, and removes it from its cameras.
     fn apply_to_render(&self, document: &mut Node) {
         let Some(job) = document.as_table_mut() else { return };
         if let Some(Node { value: Value::List(cameras), .. }) = job.get_mut("cameras") {
@@ -161,7 +161,7 @@ impl Flag {
     }
 }
 
-/// The sensor of a camera of a job, in its entry or in its file.
+/// Returns the sensor of a camera of a job, in its entry or in its file.
 fn sensor_of_entry(entry: &mut Node) -> Option<&mut Node> {
     let entry = entry.as_table_mut()?;
     let is_in_file = entry.get("file").is_some_and(|file| file.as_table().is_some());

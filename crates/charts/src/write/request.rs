@@ -30,6 +30,6 @@ pub struct Request<'a> {
     pub specimen: Option<u64>,
     /// The seed.
     pub seed: u64,
-    /// Changes `key=value` of the job's keys that are made after the chart is drawn.
+    /// Changes `key=value` of the job's keys that are applied after the chart is drawn.
     pub changes: &'a [String],
 }

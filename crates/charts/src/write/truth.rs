@@ -55,7 +55,7 @@ pub(super) fn truth(request: &Request<'_>) -> String {
     });
     if !request.changes.is_empty() {
         facts["conventions"]["changed_keys"] = json!(
-            "changes of the job's keys that are made after the chart is drawn: all other facts are those of the chart without them"
+            "changes of the job's keys that are applied after the chart is drawn: all other values are those of the chart without these changes"
         );
         facts["changed_keys"] = json!(request.changes);
     }

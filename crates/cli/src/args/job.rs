@@ -36,8 +36,8 @@ pub struct JobArgs {
     /// sensor), at most render.max_spp
     #[arg(long, value_name = "F", conflicts_with = "spp")]
     pub noise: Option<f64>,
-    /// Size of every picture over that of its sensor, 1/K or the same as a decimal fraction: the same field of view with K × K times larger pixels
-    /// and the same mean level, as sensor.scale says it
+    /// Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and the same mean level, with one
+    /// pixel in the place of K × K; it sets sensor.scale of all cameras
     #[arg(long, value_name = "1/K")]
     pub scale: Option<String>,
     /// How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]

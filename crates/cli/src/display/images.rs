@@ -4,27 +4,27 @@ use super::tev;
 use etendue::ImageTile;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-/// Tiles that are not sent yet: of the newest image, and of the one before it what is left. Images before these are complete, or the viewer is too slow to
-/// show them: their tiles are left out, so that a film of many frames takes the memory of two at most.
+/// Tiles that are not sent yet, of the two newest images. Older images are complete, or the viewer is too slow to show them: their tiles are dropped, so
+/// that a film of many frames takes the memory of at most two.
 #[derive(Default)]
 pub struct Images {
     waiting: VecDeque<Image>,
-    /// Names of images that the viewer has.
+    /// Names of images that were created in the viewer.
     created: BTreeSet<String>,
 }
 
-/// Images with tiles that wait.
+/// Maximum number of images with tiles that are not sent yet.
 const MAX_WAITING: usize = 2;
 
 struct Image {
     name: String,
     size_px: [u32; 2],
     channels: &'static [&'static str],
-    /// Values, one channel after the other, by the place of the tile.
+    /// Values, one channel after the other, by the position of the tile.
     tiles: BTreeMap<Place, Vec<f32>>,
 }
 
-/// Where a tile is, in the order in which tiles are sent.
+/// Position and size of a tile; tiles are sent in this order.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Place {
     first_row: u32,
@@ -95,7 +95,7 @@ mod tests {
         assert_eq!(images.next(), None);
     }
 
-    /// A film of 20 frames of 4 × 3 px in two channels, whose viewer takes nothing: the values that wait are those of two frames, and were those of all.
+    /// A film of 20 frames of 4 × 3 px in two channels, with a viewer that reads nothing: at most the values of two frames wait.
     #[test]
     fn a_film_takes_the_memory_of_two_frames() {
         let mut images = Images::default();
@@ -108,18 +108,18 @@ mod tests {
         let waiting: usize = images.waiting.iter().flat_map(|image| image.tiles.values()).map(Vec::len).sum();
         assert_eq!(waiting, 2 * 3 * 4);
         let sent = std::iter::from_fn(|| images.next()).count();
-        assert_eq!((sent, images.waiting.len()), (6, 0), "nothing is held when all is sent");
+        assert_eq!((sent, images.waiting.len()), (6, 0), "nothing is stored when all is sent");
     }
 
-    /// Passes of several films take turns; a viewer makes an image once.
+    /// Passes of several films alternate; an image is created in the viewer once.
     #[test]
-    fn an_image_that_comes_again_is_made_once() {
+    fn an_image_with_further_tiles_is_created_once() {
         let mut images = Images::default();
         let update = |image, values: &[f32]| tev::update_image(image, &["R", "G"], [2, 1], [2, 1], values);
         for (image, is_new) in [("a", true), ("b", true), ("a", false)] {
             images.put(&ImageTile { image, ..tile([2, 1], &[1.0; 4]) });
-            let made = if is_new { tev::create_image(image, [4, 3], &["R", "G"]) } else { Vec::new() };
-            assert_eq!(images.next(), Some([made, update(image, &[1.0; 4])].concat()));
+            let created = if is_new { tev::create_image(image, [4, 3], &["R", "G"]) } else { Vec::new() };
+            assert_eq!(images.next(), Some([created, update(image, &[1.0; 4])].concat()));
             assert_eq!(images.next(), None);
         }
     }

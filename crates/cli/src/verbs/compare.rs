@@ -10,10 +10,10 @@ use std::path::PathBuf;
 /// `etendue compare`
 #[derive(Debug, Args)]
 pub struct Compare {
-    /// One result: an EXR or PNG file; errors are A − B
+    /// First result, an EXR or PNG file; errors are A − B
     #[arg(value_name = "A")]
     pub a: PathBuf,
-    /// The other, of the same size and channels: the reference, which is subtracted from A
+    /// Reference of the same size and channels, which is subtracted from A
     #[arg(value_name = "B")]
     pub b: PathBuf,
     /// Print JSON
@@ -22,7 +22,7 @@ pub struct Compare {
     /// Family-wise probability of calling equal images different, for images that carry their variance
     #[arg(long, value_name = "P", default_value_t = 0.001)]
     pub significance: f64,
-    /// Where they differ, write A, B and |A − B| as pictures into this folder
+    /// If they differ, write A, B and |A − B| as images into this folder
     #[arg(long, value_name = "DIR")]
     pub difference: Option<PathBuf>,
 }

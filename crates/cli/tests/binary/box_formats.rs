@@ -1,5 +1,5 @@
-//! One cuboid, modelled with various axes and turned, in every format of data sets that has boxes in space: size and heading by each format's published
-//! convention. Of MCAP there is nothing here, as its messages hold no boxes.
+//! One cuboid, modelled with various axes and rotated, in every format of data sets with 3D boxes: size and heading by each format's published
+//! convention. MCAP is not among them, as its messages contain no boxes.
 //!
 //! | format | size | heading | source |
 //! | --- | --- | --- | --- |
@@ -17,35 +17,35 @@ use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
 
-/// The middle of the car, which stands at (10, 2, 0) m.
+/// Centre of the car, which stands at (10, 2, 0) m.
 const CENTRE_M: [f64; 3] = [10.0, 2.0, 0.65];
-/// Turns of the object about the vertical, degrees.
+/// Rotations of the object about the vertical, degrees.
 const TURNS_DEG: [f64; 4] = [0.0, 40.0, -90.0, 170.0];
 
-/// A set and a rendering of the car.
-struct Made {
-    place: tempfile::TempDir,
+/// A data set and a rendering of the car.
+struct Export {
+    folder: tempfile::TempDir,
     turn_deg: f64,
-    about: String,
+    case: String,
 }
 
-impl Made {
+impl Export {
     fn new(forward: &str, up: &str, turn_deg: f64) -> Self {
-        let place = tempfile::tempdir().expect("a folder");
-        fs::write(place.path().join("car.obj"), obj(forward, up)).expect("written");
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("car.obj"), obj(forward, up)).expect("written");
         let job = job(forward, up, turn_deg).replace("boxes = true", "boxes = true\ntracks = true");
-        fs::write(place.path().join("job.toml"), job).expect("written");
-        let at = |name: &str| text(&place.path().join(name));
+        fs::write(folder.path().join("job.toml"), job).expect("written");
+        let at = |name: &str| text(&folder.path().join(name));
         let formats =
             ["kitti", "nuscenes", "openlabel", "osi", "bop"].into_iter().flat_map(|format| ["--format", format]);
         let set = ["dataset", &at("job.toml"), "-o", &at("set"), "--samples", "0..1"].map(str::to_owned);
         etendue(set.into_iter().chain(formats.map(str::to_owned))).ok();
         etendue(["render", &at("job.toml"), "-o", &at("out")]).ok();
-        Self { place, turn_deg, about: format!("forward {forward}, up {up}, turned by {turn_deg}°") }
+        Self { folder, turn_deg, case: format!("forward {forward}, up {up}, turned by {turn_deg}°") }
     }
 
     fn path(&self, name: &str) -> PathBuf {
-        self.place.path().join(name)
+        self.folder.path().join(name)
     }
 
     fn json(&self, name: &str) -> Value {
@@ -54,16 +54,16 @@ impl Made {
     }
 
     fn assert(&self, format: &str, found: &[f64], expected: &[f64]) {
-        assert_near(found, expected, &format!("{format}, {}", self.about));
+        assert_near(found, expected, &format!("{format}, {}", self.case));
     }
 
-    /// Sine and cosine of half the turn.
-    fn half(&self) -> (f64, f64) {
+    /// Returns sine and cosine of half the rotation angle.
+    fn half_turn(&self) -> (f64, f64) {
         sin_cos(self.turn_deg.to_radians() / 2.0)
     }
 }
 
-/// A quaternion, and the one that turns alike: the one whose number at `w` is above 0.
+/// Of the two quaternions of a rotation, returns the one whose component at `w` is above 0.
 fn positive(mut quaternion: Vec<f64>, w: usize) -> Vec<f64> {
     if quaternion[w] < 0.0 {
         quaternion.iter_mut().for_each(|number| *number = -*number);
@@ -75,86 +75,86 @@ fn positive(mut quaternion: Vec<f64>, w: usize) -> Vec<f64> {
 fn every_format_has_the_size_and_the_heading_of_its_convention() {
     for (forward, up) in AXES {
         for turn_deg in TURNS_DEG {
-            let made = Made::new(forward, up, turn_deg);
-            check_kitti(&made);
-            check_own(&made);
-            check_nuscenes(&made);
-            check_openlabel(&made);
-            check_osi(&made);
-            check_bop(&made);
+            let export = Export::new(forward, up, turn_deg);
+            check_kitti(&export);
+            check_own(&export);
+            check_nuscenes(&export);
+            check_openlabel(&export);
+            check_osi(&export);
+            check_bop(&export);
         }
     }
 }
 
-fn check_kitti(made: &Made) {
-    let found = label(&made.path("set"));
-    made.assert("KITTI", &found[7..10], &[SIZE_M.z, SIZE_M.y, SIZE_M.x]);
-    // Within a turn: −90° less the turn about z, as y points down.
-    let (found, expected) = (sin_cos(found[13]), sin_cos((-90.0 - made.turn_deg).to_radians()));
-    made.assert("KITTI", &[found.0, found.1], &[expected.0, expected.1]);
+fn check_kitti(export: &Export) {
+    let found = label(&export.path("set"));
+    export.assert("KITTI", &found[7..10], &[SIZE_M.z, SIZE_M.y, SIZE_M.x]);
+    // Modulo 360°: −90° less the rotation about z, as y points down.
+    let (found, expected) = (sin_cos(found[13]), sin_cos((-90.0 - export.turn_deg).to_radians()));
+    export.assert("KITTI", &[found.0, found.1], &[expected.0, expected.1]);
 }
 
-fn check_own(made: &Made) {
-    let (sin, cos) = made.half();
-    let (boxes, tracks) = (made.json("out/front/boxes.json"), made.json("out/front/tracks.json"));
+fn check_own(export: &Export) {
+    let (sin, cos) = export.half_turn();
+    let (boxes, tracks) = (export.json("out/front/boxes.json"), export.json("out/front/tracks.json"));
     for (name, object) in [("boxes", &boxes["objects"][0]), ("tracks", &tracks["tracks"][0]["frames"][0])] {
         let solid = &object["box_3d"];
-        made.assert(name, &numbers(&solid["size_m"]), &SIZE_M.to_array());
-        made.assert(name, &numbers(&solid["world"]["centre_m"]), &CENTRE_M);
-        made.assert(name, &positive(numbers(&solid["world"]["rotation_wxyz"]), 0), &[cos, 0.0, 0.0, sin]);
+        export.assert(name, &numbers(&solid["size_m"]), &SIZE_M.to_array());
+        export.assert(name, &numbers(&solid["world"]["centre_m"]), &CENTRE_M);
+        export.assert(name, &positive(numbers(&solid["world"]["rotation_wxyz"]), 0), &[cos, 0.0, 0.0, sin]);
     }
 }
 
-fn check_nuscenes(made: &Made) {
-    let (sin, cos) = made.half();
-    let annotation = &made.json("set/nuscenes/v1.0-train/sample_annotation.json")[0];
-    made.assert("nuScenes", &numbers(&annotation["size"]), &[SIZE_M.y, SIZE_M.x, SIZE_M.z]);
-    made.assert("nuScenes", &numbers(&annotation["translation"]), &CENTRE_M);
-    made.assert("nuScenes", &positive(numbers(&annotation["rotation"]), 0), &[cos, 0.0, 0.0, sin]);
+fn check_nuscenes(export: &Export) {
+    let (sin, cos) = export.half_turn();
+    let annotation = &export.json("set/nuscenes/v1.0-train/sample_annotation.json")[0];
+    export.assert("nuScenes", &numbers(&annotation["size"]), &[SIZE_M.y, SIZE_M.x, SIZE_M.z]);
+    export.assert("nuScenes", &numbers(&annotation["translation"]), &CENTRE_M);
+    export.assert("nuScenes", &positive(numbers(&annotation["rotation"]), 0), &[cos, 0.0, 0.0, sin]);
 }
 
-fn check_openlabel(made: &Made) {
-    let (sin, cos) = made.half();
-    let content = made.json("set/openlabel/train/000000.json");
+fn check_openlabel(export: &Export) {
+    let (sin, cos) = export.half_turn();
+    let content = export.json("set/openlabel/train/000000.json");
     let objects = content["openlabel"]["frames"]["0"]["objects"].as_object().expect("objects").clone();
     let (_, object) = objects.iter().next().expect("the car");
     let cuboid = numbers(&object["object_data"]["cuboid"][0]["val"]);
-    made.assert("OpenLABEL", &cuboid[..3], &CENTRE_M);
-    made.assert("OpenLABEL", &positive(cuboid[3..7].to_vec(), 3), &[0.0, 0.0, sin, cos]);
-    made.assert("OpenLABEL", &cuboid[7..], &SIZE_M.to_array());
+    export.assert("OpenLABEL", &cuboid[..3], &CENTRE_M);
+    export.assert("OpenLABEL", &positive(cuboid[3..7].to_vec(), 3), &[0.0, 0.0, sin, cos]);
+    export.assert("OpenLABEL", &cuboid[7..], &SIZE_M.to_array());
 }
 
 /// `GroundTruth.moving_object` (5), `MovingObject.base` (2), `BaseMoving`: dimension (1), position (2), orientation (3).
-fn check_osi(made: &Made) {
-    let folder = made.path("set/osi/train");
+fn check_osi(export: &Export) {
+    let folder = export.path("set/osi/train");
     let file = fs::read_dir(&folder).expect("a folder").next().expect("a trace").expect("a trace").path();
     let trace = fs::read(file).expect("a trace");
     let length = u32::from_le_bytes(trace[..4].try_into().expect("four bytes")) as usize;
     assert_eq!(trace.len(), 4 + length, "one frame");
     let base = field(field(&trace[4..], 5), 2);
     let vector = |number: u64| numbers_of(field(base, number));
-    made.assert("OSI", &vector(1), &SIZE_M.to_array());
-    made.assert("OSI", &vector(2), &CENTRE_M);
-    made.assert("OSI", &vector(3), &[0.0, 0.0, made.turn_deg.to_radians()]);
+    export.assert("OSI", &vector(1), &SIZE_M.to_array());
+    export.assert("OSI", &vector(2), &CENTRE_M);
+    export.assert("OSI", &vector(3), &[0.0, 0.0, export.turn_deg.to_radians()]);
 }
 
-/// The object's x goes to (−sin, 0, cos) of the camera, which looks along the world's x: its x is the world's −y, its y the world's −z, its z the world's x.
-fn check_bop(made: &Made) {
-    let (sin, cos) = sin_cos(made.turn_deg.to_radians());
-    let poses = made.json("set/bop/train/000000/scene_gt.json");
+/// The object's x is (−sin, 0, cos) in the camera's axes. The camera looks along the world's x: its x is the world's −y, its y the world's −z, its z the world's x.
+fn check_bop(export: &Export) {
+    let (sin, cos) = sin_cos(export.turn_deg.to_radians());
+    let poses = export.json("set/bop/train/000000/scene_gt.json");
     let pose = &poses["0"][0];
-    made.assert("BOP", &numbers(&pose["cam_R_m2c"]), &[-sin, -cos, 0.0, 0.0, 0.0, -1.0, cos, -sin, 0.0]);
+    export.assert("BOP", &numbers(&pose["cam_R_m2c"]), &[-sin, -cos, 0.0, 0.0, 0.0, -1.0, cos, -sin, 0.0]);
     // The camera stands 1.5 m above the ground.
     let found: Vec<f64> = numbers(&pose["cam_t_m2c"]).iter().map(|mm| mm / 1000.0).collect();
-    made.assert("BOP", &found, &[-CENTRE_M[1], 1.5 - CENTRE_M[2], CENTRE_M[0]]);
-    let models = made.json("set/bop/models/models_info.json");
+    export.assert("BOP", &found, &[-CENTRE_M[1], 1.5 - CENTRE_M[2], CENTRE_M[0]]);
+    let models = export.json("set/bop/models/models_info.json");
     let model = &models[pose["obj_id"].to_string()];
     let metres = |keys: [&str; 3]| keys.map(|key| model[key].as_f64().expect("a number") / 1000.0);
-    made.assert("BOP", &metres(["size_x", "size_y", "size_z"]), &SIZE_M.to_array());
-    made.assert("BOP", &metres(["min_x", "min_y", "min_z"]), &(-0.5 * SIZE_M).to_array());
+    export.assert("BOP", &metres(["size_x", "size_y", "size_z"]), &SIZE_M.to_array());
+    export.assert("BOP", &metres(["min_x", "min_y", "min_z"]), &(-0.5 * SIZE_M).to_array());
 }
 
-/// The bytes of the first field of that number in a message of protobuf, of those that have a length.
+/// Returns the bytes of the first length-delimited field with the number `wanted` in a protobuf message.
 fn field(mut message: &[u8], wanted: u64) -> &[u8] {
     while !message.is_empty() {
         let key = varint(&mut message);
@@ -188,7 +188,7 @@ fn varint(bytes: &mut &[u8]) -> u64 {
     value
 }
 
-/// Three doubles, fields 1, 2 and 3.
+/// Reads three doubles, fields 1, 2 and 3.
 fn numbers_of(message: &[u8]) -> Vec<f64> {
     assert_eq!((message.len(), message[0], message[9], message[18]), (27, 1 << 3 | 1, 2 << 3 | 1, 3 << 3 | 1));
     [1, 10, 19].map(|at: usize| f64::from_le_bytes(message[at..at + 8].try_into().expect("a double"))).to_vec()

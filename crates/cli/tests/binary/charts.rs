@@ -262,7 +262,7 @@ fn nonsense_is_refused_and_leaves_nothing() {
         .refused(&["already there", "--overwrite"]);
 }
 
-/// A change of the camera changes the chart with it: half the focal length sees twice the width at the same distance.
+/// A change of the camera changes the chart as well: with half the focal length twice the width is in view at the same distance.
 #[test]
 fn set_changes_the_written_job_and_its_camera() {
     let place = Place::new();
@@ -299,9 +299,9 @@ fn set_changes_the_written_job_and_its_camera() {
     assert!(plan.contains("7 samples a pixel") && plan.contains("pinhole, 1 mm"), "{plan}");
 }
 
-/// A wrong key is told as `render` tells it of the same job.
+/// A wrong key gives the same error as `render` of the same job.
 #[test]
-fn wrong_keys_of_a_chart_are_those_of_its_job() {
+fn a_wrong_key_of_a_chart_gives_the_error_of_its_job() {
     let place = Place::new();
     let folder = place.chart("dots", &[]);
     let (job, camera) = (text(&folder.join("job.toml")), text(&place.path("small.toml")));
@@ -322,8 +322,8 @@ fn wrong_keys_of_a_chart_are_those_of_its_job() {
         assert_eq!((found.status, lines(&found.err)), (2, lines(&expected.err)), "{change}");
         assert!(!place.path("new").exists(), "{change} left something");
     }
-    // The exposures of a series are the chart's own.
+    // The chart sets the exposures of a series.
     let series = ["chart", "flat-field", "--exposures", "3", "--camera", "ccd-mono", "-o", &out];
     etendue(series.iter().chain(&["--set", "cameras.exposure-01.sensor.exposure_s=0.005"]))
-        .refused(&["cameras.exposure-01.sensor.exposure_s=0.005", "the exposures of a series"]);
+        .refused(&["cameras.exposure-01.sensor.exposure_s=0.005", "the exposures of a series are set by the chart"]);
 }

@@ -58,8 +58,8 @@ fn measurements_are_compared_by_their_uncertainties() {
     assert_eq!(k1["verdict"], "agrees");
     assert_eq!(report["settings"]["difference"], "a - b");
     assert_eq!(report["notes"][0], format!("differences are A − B: {a} − {b}"));
-    let turned: Value = serde_json::from_str(&compare(&b, &a).out).expect("JSON");
-    let k1 = row(&turned, "quantities", "quantity", "forward_k1");
+    let swapped: Value = serde_json::from_str(&compare(&b, &a).out).expect("JSON");
+    let k1 = row(&swapped, "quantities", "quantity", "forward_k1");
     assert!((number(&k1["relative_error_percent"]) + 100.0 / 101.0).abs() < 1e-9, "0.1 − 0.101 over 0.101: {k1}");
     // A count is laid beside the other and not tested.
     assert_eq!(row(&report, "quantities", "quantity", "points")["verdict"], Value::Null);
@@ -74,9 +74,9 @@ fn equal_measurements_agree_and_are_drawn() {
     let folder = tempfile::tempdir().expect("a folder");
     let a = measurement(folder.path(), "a.json", [0.1, 5e-4], 1.0);
     let plot = text(&folder.path().join("both.svg"));
-    let said = etendue(["measure", "compare", &a, &a, "--plot", &plot]).ok().out;
-    assert!(said.contains("forward_k1") && !said.contains("differs"), "{said}");
-    assert!(said.contains(&format!("A − B: {a} − {a}")) && said.contains("(A − B)/|B| %"), "{said}");
+    let out = etendue(["measure", "compare", &a, &a, "--plot", &plot]).ok().out;
+    assert!(out.contains("forward_k1") && !out.contains("differs"), "{out}");
+    assert!(out.contains(&format!("A − B: {a} − {a}")) && out.contains("(A − B)/|B| %"), "{out}");
     let drawn = std::fs::read_to_string(&plot).expect("a plot");
     assert!(drawn.contains("relative error of A against B"), "both curves and their relative error");
 }

@@ -173,9 +173,9 @@ fn comparing_a_result_with_itself_finds_nothing_and_says_so_in_json() {
     assert!(channels.len() == 4 && channels.iter().all(|c| c["unequal"] == 0), "{}", ran.out);
 }
 
-/// A darker scene less a brighter one is below zero, and the other way round above it by the same number.
+/// The difference of a darker scene and a brighter one is negative; with the two exchanged it has the opposite sign and the same magnitude.
 #[test]
-fn comparing_says_what_is_subtracted_from_what() {
+fn a_comparison_states_which_result_is_subtracted() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let lamp = |name: &str, luminance: &str| {
         let change = format!("scene.materials.lamp.emission.luminance_cd_m2={luminance}");
@@ -185,9 +185,9 @@ fn comparing_says_what_is_subtracted_from_what() {
     let ran = etendue(["compare", &dark, &bright]);
     assert!(ran.out.starts_with(&format!("difference = A − B = {dark} − {bright}\n")), "{}", ran.out);
     let bias = |a: &str, b: &str| {
-        let told: serde_json::Value = serde_json::from_str(&etendue(["compare", a, b, "--json"]).out).expect("JSON");
-        assert_eq!((&told["difference"], &told["a"], &told["b"]), (&"a - b".into(), &a.into(), &b.into()));
-        told["channels"][0]["errors"]["bias"].as_f64().expect("a number")
+        let report: serde_json::Value = serde_json::from_str(&etendue(["compare", a, b, "--json"]).out).expect("JSON");
+        assert_eq!((&report["difference"], &report["a"], &report["b"]), (&"a - b".into(), &a.into(), &b.into()));
+        report["channels"][0]["errors"]["bias"].as_f64().expect("a number")
     };
     assert!(bias(&dark, &bright) < 0.0);
     assert_eq!(bias(&dark, &bright), -bias(&bright, &dark));

@@ -175,7 +175,7 @@ fn what_a_codev_file_changes_in_an_unknown_way_is_refused_with_its_line() {
     }
 }
 
-/// What another program says of a surface and this one does not read is noted once, with its first line; how it is drawn is not.
+/// A keyword of a surface that is not read is noted once, with its first line; keywords of drawing are not noted.
 #[test]
 fn keywords_of_a_surface_that_are_not_read_are_noted() {
     let lens = zmx("", BK7).replace("  CURV", "  COMM front\n  COAT AR\n  CURV");

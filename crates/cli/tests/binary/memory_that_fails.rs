@@ -13,13 +13,13 @@ fn within(kib: u32, arguments: &[&str]) -> (Option<i32>, String) {
 }
 
 #[test]
-fn a_film_that_the_system_has_no_memory_for_is_told_before_the_work() {
+fn a_film_without_enough_memory_is_refused_before_the_render() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (job, out) = (small(), text(&place.path().join("out")));
     let size = ["--set", "cameras.front.sensor.width_px=16000", "--set", "cameras.front.sensor.height_px=16000"];
     let arguments = [&["render", &job, "-o", &out, "--threads", "1", "--spp", "2"][..], &size].concat();
-    let (status, told) = within(1_500_000, &arguments);
-    assert_eq!(status, Some(2), "{told}");
+    let (status, stderr) = within(1_500_000, &arguments);
+    assert_eq!(status, Some(2), "{stderr}");
     let parts = [
         "error: the run needs ",
         "within the address space of the process",
@@ -27,45 +27,45 @@ fn a_film_that_the_system_has_no_memory_for_is_told_before_the_work() {
         "width_px",
         "--film-memory",
     ];
-    assert!(parts.iter().all(|part| told.contains(part)), "{told}");
+    assert!(parts.iter().all(|part| stderr.contains(part)), "{stderr}");
     assert!(!Path::new(&out).exists(), "{:?}", contents(Path::new(&out)).keys());
 }
 
-/// Case h10: the film fits, and what is made of it does not. Ground truth and spectra of 1 million pixels take 112 MB.
+/// The film fits into memory, and the products of it do not: ground truth and spectra of 1 million pixels take 112 MB.
 #[test]
-fn what_is_made_after_the_render_is_counted_before_it() {
+fn products_made_after_the_render_count_in_the_check_before_it() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (job, out) = (place.path().join("job.toml"), place.path().join("out"));
-    std::fs::write(&job, EVEN).expect("written");
+    std::fs::write(&job, UNIFORM).expect("written");
     let (job, out) = (text(&job), text(&out));
-    let (status, told) = within(190_000, &["render", &job, "-o", &out, "--threads", "1"]);
-    assert_eq!(status, Some(2), "{told}");
-    assert!(told.contains("output.ground_truth = false") && told.contains("render.band_width_nm"), "{told}");
+    let (status, stderr) = within(190_000, &["render", &job, "-o", &out, "--threads", "1"]);
+    assert_eq!(status, Some(2), "{stderr}");
+    assert!(stderr.contains("output.ground_truth = false") && stderr.contains("render.band_width_nm"), "{stderr}");
     assert!(!Path::new(&out).exists(), "nothing is written");
 }
 
-/// What the plan states is what the run takes, by the kernel's account, and at most 60 % above it.
+/// The planned memory is at least the peak that the kernel reports, and at most 60 % above it.
 #[test]
 fn a_plan_states_the_memory_of_the_whole_run() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let (job, out) = (place.path().join("job.toml"), place.path().join("out"));
-    std::fs::write(&job, EVEN).expect("written");
+    std::fs::write(&job, UNIFORM).expect("written");
     let plan = crate::support::etendue(["plan", &text(&job), "--json"]).ok().out;
     let plan: serde_json::Value = serde_json::from_str(&plan).expect("JSON");
     let planned = plan["memory"]["bytes"].as_f64().expect("a number");
     let peak = peak_bytes(&["render", &text(&job), "-o", &text(&out), "--threads", "1"]);
-    assert!(planned >= peak && planned < 1.6 * peak, "{planned:e} planned, {peak:e} taken");
+    assert!(planned >= peak && planned < 1.6 * peak, "{planned:e} planned, {peak:e} used");
 }
 
-/// The most memory that the program has had, bytes, read as long as it runs: pages that it touched stay counted.
+/// Returns the peak memory of the program, bytes, read while it runs (VmHWM never decreases).
 fn peak_bytes(arguments: &[&str]) -> f64 {
     let mut run =
         Command::new(env!("CARGO_BIN_EXE_etendue")).args(arguments).current_dir(root()).spawn().expect("runs");
     let status = format!("/proc/{}/status", run.id());
     let mut peak = 0.0_f64;
     while run.try_wait().expect("a status").is_none() {
-        let told = std::fs::read_to_string(&status).unwrap_or_default();
-        let line = told.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let lines = std::fs::read_to_string(&status).unwrap_or_default();
+        let line = lines.lines().find_map(|line| line.strip_prefix("VmHWM:"));
         let kib = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
         peak = peak.max(1024.0 * kib.unwrap_or(0.0));
         std::thread::sleep(std::time::Duration::from_millis(2));
@@ -73,8 +73,8 @@ fn peak_bytes(arguments: &[&str]) -> f64 {
     peak
 }
 
-/// A plane under even light, 1000 × 1000 px in 3 bands.
-const EVEN: &str = r#"
+/// A plane under uniform illumination, 1000 × 1000 px in 3 bands.
+const UNIFORM: &str = r#"
 format = 1
 [scene]
 materials = [{ name = "m", type = "diffuse", reflectance = 0.5 }]
@@ -105,12 +105,12 @@ fn no_allocation_that_fails_leaves_half_a_file() {
     let out = place.path().join("out");
     let mut ends = [0; 2];
     for kib in (20..=200).step_by(12).map(|mib| mib * 1024) {
-        let (status, told) =
+        let (status, stderr) =
             within(kib, &["render", &small(), "-o", &text(&out), "--spp", "2", "--overwrite", "--threads", "1"]);
         ends[usize::from(status == Some(0))] += 1;
         // Small allocations that fail end the process at once (SIGABRT), as Rust has it; below some limit the system does not even begin it.
-        let is_told = status.is_none_or(|status| status == 0) || told.contains("error");
-        assert!(is_told, "{kib} KiB: {status:?} {told}");
+        let is_reported = status.is_none_or(|status| status == 0) || stderr.contains("error");
+        assert!(is_reported, "{kib} KiB: {status:?} {stderr}");
         for (name, bytes) in contents(&out) {
             let is_hidden = Path::new(&name).file_name().is_some_and(|file| file.to_string_lossy().starts_with('.'));
             assert!(is_hidden || expected[&name] == bytes, "{name} at {kib} KiB");

@@ -135,17 +135,17 @@ fn plans_write_no_tiles_and_those_of_sandboxed_jobs_are_in_their_output_folder()
     .refused(&told);
 }
 
-/// Python and programs open a job before they name an output folder: a sandboxed one then writes nothing into the user's.
+/// Python and programs open a job before they name an output folder: a sandboxed job then writes no tiles into the user's cache.
 #[test]
 fn a_sandboxed_job_without_an_output_folder_has_its_textures_in_memory() {
     let place = Place::new();
     let textures = etendue::TextureMemory { limit_bytes: 1_000_000, ..etendue::TextureMemory::default() };
     let request = etendue::JobRequest { textures, sandbox: Some(Vec::new()), ..etendue::JobRequest::new(place.job()) };
-    let told = request.clone().open().unwrap_or_else(|error| panic!("{error}")).summary();
-    assert!(!told.contains("in tiles"), "{told}");
+    let summary = request.clone().open().unwrap_or_else(|error| panic!("{error}")).summary();
+    assert!(!summary.contains("in tiles"), "{summary}");
     let out = place.path("out");
-    let told = request.into_output(&out).open().unwrap_or_else(|error| panic!("{error}")).summary();
-    assert!(told.split_whitespace().collect::<Vec<_>>().join(" ").contains("3 in tiles on the disk"), "{told}");
+    let summary = request.into_output(&out).open().unwrap_or_else(|error| panic!("{error}")).summary();
+    assert!(summary.split_whitespace().collect::<Vec<_>>().join(" ").contains("3 in tiles on the disk"), "{summary}");
     assert!(out.join(".texture-cache").is_dir());
 }
 

@@ -22,7 +22,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
-/// The last second of a stamp of ROS, of 32 bits: on 19 January 2038, counted from 1970.
+/// The last second of a ROS time stamp, which has 32 bits: 19 January 2038, counted from 1970.
 const LAST_S: i64 = i32::MAX as i64;
 
 /// A message of a topic.
@@ -43,8 +43,8 @@ impl Writer for Mcap {
         let time = record.exact_time();
         let time_ns = u64::try_from(time.nanoseconds()).ok().filter(|_| time.whole_s() <= LAST_S);
         let Some(time_ns) = time_ns else {
-            let problem = format!("a picture of camera {} is taken at {time} s", record.camera);
-            return Err(Error::input(format!("{problem}, and MCAP with ROS messages has times from 0 to {LAST_S} s")));
+            let problem = format!("an image of camera {} has the time {time} s", record.camera);
+            return Err(Error::input(format!("{problem}; MCAP with ROS messages holds times from 0 to {LAST_S} s")));
         };
         let at = (time_ns, record.camera.as_str());
         let matrix = record.camera_matrix_px.expect("checked for all cameras of the format");

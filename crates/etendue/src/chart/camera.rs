@@ -35,7 +35,7 @@ enum Source {
 }
 
 impl ChartCamera {
-    /// Reads and compiles a camera file, or a reference camera by its name, with changes `key=value` of its keys.
+    /// Reads and compiles a camera file, or a reference camera given by name, with changes `key=value` of its keys.
     pub(super) fn load(given: &str, changes: &[String]) -> Result<Self, Error> {
         let stand_in = STAND_INS.iter().find(|(name, _)| *name == given);
         let source = match stand_in {

@@ -1,7 +1,7 @@
 //! Changes of keys of a chart's job (`--set`): checked as a job is checked, and written into its files.
 //!
-//! The lens, sensor, effects, processing and optics in front of a chart's cameras are those of one camera file, for which the chart is drawn: their changes are
-//! made before that. All others are written into `job.toml` and `scene.toml` after it.
+//! All cameras of a chart have the lens, sensor, effects, processing and external optics of one camera file, for which the chart is drawn: changes of these
+//! are applied before it is drawn. All others are written into `job.toml` and `scene.toml` afterwards.
 
 use crate::camera_file::read_text;
 use crate::error::Error;
@@ -21,17 +21,17 @@ const CAMERA_TABLES: [&str; 5] = ["lens", "external_optics", "effects", "sensor"
 #[derive(Clone, Copy)]
 pub(super) struct Changes<'c>(pub(super) &'c [String]);
 
-/// The file that states a key.
+/// The file that contains a key.
 enum Target<'c> {
-    /// The camera file, whose key and value these are.
+    /// The camera file, with the key and value within it.
     Camera(&'c str),
     Scene(&'c str),
     Job,
 }
 
 impl<'c> Changes<'c> {
-    /// Those of the camera, as changes of its file.
-    pub(super) fn of_camera(self) -> Vec<String> {
+    /// Returns the changes of the camera, as changes of its file.
+    pub(super) fn camera_changes(self) -> Vec<String> {
         let key = |change: &String| match target(change) {
             Target::Camera(key) => Some(key.to_owned()),
             Target::Scene(_) | Target::Job => None,
@@ -39,12 +39,12 @@ impl<'c> Changes<'c> {
         self.0.iter().filter_map(key).collect()
     }
 
-    /// Those that are made after the chart is drawn.
-    pub(super) fn of_job(self) -> Vec<String> {
+    /// Returns the changes that are applied after the chart is drawn.
+    pub(super) fn job_changes(self) -> Vec<String> {
         self.0.iter().filter(|change| !matches!(target(change), Target::Camera(_))).cloned().collect()
     }
 
-    /// Reads the job of `files` with the changes: faults are those of rendering it so.
+    /// Reads the job of `files` with the changes: the errors are those of rendering it with them.
     pub(super) fn check(self, folder: &Path, files: &BTreeMap<String, String>) -> Result<(), Error> {
         load(folder, files, &Overrides::new(self.0)).map(|_| ())
     }
@@ -85,12 +85,12 @@ impl<'c> Changes<'c> {
             return Ok(());
         }
         self.0.iter().find(is_exposure).map_or(Ok(()), |change| {
-            let remedy = "the exposures of a series are the chart's own; give them by --exposures or --levels";
+            let remedy = "the exposures of a series are set by the chart; give them with --exposures or --levels";
             Err(Error::input(format!("--set {change}: {remedy}")))
         })
     }
 
-    /// Refuses a change that the files do not hold: what is made again changes nothing any more.
+    /// Refuses a change that the files do not contain: applied again, a change has no effect.
     fn check_written(self, folder: &Path, files: &BTreeMap<String, String>) -> Result<(), Error> {
         let written = load(folder, files, &Overrides::default())?;
         let values = self.0.iter().filter(|change| !is_removal(change));
@@ -98,7 +98,7 @@ impl<'c> Changes<'c> {
             let again = load(folder, files, &Overrides::new([change]))?;
             if again.to_table() != written.to_table() {
                 return Err(Error::input(format!(
-                    "--set {change}: the chart's files cannot hold it; give the whole list or table that the key is in, or change the camera file"
+                    "--set {change}: the change cannot be written into the chart's files; give the whole list or table that contains the key, or change the camera file"
                 )));
             }
         }
@@ -106,7 +106,7 @@ impl<'c> Changes<'c> {
     }
 }
 
-/// Where a change is written.
+/// Returns the file into which a change is written.
 fn target(change: &str) -> Target<'_> {
     let (key, _) = change.split_once('=').unwrap_or((change, ""));
     let parts: Vec<&str> = key.split('.').map(str::trim).collect();
@@ -142,7 +142,7 @@ mod tests {
             "render.spp=4",
         ];
         let set = set.map(str::to_owned);
-        assert_eq!(Changes(&set).of_camera(), ["lens.f_number=4"]);
-        assert_eq!(Changes(&set).of_job(), &set[1..]);
+        assert_eq!(Changes(&set).camera_changes(), ["lens.f_number=4"]);
+        assert_eq!(Changes(&set).job_changes(), &set[1..]);
     }
 }

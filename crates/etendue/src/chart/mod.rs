@@ -97,18 +97,18 @@ impl ChartRequest {
 /// Makes a chart as a scene with its job, cameras and truth in a folder; answers with the files' paths.
 ///
 /// # Errors
-/// Where the camera cannot be used, the chart does not fit it, a change is none of the job's keys, or the folder cannot be written.
+/// The camera cannot be used, the chart does not fit it, a change names no key of the job, or the folder cannot be written.
 pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Result<Vec<PathBuf>, Error> {
     whole("--views", request.views, 1..=200)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     let changes = Changes(&request.set);
-    let of_camera = changes.of_camera();
-    if !of_camera.is_empty() {
-        // Faults of keys are those of the job whose keys they are, before anything is drawn for the changed camera.
-        let unchanged = drawn(request, &[], folder.path())?;
+    let camera_changes = changes.camera_changes();
+    if !camera_changes.is_empty() {
+        // Errors in keys are reported as errors of the job, before the chart is drawn for the changed camera.
+        let unchanged = draw_chart(request, &[], folder.path())?;
         changes.check(folder.path(), &unchanged.texts())?;
     }
-    let mut files = drawn(request, &of_camera, folder.path())?;
+    let mut files = draw_chart(request, &camera_changes, folder.path())?;
     if !request.set.is_empty() {
         let mut texts = files.texts();
         changes.check(folder.path(), &texts)?;
@@ -123,19 +123,19 @@ pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Re
 /// The files of a chart, by their names in its folder.
 struct ChartFiles {
     all: Vec<(String, Vec<u8>)>,
-    /// Those of its cameras.
+    /// Names of its camera files.
     camera_files: Vec<String>,
 }
 
 impl ChartFiles {
-    /// The files of the format.
+    /// Returns the job, scene and camera files (TOML) by name.
     fn texts(&self) -> BTreeMap<String, String> {
         let is_text = |name: &str| name.ends_with(".toml");
         let texts = self.all.iter().filter(|(name, _)| is_text(name));
         texts.map(|(name, bytes)| (name.clone(), String::from_utf8_lossy(bytes).into_owned())).collect()
     }
 
-    /// Puts other texts in the place of those of the same names.
+    /// Replaces the files that are named in `texts`.
     fn replace(&mut self, mut texts: BTreeMap<String, String>) {
         for (name, bytes) in &mut self.all {
             if let Some(text) = texts.remove(name) {
@@ -145,8 +145,8 @@ impl ChartFiles {
     }
 }
 
-/// The files of the chart that is asked for, drawn for its camera with `changes` of its keys.
-fn drawn(request: &ChartRequest, changes: &[String], folder: &Path) -> Result<ChartFiles, Error> {
+/// Draws the requested chart for its camera with `changes` of its keys, and returns the files.
+fn draw_chart(request: &ChartRequest, changes: &[String], folder: &Path) -> Result<ChartFiles, Error> {
     let camera = ChartCamera::load(&request.camera, changes)?;
     let body = &camera.body;
     let ray = |at: DVec2| {
@@ -186,7 +186,7 @@ fn drawn(request: &ChartRequest, changes: &[String], folder: &Path) -> Result<Ch
         remove: camera.removed_keys(),
         specimen: camera.specimen(&stations),
         seed: request.seed,
-        changes: &Changes(&request.set).of_job(),
+        changes: &Changes(&request.set).job_changes(),
     };
     chart_files(&files, &camera, request.png_dpi)
 }

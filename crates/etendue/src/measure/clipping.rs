@@ -1,24 +1,24 @@
-//! Readings that are cut: black below, clipped above. What measures grey levels of a region names it, with the part that is cut.
+//! Clipped readings: black at the lower end, saturated at the upper end. Measurements of grey levels note each clipped region with its clipped fraction.
 
 use crate::report::Report;
 use etendue_metrology::Image;
 
-/// Part of a region's readings at its least or its greatest above which these are taken for cut.
+/// Minimum fraction of a region's readings at its minimum or maximum from which the region counts as clipped.
 const CUT_FRACTION: f64 = 0.01;
 
-/// Where the readings of a region are cut.
+/// How the readings of a region are clipped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Cut {
-    /// All are the same.
+    /// All readings are equal.
     Throughout { reading: f32 },
     /// At 0.
     Black { fraction: f64 },
-    /// At the full scale, or where that is not known at the greatest number of 8 or more bits.
+    /// At the full scale, or, if that is not known, at the maximum of 8 or more bits.
     Clipped { reading: f32, fraction: f64 },
 }
 
 impl Cut {
-    /// Of the readings of a region; `None` where too few are cut to spoil it.
+    /// Examines the readings of a region; `None` if too few are clipped to affect the result.
     pub(crate) fn of(region: &Image, full_scale: Option<f64>) -> Option<Self> {
         let samples = region.samples();
         let fraction = |is_cut: &dyn Fn(f32) -> bool| {
@@ -26,7 +26,7 @@ impl Cut {
         };
         let (low, high) =
             samples.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), s| (low.min(*s), high.max(*s)));
-        // The greatest number of 8, 10, 12, … bits.
+        // The maximum of 8, 10, 12, … bits.
         let is_of_bits = |reading: f32| reading >= 255.0 && (reading as u32 + 1).is_power_of_two();
         let is_full = full_scale.map_or_else(|| is_of_bits(high), |full| f64::from(high) >= full);
         let black = fraction(&|sample| sample <= 0.0);
@@ -39,32 +39,32 @@ impl Cut {
         }
     }
 
-    /// In words.
+    /// Returns a description for notes.
     pub(crate) fn words(self) -> String {
         match self {
             Self::Throughout { reading } => {
-                format!("100.0 % of the readings are {reading}, all of them: it is black or white throughout")
+                format!("100.0 % of the readings are {reading}: entirely black or saturated")
             }
             Self::Black { fraction } => {
-                format!("{:.1} % of the readings are black, 0 or less: what is darker is cut", 100.0 * fraction)
+                format!("{:.1} % of the readings are black, 0 or less: darker values are clipped", 100.0 * fraction)
             }
             Self::Clipped { reading, fraction } => {
-                format!("{:.1} % of the readings are clipped at {reading}: what is brighter is cut", 100.0 * fraction)
+                format!("{:.1} % of the readings are clipped at {reading}: brighter values are lost", 100.0 * fraction)
             }
         }
     }
 }
 
 impl Report {
-    /// Notes a region whose readings are cut, which the result leaves out.
+    /// Adds a note if the readings of a region are clipped, which the result does not account for.
     pub(crate) fn note_cut(&mut self, name: &str, region: &Image, full_scale: Option<f64>) {
         if let Some(cut) = Cut::of(region, full_scale) {
-            self.note(format!("{name}: {}; the result and its uncertainty leave that out", cut.words()));
+            self.note(format!("{name}: {}; the result and its uncertainty do not account for it", cut.words()));
         }
     }
 }
 
-/// A region by its place.
+/// Returns the name of a region from its position.
 pub(crate) fn region(kind: &str, [x, y, width, height]: [usize; 4]) -> String {
     format!("{kind} {x},{y},{width},{height}")
 }
@@ -73,29 +73,29 @@ pub(crate) fn region(kind: &str, [x, y, width, height]: [usize; 4]) -> String {
 mod tests {
     use super::*;
 
-    /// A hundred readings, as many of them cut as stated.
+    /// A hundred readings, `count` of them clipped at `reading`.
     fn cut(count: usize, reading: f32, full_scale: Option<f64>) -> Option<Cut> {
         let sample = |i: usize| if i < count { reading } else { 100.0 + i as f32 };
         Cut::of(&Image::from_samples(10, 10, (0..100).map(sample).collect()).expect("full rows"), full_scale)
     }
 
     #[test]
-    fn a_region_is_cut_where_more_than_a_hundredth_of_it_is() {
+    fn a_region_counts_as_clipped_above_one_percent() {
         assert_eq!([cut(0, 0.0, None), cut(1, 0.0, None), cut(1, 255.0, None)], [None; 3]);
         assert_eq!(cut(2, 0.0, None), Some(Cut::Black { fraction: 0.02 }));
         assert_eq!(cut(30, 255.0, None), Some(Cut::Clipped { reading: 255.0, fraction: 0.3 }));
-        assert_eq!(cut(30, 250.0, None), None, "no greatest number of any bits");
+        assert_eq!(cut(30, 250.0, None), None, "not the maximum of any number of bits");
         assert_eq!(cut(30, 250.0, Some(250.0)), Some(Cut::Clipped { reading: 250.0, fraction: 0.3 }));
         assert_eq!(cut(100, 0.0, None), Some(Cut::Throughout { reading: 0.0 }));
-        assert_eq!(cut(100, 128.0, None), None, "an even grey is not cut");
+        assert_eq!(cut(100, 128.0, None), None, "a uniform grey is not clipped");
     }
 
     #[test]
-    fn a_report_names_the_region_and_the_part() {
+    fn a_note_states_the_region_and_its_clipped_fraction() {
         let mut report = Report::new("test", "test");
         let half = Image::from_samples(2, 1, vec![0.0, 9.0]).expect("a row");
         report.note_cut(&region("trap", [1, 2, 3, 4]), &half, None);
-        let told = "trap 1,2,3,4: 50.0 % of the readings are black, 0 or less: what is darker is cut; the result and its uncertainty leave that out";
-        assert_eq!(report.notes(), [told]);
+        let expected = "trap 1,2,3,4: 50.0 % of the readings are black, 0 or less: darker values are clipped; the result and its uncertainty do not account for it";
+        assert_eq!(report.notes(), [expected]);
     }
 }

@@ -43,7 +43,7 @@ struct Surface {
     stack: Option<Stack>,
     /// Why it is left out.
     fault: Option<String>,
-    /// The first of its frames that is cut.
+    /// The first of its frames that is clipped.
     cut: Option<(PathBuf, Cut)>,
 }
 
@@ -52,12 +52,12 @@ impl Surface {
         Self { patch, at, stack: None, fault: None, cut: None }
     }
 
-    /// Names it and the first of its frames that is cut.
+    /// Returns a note of the patch and the first of its frames that is clipped.
     fn cut_note(&self) -> Option<String> {
         let (file, cut) = self.cut.as_ref()?;
         let patch = self.patch.as_ref().map_or_else(String::new, |patch| format!("{}, ", patch.name));
-        let told = "the noise and its uncertainty leave that out";
-        Some(format!("{patch}{}: {}; {told}", file.display(), cut.words()))
+        let consequence = "the noise and its uncertainty do not account for it";
+        Some(format!("{patch}{}: {}; {consequence}", file.display(), cut.words()))
     }
 
     fn take(&mut self, file: &Path, readings: &Readings, full_scale: Option<f64>) -> Result<(), Error> {

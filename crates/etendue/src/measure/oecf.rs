@@ -65,11 +65,11 @@ pub fn oecf(request: &OecfRequest) -> Result<Report, Error> {
     };
     let oecf = Oecf::new(measured.points.clone()).map_err(|error| refused(&request.pictures[0], error))?;
     let mut report = report(&oecf, &measured);
-    // What is clipped ends the curve; what is black is taken for a reading.
+    // Saturated points end the curve; black ones count as readings.
     for (point, cut) in measured.points.iter().zip(&measured.cuts) {
         if let Some(cut @ (Cut::Black { .. } | Cut::Throughout { reading: ..=0.0 })) = cut {
             let (exposure, unit) = (point.exposure, measured.unit);
-            report.note(format!("exposure {exposure} {unit}: {}; its point leaves that out", cut.words()));
+            report.note(format!("exposure {exposure} {unit}: {}; its point does not account for it", cut.words()));
         }
     }
     measured.left_out.iter().for_each(|name| report.note(format!("left out: {name} is not whole in the picture")));
@@ -93,7 +93,7 @@ struct Measured {
     unit: &'static str,
     left_out: Vec<String>,
     encoding: Stated,
-    /// Of each point where its readings are cut.
+    /// Clipping of the readings of each point.
     cuts: Vec<Option<Cut>>,
 }
 
@@ -106,7 +106,7 @@ impl Measured {
     }
 }
 
-/// The point of an exposure of an even surface, and where its readings are cut.
+/// Returns the point of an exposure of a uniform surface, and the clipping of its readings.
 fn point(exposure: f64, surface: &Image, levels: &SignalLevels, readings: &Readings) -> (ExposurePoint, Option<Cut>) {
     let full_scale = levels.full_scale(readings);
     (ExposurePoint::of(exposure, surface, full_scale, readings.shared_px), Cut::of(surface, full_scale))

@@ -18,7 +18,7 @@ pub struct CameraReport {
     pub light_of: String,
     /// Columns and rows of the sensor.
     pub sensor_px: [usize; 2],
-    /// Their number over that of the sensor as described, in a row: 1, or 0.25 of `--scale 1/4`.
+    /// Number of pixels in a row over that of the sensor as described: 1, or 0.25 with `--scale 1/4`.
     pub scale: f64,
     /// Columns and rows that are rendered: with the margin of effects, or of the stored radiance.
     pub film_px: [u32; 2],

@@ -6,13 +6,13 @@ use etendue_pipeline::plan::RunMemory;
 /// The memory of the whole run on four threads, bytes.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct MemoryReport {
-    /// At most: the program, the scene and the camera that takes most.
+    /// Peak: the program, the scene and the camera with the largest peak.
     pub bytes: f64,
-    /// Of the program before a job is read.
+    /// Memory of the program before a job is read.
     pub program_bytes: f64,
-    /// Of meshes, their trees and textures.
+    /// Memory of meshes, their acceleration structures and textures.
     pub scene_bytes: f64,
-    /// Of each camera.
+    /// Memory of each camera.
     pub cameras: Vec<CameraMemoryReport>,
 }
 
@@ -21,16 +21,16 @@ pub struct MemoryReport {
 pub struct CameraMemoryReport {
     /// Its name.
     pub name: String,
-    /// At most.
+    /// Peak.
     pub bytes: f64,
-    /// Of its stages, each with all that is held at that time; those that take nothing are left out.
+    /// Memory of each stage, with all that is stored during it; stages that take none are omitted.
     pub stages: Vec<StageReport>,
 }
 
 /// The memory of a stage of a camera's work.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct StageReport {
-    /// What is done, after "while".
+    /// The work of the stage, worded to follow "while".
     pub stage: &'static str,
     /// Bytes.
     pub bytes: f64,
@@ -60,9 +60,9 @@ impl MemoryReport {
 mod tests {
     use etendue_pipeline::plan::ROWS_WAITING_BYTES;
 
-    /// The pipeline cannot see the crate that writes files.
+    /// The pipeline cannot use the constant of `etendue_io`.
     #[test]
-    fn as_many_rows_wait_to_be_written_as_plans_count() {
+    fn plans_count_the_rows_that_wait_to_be_written() {
         assert_eq!(etendue_io::exr::WAITING_BYTES, ROWS_WAITING_BYTES);
     }
 }

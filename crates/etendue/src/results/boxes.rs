@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 pub(super) fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxes]) -> Value {
     let raster = &frame.camera.body.raster;
     let size = (raster.width(), raster.height());
-    let mut said = json!({
+    let mut facts = json!({
         "camera": frame.camera.name,
         "frame": frame.frame,
         "width_px": size.0,
@@ -29,8 +29,8 @@ pub(super) fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxe
         "objects": boxes.iter().map(|object| object_json(plan, size, object)).collect::<Vec<_>>(),
     });
     let timing = &frame.camera.timing;
-    times::add(&mut said, timing, "time", timing.frame_middle(frame.frame));
-    said
+    times::add(&mut facts, timing, "time", timing.frame_middle(frame.frame));
+    facts
 }
 
 fn object_json(plan: &Plan, (width, height): (usize, usize), object: &ObjectBoxes) -> Value {

@@ -13,7 +13,7 @@ use std::ops::Range;
 /// What a track says of its object, not of its frames.
 const OF_OBJECT: [&str; 3] = ["id", "name", "class"];
 
-/// What it says of the frame, beside the boxes.
+/// Keys of the frame that are copied from the boxes.
 const OF_FRAME: [&str; 3] = ["frame", "time_s", "time"];
 
 /// Writes `tracks.json`.

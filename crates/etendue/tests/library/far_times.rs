@@ -1,10 +1,10 @@
-//! Jobs that begin far from the time 0: the same light as near it, and every time with all its digits.
+//! Jobs that begin far from the time 0: they have the same light as near it, and keep all digits of every time.
 
 use etendue::{Existing, JobRequest, MemoryFiles, RenderOptions, Unobserved};
 use etendue_io::exr::read_exr;
 use std::path::Path;
 
-/// A square that moves between two keys under a lamp of 1 MHz pulses and a programme that runs once, for a camera of 0.25 µs.
+/// A square that moves between two keys under a light with pulses of 1 MHz and one with a programme that runs once; the exposure is 0.25 µs.
 fn job(start: &str, second: &str, third: &str, more: &str) -> String {
     format!(
         "format = 1\n[sequence]\nframe_rate_hz = 10\nstart_s = {start}\n\
@@ -33,7 +33,7 @@ fn render(text: &str, out: &Path) -> Result<(), String> {
     results.save(out, Existing::Refuse, &Unobserved).map(drop).map_err(|error| error.to_string())
 }
 
-/// The radiance of all frames.
+/// Reads the radiance of all frames.
 fn radiance(out: &Path) -> Vec<f32> {
     let frame =
         |n: u32| read_exr(&out.join(format!("c/radiance.{n:04}.exr"))).unwrap_or_else(|error| panic!("{error}"));
@@ -46,7 +46,7 @@ fn json(out: &Path, name: &str) -> serde_json::Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// Whole seconds change no phase of 1 MHz and no place between keys: the light is the same to the bit.
+/// Whole seconds change neither the phase of 1 MHz nor the position between keys: the light is bit-identical.
 #[test]
 fn light_is_the_same_at_unix_times_as_near_zero() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -55,7 +55,7 @@ fn light_is_the_same_at_unix_times_as_near_zero() {
     let near = radiance(&out("near"));
     assert!(near.iter().any(|value| *value > 0.0));
     for whole in ["1700000000", "10000000000", "-5000000"] {
-        let of = |fraction: &str| match whole.strip_prefix('-') {
+        let time_text = |fraction: &str| match whole.strip_prefix('-') {
             // -5000000 + 0.2, in digits.
             Some(_) => format!(
                 "\"{}\"",
@@ -70,7 +70,7 @@ fn light_is_the_same_at_unix_times_as_near_zero() {
                 fraction => format!("\"{whole}.{fraction}\""),
             },
         };
-        render(&job(&of("0000001"), &of("1"), &of("2"), ""), &out(whole)).expect("rendered");
+        render(&job(&time_text("0000001"), &time_text("1"), &time_text("2"), ""), &out(whole)).expect("rendered");
         assert_eq!(radiance(&out(whole)), near, "{whole}");
     }
     let frame = json(&out("1700000000"), "frame.0001.json");
@@ -78,11 +78,11 @@ fn light_is_the_same_at_unix_times_as_near_zero() {
     assert_eq!(frame["time_s"], 1_700_000_000.100_000_1);
     assert_eq!(frame["exposure"]["end"], "1700000000.10000035");
     assert_eq!(json(&out("1700000000"), "boxes.0001.json")["time"], "1700000000.100000225");
-    assert_eq!(json(&out("near"), "frame.0001.json").get("time"), None, "numbers near zero are exact enough");
+    assert_eq!(json(&out("near"), "frame.0001.json").get("time"), None, "numbers near zero need no text");
 }
 
 #[test]
-fn a_rounded_number_is_remarked_on_and_old_drops_are_refused() {
+fn a_rounded_number_gives_a_warning_and_old_drops_are_refused() {
     let summary = |text: &str| {
         let mut files = MemoryFiles::new();
         files.add_text("job.toml", text);

@@ -15,7 +15,7 @@ const BLACK_DN: f64 = 64.0;
 const WHITE_DN: f64 = 4095.0;
 const READ_NOISE_E: f64 = 6.0;
 
-/// A glowing plane where the lens is sharp; its left half is five times brighter than what the converter holds.
+/// An emitting plane in focus; its left half is five times as bright as the saturation of the ADC.
 fn panel(sensor: &str) -> String {
     let half = |name: &str, y: f64, luminance: f64| {
         format!(
@@ -36,7 +36,7 @@ fn panel(sensor: &str) -> String {
     )
 }
 
-fn opened(text: &str, scale: Option<&str>) -> Result<Job, String> {
+fn open_job(text: &str, scale: Option<&str>) -> Result<Job, String> {
     let mut files = MemoryFiles::new();
     files.add_text("job.toml", text);
     let request = JobRequest { scale: scale.map(str::to_owned), ..JobRequest::new("job.toml") };
@@ -47,7 +47,7 @@ fn body<'j>(job: &'j Job, camera: &str) -> &'j CameraBody {
     &job.plan().camera(camera).expect("a camera").body
 }
 
-/// Mean level, DN, and fraction of clipped pixels of the first frame.
+/// Returns the mean level, DN, and the fraction of clipped pixels of the first frame.
 fn levels(job: &Job) -> [f64; 2] {
     let folder = tempfile::tempdir().expect("a folder");
     job.save(&RenderOptions::default(), (folder.path(), Existing::Refuse), &Unobserved).expect("rendered");
@@ -58,8 +58,8 @@ fn levels(job: &Job) -> [f64; 2] {
 }
 
 /// Variance of the mean of the dim half, DN², with pixels of k × k. A sample of a pixel deviates from the pixel's mean by no more than half of it
-/// (the spectrum of D65 over the range; the lens's weights by less), so that 64 of them are known to 0.5/8. Then come photon noise, read noise and
-/// rounding.
+/// (the spectrum of D65 over the range; the lens's weights by less), so that the mean of 64 has a standard deviation of at most 0.5/8. Photon noise,
+/// read noise and rounding are added.
 fn variance(dim_dn: f64, k: f64) -> f64 {
     let pixels = 0.5 * WIDTH * HEIGHT / (k * k);
     let (signal_dn, gain) = (dim_dn - BLACK_DN, GAIN / (k * k));
@@ -68,16 +68,16 @@ fn variance(dim_dn: f64, k: f64) -> f64 {
     (light + noise) / pixels
 }
 
-/// Crosstalk over the border between the halves brings the dim half the same light, whatever the size of pixels: the share h/k of k² times the electrons,
-/// into a column that is 1/k of as many pixels. Three tests at 5 σ: a false alarm in a million.
+/// Crosstalk over the border between the halves adds the same light to the dim half, whatever the size of pixels: the fraction h/k of k² times the electrons,
+/// in a column of 1/k as many pixels. Three tests at 5 σ: a false alarm in a million.
 #[test]
 fn mean_level_and_clipping_stay() {
-    let [mean, clipped] = levels(&opened(&panel(""), None).expect("a job"));
+    let [mean, clipped] = levels(&open_job(&panel(""), None).expect("a job"));
     assert_eq!(clipped, 0.5, "mean {mean} DN");
     let dim = |mean: f64| 2.0 * mean - WHITE_DN;
     assert!(dim(mean) > BLACK_DN + 400.0 && dim(mean) < 3000.0, "dim half {} DN", dim(mean));
     for k in [2, 4] {
-        let [scaled, clipped] = levels(&opened(&panel(""), Some(&format!("1/{k}"))).expect("a job"));
+        let [scaled, clipped] = levels(&open_job(&panel(""), Some(&format!("1/{k}"))).expect("a job"));
         assert_eq!(clipped, 0.5, "1/{k}");
         let tolerance = 5.0 * (variance(dim(mean), 1.0) + variance(dim(mean), f64::from(k))).sqrt();
         let difference = dim(scaled) - dim(mean);
@@ -96,7 +96,7 @@ fn dark_current_keeps_its_mean_level() {
         .replace("radiance_scale = 1500", "luminance_cd_m2 = 0")
         .replace("radiance_scale = 15", "luminance_cd_m2 = 0");
     for k in [1.0, 2.0, 4.0] {
-        let job = opened(&text, Some(&format!("1/{k}"))).unwrap_or_else(|error| panic!("{error}"));
+        let job = open_job(&text, Some(&format!("1/{k}"))).unwrap_or_else(|error| panic!("{error}"));
         let gain = GAIN / (k * k);
         let electrons = 100.0 * k * k;
         let variance = gain * gain * (electrons + READ_NOISE_E * READ_NOISE_E) + 1.0 / 12.0;
@@ -107,7 +107,7 @@ fn dark_current_keeps_its_mean_level() {
     }
 }
 
-/// Of every effect the rule that docs/sensor.md states.
+/// Each key follows the rule that docs/sensor.md states.
 #[test]
 fn keys_scale_by_their_rules() {
     let sensor = ", frame_period_s = 0.04, shutter = { type = \"rolling\", row_time_us = 20 }, dark = { hot = { share = 0.01, mean_e_s = 300 } }, \
@@ -115,7 +115,7 @@ fn keys_scale_by_their_rules() {
                   blooming = { direction = \"column\", overflow_fraction = 0.8 }, \
                   roi_px = [8, 16, 32, 24], principal_point_px = [30.5, 23], non_uniformity = { prnu = 0.01, dsnu_e = 2, seed = 1 }, \
                   hdr = { merged_bits = 20, captures = [{ exposure_ratio = 0.05, full_well_e = 50000 }] }";
-    let job = |scale| opened(&panel(sensor), scale).unwrap_or_else(|error| panic!("{error}"));
+    let job = |scale| open_job(&panel(sensor), scale).unwrap_or_else(|error| panic!("{error}"));
     let (full, quarter) = (job(None), job(Some("0.25")));
     let (full, quarter) = (body(&full, "eye"), body(&quarter, "eye"));
     let [before, after] = [full, quarter].map(|body| body.sensor.as_ref().expect("electronics").parameters());
@@ -139,7 +139,7 @@ fn keys_scale_by_their_rules() {
     let region = after.read_out.layout.region.expect("a region");
     assert_eq!([region.x, region.y, region.width, region.height], [2, 4, 8, 6]);
     near(after.hdr.captures[0].full_well_e.expect("a well"), 16.0 * 50_000.0);
-    // From the first row to the last, and to the end of the reading: as long as of the full camera.
+    // The read-out from the first row to the last takes as long as that of the full sensor.
     let reading_s = |body: &CameraBody| match body.exposure.shutter {
         Shutter::Rolling(rows) => rows.row_time_s * body.exposure.rows as f64,
         other => panic!("{other:?}"),
@@ -148,26 +148,26 @@ fn keys_scale_by_their_rules() {
     near(reading_s(full), 24.0 * 20e-6);
 }
 
-/// A response that bends does so at the same light.
+/// The knees of a response are at the same illumination.
 #[test]
-fn knees_are_at_the_same_light() {
+fn knees_are_at_the_same_illumination() {
     let sensor = ", response = { type = \"knees\", knees = [[20000, 0.5]] }";
-    let job = opened(&panel(sensor), Some("1/2")).unwrap_or_else(|error| panic!("{error}"));
+    let job = open_job(&panel(sensor), Some("1/2")).unwrap_or_else(|error| panic!("{error}"));
     let sensor = body(&job, "eye").sensor.as_ref().expect("electronics");
     let Response::Knees(knees) = &sensor.parameters().read_out.response else { panic!("no straight lines") };
     assert_eq!((knees[0].at_e, knees[0].slope), (80_000.0, 0.5));
 }
 
-/// A large row is exposed when the first of its rows is, in whatever order rows are read: the skew from the top to the bottom is that of the full sensor.
+/// A larger row is exposed when the first of its original rows is, in any order of read-out: the skew from top to bottom is that of the full sensor.
 #[test]
 fn rows_are_exposed_when_their_first_row_is() {
     for rows in ["row_time_us = 25", "row_time_us = 25, fields = 2", "row_time_us = 25, direction = \"up\""] {
         for kind in ["rolling", "global_reset"] {
             let text = panel(&format!(", shutter = {{ type = \"{kind}\", {rows} }}"));
-            let job = |scale| opened(&text, scale).unwrap_or_else(|error| panic!("{error}"));
+            let job = |scale| open_job(&text, scale).unwrap_or_else(|error| panic!("{error}"));
             let (full, quarter) = (job(None), job(Some("1/4")));
             let (full, quarter) = (&body(&full, "eye").exposure, &body(&quarter, "eye").exposure);
-            // Of a field every other row is read; upwards the first of four rows is the lowest.
+            // A field has every other row; in the direction "up" the first of four rows is the lowest.
             let first = |row: usize| match rows {
                 field if field.contains("fields") => 8 * (row / 2) + row % 2,
                 up if up.contains("up") => 4 * row + 3,
@@ -184,9 +184,9 @@ fn rows_are_exposed_when_their_first_row_is() {
     }
 }
 
-/// Every projection sees a point at 1/k of its raster coordinates: OpenCV's (u + 0.5)/k − 0.5.
+/// Every projection images a point at 1/k of its raster coordinates: (u + 0.5)/k − 0.5 in those of OpenCV.
 #[test]
-fn calibrations_see_points_at_scaled_coordinates() {
+fn calibrations_project_points_to_scaled_coordinates() {
     let rig = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/oracles/figures/rig/rig.toml");
     let open = |scale: Option<&str>| {
         let request = JobRequest { scale: scale.map(str::to_owned), ..JobRequest::new(&rig) };
@@ -194,7 +194,7 @@ fn calibrations_see_points_at_scaled_coordinates() {
     };
     let (full, half) = (open(None), open(Some("1/4")));
     for name in ["left", "side", "five", "rear", "globe"] {
-        assert_same_sight(body(&full, name), body(&half, name), 4.0);
+        assert_same_projection(body(&full, name), body(&half, name), 4.0);
     }
     let folders = [0, 1].map(|_| tempfile::tempdir().expect("a folder"));
     let [before, after] = [(&full, &folders[0]), (&half, &folders[1])].map(|(job, folder)| {
@@ -209,20 +209,20 @@ fn calibrations_see_points_at_scaled_coordinates() {
     }
 }
 
-/// A calibration in a file of another program is of the full picture.
+/// A calibration file of another program describes the full image.
 #[test]
-fn calibration_files_are_of_the_full_picture() {
+fn calibration_files_describe_the_full_image() {
     let camera = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/cameras/calibrated.toml");
     let text = format!(
         "format = 1\nscene = {{}}\n[[cameras]]\nname = \"eye\"\nfile = {camera:?}\nposition_m = [0, 0, 0]\nrotation_deg = [0, 0, 0]\n"
     );
-    let open = |scale| opened(&text, scale).unwrap_or_else(|error| panic!("{error}"));
+    let open = |scale| open_job(&text, scale).unwrap_or_else(|error| panic!("{error}"));
     let (full, half) = (open(None), open(Some("1/2")));
-    assert_same_sight(body(&full, "eye"), body(&half, "eye"), 2.0);
+    assert_same_projection(body(&full, "eye"), body(&half, "eye"), 2.0);
 }
 
-/// Points in view, by their directions of the camera frame.
-fn assert_same_sight(full: &CameraBody, scaled: &CameraBody, k: f64) {
+/// Compares the images of three points in view, given by their directions in the camera frame.
+fn assert_same_projection(full: &CameraBody, scaled: &CameraBody, k: f64) {
     let seen = |body: &CameraBody, to: DVec3| body.raster.raster_px(body.lens.project(to).expect("in the field"));
     for to in [[0.0, 0.0, 1.0], [0.2, -0.1, 1.0], [-0.3, 0.25, 1.0]].map(DVec3::from_array) {
         let (expected, found) = (seen(full, to) / k, seen(scaled, to));
@@ -239,23 +239,22 @@ fn matrix(text: &str) -> Vec<f64> {
 
 #[test]
 fn sizes_that_do_not_divide_are_refused_with_those_that_do() {
-    let error = opened(&panel(""), Some("1/5")).expect_err("64 × 48 px are no multiple of 5");
-    let (problem, remedy) =
-        ("5 × 5 pixels do not fill a picture of 64 × 48 px evenly", "give one of 1/2, 1/4, 1/8, 1/16");
+    let error = open_job(&panel(""), Some("1/5")).expect_err("64 × 48 px are no multiple of 5");
+    let (problem, remedy) = ("64 × 48 px are not a multiple of 5 × 5 pixels", "give one of 1/2, 1/4, 1/8, 1/16");
     assert!(error.contains("--scale 1/5") && error.contains(problem) && error.contains(remedy), "{error}");
-    let error = opened(&panel(", roi_px = [2, 0, 32, 24]"), Some("1/4")).expect_err("a region at column 2");
+    let error = open_job(&panel(", roi_px = [2, 0, 32, 24]"), Some("1/4")).expect_err("a region at column 2");
     assert!(error.contains("roi_px = [2, 0, 32, 24]") && error.contains("give one of 1/2"), "{error}");
-    let error = opened(&panel(""), Some("2")).expect_err("larger than the sensor");
+    let error = open_job(&panel(""), Some("2")).expect_err("larger than the sensor");
     assert!(error.contains("--scale 2") && error.contains("\"1/4\" or 0.25"), "{error}");
-    let error = opened(&panel(", scale = \"3/4\""), None).expect_err("no part of a pixel");
+    let error = open_job(&panel(", scale = \"3/4\""), None).expect_err("no part of a pixel");
     assert!(error.contains("sensor.scale"), "{error}");
 }
 
 #[test]
 fn the_plan_states_the_scale() {
-    let job = opened(&panel(", scale = \"1/2\""), None).expect("a key of the file");
+    let job = open_job(&panel(", scale = \"1/2\""), None).expect("a key of the file");
     assert!(job.summary().contains("32 × 24 px of 24 µm (scale 1/2 of 64 × 48 px)"), "{}", job.summary());
-    let job = opened(&panel(", scale = \"1/2\""), Some("0.25")).expect("the flag counts");
+    let job = open_job(&panel(", scale = \"1/2\""), Some("0.25")).expect("the flag counts");
     assert!(job.summary().contains("16 × 12 px of 48 µm (scale 1/4 of 64 × 48 px)"), "{}", job.summary());
     let report = serde_json::to_value(job.report()).expect("JSON");
     assert_eq!((&report["cameras"][0]["scale"], &report["cameras"][0]["sensor_px"][0]), (&0.25.into(), &16.into()));

@@ -47,10 +47,10 @@ pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> 
     ground_truth_of_planes(truth, provenance)?.into_bytes()
 }
 
-/// The same file, to be written.
+/// As [`encode_ground_truth`], as an image that is not encoded yet.
 ///
 /// # Errors
-/// Where there is no plane.
+/// There is no plane.
 pub fn ground_truth_of_planes<'a>(
     truth: &GroundTruth<'a>,
     provenance: &Provenance,

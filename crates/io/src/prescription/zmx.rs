@@ -36,13 +36,13 @@ struct Reader {
     field_kind: usize,
     counts: [usize; 2],
     heights: Vec<f64>,
-    /// Keywords of surfaces that are not read, noted once each.
+    /// Keywords of surfaces that are not read; each is noted once.
     unknown: BTreeSet<String>,
 }
 
-/// Keywords of a surface, which stand indented below its SURF: those that are read, and those that say how it is drawn (HIDE, MIRR, SLAB,
-/// COMM), propagated by diffraction (POPS), mounted (MEMA, OEMA, FIMP) or found (MAZH), which changes no image.
-const OF_SURFACE: [&str; 26] = [
+/// Keywords of a surface, which are indented below its SURF: those that are read, and those without an effect on images: of drawing (HIDE, MIRR, SLAB,
+/// COMM), propagation by diffraction (POPS), mounting (MEMA, OEMA, FIMP) and search (MAZH).
+const SURFACE_KEYWORDS: [&str; 26] = [
     "TYPE", "CURV", "CONI", "PARM", "DISZ", "CLAP", "FLAP", "DIAM", "STOP", "OBDC", "GLAS", "SQAP", "ELAP", "OBSC",
     "SQOB", "ELOB", "UDAD", "COMM", "HIDE", "MIRR", "SLAB", "POPS", "FIMP", "MEMA", "OEMA", "MAZH",
 ];
@@ -93,10 +93,10 @@ impl Reader {
         }
     }
 
-    /// Notes keywords of a surface that are not read: coatings (COAT), and what is not known.
+    /// Notes keywords of a surface that are not read: coatings (COAT) and unknown keywords.
     fn note_unknown(&mut self, w: &Words<'_>, indented: bool) {
         let name = w.word(0);
-        let of_surface = indented && !self.raw.surfaces.is_empty() && !OF_SURFACE.contains(&name);
+        let of_surface = indented && !self.raw.surfaces.is_empty() && !SURFACE_KEYWORDS.contains(&name);
         if of_surface && self.unknown.insert(name.to_owned()) {
             self.raw.notes.push(format!("line {}: {name} of a surface is not read", w.line));
         }

@@ -52,7 +52,7 @@ impl Columns {
         Ok(Self { place, rotation })
     }
 
-    /// A row whose columns have these values; `exact` is asked for the time.
+    /// Builds a row from the values of its columns; `exact` returns the time.
     pub(super) fn row(
         &self,
         value: impl Fn(usize) -> Result<f64, String>,

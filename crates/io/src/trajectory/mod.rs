@@ -5,7 +5,7 @@
 //!
 //! | names | |
 //! | --- | --- |
-//! | `time_s` | s by the logger's clock, rising, each time once; in JSON a number, or text where that is rounded |
+//! | `time_s` | s by the logger's clock, rising, each time once; in JSON a number, or text if a number would be rounded |
 //! | `x_m`, `y_m`, `z_m` | place, m |
 //! | `qw`, `qx`, `qy`, `qz` | rotation, a quaternion of length 1 to a hundredth |
 //! | `yaw_deg`, `pitch_deg`, `roll_deg` | or rotation about z, then y, then x of what turns, degrees |

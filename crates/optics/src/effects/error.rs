@@ -42,17 +42,17 @@ pub enum EffectsError {
         /// The steepest that is held, µm.
         limit_um: f64,
     },
-    /// A diffraction pattern that is far wider than it can be held.
+    /// A diffraction pattern that is wider than the model can compute.
     #[error(
-        "the diffraction pattern of f/{f_number:.1} spreads light over hundreds of pixels of {pixel_um:.3} µm, farther than is computed; f/{most:.1} is the most: \
+        "the diffraction pattern of f/{f_number:.1} is wider than can be computed with pixels of {pixel_um:.3} µm; the largest f-number is f/{most:.1}: \
          give a smaller \"f_number\" or larger pixels, or remove [effects.psf]"
     )]
     WidePattern {
         /// Working f-number.
         f_number: f64,
-        /// The largest that is computed.
+        /// The largest f-number that is computed.
         most: f64,
-        /// Distance of pixels, µm.
+        /// Pixel pitch, µm.
         pixel_um: f64,
     },
     /// A function too wide for displaced samples.

@@ -139,15 +139,15 @@ fn what_cannot_be_is_refused() {
     assert!(new(defocus(vec![0.5])).is_ok());
 }
 
-/// Airy discs of f/10⁵ have radii of 67 mm: points of the pattern lay 400 px apart, and a hundred times the light arrived at f/10⁶.
+/// The Airy disc of f/10⁵ has a radius of 67 mm: samples of the pattern would be 400 px apart, and the image would have the wrong light.
 #[test]
-fn a_pattern_far_wider_than_it_is_computed_is_refused() {
+fn a_pattern_wider_than_can_be_computed_is_refused() {
     let raster = Raster::centred(32, 24, 0.005).expect("legal");
     let new = |f_number| Psf::new(round(), &lens(5.0, f_number), &raster);
     for f_number in [3e2, 1e4, 1e5, 1e6] {
         assert!(matches!(new(f_number), Err(EffectsError::WidePattern { .. })), "f/{f_number}");
     }
-    // The most is 2 · 16 steps a λN of 780 nm: f/205.
+    // The limit is 2 · 16 samples per λN at 780 nm: f/205.
     assert!(new(205.0).is_ok(), "a pinhole");
 }
 

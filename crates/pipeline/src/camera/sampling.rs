@@ -14,7 +14,7 @@ pub struct SamplingPlanes {
     /// Samples of each pixel.
     pub samples: Plane<Identity>,
     /// Variance of each pixel's mean by its samples, e⁻² of the described exposure; (W/m²)² of irradiance where no electrons are made, (W·m⁻²·sr⁻¹)² of radiance at the pupil. `None` where neither
-    /// electrons are summed nor noise is watched, and of a single replicate, which knows none.
+    /// electrons are summed nor noise is monitored, and for a single replicate, which has no variance.
     pub monte_carlo: Option<Plane<Variance>>,
     /// Variance of a pixel's signal from frame to frame by the sensor ([`etendue_sensor::TemporalNoise`]), e⁻² of the described exposure. `None`
     /// where no electrons are summed.

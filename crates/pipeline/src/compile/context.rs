@@ -12,7 +12,7 @@ use std::fmt::Display;
 #[derive(Debug)]
 pub(super) struct Context<'a> {
     pub(super) assets: &'a Assets,
-    /// What times are counted from.
+    /// The time from which all times are counted.
     pub(super) epoch: Epoch,
     pub(super) faults: Vec<Fault>,
     pub(super) remarks: Vec<Remark>,
@@ -28,7 +28,7 @@ impl<'a> Context<'a> {
         Self { assets, epoch, faults, remarks, notices, coverage: Coverage::default() }
     }
 
-    /// A time since the epoch, s; where a number in the file cannot tell it to a nanosecond, with a remark.
+    /// Returns a time since the epoch, s; warns if a number in the file cannot represent it to a nanosecond.
     pub(super) fn since_epoch_s(&mut self, time: &Placed<ExactTime>) -> f64 {
         let step_s = time.value.step_s();
         if time.value.is_number() && time.value.fraction_s() != 0.0 && step_s > 1e-9 {

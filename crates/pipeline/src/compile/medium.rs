@@ -33,26 +33,26 @@ fn medium(record: &Record, frames: &Frames<'_>, context: &mut Context<'_>) -> Op
     Some(with_unevenness(medium, record.unevenness.as_ref()))
 }
 
-/// Points inside a medium with bounds, in the world at the epoch, m: its middle and points near its bounds. None of other media.
+/// Returns points inside a bounded medium, in the world at the epoch, m: its centre and points near its bounds; none for other media.
 pub(super) fn inner_points(record: &Record, frames: &Frames<'_>, context: &Context<'_>) -> Vec<DVec3> {
-    /// Points of a mesh that are looked at, and how far from its middle, of the way to its bounds.
-    const CORNERS: usize = 16;
-    const OUTWARDS: f64 = 0.9;
+    /// Number of tested points of a mesh, and their distance from its centre as a fraction of that of the bounds.
+    const MAX_POINTS: usize = 16;
+    const BOUNDS_FRACTION: f64 = 0.9;
     let axes = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
     let mut bounds: Vec<DVec3> = match &record.shape {
         None | Some(MediumShape::Everywhere(_) | MediumShape::Layer(_)) => return Vec::new(),
-        Some(MediumShape::Box(of)) => axes.map(|axis| axis * DVec3::from_array(of.size_m.value) * 0.5).to_vec(),
-        Some(MediumShape::Sphere(of)) => axes.map(|axis| axis * of.radius_m.value).to_vec(),
-        Some(MediumShape::Mesh(of)) => {
-            let Some(asset) = context.assets.meshes.get(&of.file.value) else { return Vec::new() };
-            let unit_m = of.unit_m.as_ref().map_or(1.0, |unit| unit.value);
+        Some(MediumShape::Box(cuboid)) => axes.map(|axis| axis * DVec3::from_array(cuboid.size_m.value) * 0.5).to_vec(),
+        Some(MediumShape::Sphere(sphere)) => axes.map(|axis| axis * sphere.radius_m.value).to_vec(),
+        Some(MediumShape::Mesh(mesh)) => {
+            let Some(asset) = context.assets.meshes.get(&mesh.file.value) else { return Vec::new() };
+            let unit_m = mesh.unit_m.as_ref().map_or(1.0, |unit| unit.value);
             let place = |p: &[f32; 3]| (DVec3::from_array(p.map(f64::from)) + DVec3::from_array(asset.origin)) * unit_m;
-            asset.positions.iter().step_by(asset.positions.len().div_ceil(CORNERS).max(1)).map(place).collect()
+            asset.positions.iter().step_by(asset.positions.len().div_ceil(MAX_POINTS).max(1)).map(place).collect()
         }
     };
-    let middle = bounds.iter().sum::<DVec3>() / bounds.len().max(1) as f64;
-    bounds.iter_mut().for_each(|point| *point = middle + (*point - middle) * OUTWARDS);
-    bounds.push(middle);
+    let centre = bounds.iter().sum::<DVec3>() / bounds.len().max(1) as f64;
+    bounds.iter_mut().for_each(|point| *point = centre + (*point - centre) * BOUNDS_FRACTION);
+    bounds.push(centre);
     let to_world = frames.carrying(record.frame.as_ref(), Motion::still(record.transform.to_world())).at(0.0);
     bounds.into_iter().map(|point| to_world.transform_point3(point)).collect()
 }

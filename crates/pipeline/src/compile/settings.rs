@@ -349,7 +349,7 @@ pub(super) fn depth_of_field(render: &Render, body: &CameraBody, context: &mut C
     }
 }
 
-/// The blur shrinks with the picture of a camera whose pixels are `scale` times as large.
+/// Returns the parameters of the blur, which shrinks with the image of a camera whose pixels are `scale` times as large.
 fn parameters(blend: &render::FastBlend, scale: u64) -> FastParameters {
     let [blurred_near_m, sharp_near_m] = blend.near_m.as_ref().map_or([0.0; 2], |range| range.value);
     let [sharp_far_m, blurred_far_m] = blend.far_m.as_ref().map_or([f64::INFINITY; 2], |range| range.value);

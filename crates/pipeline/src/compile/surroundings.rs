@@ -1,4 +1,4 @@
-//! Cameras that stand in glass or water, whose light is dimmed and n² times as bright, and media that lie there, which have no effect.
+//! Cameras inside glass or water, where light is absorbed and radiance is n² times as high, and media inside glass or water, which have no effect.
 
 use super::context::Context;
 use super::frames::Frames;
@@ -53,7 +53,7 @@ pub(super) fn remark(
     }
 }
 
-/// Warns of media that lie in a transparent solid with all that is looked at of them.
+/// Warns of media all of whose tested points are inside a transparent solid.
 pub(super) fn warn_of_enclosed(
     scene: &Scene,
     frames: &Frames<'_>,
@@ -71,8 +71,8 @@ pub(super) fn warn_of_enclosed(
     for medium in &scene.media {
         let points = inner_points(medium, frames, context);
         if !points.is_empty() && points.into_iter().all(is_enclosed) {
-            let text = "lies inside a transparent solid, which displaces media: it has no effect; solids absorb by their material's \
-                        own transmittance, and scattering inside them is not modelled";
+            let text = "is inside a transparent solid, which displaces media, and has no effect; absorption in a solid is set by the \
+                        transmittance of its material, and scattering inside it is not modelled";
             context.warn_on(format!("medium \"{}\"", medium.name.value), text);
         }
     }

@@ -55,9 +55,9 @@ fn a_camera_in_water_is_told() {
     assert!(!ball(5.0).iter().any(|r| r.text.contains("stands inside")));
 }
 
-/// Solids displace media, so that milk in a glass would be clear water without a word.
+/// Solids displace media: without a warning milk in a glass would be rendered as clear glass.
 #[test]
-fn a_medium_within_glass_is_warned_of_and_one_beside_it_is_not() {
+fn a_medium_inside_glass_gives_a_warning_and_one_outside_does_not() {
     let glass = "[[scene.materials]]\nname = \"glass\"\ntype = \"dielectric\"\nindex = 1.5\n\
                  [[scene.objects]]\nname = \"ball\"\nmaterial = \"glass\"\nshape = { type = \"sphere\", radius_m = 1 }\nposition_m = [5, 0, 1]\n";
     let warned = |medium: &str| {

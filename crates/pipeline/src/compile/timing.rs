@@ -12,10 +12,10 @@ use etendue_tracer::lights::Sources;
 /// Relative difference of a sequence's frame rate and a sensor's frame period that is taken for rounding.
 const RATE_TOLERANCE: f64 = 1e-6;
 
-/// The greatest age of drops that change, s: five million steps.
+/// Maximum age of drops that change, s: five million steps.
 const MAX_DROPS_AGE_S: f64 = 1e5;
 
-/// What the times of a job are counted from.
+/// Returns the epoch from which the times of a job are counted.
 pub(super) fn epoch(sequence: Option<&Sequence>) -> Epoch {
     sequence.and_then(|s| s.start_s.as_ref()).map_or(Epoch::default(), |start| Epoch::near(start.value))
 }
@@ -79,14 +79,17 @@ pub(super) fn depend(
     }
 }
 
-/// Drops are followed step by step from their beginning, which takes as long as they are old.
+/// Refuses drops that begin too early: they are simulated step by step from their beginning, in a time proportional to their age.
 fn check_drops(camera: &CameraPlan, context: &mut Context<'_>) {
     let course = camera.body.front.as_ref().and_then(|front| front.course());
     let age_s = course.map_or(0.0, |course| camera.timing.frame_start_s(0) - course.start_s);
     if age_s > MAX_DROPS_AGE_S {
-        let problem =
-            format!("the drops begin {age_s:.0} s before frame 0; at most {MAX_DROPS_AGE_S} s can be followed");
-        context.fault(&camera.body.place, problem, "give the drops a \"start_s\" shortly before that of the sequence");
+        let problem = format!("the drops begin {age_s:.0} s before frame 0; at most {MAX_DROPS_AGE_S} s are simulated");
+        context.fault(
+            &camera.body.place,
+            problem,
+            "set \"start_s\" of the drops to a time shortly before that of the sequence",
+        );
     }
 }
 

@@ -95,7 +95,7 @@ pub struct CameraBody {
     pub place: Place,
     /// The pixel grid.
     pub raster: Raster,
-    /// How many pixels of the described sensor one pixel has in a row and in a column: 4 of scale 1/4.
+    /// Number of pixels of the described sensor in a row and in a column of one pixel: 4 for the scale 1/4.
     pub scale: u64,
     /// The lens.
     pub lens: Lens,

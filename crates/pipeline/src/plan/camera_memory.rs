@@ -1,4 +1,4 @@
-//! The memory that a camera takes, stage after stage.
+//! The memory of a camera in each stage of its work.
 
 use super::frame_memory::FrameMemory;
 use super::view_memory::ViewMemory;
@@ -10,20 +10,20 @@ use crate::render::truth::TruthRows;
 use crate::render::{identity_coverage, layout, motion};
 use etendue_optics::DepthOfField;
 
-/// Bytes of the rows of an EXR file that wait to be written: `etendue_io` lets [`ROWS_WAITING_BYTES`] of them wait, and beside them what they are compressed
-/// to, which is no more.
+/// Memory of the rows of an EXR file that wait to be written, bytes: up to [`ROWS_WAITING_BYTES`] of rows wait in `etendue_io`, and their compressed data
+/// takes no more.
 const WRITING_BYTES: f64 = 2.0 * ROWS_WAITING_BYTES as f64;
-/// Bytes of rows that wait to be compressed at most.
+/// Maximum size of rows that wait to be compressed, bytes.
 pub const ROWS_WAITING_BYTES: usize = 32 << 20;
-/// Planes of distances and depths at the pupil: as the threads made them, and put together.
+/// Planes of distances and depths at the pupil: those of the threads and the merged ones.
 const PUPIL_PLANES: f64 = 4.0;
-/// A number of a plane.
-const NUMBER: f64 = size_of::<f32>() as f64;
+/// Size of a sample of a plane, bytes.
+const SAMPLE: f64 = size_of::<f32>() as f64;
 
-/// A stage of a camera's work, and the memory that it takes.
+/// A stage of a camera's work and its memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StageMemory {
-    /// What is done, after "while".
+    /// The work of the stage, worded to follow "while".
     pub stage: &'static str,
     /// Bytes.
     pub bytes: f64,
@@ -32,9 +32,9 @@ pub struct StageMemory {
 /// The memory of a camera, bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraMemory {
-    /// Of its film alone.
+    /// Memory of its film alone.
     pub film: f64,
-    /// Of each stage, all that is held at that time.
+    /// Memory of each stage, with all that is stored during it.
     pub stages: Vec<StageMemory>,
 }
 
@@ -42,27 +42,27 @@ impl CameraMemory {
     pub(super) fn new(plan: &Plan, camera: &CameraPlan, view: &ViewMemory, threads: usize) -> Self {
         let sizes = Sizes::new(plan, camera);
         let frame = FrameMemory::new(camera);
-        // A frame that the sensor remembers is held while the other files are made.
+        // A sensor with memory keeps the frame while the other files are made.
         let remembers = camera.body.sensor.as_ref().is_some_and(|sensor| sensor.remembers());
-        let kept = if remembers && camera.time != TimeDependence::None { frame.held } else { 0.0 };
-        let light = sizes.light() + kept + sizes.films_kept();
-        let distances = if sizes.is_at_pupil { light + view.beside(PUPIL_PLANES * sizes.film_plane) } else { 0.0 };
+        let remembered_frame = if remembers && camera.time != TimeDependence::None { frame.held } else { 0.0 };
+        let light = sizes.light() + remembered_frame + sizes.shared_films();
+        let distances = if sizes.is_at_pupil { light + view.stage_bytes(PUPIL_PLANES * sizes.film_plane) } else { 0.0 };
         let stages = [
-            ("its light is gathered", view.beside(sizes.films())),
-            ("its film becomes light on the sensor", sizes.seen(threads)),
+            ("its light is gathered", view.stage_bytes(sizes.films())),
+            ("its film becomes light on the sensor", sizes.conversion(threads)),
             ("distances at its pupil are found", distances),
             ("the spectra of its light are written", light + sizes.spectra_files()),
-            ("its frames are made and written", light + frame.most),
-            ("its ground truth is made and written", light + view.beside(sizes.ground_truth())),
-            ("the weather before it is made and written", light + view.beside(sizes.weather())),
-            ("its motion is made and written", light + view.beside(sizes.motion())),
-            ("its Cryptomatte is made and written", light + view.beside(sizes.cryptomatte())),
+            ("its frames are made and written", light + frame.peak),
+            ("its ground truth is made and written", light + view.stage_bytes(sizes.ground_truth())),
+            ("the weather before it is made and written", light + view.stage_bytes(sizes.weather())),
+            ("its motion is made and written", light + view.stage_bytes(sizes.motion())),
+            ("its Cryptomatte is made and written", light + view.stage_bytes(sizes.cryptomatte())),
         ];
         let stages = stages.map(|(stage, bytes)| StageMemory { stage, bytes }).to_vec();
         Self { film: sizes.film, stages }
     }
 
-    /// The stage that takes most.
+    /// Returns the stage with the highest memory.
     #[must_use]
     pub fn most(&self) -> StageMemory {
         let most = self.stages.iter().copied().max_by(|a, b| a.bytes.total_cmp(&b.bytes));
@@ -70,20 +70,21 @@ impl CameraMemory {
     }
 }
 
-/// Sizes that the stages have in common.
+/// Sizes that several stages use.
 struct Sizes<'a> {
     camera: &'a CameraPlan,
-    /// A plane of the film, and one of the picture, bytes.
+    /// Size of a plane of the film, bytes.
     film_plane: f64,
+    /// Size of a plane of the image, bytes.
     plane: f64,
-    /// Bands that are in memory.
+    /// Number of bands in memory.
     bands: f64,
-    /// Bytes of the film in memory.
+    /// Size of the film in memory, bytes.
     film: f64,
-    /// Films whose captures see different light.
+    /// Number of captures with different light, each with its film.
     captures: f64,
     is_at_pupil: bool,
-    /// Cameras that have the same light.
+    /// Number of cameras that share the light.
     group: usize,
 }
 
@@ -100,8 +101,8 @@ impl<'a> Sizes<'a> {
         let bands = camera.settings.bands.filter(|_| in_memory).map_or(0, |bands| bands.count());
         Self {
             camera,
-            film_plane: NUMBER * f64::from(width) * f64::from(height),
-            plane: NUMBER * raster.width() as f64 * raster.height() as f64,
+            film_plane: SAMPLE * f64::from(width) * f64::from(height),
+            plane: SAMPLE * raster.width() as f64 * raster.height() as f64,
             bands: bands as f64,
             film: film.memory,
             captures: captures as f64,
@@ -110,30 +111,30 @@ impl<'a> Sizes<'a> {
         }
     }
 
-    /// Films while light is gathered: of the captures so far, and of a further pass that of the passes before.
+    /// Returns the memory of the films while light is gathered: those of the captures so far, and in further passes that of the previous passes.
     fn films(&self) -> f64 {
         let passes = if self.camera.pass_count() > 1 { 2.0 } else { 1.0 };
         self.film * (self.captures - 1.0 + passes)
     }
 
-    /// Films while they become light: the camera's own, and of cameras that share them a copy for those that follow.
-    fn films_seen(&self) -> f64 {
+    /// Returns the memory of the films while they are converted: the camera's own, and a copy for later cameras that share them.
+    fn films_in_conversion(&self) -> f64 {
         let copies = if self.group > 1 { 2.0 } else { 1.0 };
-        // A run in passes makes pictures of a copy of the film so far.
+        // A run in passes makes images from a copy of the film so far.
         let refined = if self.camera.pass_count() > 1 { 1.0 } else { 0.0 };
         self.film * self.captures * (copies + refined)
     }
 
-    /// Films that are kept for cameras of the same light that follow.
-    fn films_kept(&self) -> f64 {
+    /// Returns the memory of the films that are stored for later cameras with the same light.
+    fn shared_films(&self) -> f64 {
         if self.group > 1 { self.film * self.captures } else { 0.0 }
     }
 
-    fn has_ghosts(&self) -> f64 {
+    fn ghost_count(&self) -> f64 {
         f64::from(u8::from(self.camera.body.effects.ghosts().is_some()))
     }
 
-    /// Light that is held while files are made: radiance and irradiance with variances, ghosts, electrons of each capture, distances at the pupil.
+    /// Returns the memory of the light while files are made: radiance and irradiance with variances, ghosts, electrons of each capture, distances at the pupil.
     fn light(&self) -> f64 {
         let products = &self.camera.products;
         let electrons = if self.camera.body.sensor.is_some() { self.captures } else { 0.0 };
@@ -142,9 +143,9 @@ impl<'a> Sizes<'a> {
         electrons + sampling + self.spectra()
     }
 
-    /// The spectra of a capture's light.
+    /// Returns the memory of the spectra of a capture.
     fn spectra(&self) -> f64 {
-        let irradiance = self.bands * self.plane * (1.0 + self.has_ghosts());
+        let irradiance = self.bands * self.plane * (1.0 + self.ghost_count());
         if self.is_at_pupil {
             return irradiance + (2.0 * self.bands + 2.0) * self.film_plane;
         }
@@ -152,24 +153,24 @@ impl<'a> Sizes<'a> {
         radiance + irradiance + self.bands * self.plane
     }
 
-    /// While films become light: the films, what is made of them, and what effects take.
-    fn seen(&self, threads: usize) -> f64 {
+    /// Returns the memory while films are converted to light on the sensor: the films, the products and the effects.
+    fn conversion(&self, threads: usize) -> f64 {
         let asked = self.camera.products.radiance || self.is_at_pupil;
         let radiance = if asked { 2.0 * self.bands * self.film_plane } else { 0.0 };
         let blurred = match self.camera.depth_of_field {
             DepthOfField::None => 0.0,
             DepthOfField::Physical | DepthOfField::Fast(_) => 2.0 * self.bands * self.film_plane,
         };
-        let ghosts = self.has_ghosts() * self.bands * (self.film_plane + self.plane);
+        let ghosts = self.ghost_count() * self.bands * (self.film_plane + self.plane);
         let effects = if self.camera.body.effects.is_idle() { 0.0 } else { 2.0 * self.bands * self.plane };
         let through_lens = if self.is_at_pupil { self.bands * self.film_plane } else { 0.0 };
         let made = radiance + blurred + ghosts + effects + through_lens + self.plane;
-        self.films_seen() + made + (self.captures - 1.0) * self.spectra() + self.spread(threads)
+        self.films_in_conversion() + made + (self.captures - 1.0) * self.spectra() + self.convolution(threads)
     }
 
-    /// What point spread and glare take of the bands that are worked on side by side: light and its variance before and after in 64 bits, and three complex
-    /// grids of the film and as much about it as a kernel reaches, which is its margin.
-    fn spread(&self, threads: usize) -> f64 {
+    /// Returns the memory of point spread and glare for the bands that are processed in parallel: light and its variance before and after in 64 bits, and three
+    /// complex grids of the film with the margin of the kernel.
+    fn convolution(&self, threads: usize) -> f64 {
         let effects = &self.camera.body.effects;
         if effects.is_idle() {
             return 0.0;
@@ -188,7 +189,7 @@ impl<'a> Sizes<'a> {
         if written { self.writing(planes.max(1.0)) } else { 0.0 }
     }
 
-    /// While an EXR file of as many planes is written.
+    /// Returns the memory while an EXR file of `planes` planes is written.
     fn writing(&self, planes: f64) -> f64 {
         WRITING_BYTES.min(2.0 * planes * self.plane)
     }
@@ -204,7 +205,7 @@ impl<'a> Sizes<'a> {
         planes + TruthRows::strip_bytes(self.camera) + depth + self.writing(planes / self.plane)
     }
 
-    /// Two films of one band and the airlight's of all, and its radiance.
+    /// Returns the memory of two films of one band, and of the film of the airlight in all bands and its radiance.
     fn weather(&self) -> f64 {
         if !self.camera.products.weather {
             return 0.0;
@@ -220,7 +221,7 @@ impl<'a> Sizes<'a> {
     fn motion(&self) -> f64 {
         let asked = &self.camera.products.annotations;
         let neighbours = if asked.needs_neighbours() { 2 } else { usize::from(asked.disparity.is_some()) };
-        let bytes = motion::bytes_of_pixel(neighbours) * self.plane / NUMBER;
+        let bytes = motion::bytes_of_pixel(neighbours) * self.plane / SAMPLE;
         if neighbours == 0 { 0.0 } else { bytes + self.writing(bytes / self.plane) }
     }
 
@@ -228,6 +229,6 @@ impl<'a> Sizes<'a> {
         if !self.camera.products.annotations.cryptomatte {
             return 0.0;
         }
-        identity_coverage::BYTES_OF_PIXEL * self.plane / NUMBER + WRITING_BYTES
+        identity_coverage::BYTES_OF_PIXEL * self.plane / SAMPLE + WRITING_BYTES
     }
 }

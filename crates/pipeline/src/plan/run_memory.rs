@@ -1,35 +1,35 @@
-//! The memory that a run takes at most, from the program itself to its files.
+//! The peak memory of a run, from the program itself to its files.
 //!
-//! Cameras follow one another, so that the run takes what all of them share (the program, the scene) and what the largest of them takes. Every term is
-//! the size of the numbers that are there at that time: sizes of types, times pixels, bands and products. Left out: what is small beside a picture
-//! (lists of lights, side-cars), the directions that path guiding learns, and what reading the files of a scene takes before the run.
+//! Cameras are rendered one after another: a run takes the memory that all of them share (the program, the scene) and that of the largest of them. Every term is
+//! the size of the data at that time: sizes of types, times pixels, bands and products. Omitted: data that is small compared with an image
+//! (lists of lights, side-cars), the directions that path guiding learns, and the memory for reading the files of a scene before the run.
 
 use super::camera_memory::CameraMemory;
 use super::texture_use::TextureUse;
 use super::view_memory::ViewMemory;
 use crate::plan::{Plan, TimeDependence};
 
-/// Of the program before a job is read, bytes: its pages that are used, tables of spectra and the stacks of its threads. `etendue plan` of an
-/// empty scene has 31 MB (VmHWM, x86-64, two threads).
+/// Memory of the program before a job is read, bytes: its resident pages, tables of spectra and the stacks of its threads. `etendue plan` of an
+/// empty scene takes 31 MB (VmHWM, x86-64, two threads).
 const PROGRAM_BYTES: f64 = 36e6;
-/// Threads of a plan for people, which no machine decides.
+/// Number of threads that a plan assumes, the same on all machines.
 const PLANNED_THREADS: usize = 4;
 
 /// The memory of a run, bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunMemory {
-    /// Of the program before a job is read.
+    /// Memory of the program before a job is read.
     pub program: f64,
-    /// Of meshes, their trees and textures.
+    /// Memory of meshes, their acceleration structures and textures.
     pub scene: f64,
-    /// Of each camera at most, by its name.
+    /// Memory of each camera, with its name.
     pub cameras: Vec<(String, CameraMemory)>,
-    /// Of films that are held beside that of the camera.
+    /// Memory of films that are stored in addition to that of the camera.
     pub held_films: f64,
 }
 
 impl RunMemory {
-    /// Of a run that takes as many threads.
+    /// Returns the memory of a run with this number of threads.
     #[must_use]
     pub fn new(plan: &Plan, threads: usize) -> Self {
         let view = ViewMemory::new(&plan.world);
@@ -43,13 +43,13 @@ impl RunMemory {
         }
     }
 
-    /// As a plan states it.
+    /// Returns the memory as a plan states it.
     #[must_use]
     pub fn planned(plan: &Plan) -> Self {
         Self::new(plan, PLANNED_THREADS)
     }
 
-    /// The same with the films of all cameras held together, of this many moments of each whose light depends on time.
+    /// Adds the films of all cameras, which are in memory together, with this number of moments of each camera whose light depends on time.
     #[must_use]
     pub fn holding_films(self, plan: &Plan, moments: usize) -> Self {
         let films = plan.by_light().into_iter().map(|group| {
@@ -59,25 +59,25 @@ impl RunMemory {
         Self { held_films: films.sum(), ..self }
     }
 
-    /// The camera that takes most.
+    /// Returns the camera with the highest memory.
     #[must_use]
     pub fn largest(&self) -> Option<&(String, CameraMemory)> {
         self.cameras.iter().max_by(|(_, a), (_, b)| a.most().bytes.total_cmp(&b.most().bytes))
     }
 
-    /// What is taken beyond the program itself, at most.
+    /// Returns the peak memory without the program itself.
     #[must_use]
     pub fn beyond_program(&self) -> f64 {
         self.scene + self.held_films + self.largest().map_or(0.0, |(_, camera)| camera.most().bytes)
     }
 
-    /// All of it.
+    /// Returns the peak memory of the whole run.
     #[must_use]
     pub fn bytes(&self) -> f64 {
         self.program + self.beyond_program()
     }
 
-    /// The parts, in words.
+    /// Returns a description of the parts.
     #[must_use]
     pub fn parts(&self) -> String {
         let mb = |bytes: f64| format!("{:.1} MB", bytes / 1e6);
@@ -85,11 +85,8 @@ impl RunMemory {
             let most = camera.most();
             format!(", camera {name} {} while {} (its film {})", mb(most.bytes), most.stage, mb(camera.film))
         });
-        let held = if self.held_films > 0.0 {
-            format!(", films that are held {}", mb(self.held_films))
-        } else {
-            String::new()
-        };
+        let held =
+            if self.held_films > 0.0 { format!(", stored films {}", mb(self.held_films)) } else { String::new() };
         format!("program {}, scene {}{held}{camera}", mb(self.program), mb(self.scene))
     }
 }

@@ -19,9 +19,9 @@ pub enum TimeDependence {
 /// When a camera's frames, captures and rows are exposed, in simulated time since an epoch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timing {
-    /// What the times are counted from.
+    /// The time from which the other times are counted.
     pub epoch: Epoch,
-    /// When frame 0 begins but for its jitter, s since the epoch.
+    /// Start of frame 0 without its jitter, s since the epoch.
     pub start_s: f64,
     /// From frame to frame, s; `None` where no rate is stated: only frame 0 has a time of its own.
     pub period_s: Option<f64>,
@@ -43,20 +43,20 @@ pub struct Jitter {
 }
 
 impl Timing {
-    /// When a frame begins, s since the epoch.
+    /// Returns the start of a frame, s since the epoch.
     #[must_use]
     pub fn frame_start_s(&self, frame: u32) -> f64 {
         let deviation = self.jitter.map_or(0.0, |jitter| jitter.deviation_s(frame));
         self.start_s + self.period_s.map_or(0.0, |period_s| f64::from(frame) * period_s) + deviation
     }
 
-    /// When a frame begins.
+    /// Returns the start of a frame.
     #[must_use]
     pub fn frame_start(&self, frame: u32) -> ExactTime {
         self.epoch.time(self.frame_start_s(frame))
     }
 
-    /// Half-way through the first capture of a frame: when its pose and its ground truth hold.
+    /// Returns the middle of the first capture of a frame: the time of its pose and its ground truth.
     #[must_use]
     pub fn frame_middle(&self, frame: u32) -> ExactTime {
         self.epoch.time(self.capture(frame, 0).middle_s())

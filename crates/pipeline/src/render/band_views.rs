@@ -27,8 +27,8 @@ impl BandReader for OverWeight {
     }
 }
 
-/// A value over a function of the weight; 0 where no light passes the lens. What is beyond 32 bits, as of a weight whose square is 0 in them, is the greatest
-/// number.
+/// Returns a value divided by a function of the weight; 0 if no light passes the lens. A quotient beyond the range of 32 bits, as with a weight whose square
+/// underflows, is the greatest finite number.
 pub(crate) fn over(value: f32, weight: f32, divisor: fn(f32) -> f32) -> f32 {
     if weight <= 0.0 || value == 0.0 {
         return 0.0;
@@ -66,14 +66,14 @@ impl BandReader for PartOfBands {
 mod tests {
     use super::over;
 
-    /// A pupil of f/10²⁰, and light of 10³⁰: the variance of their radiance has no 32 bits.
+    /// A pupil of f/10²⁰, and light of 10³⁰: the variance of their radiance exceeds the range of 32 bits.
     #[test]
     fn no_variance_of_a_narrow_pupil_is_infinite() {
         let square = |weight: f32| weight * weight;
         assert_eq!(over(1e-30, 1e-25, square), f32::MAX);
         assert_eq!(over(1e30, 1e-5, square), f32::MAX);
         assert_eq!((over(0.0, 1e-25, square), over(1.0, 0.0, square)), (0.0, 0.0));
-        assert!(over(f32::NAN, 1e-5, square).is_nan(), "not known");
+        assert!(over(f32::NAN, 1e-5, square).is_nan(), "unknown stays NaN");
         assert_eq!(over(3.0, 2.0, square), 0.75);
     }
 }

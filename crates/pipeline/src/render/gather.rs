@@ -137,7 +137,7 @@ impl Gather {
     }
 }
 
-/// A variance as it is stored: one beyond 32 bits is the greatest number, which then is a lower bound; NaN, of what is not known, stays.
+/// Converts a variance to 32 bits for storage. A value beyond their range becomes the greatest finite number, a lower bound; NaN (unknown) stays NaN.
 pub(crate) fn stored_variance(value: f64) -> f32 {
     if value > f64::from(f32::MAX) { f32::MAX } else { value as f32 }
 }
@@ -276,9 +276,9 @@ mod tests {
         assert!(light.electrons().is_some_and(|(mean, _)| mean.is_nan()));
     }
 
-    /// Two replicates of 10³⁰ and 3 · 10³⁰: the mean has 32 bits, its variance of 10⁶⁰ has not.
+    /// Two replicates of 10³⁰ and 3 · 10³⁰: the mean is within the range of 32 bits, its variance of 10⁶⁰ is not.
     #[test]
-    fn a_variance_that_is_stored_is_never_infinite() {
+    fn a_stored_variance_is_never_infinite() {
         use crate::render::film::Film;
         use etendue_core::random::Pixel;
         let bands = Bands::covering(500.0, 501.0, 1.0);
@@ -292,7 +292,7 @@ mod tests {
         let light = gather.light(&layout, 2, 0);
         let mut film = Film::new(1, 1, &layout, 2);
         film.store(Pixel { x: 0, y: 0 }, &light);
-        assert_eq!(film.not_finite_samples(), 0, "the means are good");
+        assert_eq!(film.not_finite_samples(), 0, "the means are finite");
         let exposed = film.electron_rate.as_ref().map(|rate| rate.exposed(2.0)).expect("folded");
         let cube = film.cube().expect("a band");
         let variances = [cube.variance.planes()[0].at(0, 0), exposed.variance.at(0, 0)];

@@ -56,8 +56,8 @@ pub(crate) fn spp(camera: &CameraPlan) -> u32 {
     weather_layers::spp(camera).min((MAX_SPP / replicates * replicates).max(replicates))
 }
 
-/// Bytes of a pixel at most while its coverage is found and written: the head and four shares of two lists, once more as they are written, and the 24 numbers
-/// of the file.
+/// Maximum memory per pixel while its coverage is computed and written, bytes: the header and four entries of two lists, the same again for writing, and the 24
+/// numbers in the file.
 pub(crate) const BYTES_OF_PIXEL: f64 =
     (4 * (size_of::<Vec<Share>>() + 4 * size_of::<Share>() + 2 * size_of::<usize>()) + 24 * size_of::<f32>()) as f64;
 

@@ -108,7 +108,7 @@ pub fn ground_truth(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) ->
     TruthRows::new(plan, camera, frame, simd).rows(0..camera.body.raster.height())
 }
 
-/// Rows whose looks are in memory at the same time: as many as a block of an EXR file has.
+/// Number of rows whose hits are in memory at the same time: that of a block of an EXR file.
 const STRIP_ROWS: usize = 16;
 
 /// The ground truth of a camera, some rows at a time.
@@ -149,7 +149,7 @@ impl<'a> TruthRows<'a> {
         raster.width() as f64 * raster.height() as f64 * (numbers * size_of::<f32>()) as f64
     }
 
-    /// Bytes of what the pixels of some rows see, while planes are made of it.
+    /// Returns the memory of the hits of a strip of rows, bytes.
     #[must_use]
     pub fn strip_bytes(camera: &CameraPlan) -> f64 {
         (STRIP_ROWS * camera.body.raster.width() * size_of::<Look>()) as f64
@@ -178,7 +178,7 @@ impl<'a> TruthRows<'a> {
         truth
     }
 
-    /// Planes of as many rows, all of them empty.
+    /// Returns empty planes of `height` rows.
     fn empty(&self, height: usize) -> GroundTruth {
         let width = self.size().0;
         let vectors = |is_asked: bool| is_asked.then(|| Plane::new(width, height));
@@ -197,7 +197,7 @@ impl<'a> TruthRows<'a> {
         }
     }
 
-    /// What the pixels of some rows see.
+    /// Traces the pixels of some rows and returns their hits.
     fn looks(&self, rows: Range<usize>) -> Vec<Look> {
         let width = self.size().0;
         let look = |i: usize| {
@@ -208,7 +208,7 @@ impl<'a> TruthRows<'a> {
         (0..width * rows.len()).into_par_iter().map(look).collect()
     }
 
-    /// Stores what the pixels of `rows` see, from the sample `at` of the planes on.
+    /// Stores the hits of the pixels of `rows` in the planes, from the sample `at` on.
     fn store(&self, truth: &mut GroundTruth, at: usize, rows: Range<usize>, looks: &[Look]) {
         let rest = |truth: &Truth| truth.position_m - truth.position_m.as_vec3().as_dvec3();
         fill(&mut truth.depth, at, looks, |l| l.seen.depth());
@@ -314,7 +314,7 @@ pub(crate) fn is_there(view: &RenderSpace<'_>, material_table: &MaterialTable, p
     material_table.opacity(point.material, &at) >= 0.5
 }
 
-/// Stores a sample of each look, from the sample `at` of the plane on.
+/// Stores a sample of each hit in the plane, from the sample `at` on.
 fn fill<Q: Quantity>(plane: &mut Plane<Q>, at: usize, looks: &[Look], of: impl Fn(&Look) -> Q::Sample) {
     plane.samples_mut()[at..].iter_mut().zip(looks).for_each(|(sample, look)| *sample = of(look));
 }

@@ -43,7 +43,7 @@ def dots(
     views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
     hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -86,7 +86,7 @@ def checkerboard(
     views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
     hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -131,7 +131,7 @@ def circles(
     views: Views of the chart: the first square to it, the others tilted by 25 degrees all round. Default: 1.
     hand_held: Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -176,7 +176,7 @@ def flat_field(
     highest: The same in the longest [default: 1.3].
     levels: The shares themselves, e.g. 0.01,0.1,0.5,1.2. One, or a sequence of them.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -221,7 +221,7 @@ def backlit(
     levels: The shares themselves, e.g. 0.01,0.1,0.5,1.2. One, or a sequence of them.
     dark: A dark frame for each exposure.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -264,7 +264,7 @@ def slanted_edges(
     angle_deg: By how much it is turned clockwise, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45. Default: 5.
     contrast: Luminance of light over dark. Default: 4.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -309,7 +309,7 @@ def slanted_star(
     angle_deg: By how much it is turned clockwise, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45. Default: 5.
     contrast: Luminance of light over dark. Default: 4.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -346,7 +346,7 @@ def siemens_star(
     cycles: Cycles around the centre. Default: 72.
     binary: In black and white instead of a cosine.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -383,7 +383,7 @@ def dead_leaves(
     smallest_px: Radius of the smallest leaves, px. Default: 1.
     largest_ratio: Radius of the largest leaves over the side of the chart. Default: 0.2.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -422,7 +422,7 @@ def oecf_steps(
     density: Density of the darkest step [default: 2, with --backlit 3].
     backlit: A transparency on a light box in the dark instead of a print in even light.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -455,7 +455,7 @@ def colorchecker(
     """The 24 patches of the ColorChecker by their measured spectra: colour error.
 
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -496,7 +496,7 @@ def contrast_patches(
     pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
     decades: Decades of luminance from the brightest patch to the darkest. Default: 3.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -537,7 +537,7 @@ def flare(
     pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
     trap_ratio: Diameter of a trap's opening over the distance between traps. Default: 0.25.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -574,7 +574,7 @@ def led_flicker(
     frequencies_hz: Frequencies of the columns, Hz. One, or a sequence of them. Default: 90,110,200,400.
     duty_cycles: Duties of the rows: shares of the period that a pulse lasts. One, or a sequence of them. Default: 0.1,0.25,0.5.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -615,7 +615,7 @@ def points(
     pitch_mm: Distance from centre to centre (of squares: their side), mm [default: what the columns allow].
     diameter_px: Diameter of a lamp, px of the picture's middle. Default: 0.5.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.
@@ -652,7 +652,7 @@ def depth_wedge(
     steps: Steps of the staircase. Default: 8.
     far_ratio: Distance of the farthest panel over that of the nearest. Default: 3.
     camera: The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory. Default: web.
-    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the files hold the change. A dict of dotted keys to values, or texts key=value.
+    set: Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for the changed camera, and the change is written into the files. A dict of dotted keys to values, or texts key=value.
     distance_m: Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1].
     width_mm: Width of what the camera sees of the sheet, mm: the distance follows.
     illuminant: The light's spectrum: D65, A, E, LED-B3, …. Default: D65.

@@ -62,7 +62,7 @@ def rig(
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
     spp: Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's].
     noise: As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp.
-    scale: Size of every picture over that of its sensor, 1/K or the same as a decimal fraction: the same field of view with K × K times larger pixels and the same mean level, as sensor.scale says it.
+    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and the same mean level, with one pixel in the place of K × K; it sets sensor.scale of all cameras.
     integrator: How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]. One of flat, direct, path.
     quality: A preset of samples and bounces, for what the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
@@ -113,7 +113,7 @@ def tradeoff(
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
     spp: Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's].
     noise: As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp.
-    scale: Size of every picture over that of its sensor, 1/K or the same as a decimal fraction: the same field of view with K × K times larger pixels and the same mean level, as sensor.scale says it.
+    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and the same mean level, with one pixel in the place of K × K; it sets sensor.scale of all cameras.
     integrator: How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]. One of flat, direct, path.
     quality: A preset of samples and bounces, for what the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
@@ -169,7 +169,7 @@ def dataset(
     set: Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4. A dict of dotted keys to values, or texts key=value.
     spp: Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's].
     noise: As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a sensor), at most render.max_spp.
-    scale: Size of every picture over that of its sensor, 1/K or the same as a decimal fraction: the same field of view with K × K times larger pixels and the same mean level, as sensor.scale says it.
+    scale: Size of every image over that of its sensor, 1/K or the same as a decimal fraction: the same field of view and the same mean level, with one pixel in the place of K × K; it sets sensor.scale of all cameras.
     integrator: How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]. One of flat, direct, path.
     quality: A preset of samples and bounces, for what the job file leaves open. One of draft, standard, reference.
     camera: Render only this camera of the job.
@@ -389,10 +389,10 @@ def compare(
 ) -> dict[str, Any]:
     """Compare two results: errors with their uncertainty; exit status 1 where they differ.
 
-    a: One result: an EXR or PNG file; errors are A − B.
-    b: The other, of the same size and channels: the reference, which is subtracted from A.
+    a: First result, an EXR or PNG file; errors are A − B.
+    b: Reference of the same size and channels, which is subtracted from A.
     significance: Family-wise probability of calling equal images different, for images that carry their variance. Default: 0.001.
-    difference: Where they differ, write A, B and |A − B| as pictures into this folder.
+    difference: If they differ, write A, B and |A − B| as images into this folder.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a dict.

@@ -18,7 +18,7 @@ pub struct TrajectoryAsset {
 /// Where something is at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrajectoryRow {
-    /// By the file's clock.
+    /// Time by the clock of the file.
     pub time: ExactTime,
     /// m.
     pub position_m: DVec3,

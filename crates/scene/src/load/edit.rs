@@ -1,4 +1,4 @@
-//! Changes of keys written into the text of a file, for programs that write files which a user has changed.
+//! Changes of keys in the text of a file, for programs that generate files with changes by the user.
 
 use std::path::Path;
 
@@ -8,13 +8,13 @@ use crate::fault::Faults;
 use crate::overrides::Overrides;
 use crate::place::Place;
 use crate::reader::unread_item;
-use crate::written::{File, Item, Table, Value as Said};
+use crate::written::{File, Item, Table, Value as WrittenValue};
 
-/// The text of `file` with changes `key=value` of its keys, without its comments; values of a base stay there. A key that is taken out (`null`) is taken out
-/// of the base by "remove" where the file does not state it itself.
+/// Returns the text of `file` with changes `key=value` of its keys, without its comments; values of a base are not copied. A key that is removed (`null`) and
+/// that the file does not state itself is removed from the base with "remove".
 ///
 /// # Errors
-/// Where the text is none of the format, or a change has no place in it.
+/// The text is not of the format, or a change does not apply to it.
 pub fn edit(file: &Path, text: &str, changes: &[String]) -> Result<String, Faults> {
     let mut faults = Faults::none();
     let table = own_tree_of(file, text, &mut faults).and_then(|mut tree| {
@@ -28,7 +28,7 @@ fn apply(tree: &mut Node, change: &str, faults: &mut Faults) {
     let key = removed_key(change);
     let has_base = tree.as_table().is_some_and(|table| table.get("base").is_some());
     match key {
-        Some(key) if has_base && !states(tree, key) => take_out_of_base(tree, key),
+        Some(key) if has_base && !states(tree, key) => remove_from_base(tree, key),
         _ => {
             let overrides = Overrides::new([change]);
             overrides.apply(tree, true, faults);
@@ -37,7 +37,7 @@ fn apply(tree: &mut Node, change: &str, faults: &mut Faults) {
     }
 }
 
-/// The key that a change takes out.
+/// Returns the key that a change removes.
 fn removed_key(change: &str) -> Option<&str> {
     let (key, value) = change.split_once('=')?;
     (value.trim() == "null").then_some(key.trim())
@@ -48,7 +48,7 @@ fn states(tree: &Node, key: &str) -> bool {
     key.split('.').try_fold(tree, |node, part| node.as_table()?.get(part)).is_some()
 }
 
-fn take_out_of_base(tree: &mut Node, key: &str) {
+fn remove_from_base(tree: &mut Node, key: &str) {
     let place = tree.place.clone();
     let entry = Node { place: place.clone(), value: Value::Text(key.to_owned()) };
     let Some(table) = tree.as_table_mut() else { return };
@@ -56,28 +56,28 @@ fn take_out_of_base(tree: &mut Node, key: &str) {
         Some(Value::List(list)) => list.push(entry),
         _ => {
             let node = Node { place: place.clone(), value: Value::List(vec![entry]) };
-            // Behind "base", before the tables.
+            // After "base", before the tables.
             table.entries.insert(1, Entry { key: "remove".to_owned(), place, node });
         }
     }
 }
 
-/// The tree as sections of a file.
+/// Converts the tree to sections of a file.
 fn section(tree: &Node) -> Option<Table> {
-    let mut said = Table::new();
+    let mut table = Table::new();
     for entry in &tree.as_table()?.entries {
-        said.put(&entry.key, item(&entry.node)?);
+        table.put(&entry.key, item(&entry.node)?);
     }
-    Some(said)
+    Some(table)
 }
 
-/// A table, or a list of tables, as sections; other values as they are read.
+/// Converts a table or a list of tables to sections; other values are unchanged.
 fn item(node: &Node) -> Option<Item> {
     match &node.value {
         Value::Table(_) => Some(section(node)?.into()),
         Value::List(list) if !list.is_empty() && list.iter().all(|entry| entry.as_table().is_some()) => {
             let tables: Vec<Item> = list.iter().map(item).collect::<Option<_>>()?;
-            Some(Item::at(&Place::unstated(), Said::List(tables)))
+            Some(Item::at(&Place::unstated(), WrittenValue::List(tables)))
         }
         _ => unread_item(node),
     }
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_base_says_is_taken_out_by_remove() {
+    fn keys_of_a_base_are_removed_with_remove() {
         let text = "format = 1\nbase = \"b.toml\"\n[sensor]\nbits = 8\n";
         let found = edited(text, &["sensor.dark=null", "sensor.bits=null", "isp=null"]);
         assert_eq!(found, "format = 1\nbase = \"b.toml\"\nremove = [\"sensor.dark\", \"isp\"]\n\n[sensor]\n");

@@ -131,7 +131,7 @@ fn own_tree(file: &Path, read: &ReadText<'_>, named: &Place, faults: &mut Faults
     own_tree_of(file, &text, faults)
 }
 
-/// What the text of a file itself says.
+/// Returns the tree of the text of a file, without its base.
 pub(super) fn own_tree_of(file: &Path, text: &str, faults: &mut Faults) -> Option<Node> {
     let before = faults.count();
     let mut tree = parse(&Arc::from(file), text, faults);

@@ -12,7 +12,7 @@ pub(crate) const fn any_value() -> AnyValue {
     AnyValue
 }
 
-/// A value as it stands, whatever its key; `None` of what is no value of the format.
+/// Returns a value unchanged, whatever its key; `None` if it is not a value of the format.
 pub(crate) fn unread_item(node: &Node) -> Option<Item> {
     AnyValue.read(node, &mut Faults::none())
 }

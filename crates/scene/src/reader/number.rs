@@ -6,7 +6,7 @@ use super::rule::{Kind, Rule};
 use crate::document::{Node, Value};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::written::{Item, Value as Said};
+use crate::written::{Item, Value as WrittenValue};
 use etendue_core::ExactTime;
 
 /// A finite number; `unit` is named where it is missing or wrong ("" for a pure number).
@@ -141,7 +141,7 @@ fn as_f64(node: &Node) -> Option<f64> {
     }
 }
 
-/// A time in seconds, which a text carries more exactly than a number where it is far from zero.
+/// A time in seconds, as a number or as text, which is exact also far from zero.
 pub(crate) const fn time() -> Time {
     Time
 }
@@ -173,11 +173,11 @@ impl Rule for Time {
         }
     }
     fn write(&self, value: &Self::Out) -> Option<Item> {
-        let said = match value.value.is_number() {
-            true => Said::Number(value.value.seconds()),
-            false => Said::Text(value.value.to_string()),
+        let written = match value.value.is_number() {
+            true => WrittenValue::Number(value.value.seconds()),
+            false => WrittenValue::Text(value.value.to_string()),
         };
-        Some(Item::at(&value.place, said))
+        Some(Item::at(&value.place, written))
     }
 }
 

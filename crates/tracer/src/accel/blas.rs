@@ -47,7 +47,7 @@ impl Blas {
         Self { nodes, halves, root }
     }
 
-    /// Bytes of its nodes and triangles.
+    /// Returns the size of its nodes and triangles, bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.nodes.as_slice()) + size_of_val(self.halves.as_slice())
     }

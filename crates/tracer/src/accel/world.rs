@@ -212,7 +212,7 @@ impl World {
         &self.meshes[id.0 as usize]
     }
 
-    /// Bytes of meshes, trees and instances.
+    /// Returns the size of meshes, acceleration structures and instances, bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         let meshes: usize = self.meshes.iter().map(Mesh::bytes).sum();

@@ -42,7 +42,7 @@ pub struct Dropped {
 }
 
 impl Mesh {
-    /// Bytes of its vertices and triangles; of one whose vertices move those of all its frames.
+    /// Returns the size of its vertices and triangles, bytes; with vertex animation that of all frames.
     #[must_use]
     pub fn bytes(&self) -> usize {
         let vertices = size_of_val(self.positions.as_slice()) + size_of_val(self.normals.as_slice());

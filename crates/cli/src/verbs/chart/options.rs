@@ -16,7 +16,7 @@ pub struct Common {
     #[arg(long, value_name = "CAMERA.toml", default_value = "web")]
     pub camera: String,
     /// Change a key of the written job, its scene or its camera, e.g. --set render.spp=16 or --set cameras.camera.lens.f_number=4: the chart is drawn for
-    /// the changed camera, and the files hold the change
+    /// the changed camera, and the change is written into the files
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1]

@@ -1,6 +1,6 @@
 //! `measure compare`: two cameras' measurements side by side.
 //!
-//! Every quantity that both sides know, and every curve: difference A − B (first less second), relative error against the second side and the normalised error
+//! Every quantity that both sides state, and every curve: difference A − B (first less second), relative error against the second side and the normalised error
 //! E_n (ISO 13528) by both standard uncertainties. |E_n| > 1 is a difference; of curves the largest |E_n| with a limit
 //! that allows for their number of points.
 

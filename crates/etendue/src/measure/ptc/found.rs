@@ -7,7 +7,7 @@ pub(crate) struct Found {
     pub(crate) data: TransferData,
     pub(crate) figures: Figures,
     pub(crate) fixed: Option<Fixed>,
-    /// Notes of pictures that are cut and decide the result.
+    /// Notes of clipped images that enter the result.
     pub(crate) cuts: Vec<String>,
 }
 

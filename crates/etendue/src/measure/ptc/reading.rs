@@ -57,18 +57,18 @@ impl Reading<'_> {
         Ok(Found { data, figures, fixed, cuts })
     }
 
-    /// Notes of pictures that are cut and decide the result: of dark levels, and of those up to 70 % of saturation. Beyond, clipped ones belong to the
-    /// series, and the standard leaves them out.
+    /// Returns notes of clipped images that enter the result: dark levels, and levels up to 70 % of saturation. Above these, clipped images are part of the
+    /// series, and the standard excludes them.
     fn cuts(&self, pairs: &[&DescribedLevel], data: &TransferData) -> Result<Vec<String>, Error> {
-        let most = data.bright()[data.sensitivity_end() - 1].photons;
+        let max_photons = data.bright()[data.sensitivity_end() - 1].photons;
         let full_scale = Some(self.descriptor.bits).filter(|bits| *bits > 0);
         let full_scale = full_scale.map(|bits| ((1_u64 << bits.min(32)) - 1) as f64);
-        let used = pairs.iter().filter(|level| level.photons <= most);
+        let used = pairs.iter().filter(|level| level.photons <= max_photons);
         let note = |level: &&&DescribedLevel| {
             let file = &level.files[0];
             let image = self.selection.raw(file)?.image;
             let cut = Cut::of(&image, full_scale);
-            Ok(cut.map(|cut| format!("{}: {}; the figures leave that out", file.display(), cut.words())))
+            Ok(cut.map(|cut| format!("{}: {}; the figures do not account for it", file.display(), cut.words())))
         };
         let notes = used.map(|level| note(&level)).collect::<Result<Vec<_>, Error>>()?;
         Ok(notes.into_iter().flatten().collect())

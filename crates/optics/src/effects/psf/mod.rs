@@ -194,7 +194,7 @@ impl Psf {
         [across * across * across, across]
     }
 
-    /// Points of the pattern must lie as near to each other as pixels: its steps are at most a thirty-second of λN, and those of a small aperture are wide.
+    /// Refuses patterns whose sample spacing exceeds the pixel pitch: the spacing is at most a thirty-second of λN, which is large for small apertures.
     fn check_step(&self, pitch_mm: f64) -> Result<(), EffectsError> {
         let steps = self.fineness(VISIBLE_NM.1, pitch_mm);
         let step_mm = VISIBLE_NM.1 * MM_PER_NM * self.f_number / steps;

@@ -108,7 +108,7 @@ fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibra
     Some(asset.calibration.clone())
 }
 
-/// Refuses a picture that is not the calibration's, both as the sensor and the file describe them.
+/// Refuses a calibration of another image size, both sizes as the sensor and the file state them.
 fn check_size(calibration: &Calibration, full: &Raster) -> Result<(), OpticsError> {
     let [width, height] = calibration.size_px();
     let (got_width, got_height) = (full.width(), full.height());

@@ -9,7 +9,7 @@ pub(super) struct Delivered {
     pub(super) height: usize,
     /// Where the optical axis meets it, px.
     pub(super) principal_px: [f64; 2],
-    /// How many pixels of the described sensor one pixel has in a row and in a column.
+    /// Number of pixels of the described sensor in a row and in a column of one pixel.
     pub(super) scale: u64,
 }
 

@@ -17,7 +17,7 @@ use etendue_scene::record::processing::detail::NoiseReductionKind;
 use etendue_scene::record::processing::{self as description, output};
 use etendue_sensor::Sensor;
 
-/// How the raw pictures of the sensor, whose pixels are `scale` times as large as described, are developed; `None` with the faults noted.
+/// Returns the development of the raw images of a sensor whose pixels are `scale` times as large as described; `None`, with the errors recorded, if it fails.
 pub(super) fn development(
     record: &record::Processing,
     sensor: &Sensor,

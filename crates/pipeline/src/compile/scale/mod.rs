@@ -1,8 +1,8 @@
-//! The camera of `sensor.scale`: the same field of view with larger pixels, one transformation of the record before anything is made of it.
+//! The camera of `sensor.scale`: the same field of view with larger pixels, by one transformation of the record before it is compiled.
 //!
-//! One pixel stands in the place of k × k of the described sensor, made by the same technology: what a pixel has by its area grows by k², what it has by each
-//! reading stays, and times of rows are such that a frame takes as long. docs/sensor.md has the table of keys. Calibrations are of the full
-//! sensor until [`full_raster`] and [`etendue_projection::Calibration::with_larger_pixels`] have made them.
+//! One pixel replaces k × k of the described sensor and has the same technology: quantities proportional to the area grow by k², quantities of each read-out
+//! are unchanged, and row times keep the duration of a frame. docs/sensor.md has the table of keys. Calibrations describe the full
+//! sensor and are converted with [`full_raster`] and [`etendue_projection::Calibration::with_larger_pixels`].
 
 mod neighbours;
 mod processing;
@@ -15,13 +15,13 @@ use etendue_scene::record::sensor::Scale;
 use etendue_scene::record::{Camera, Lens, lens};
 use std::borrow::Cow;
 
-/// How many pixels of the described sensor one pixel has in a row and in a column.
+/// Returns the number of pixels of the described sensor in a row and in a column of one pixel.
 pub(super) fn divisor(sensor: &etendue_scene::record::Sensor) -> u64 {
     sensor.scale.as_ref().map_or(1, |scale| scale.value.divisor)
 }
 
-/// The camera with its pixels as large as its scale says; `None` with the faults noted where sizes do not divide. Its sensor keeps the scale, by which
-/// calibrations are scaled later.
+/// Returns the camera with the pixels of its scale; `None`, with the errors recorded, if sizes do not divide. Its sensor keeps the scale, with which
+/// calibrations are converted later.
 pub(super) fn scaled<'c>(camera: &'c Camera, context: &mut Context<'_>) -> Option<Cow<'c, Camera>> {
     let Some(scale) = camera.sensor.scale.as_ref().filter(|scale| scale.value.divisor > 1) else {
         return Some(Cow::Borrowed(camera));
@@ -49,21 +49,21 @@ fn distortion(lens: &mut Lens) -> Option<&mut lens::Distortion> {
     }
 }
 
-/// The raster of the described sensor, of which `raster` has the larger pixels.
+/// Returns the raster of the described sensor; `raster` has the larger pixels.
 pub(super) fn full_raster(raster: &Raster, divisor: u64) -> Result<Raster, RasterError> {
     let k = divisor as f64;
     let (width, height) = (raster.width() * divisor as usize, raster.height() * divisor as usize);
     Raster::new(width, height, raster.pitch_mm() / k, raster.principal_px() * k)
 }
 
-/// Refuses sizes that are no whole number of larger pixels: no border is cut.
+/// Refuses sizes that are not a whole number of larger pixels: no border is cropped.
 fn check(camera: &Camera, scale: &Placed<Scale>, context: &mut Context<'_>) -> Option<()> {
     let sensor = &camera.sensor;
     let k = scale.value.divisor;
     let (width, height) = (sensor.width_px.value, sensor.height_px.value);
     let mut divides = true;
     if !(width.is_multiple_of(k) && height.is_multiple_of(k)) {
-        let problem = format!("{k} × {k} pixels do not fill a picture of {width} × {height} px evenly");
+        let problem = format!("{width} × {height} px are not a multiple of {k} × {k} pixels");
         context.fault(&scale.place, problem, remedy([width, height].iter()));
         divides = false;
     }
@@ -71,7 +71,8 @@ fn check(camera: &Camera, scale: &Placed<Scale>, context: &mut Context<'_>) -> O
     // A part of a pixel is refused where the key is read.
     if let Some(region) = region.filter(|region| region.value.iter().any(|side| side % k as f64 != 0.0)) {
         let [x, y, columns, rows] = region.value;
-        let problem = format!("{k} × {k} pixels do not fill the region roi_px = [{x}, {y}, {columns}, {rows}] evenly");
+        let problem =
+            format!("the region roi_px = [{x}, {y}, {columns}, {rows}] is not a multiple of {k} × {k} pixels");
         let sides = region.value.map(|side| side as u64);
         context.fault(&scale.place, problem, remedy([width, height].iter().chain(&sides)));
         divides = false;
@@ -79,13 +80,13 @@ fn check(camera: &Camera, scale: &Placed<Scale>, context: &mut Context<'_>) -> O
     divides.then_some(())
 }
 
-/// The scales that are possible, the coarsest last, at most six of them.
+/// Lists the possible scales, at most six, the coarsest last.
 fn remedy<'s>(sizes: impl Iterator<Item = &'s u64> + Clone) -> String {
     let divides = |k: &u64| sizes.clone().all(|size| size.is_multiple_of(*k));
     let largest = sizes.clone().filter(|size| **size > 0).min().copied().unwrap_or(1);
     let possible: Vec<String> = (2..=largest.min(64)).filter(divides).take(6).map(|k| format!("1/{k}")).collect();
     match possible.as_slice() {
-        [] => "leave it out, or give the sensor another size".to_owned(),
+        [] => "remove the scale, or give the sensor another size".to_owned(),
         possible => format!("give one of {}", possible.join(", ")),
     }
 }

@@ -1,9 +1,9 @@
-//! Processing behind larger pixels: what is a place or a size in the picture shrinks with it; filters that act on neighbouring pixels stay.
+//! Processing of larger pixels: positions and sizes in the image shrink with it; filters that act on neighbouring pixels are unchanged.
 
 use etendue_scene::record::Processing;
 use etendue_scene::record::processing::PaperFilter;
 
-/// Makes lengths in pixels those of the smaller picture.
+/// Converts lengths in pixels to those of the smaller image.
 pub(super) fn shrink(isp: &mut Processing, k: f64) {
     let centre = isp.shading.iter_mut().filter_map(|shading| shading.centre_px.as_mut());
     centre.for_each(|centre| centre.value = centre.value.map(|px| px / k));

@@ -1,4 +1,4 @@
-//! The sensor with pixels of k × k. Every key is named here, so that a new one is decided upon: docs/sensor.md has the reasons.
+//! The sensor with pixels of k × k. Every key is named here, so that a new key needs a decision; docs/sensor.md states the reasons.
 
 use super::neighbours;
 use etendue_core::maths::f64::pow;
@@ -8,7 +8,7 @@ use etendue_scene::record::sensor::hdr::Hdr;
 use etendue_scene::record::sensor::read_out::Response;
 use etendue_scene::record::{Electronics, Sensor};
 
-/// Makes the pixels k times as wide and as high.
+/// Converts the sensor to pixels k times as wide and as high.
 pub(super) fn enlarge(sensor: &mut Sensor, k: f64) {
     let Sensor {
         place: _,
@@ -85,8 +85,8 @@ fn enlarge_electronics(electronics: &mut Electronics, k: f64) {
     hdr.iter_mut().for_each(|hdr| enlarge_captures(hdr, area));
 }
 
-/// Sources of dark current lie on the area: of those of hot and blinking pixels, as many as before. A pixel of n parts has one or more with the
-/// probability 1 − (1 − p)ⁿ, and then n p/(1 − (1 − p)ⁿ) on average: the mean current of the sensor is n times as large exactly.
+/// Sources of dark current are distributed over the area: the number of those of hot and blinking pixels is unchanged. A pixel of n parts has one or more with
+/// the probability 1 − (1 − p)ⁿ, and then n p/(1 − (1 − p)ⁿ) on average: the mean dark current of a pixel is exactly n times as large.
 fn enlarge_dark(dark: &mut Dark, area: f64) {
     let hot = dark.hot.iter_mut().map(|hot| (&mut hot.share.value, &mut hot.mean_e_s.value));
     let blinking = dark.dark_current_rts.iter_mut().map(|rts| (&mut rts.share.value, &mut rts.mean_e_s.value));
@@ -97,7 +97,7 @@ fn enlarge_dark(dark: &mut Dark, area: f64) {
     }
 }
 
-/// Of what overflows a share is lost with every pixel on its way: along a column k of them to a larger pixel, and k² steps of a walk to all sides.
+/// Overflowing charge loses a fraction in each pixel that it crosses: k pixels per larger pixel along a column, and k² steps of a random walk in all directions.
 fn enlarge_blooming(blooming: &mut Blooming, k: f64) {
     let steps = match blooming.direction.value {
         Direction::Column => k,

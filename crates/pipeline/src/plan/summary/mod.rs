@@ -58,7 +58,7 @@ impl Display for Summary<'_> {
     }
 }
 
-/// The memory of the whole run.
+/// Writes the memory of the whole run.
 fn memory(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     let memory = RunMemory::planned(plan);
     line(f, "memory", format!("{:.0} MB for the whole run: {}", memory.bytes() / 1e6, memory.parts()))
@@ -329,7 +329,7 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     line(f, "", range(&sensor.dynamic_range()))
 }
 
-/// That the pixels are larger than described, and of what picture.
+/// Returns the scale and the size of the image of the described sensor, if the pixels are larger than described.
 fn scale(camera: &CameraPlan) -> String {
     let (raster, k) = (&camera.body.raster, camera.body.scale);
     let (width, height) = (raster.width() as u64 * k, raster.height() as u64 * k);

@@ -57,9 +57,9 @@ struct Look {
     neighbours: Vec<neighbour::Found>,
 }
 
-/// Bytes that a pixel takes at most while its motion against `neighbours` frames is found: what it sees, and the planes of it.
+/// Returns the maximum memory per pixel, bytes, while its motion relative to `neighbours` frames is computed: its hit and the planes.
 pub(crate) fn bytes_of_pixel(neighbours: usize) -> f64 {
-    // An allocation has two words beside it.
+    // An allocation has an overhead of two words.
     let look = size_of::<Look>() + neighbours * size_of::<neighbour::Found>() + 2 * size_of::<usize>();
     let planes = size_of::<[f32; 2]>() + size_of::<[f32; 3]>() + size_of::<f32>();
     (look + planes + (neighbours + 1) * size_of::<neighbour::Found>()) as f64
