@@ -23,7 +23,7 @@ pub use console::Console;
 use etendue::Error;
 use etendue_scene::limits;
 pub use machine::{pool, simd};
-pub use memory::free as free_memory;
+pub use memory::stated_or_free as memory_limits;
 pub use panics::quieten_decoders;
 use progress::Terminal;
 use std::ffi::OsString;

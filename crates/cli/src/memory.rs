@@ -12,6 +12,16 @@ pub fn free() -> MemoryLimits {
     free_by(&|path| std::fs::read_to_string(path).ok())
 }
 
+/// Returns the limits of a run: the number of MB that the user states, 0 for none, or what is free.
+#[must_use]
+pub fn stated_or_free(stated_mb: Option<u32>) -> MemoryLimits {
+    match stated_mb {
+        None => free(),
+        Some(0) => MemoryLimits::default(),
+        Some(mb) => MemoryLimits { free_bytes: vec![(MemoryLimit::Stated, u64::from(mb) * 1_000_000)] },
+    }
+}
+
 /// As [`free`], with the files that `read` returns.
 fn free_by(read: &dyn Fn(&Path) -> Option<String>) -> MemoryLimits {
     let process = || {
@@ -42,18 +52,22 @@ struct Hierarchy {
     mount: &'static str,
     limit: &'static str,
     used: &'static str,
-    /// The line of `memory.stat` with the file pages that the kernel reclaims first.
-    reclaimable: &'static str,
+    /// The lines of `memory.stat` with the pages that the kernel reclaims before it ends a process: those of files, and of its own caches.
+    reclaimable: &'static [&'static str],
 }
 
 const VERSION_1: Hierarchy = Hierarchy {
     mount: "/sys/fs/cgroup/memory",
     limit: "memory.limit_in_bytes",
     used: "memory.usage_in_bytes",
-    reclaimable: "total_inactive_file ",
+    reclaimable: &["total_inactive_file ", "total_active_file "],
 };
-const VERSION_2: Hierarchy =
-    Hierarchy { mount: "/sys/fs/cgroup", limit: "memory.max", used: "memory.current", reclaimable: "inactive_file " };
+const VERSION_2: Hierarchy = Hierarchy {
+    mount: "/sys/fs/cgroup",
+    limit: "memory.max",
+    used: "memory.current",
+    reclaimable: &["inactive_file ", "active_file ", "slab_reclaimable "],
+};
 
 /// Returns the memory that is free in the groups of /proc/self/cgroup and their parents, bytes; `None` if none has a limit.
 fn free_in_groups(groups: &str, read: &dyn Fn(&Path) -> Option<String>) -> Option<u64> {
@@ -78,8 +92,9 @@ fn free_in(hierarchy: &Hierarchy, group: &Path, read: &dyn Fn(&Path) -> Option<S
     let number = |name: &str| read(&folder.join(name))?.trim().parse::<u64>().ok();
     let limit = number(hierarchy.limit).filter(|limit| *limit < NO_LIMIT_BYTES)?;
     let statistics = read(&folder.join("memory.stat")).unwrap_or_default();
-    let reclaimable = statistics.lines().find_map(|line| line.strip_prefix(hierarchy.reclaimable)?.parse::<u64>().ok());
-    let used = number(hierarchy.used).unwrap_or(0).saturating_sub(reclaimable.unwrap_or(0));
+    let bytes_of = |name: &&str| statistics.lines().find_map(|line| line.strip_prefix(*name)?.parse::<u64>().ok());
+    let reclaimable = hierarchy.reclaimable.iter().filter_map(bytes_of).sum();
+    let used = number(hierarchy.used).unwrap_or(0).saturating_sub(reclaimable);
     Some(limit.saturating_sub(used))
 }
 

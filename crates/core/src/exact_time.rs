@@ -177,11 +177,18 @@ impl Epoch {
     }
 }
 
-/// The frequency or period of a periodic process, whichever is stated exactly: 1/f would be rounded.
+/// The frequency, rate or period of a periodic process, whichever is stated exactly: 1/f would be rounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cycle {
     /// Frequency, Hz.
     Frequency(f64),
+    /// A period of `count` events, which follow each other at `rate_hz`.
+    Events {
+        /// Events a second, Hz.
+        rate_hz: f64,
+        /// Events in a period.
+        count: u32,
+    },
     /// Period, s.
     Period(f64),
 }
@@ -192,19 +199,21 @@ impl Cycle {
     pub fn period_s(self) -> f64 {
         match self {
             Self::Frequency(frequency_hz) => 1.0 / frequency_hz,
+            Self::Events { rate_hz, count } => f64::from(count) / rate_hz,
             Self::Period(period_s) => period_s,
         }
     }
 
-    /// Returns a delay of the same phase: the same number if it is near zero, else one less than a period from zero plus its fraction of
-    /// a second. The phase is accurate to 3·10⁻⁸ periods for the stated frequency or period.
+    /// Returns a delay of the same phase, s: the same number if it is near zero, else one less than a period from zero plus its fraction of
+    /// a second. The error is below 10⁻⁶ of a period, or of an event, for the stated frequency, rate or period.
     #[must_use]
     pub fn reduced_s(self, delay: ExactTime) -> f64 {
         if delay.seconds().abs() < Epoch::FAR_S {
             return delay.seconds();
         }
         let whole_s = match self {
-            Self::Frequency(frequency_hz) => periods(frequency_hz, delay.whole_s) / frequency_hz,
+            Self::Frequency(frequency_hz) => remaining_events(frequency_hz, delay.whole_s, 1) / frequency_hz,
+            Self::Events { rate_hz, count } => remaining_events(rate_hz, delay.whole_s, count) / rate_hz,
             // The remainder of f64 is exact.
             Self::Period(period_s) => delay.whole_s as f64 % period_s,
         };
@@ -212,14 +221,14 @@ impl Cycle {
     }
 }
 
-/// Returns the fractional part of `frequency_hz` × `whole_s`. The whole Hz contribute none; their remainder is multiplied by two parts of
-/// `whole_s` of 25 bits and more, and these products are rounded to 3·10⁻⁸.
-fn periods(frequency_hz: f64, whole_s: i64) -> f64 {
-    const PART: i64 = 1 << 25;
-    let rest = frequency_hz.fract();
-    let (high, low) = (whole_s / PART, whole_s % PART);
-    let of_high = (rest * PART as f64).fract() * high as f64;
-    (of_high.fract() + (rest * low as f64).fract()).fract()
+/// Returns the remainder of `rate_hz` × `whole_s` after division by `count`, with the sign of `whole_s`. Computed in integers of 2⁻⁷², to
+/// which the fraction of the rate is rounded: an error of 2⁻⁷² · 10¹⁵ = 2·10⁻⁷ events at most.
+fn remaining_events(rate_hz: f64, whole_s: i64, count: u32) -> f64 {
+    const ONE: i128 = 1 << 72;
+    let (whole_s, count) = (i128::from(whole_s), i128::from(count));
+    let of_whole_hz = rate_hz.trunc() as i128 * whole_s % count * ONE;
+    let of_fraction = (rate_hz.fract() * ONE as f64) as i128 * whole_s;
+    ((of_whole_hz + of_fraction) % (count * ONE)) as f64 / ONE as f64
 }
 
 #[cfg(test)]
@@ -290,8 +299,11 @@ mod tests {
             let scale = (1_i64 << 47) as f64;
             let m = (59.94 * scale) as i128;
             let exact = ((m * i128::from(whole)) % (1 << 47)) as f64 / scale;
-            assert!((phase(Cycle::Frequency(59.94), far) - exact).abs() < 1e-7, "{far}");
+            assert!((phase(Cycle::Frequency(59.94), far) - exact).abs() < 1e-6, "{far}");
         }
+        // 25 files a second in a loop of 3; the product is exact in an f64.
+        let three = Cycle::Events { rate_hz: 25.0, count: 3 };
+        assert_eq!(three.reduced_s(time("1700000001")), (25.0 * 1_700_000_001.0) % 3.0 / 25.0);
         assert_eq!(Cycle::Period(0.25).reduced_s(time("1700000000.125")), 0.125);
         assert_eq!(Cycle::Period(7.0).reduced_s(time("-1700000003")), -2.0);
         assert_eq!(Cycle::Period(0.3).reduced_s(time("10.5")), 10.5);

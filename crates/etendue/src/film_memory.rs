@@ -3,7 +3,7 @@
 use crate::error::Error;
 use etendue_io::ScratchFolder;
 use etendue_pipeline::Plan;
-use etendue_pipeline::plan::FilmLimit;
+use etendue_pipeline::plan::{CameraPlan, FilmLimit};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -32,7 +32,25 @@ impl FilmMemory {
 }
 
 /// Checks that the folder for scratch files can be written.
-pub(crate) fn check(plan: &Plan) -> Result<(), Error> {
+pub(crate) fn check_folder(plan: &Plan) -> Result<(), Error> {
     let store = plan.cameras.iter().find_map(|camera| plan.scratch(camera));
     store.map_or(Ok(()), |store| store.room(0).map(|_| ()).map_err(Error::input))
+}
+
+/// Checks that the system has memory for the film of each camera.
+pub(crate) fn check_films(plan: &Plan) -> Result<(), Error> {
+    plan.cameras.iter().try_for_each(|camera| check_room(plan, camera))
+}
+
+/// Allocates the memory of a camera's film and frees it: a later allocation that fails would end the process.
+fn check_room(plan: &Plan, camera: &CameraPlan) -> Result<(), Error> {
+    let bytes = plan.film_bytes(camera).memory;
+    Vec::<u8>::new().try_reserve_exact(bytes as usize).map_err(|_| {
+        Error::run(format!(
+            "camera {}: the system does not give the {:.0} MB of memory that its film takes; make room, render fewer pixels or bands, or keep more of it on \
+             the disk with --film-memory",
+            camera.name,
+            bytes / 1e6
+        ))
+    })
 }

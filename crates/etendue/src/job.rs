@@ -3,7 +3,7 @@
 use crate::delivery::{SoFar, check_frames, deliver, films_of};
 use crate::error::Error;
 use crate::exposures::Exposures;
-use crate::film_memory::{self, FilmMemory};
+use crate::film_memory::FilmMemory;
 use crate::integrator::Integrator;
 use crate::memory::MemoryFiles;
 use crate::memory_limits::MemoryLimits;
@@ -419,12 +419,6 @@ impl Job {
         progress.into_inner().finish(&folder)?;
         kept.all();
         Ok(written)
-    }
-
-    /// Refuses films that cannot be stored, and a run of these frames that needs more memory than is free, before anything is rendered.
-    pub(crate) fn check_memory(&self, frames: &Range<u32>) -> Result<(), Error> {
-        film_memory::check(&self.plan)?;
-        self.request.memory.check(&self.plan, self.request.time_s.map(|_| frames.len()))
     }
 
     /// Writes where all cameras stand and how they project, over frames, in the files of ROS, Kalibr and COLMAP; answers with their paths. Nothing is

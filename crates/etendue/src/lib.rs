@@ -62,6 +62,7 @@ mod laboratory;
 mod markup;
 pub mod measure;
 mod memory;
+mod memory_check;
 mod memory_limits;
 mod merge;
 mod named_file;

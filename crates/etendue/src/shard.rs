@@ -111,7 +111,7 @@ impl Job {
     ) -> Result<(), Error> {
         let (plan, frames, shard) = (self.plan(), &asked.frames, asked.spec.shard()?);
         self.warn(observer);
-        self.check_memory(frames)?;
+        self.check_shard_memory()?;
         check_frames(plan, frames)?;
         let films: Vec<_> =
             self.films(frames).filter(|(group, shot)| names.contains(&film_name(group[0], *shot))).collect();

@@ -35,14 +35,15 @@ impl Job {
     /// in the unit and axes that the job states for the mesh.
     /// folder: the folder of a job that is a dict, which its paths are relative to. Default: the working folder.
     /// sandbox: folders beside the job's own that its files may lie in. None: they may lie anywhere.
-    /// texture_memory_mb, cache, film_memory_mb, scratch: memory of textures and films, and where larger ones are kept. No bit depends on them.
+    /// texture_memory_mb, cache, film_memory_mb, scratch: memory of textures and films, and where larger ones are kept. memory_mb: what the run may take, 0 for no limit;
+    /// None: what is free when the job is opened. No bit depends on them.
     ///
     /// Raises InputError with every fault of all files.
     #[staticmethod]
     #[pyo3(signature = (
         description, *, set = None, spp = None, noise = None, time_s = None, progressive = false, scale = None, seed = None, integrator = None, quality = None,
         camera = None, files = None, meshes = None, folder = None, sandbox = None, texture_memory_mb = 512, cache = None, film_memory_mb = 2048,
-        scratch = None,
+        memory_mb = None, scratch = None,
     ))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn open(
@@ -65,6 +66,7 @@ impl Job {
         texture_memory_mb: u32,
         cache: Option<PathBuf>,
         film_memory_mb: u32,
+        memory_mb: Option<u32>,
         scratch: Option<PathBuf>,
     ) -> PyResult<Self> {
         let (path, text) = source(description, folder)?;
@@ -88,7 +90,7 @@ impl Job {
                 ..TextureMemory::default()
             },
             films: FilmMemory { limit_bytes: u64::from(film_memory_mb) * 1_000_000, scratch },
-            memory: etendue_cli::free_memory(),
+            memory: etendue_cli::memory_limits(memory_mb),
             ..JobRequest::new(&path)
         };
         let mut files = meshes::files(path.parent().unwrap_or(Path::new("")), files, meshes)?;

@@ -69,6 +69,10 @@ pub struct JobArgs {
     /// files, effects and electrons are made of it some rows or one band at a time. The result does not depend on it
     #[arg(long, value_name = "MB", value_parser = whole(1, 1 << 20), default_value = "2048")]
     pub film_memory: u32,
+    /// Memory that the run may take, beside the program; a run whose estimate is higher is refused before its first sample. 0: no check [default: what
+    /// the process, its control group and the machine have free]
+    #[arg(long, value_name = "MB", value_parser = whole(0, 1 << 24))]
+    pub memory: Option<u32>,
     /// The folder of these scratch files, which are gone when the run ends [default: that of --cache]
     #[arg(long, value_name = "DIR")]
     pub scratch: Option<PathBuf>,
@@ -95,7 +99,7 @@ impl From<&JobArgs> for JobRequest {
                 ..TextureMemory::default()
             },
             films: FilmMemory { limit_bytes: u64::from(a.film_memory) * 1_000_000, scratch: a.scratch.clone() },
-            memory: memory::free(),
+            memory: memory::stated_or_free(a.memory),
         }
     }
 }

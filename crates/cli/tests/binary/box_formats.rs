@@ -7,7 +7,7 @@
 //! | nuScenes | `size`: width, length, height | `rotation`: quaternion w, x, y, z in the world, x forward | the devkit's `schema_nuscenes.md`, `Box` of `data_classes.py` |
 //! | OpenLABEL | last three of `val`: sx forward, sy left, sz up | qx, qy, qz, qw before them | ASAM OpenLABEL 1.0.0, cuboid |
 //! | OSI | `dimension`: length, width, height | `orientation`: roll, pitch, yaw about x, y, z (ISO 8855) | `osi_common.proto` 3.8.0 |
-//! | BOP | `models_info.json`: size along the model's axes, mm | `cam_R_m2c`, row by row, and `cam_t_m2c`, mm: model to camera (OpenCV's axes) | `docs/bop_datasets_format.md` of bop_toolkit |
+//! | BOP | `models_info.json`: size along the model's axes, mm | `cam_R_m2c`, row by row, and `cam_t_m2c`, mm: model to camera (OpenCV's axes) | bop_toolkit, page bop_datasets_format |
 //! | KITTI | height, width, length | `rotation_y` about the camera's y, 0 where x forward is the camera's x | readme.txt of the object development kit |
 
 use crate::object_axes::{AXES, SIZE_M, assert_near, job, label, numbers, obj};

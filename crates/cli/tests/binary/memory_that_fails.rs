@@ -44,7 +44,8 @@ fn products_made_after_the_render_count_in_the_check_before_it() {
     assert!(!Path::new(&out).exists(), "nothing is written");
 }
 
-/// The planned memory is at least the peak that the kernel reports, and at most 60 % above it.
+/// The planned memory is at least the peak that the kernel reports, and at most 20 % above it, apart from the bounds of 64 MiB each on rows
+/// that wait to be written and on freed blocks that the C library keeps.
 #[test]
 fn a_plan_states_the_memory_of_the_whole_run() {
     let place = tempfile::tempdir().expect("a temporary folder");
@@ -54,7 +55,8 @@ fn a_plan_states_the_memory_of_the_whole_run() {
     let plan: serde_json::Value = serde_json::from_str(&plan).expect("JSON");
     let planned = plan["memory"]["bytes"].as_f64().expect("a number");
     let peak = peak_bytes(&["render", &text(&job), "-o", &text(&out), "--threads", "1"]);
-    assert!(planned >= peak && planned < 1.6 * peak, "{planned:e} planned, {peak:e} used");
+    const BOUNDS: f64 = (128 << 20) as f64;
+    assert!(planned >= peak && planned < 1.2 * peak + BOUNDS, "{planned:e} planned, {peak:e} used");
 }
 
 /// Returns the peak memory of the program, bytes, read while it runs (VmHWM never decreases).

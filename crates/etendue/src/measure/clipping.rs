@@ -5,6 +5,8 @@ use etendue_metrology::Image;
 
 /// Minimum fraction of a region's readings at its minimum or maximum from which the region counts as clipped.
 const CUT_FRACTION: f64 = 0.01;
+/// Readings from this value on are no whole numbers of a digital format.
+const MAX_WHOLE: f32 = 16_777_216.0;
 
 /// How the readings of a region are clipped.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +29,9 @@ impl Cut {
         let (low, high) =
             samples.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), s| (low.min(*s), high.max(*s)));
         // The maximum of 8, 10, 12, … bits.
-        let is_of_bits = |reading: f32| reading >= 255.0 && (reading as u32 + 1).is_power_of_two();
+        let is_of_bits = |reading: f32| {
+            (255.0..MAX_WHOLE).contains(&reading) && reading.fract() == 0.0 && (reading as u32 + 1).is_power_of_two()
+        };
         let is_full = full_scale.map_or_else(|| is_of_bits(high), |full| f64::from(high) >= full);
         let black = fraction(&|sample| sample <= 0.0);
         let clipped = fraction(&|sample| full_scale.map_or(sample == high, |full| f64::from(sample) >= full));

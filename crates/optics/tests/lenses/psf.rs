@@ -144,11 +144,25 @@ fn what_cannot_be_is_refused() {
 fn a_pattern_wider_than_can_be_computed_is_refused() {
     let raster = Raster::centred(32, 24, 0.005).expect("legal");
     let new = |f_number| Psf::new(round(), &lens(5.0, f_number), &raster);
-    for f_number in [3e2, 1e4, 1e5, 1e6] {
+    for f_number in [411.0, 1e4, 1e5, 1e6] {
         assert!(matches!(new(f_number), Err(EffectsError::WidePattern { .. })), "f/{f_number}");
     }
-    // The limit is 2 · 16 samples per λN at 780 nm: f/205.
-    assert!(new(205.0).is_ok(), "a pinhole");
+    // The limit is λN = 64 px at 780 nm: f/410.2.
+    assert!(new(410.0).is_ok(), "a pinhole");
+}
+
+/// The Airy disc of a pinhole of f/400: half its peak at 0.5145 λN, dark at 1.2197 λN (Born and Wolf, 8.5.2), which are 22.6 px and 53.7 px. The
+/// pupil is 18 cells wide, so that its area, and with it the width, is right to 2 %.
+#[test]
+fn the_pattern_of_a_pinhole_is_an_airy_disc() {
+    let raster = Raster::centred(241, 241, 0.005).expect("legal");
+    let effects = effects(round(), &lens(5.0, 400.0), &raster);
+    let image = effects.prepared(&raster, BAND, FilmPart::Whole).apply(BAND, &point(&raster, 120, 120), None).0;
+    let at = |distance: usize| f64::from(image.at(120 + distance, 120)) / f64::from(image.at(120, 120));
+    let half = (1..60).find(|distance| at(*distance) < 0.5).expect("falls");
+    assert!((22..=24).contains(&half), "{half}");
+    let darkest = (40..70).min_by(|a, b| at(*a).total_cmp(&at(*b))).expect("some");
+    assert!((52..=56).contains(&darkest) && at(darkest) < 2e-3, "{darkest} {}", at(darkest));
 }
 
 #[test]

@@ -31,7 +31,9 @@ impl<'a> Context<'a> {
     /// Returns a time since the epoch, s; warns if a number in the file cannot represent it to a nanosecond.
     pub(super) fn since_epoch_s(&mut self, time: &Placed<ExactTime>) -> f64 {
         let step_s = time.value.step_s();
-        if time.value.is_number() && time.value.fraction_s() != 0.0 && step_s > 1e-9 {
+        // A fraction of few binary digits is exact as a number.
+        let is_exact = (1024.0 * time.value.fraction_s()).fract() == 0.0;
+        if time.value.is_number() && !is_exact && step_s > 1e-9 {
             let text = format!(
                 "a number this far from zero is rounded to a multiple of {:.1} ns; write it as text, in quotes, to keep all its digits",
                 1e9 * step_s

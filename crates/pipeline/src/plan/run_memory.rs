@@ -12,6 +12,10 @@ use crate::plan::{Plan, TimeDependence};
 /// Memory of the program before a job is read, bytes: its resident pages, tables of spectra and the stacks of its threads. `etendue plan` of an
 /// empty scene takes 31 MB (VmHWM, x86-64, two threads).
 const PROGRAM_BYTES: f64 = 36e6;
+/// Memory of freed blocks that the C library keeps for later ones, bytes: glibc keeps blocks of up to 32 MiB (M_MMAP_THRESHOLD_MAX), and runs of
+/// several cameras were seen to keep up to two of them, or half of what a camera takes.
+const KEPT_BYTES: f64 = (64 << 20) as f64;
+const KEPT_FRACTION: f64 = 0.5;
 /// Number of threads that a plan assumes, the same on all machines.
 const PLANNED_THREADS: usize = 4;
 
@@ -59,6 +63,13 @@ impl RunMemory {
         Self { held_films: films.sum(), ..self }
     }
 
+    /// Returns the memory of a run that gathers films and makes nothing of them.
+    #[must_use]
+    pub fn films_only(mut self) -> Self {
+        self.cameras.iter_mut().for_each(|(_, camera)| camera.stages.truncate(1));
+        self
+    }
+
     /// Returns the camera with the highest memory.
     #[must_use]
     pub fn largest(&self) -> Option<&(String, CameraMemory)> {
@@ -68,7 +79,9 @@ impl RunMemory {
     /// Returns the peak memory without the program itself.
     #[must_use]
     pub fn beyond_program(&self) -> f64 {
-        self.scene + self.held_films + self.largest().map_or(0.0, |(_, camera)| camera.most().bytes)
+        // The film of the largest camera is one of those that are held.
+        let camera = self.largest().map_or(0.0, |(_, camera)| camera.most().bytes - camera.film.min(self.held_films));
+        self.scene + self.held_films + camera + (KEPT_FRACTION * camera).min(KEPT_BYTES)
     }
 
     /// Returns the peak memory of the whole run.

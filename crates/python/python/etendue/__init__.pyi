@@ -96,6 +96,7 @@ class Job:
         texture_memory_mb: int = 512,
         cache: _Path | None = None,
         film_memory_mb: int = 2048,
+        memory_mb: int | None = None,
         scratch: _Path | None = None,
     ) -> Job:
         """Opens a job.
@@ -108,7 +109,7 @@ class Job:
         and ``uvs`` (n, 2), in the unit and axes that the job states for the mesh.
         folder: the folder of a job that is a dict, which its paths are relative to. Default: the working folder.
         sandbox: folders beside the job's own that its files may lie in. None: they may lie anywhere.
-        texture_memory_mb, cache, film_memory_mb, scratch: memory of textures and films, and where larger ones are kept. No bit depends on them.
+        texture_memory_mb, cache, film_memory_mb, scratch: memory of textures and films, and where larger ones are kept. memory_mb: what the run may take, 0 for no limit; None: what is free when the job is opened. No bit depends on them.
 
         Raises InputError with every fault of all files.
         """

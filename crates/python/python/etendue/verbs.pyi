@@ -50,6 +50,7 @@ def rig(
     texture_memory: int | None = None,
     cache: _Path | None = None,
     film_memory: int | None = None,
+    memory: int | None = None,
     scratch: _Path | None = None,
     output: _Path,
     overwrite: bool = False,
@@ -72,6 +73,7 @@ def rig(
     texture_memory: Memory of textures. Where they need more, the large ones are kept in tiles on the disk and read where they are looked up. The result does not depend on it. Default: 512.
     cache: The folder of these tiles, which another run finds again [default: etendue in $XDG_CACHE_HOME, else in ~/.cache].
     film_memory: Memory of the bands of one film: their means and variances, 8 bytes a pixel and band. Larger ones are kept in a scratch file on the disk, and files, effects and electrons are made of it some rows or one band at a time. The result does not depend on it. Default: 2048.
+    memory: Memory that the run may take, beside the program; a run whose estimate is higher is refused before its first sample. 0: no check [default: what the process, its control group and the machine have free].
     scratch: The folder of these scratch files, which are gone when the run ends [default: that of --cache].
     output: Folder for the results; made where missing.
     overwrite: Replace results that are already there.
@@ -97,6 +99,7 @@ def tradeoff(
     texture_memory: int | None = None,
     cache: _Path | None = None,
     film_memory: int | None = None,
+    memory: int | None = None,
     scratch: _Path | None = None,
     output: _Path,
     overwrite: bool = False,
@@ -123,6 +126,7 @@ def tradeoff(
     texture_memory: Memory of textures. Where they need more, the large ones are kept in tiles on the disk and read where they are looked up. The result does not depend on it. Default: 512.
     cache: The folder of these tiles, which another run finds again [default: etendue in $XDG_CACHE_HOME, else in ~/.cache].
     film_memory: Memory of the bands of one film: their means and variances, 8 bytes a pixel and band. Larger ones are kept in a scratch file on the disk, and files, effects and electrons are made of it some rows or one band at a time. The result does not depend on it. Default: 2048.
+    memory: Memory that the run may take, beside the program; a run whose estimate is higher is refused before its first sample. 0: no check [default: what the process, its control group and the machine have free].
     scratch: The folder of these scratch files, which are gone when the run ends [default: that of --cache].
     output: Folder for the results; made where missing.
     overwrite: Replace results that are already there.
@@ -152,6 +156,7 @@ def dataset(
     texture_memory: int | None = None,
     cache: _Path | None = None,
     film_memory: int | None = None,
+    memory: int | None = None,
     scratch: _Path | None = None,
     output: _Path,
     overwrite: bool = False,
@@ -179,6 +184,7 @@ def dataset(
     texture_memory: Memory of textures. Where they need more, the large ones are kept in tiles on the disk and read where they are looked up. The result does not depend on it. Default: 512.
     cache: The folder of these tiles, which another run finds again [default: etendue in $XDG_CACHE_HOME, else in ~/.cache].
     film_memory: Memory of the bands of one film: their means and variances, 8 bytes a pixel and band. Larger ones are kept in a scratch file on the disk, and files, effects and electrons are made of it some rows or one band at a time. The result does not depend on it. Default: 2048.
+    memory: Memory that the run may take, beside the program; a run whose estimate is higher is refused before its first sample. 0: no check [default: what the process, its control group and the machine have free].
     scratch: The folder of these scratch files, which are gone when the run ends [default: that of --cache].
     output: Folder for the results; made where missing.
     overwrite: Replace results that are already there.

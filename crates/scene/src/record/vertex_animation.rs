@@ -77,7 +77,7 @@ impl VertexAnimation {
         };
         let (first, last) = (times[0], times[times.len() - 1]);
         let cycle = match &self.times {
-            FrameTimes::Rate(rate) => Cycle::Frequency(rate.value / self.count.value as f64),
+            FrameTimes::Rate(rate) => Cycle::Events { rate_hz: rate.value, count: self.count.value as u32 },
             FrameTimes::Times(_) => Cycle::Period((last - first).seconds()),
         };
         let moved = match self.repeats() {

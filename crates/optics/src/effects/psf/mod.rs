@@ -105,6 +105,9 @@ pub struct PsfParameters {
     pub patches: Option<[usize; 2]>,
 }
 
+/// The maximum of λN at the longest visible wavelength, px.
+const MAX_LAMBDA_N_PX: f64 = 64.0;
+
 /// The point-spread function of a lens's aperture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Psf {
@@ -126,7 +129,7 @@ impl Psf {
         let corner_mm = picture.max_radius_mm();
         let varies = psf.stretch(corner_mm)[0] > SAME || psf.parameters.wavefront.iter().any(ZernikeTerm::varies);
         psf.patches = psf.parameters.patches.unwrap_or(if varies { PATCHES } else { [1, 1] });
-        psf.check_step(picture.pitch_mm().min_element())?;
+        psf.check_width(picture.pitch_mm().min_element())?;
         psf.check_slope(picture.pitch_mm().min_element())?;
         Ok(psf)
     }
@@ -176,10 +179,10 @@ impl Psf {
         Outline::new(p.blades, p.curvature, p.rotation_rad, p.obstruction)
     }
 
-    /// Steps of the pattern in λN: at least two, and two a pixel for the longest wavelength.
+    /// Steps of the pattern in λN: at least two, and two a pixel for the longest wavelength; one a pixel where λN is more than sixteen of them.
     fn fineness(&self, longest_nm: f64, pitch_mm: f64) -> f64 {
-        let steps = (longest_nm * MM_PER_NM * self.f_number / pitch_mm).ceil().max(1.0);
-        2.0 * steps.min(16.0) * self.outline().radius()
+        let pixels = longest_nm * MM_PER_NM * self.f_number / pitch_mm;
+        (2.0 * pixels.ceil().clamp(1.0, 16.0)).max(pixels) * self.outline().radius()
     }
 
     fn extent(&self, fineness: f64) -> Extent {
@@ -194,16 +197,16 @@ impl Psf {
         [across * across * across, across]
     }
 
-    /// Refuses patterns whose sample spacing exceeds the pixel pitch: the spacing is at most a thirty-second of λN, which is large for small apertures.
-    fn check_step(&self, pitch_mm: f64) -> Result<(), EffectsError> {
-        let steps = self.fineness(VISIBLE_NM.1, pitch_mm);
-        let step_mm = VISIBLE_NM.1 * MM_PER_NM * self.f_number / steps;
-        if step_mm <= pitch_mm {
+    /// The pattern is held to [`MAX_PX`] pixels, beyond which a fraction of about 0.2/ρ of the light falls, ρ in units of λN, and the lattice has
+    /// fewer cells over the pupil the more pixels λN has: at the limit ρ is 8, 2.5 % are lost and the pupil is 16 cells wide.
+    fn check_width(&self, pitch_mm: f64) -> Result<(), EffectsError> {
+        let most = MAX_LAMBDA_N_PX * pitch_mm / (VISIBLE_NM.1 * MM_PER_NM);
+        if self.f_number <= most {
             return Ok(());
         }
         Err(EffectsError::WidePattern {
             f_number: self.f_number,
-            most: pitch_mm * steps / (VISIBLE_NM.1 * MM_PER_NM),
+            most: (10.0 * most).floor() / 10.0,
             pixel_um: pitch_mm / MM_PER_UM,
         })
     }

@@ -1,7 +1,7 @@
 //! The sensor with pixels of k × k. Every key is named here, so that a new key needs a decision; docs/sensor.md states the reasons.
 
 use super::neighbours;
-use etendue_core::maths::f64::pow;
+use etendue_core::maths::f64::{exp_m1, ln_1p, pow};
 use etendue_scene::record::sensor::Shutter;
 use etendue_scene::record::sensor::charge::{Blooming, Dark, Direction, Smear};
 use etendue_scene::record::sensor::hdr::Hdr;
@@ -92,7 +92,7 @@ fn enlarge_dark(dark: &mut Dark, area: f64) {
     let blinking = dark.dark_current_rts.iter_mut().map(|rts| (&mut rts.share.value, &mut rts.mean_e_s.value));
     for (share, mean_e_s) in hot.chain(blinking) {
         let sources = area * *share;
-        *share = 1.0 - pow(1.0 - *share, area);
+        *share = -exp_m1(area * ln_1p(-*share));
         *mean_e_s *= sources / *share;
     }
 }
