@@ -67,7 +67,7 @@ freeze *arguments:
 
 # The reader of Universal Scene Description, its tests and its fuzz targets (in a folder of their own: it changes how PNGs are compressed)
 usd:
-    CARGO_TARGET_DIR=target/usd cargo test -p etendue-io -p etendue -p etendue-cli -p etendue-fuzz --features etendue-io/usd,etendue/usd,etendue-cli/usd,etendue-fuzz/usd -- usd what_was_found
+    CARGO_TARGET_DIR=target/usd cargo test -p etendue-import -p etendue -p etendue-cli -p etendue-fuzz --features etendue-import/usd,etendue/usd,etendue-cli/usd,etendue-fuzz/usd -- usd what_was_found
 
 # Recover the declared parameters of reference cameras from renders of charts: writes docs/validation.md
 validate *cameras:

@@ -25,6 +25,7 @@ pub mod frame;
 pub mod kept_cube;
 pub mod maths;
 mod motion;
+pub mod observer;
 pub mod plane;
 pub mod quantity;
 pub mod random;

@@ -1,6 +1,6 @@
 //! A camera file by itself.
 
-use crate::error::Error;
+use etendue_io::failure::Error;
 use etendue_io::{load_assets, read_regular};
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::plan::CameraBody;

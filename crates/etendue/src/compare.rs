@@ -4,8 +4,8 @@
 //! significance over all channels; identities and everything without variance must be equal.
 
 use crate::compare_pictures;
-use crate::error::Error;
 use etendue_io::compare::{Channel, Content, Origin, Pair, read_pair};
+use etendue_io::failure::Error;
 use etendue_stats::ErrorSummary;
 use etendue_stats::family::sidak_level;
 use etendue_stats::planes::{EstimatedPlane, PlaneTest, Verdict, compare as compare_planes};

@@ -1,7 +1,7 @@
 //! Pictures of two results that differ, and of their difference.
 
-use crate::error::Error;
 use etendue_io::compare::{Content, Pair};
+use etendue_io::failure::Error;
 use etendue_io::inspect::Preview;
 use etendue_io::{Existing, OutputFolder};
 use std::path::Path;

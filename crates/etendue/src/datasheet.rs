@@ -1,8 +1,8 @@
 //! A camera file of an EMVA 1288 data sheet.
 
 use crate::camera_file::{read_text, stem};
-use crate::error::Error;
-use crate::observer::{Message, Observer};
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::datasheet::imported;
 use etendue_scene::load_datasheet;

@@ -3,9 +3,9 @@
 //! Light that does not depend on time is gathered once and serves all frames. Light that does is gathered for each frame and
 //! for each capture whose exposure differs; the state of a sensor goes from frame to frame in their order.
 
-use crate::error::Error;
 use crate::render_options::RenderOptions;
 use crate::results::{CameraResults, DoneFrames};
+use etendue_io::failure::Error;
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};

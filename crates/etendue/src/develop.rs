@@ -1,12 +1,12 @@
 //! Pictures of raws that were taken before, by a camera file's processing.
 
 use crate::camera_file::{open_camera, stem};
-use crate::error::Error;
 use crate::raw_file::{Levels, Taken, taken};
 use crate::results::Files;
 use crate::results::frames::encoded;
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
+use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::photograph::{Developed, developed};
 use etendue_pipeline::plan::{CameraBody, Development};

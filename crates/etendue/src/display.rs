@@ -3,7 +3,7 @@
 //! Where a spectrum is kept: radiance in linear sRGB, (1, 1, 1) at 1 cd/m², the same numbers as the channels `R`, `G`, `B` of `radiance.exr`. Where pixels
 //! make electrons directly: `Y`, the mean electrons of the exposure, each pixel in the colour of its filter.
 
-use crate::observer::{ImageTile, Observer};
+use etendue_core::observer::{ImageTile, Observer};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};
 use etendue_pipeline::render::Shot;

@@ -1,9 +1,9 @@
 //! Pictures as a display shows them, in memory.
 
-use crate::error::Error;
 use crate::results::CameraResults;
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
+use etendue_io::failure::Error;
 use etendue_io::jpeg::encode_jpeg;
 
 impl CameraResults {

@@ -1,13 +1,13 @@
 //! Another lens and sensor on stored radiance.
 
 use crate::camera_file::{open_camera, stem};
-use crate::error::Error;
-use crate::observer::{Message, Observer};
 use crate::results::Files;
 use crate::results::frames::{Wanted, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
 use crate::stored_radiance::StoredRadiance;
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
 use etendue_optics::{DepthOfField, OpticsError};
 use etendue_pipeline::defocus::{held_margin_px, margin_px};

@@ -2,8 +2,8 @@
 
 use crate::delivery::check_textures;
 use crate::display;
-use crate::error::Error;
-use crate::observer::{FramePlace, Message, Observer, Progress, Unit};
+use etendue_core::observer::{FramePlace, Message, Observer, Progress, Unit};
+use etendue_io::failure::Error;
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::noise_reached::NoiseReached;

@@ -4,12 +4,12 @@
 //! seed, camera, frame, capture and shard. A film is used only where all of them are those that are expected, every pixel of the shard's tiles has samples and
 //! no other has, and its numbers are finite.
 
-use crate::error::Error;
 use crate::results::metadata;
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Quantity};
 use etendue_io::Provenance;
 use etendue_io::exr::{ExrFile, ExrImage, Layer, Samples, layers_image, read_exr_within};
+use etendue_io::failure::Error;
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};

@@ -1,7 +1,7 @@
 //! How much memory films may take.
 
-use crate::error::Error;
 use etendue_io::ScratchFolder;
+use etendue_io::failure::Error;
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::{CameraPlan, FilmLimit};
 use std::path::PathBuf;

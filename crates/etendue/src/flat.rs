@@ -1,13 +1,13 @@
 //! Even light on a camera's bare sensor.
 
 use crate::camera_file::{open_camera, stem};
-use crate::error::Error;
-use crate::observer::{Message, Observer};
 use crate::ranges::{number, whole};
 use crate::results::Files;
 use crate::results::frames::{Wanted, encoded_raw, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, Stack};
 use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};

@@ -1,19 +1,19 @@
 //! From a job file and what changes it to a plan, and from a plan to results.
 
 use crate::delivery::{SoFar, check_frames, deliver, films_of};
-use crate::error::Error;
 use crate::exposures::Exposures;
 use crate::film_memory::FilmMemory;
 use crate::integrator::Integrator;
 use crate::memory::MemoryFiles;
 use crate::memory_limits::MemoryLimits;
-use crate::observer::{Message, Observer};
 use crate::plan_report::PlanReport;
 use crate::quality::Quality;
 use crate::refine::{Progress, state, timed};
 use crate::render_options::RenderOptions;
 use crate::results::{CameraResults, DoneFrames, Kept, Results, Sequence, file_names};
 use crate::rig;
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
 use etendue_io::{CacheUse, Existing, OutputFolder, Sandbox, TextureMemory, complete_assets};
 use etendue_pipeline::plan::effects::PlannedEffect;
 use etendue_pipeline::plan::{CameraPlan, Passes};

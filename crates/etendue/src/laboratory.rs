@@ -15,13 +15,13 @@
 use crate::camera_file::read_text;
 use crate::chart::design::{Checkerboard, ColorChecker, FlatField, GridSize, SlantedEdges};
 use crate::chart::{Chart, ChartRequest, make};
-use crate::error::Error;
 use crate::flat::{FlatRequest, FlatSource, flat};
 use crate::job::JobRequest;
 use crate::named_file::write_file;
-use crate::observer::Observer;
 use crate::ranges::whole;
 use crate::render_options::RenderOptions;
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
 use etendue_io::{Existing, load_assets};
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::flat::{FlatLight, PhotonTransfer, bare, photon_transfer, photons};

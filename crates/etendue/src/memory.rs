@@ -1,8 +1,8 @@
 //! Files that a program makes in memory: scenes from arrays, cameras in code.
 
 use crate::camera_file::read_text;
-use crate::error::Error;
 use etendue_io::Sandbox;
+use etendue_io::failure::Error;
 use etendue_io::hash::of_bytes;
 use etendue_scene::asset::{Assets, MeshAsset, MeshFrameAsset, MeshFramePart, SlotMaterial};
 use std::collections::BTreeMap;

@@ -1,8 +1,8 @@
 //! Comparison of the memory that a run needs with the memory that is free.
 
-use crate::error::Error;
 use crate::film_memory;
 use crate::job::Job;
+use etendue_io::failure::Error;
 use etendue_pipeline::plan::{CameraPlan, RunMemory};
 use std::ops::Range;
 

@@ -1,13 +1,13 @@
 //! The shards of one job to the result of an unsharded run.
 
 use crate::delivery::{SoFar, deliver};
-use crate::error::Error;
 use crate::film_file::FilmOrigin;
-use crate::observer::Observer;
 use crate::render_options::RenderOptions;
 use crate::results::{DoneFrames, Kept, Sequence};
 use crate::rig;
 use crate::shard::{self, Manifest};
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;

@@ -1,6 +1,6 @@
 //! Files that the user names one by one: plots, previews, camera files.
 
-use crate::error::Error;
+use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
 use std::path::Path;
 

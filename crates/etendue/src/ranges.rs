@@ -1,6 +1,6 @@
 //! Ranges of typed arguments; the command line refuses the same before it calls.
 
-use crate::error::Error;
+use etendue_io::failure::Error;
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 

@@ -1,8 +1,8 @@
 //! How a compiled job finds a camera's light.
 
-use crate::error::Error;
 use crate::integrator::Integrator;
 use crate::job::Job;
+use etendue_io::failure::Error;
 use etendue_tracer::integrator::Level;
 
 /// How a camera's light is found.

@@ -1,8 +1,8 @@
 //! What a measurement found: numbers with unit and standard uncertainty, tables, curves and notes; as text, JSON and plots.
 
-use crate::error::Error;
 use crate::plot::{Plot, svg};
 use etendue_core::maths::f64::log10;
+use etendue_io::failure::Error;
 use etendue_io::photograph::Stated;
 pub use etendue_metrology::Estimate;
 use serde_json::{Map, Value, json};

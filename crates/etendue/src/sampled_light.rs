@@ -1,11 +1,11 @@
 //! The light of some of a camera's pixels, sampled otherwise than the job says: what a study of time and error is made of.
 
 use crate::delivery::{check_finite, check_textures};
-use crate::error::Error;
 use crate::job::Job;
-use crate::observer::Observer;
 use crate::shard_spec::ShardSpec;
+use etendue_core::observer::Observer;
 use etendue_core::random::Pixel;
+use etendue_io::failure::Error;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, Route};
 use etendue_pipeline::render::{FilmKeeping, Request, Shot, light};

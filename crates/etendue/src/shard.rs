@@ -5,15 +5,15 @@
 
 use crate::camera_file::read_text;
 use crate::delivery::{check_finite, check_frames, shots_of};
-use crate::error::Error;
 use crate::exposures::Exposures;
 use crate::film_file::{self, FilmOrigin, film_name};
 use crate::job::{Job, JobRequest};
-use crate::observer::Observer;
 use crate::render_options::MAX_FRAMES;
 use crate::results::Kept;
 use crate::results::writer::write_exr;
 use crate::shard_spec::{ShardRequest, ShardSpec};
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;

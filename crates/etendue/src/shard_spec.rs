@@ -1,6 +1,6 @@
 //! Which part of a run a shard is.
 
-use crate::error::Error;
+use etendue_io::failure::Error;
 use etendue_pipeline::tile::Shard;
 use std::ops::Range;
 

@@ -1,8 +1,8 @@
 //! What a job's file says of rendering, for programs that write a job over it.
 
-use crate::error::Error;
 use crate::job::JobRequest;
 use crate::memory::MemoryFiles;
+use etendue_io::failure::Error;
 use etendue_scene::record::render::Accelerator;
 use etendue_scene::{Description, stated_render_keys};
 use std::path::Path;

@@ -1,11 +1,11 @@
 //! A stored radiance image, read.
 
-use crate::error::Error;
 use crate::results::metadata;
 use etendue_core::quantity::{Length, Radiance, Variance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_io::Provenance;
 use etendue_io::exr::{SpectralImage, read_spectral};
+use etendue_io::failure::Error;
 use etendue_optics::PupilProjection;
 use std::path::Path;
 

@@ -1,9 +1,9 @@
 //! A variations file by itself, and whether a job takes what it changes.
 
 use crate::camera_file::read_text;
-use crate::error::Error;
 use crate::job::JobRequest;
 use crate::memory::MemoryFiles;
+use etendue_io::failure::Error;
 use etendue_scene::record::variations::Variations;
 use etendue_scene::{Description, Place, load_variations};
 use std::path::Path;

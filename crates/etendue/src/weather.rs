@@ -1,12 +1,12 @@
 //! Weather laid over stored radiance.
 
 use crate::camera_file::read_text;
-use crate::error::Error;
 use crate::results::metadata;
 use crate::stored_radiance::StoredRadiance;
 use etendue_core::quantity::Variance;
 use etendue_core::{CameraPose, Plane, SpectralCube, TimeInterval};
 use etendue_io::exr::{EncodeError, Lengths, encode_plane, encode_radiance, encode_spectral};
+use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder, load_assets};
 use etendue_pipeline::compile_weather;
 use etendue_pipeline::stored::Stored;

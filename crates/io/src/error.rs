@@ -30,8 +30,9 @@ impl Error {
         Self { line: Some(line), ..Self::new(file, what) }
     }
 
-    /// A fault of the path.
-    pub(crate) fn missing(file: &Path, what: impl Into<String>) -> Self {
+    /// Returns an error of a path that cannot be used.
+    #[must_use]
+    pub fn missing(file: &Path, what: impl Into<String>) -> Self {
         Self { is_path: true, ..Self::new(file, what) }
     }
 

@@ -20,7 +20,7 @@ pub fn is_decoding() -> bool {
 }
 
 /// What `decode` makes of the bytes of `file`; an error where it panics.
-pub(crate) fn guarded<T>(file: &Path, decode: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+pub fn guarded<T>(file: &Path, decode: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
     let was = DECODING.replace(true);
     let decoded = catch_unwind(AssertUnwindSafe(decode));
     DECODING.set(was);

@@ -3,9 +3,6 @@
 //! | direction | what | where |
 //! | --- | --- | --- |
 //! | in | Wavefront OBJ with its MTL, glTF 2.0, PLY | [`mesh`] |
-//! | in | scenes of pbrt-v4, directive by directive | [`pbrt`] |
-//! | in | scenes of Mitsuba 3, element by element | [`mitsuba`] |
-//! | in | scenes of Universal Scene Description, composed, with the feature `usd` | `usd` |
 //! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
 //! | in | PNG, JPEG, TIFF, OpenEXR and raw pictures to be measured | [`photograph`] |
 //! | in | EXIF data of pictures | [`exif`] |
@@ -39,18 +36,18 @@ pub mod emva_descriptor;
 pub mod error;
 pub mod exif;
 pub mod exr;
+pub mod failure;
 mod file_digest;
 mod folder_lock;
-mod guard;
+pub mod guard;
 pub mod hash;
 pub mod inspect;
 pub mod jpeg;
 pub mod lens_table;
 mod made_folders;
 pub mod mesh;
-pub mod mitsuba;
 pub mod output;
-pub mod pbrt;
+pub mod paths;
 pub mod photograph;
 pub mod photometry;
 pub mod picture;
@@ -63,7 +60,7 @@ mod run_mark;
 mod sandbox;
 mod scratch;
 pub mod sidecar;
-mod source;
+pub mod source;
 pub mod spectrum;
 pub mod table;
 mod texture_memory;
@@ -72,8 +69,6 @@ pub mod tile_cache;
 pub mod trajectory;
 mod tree;
 mod unpacked;
-#[cfg(feature = "usd")]
-pub mod usd;
 mod within;
 pub mod y4m;
 

@@ -10,12 +10,12 @@ use etendue_scene::limits::{self, Limit};
 use crate::Error;
 
 /// The bytes of `file`; `what` names in words what it should be ("mesh", "texture").
-pub(crate) fn read_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
+pub fn read_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
     read_bytes_within(file, what, &limits::FILE)
 }
 
 /// The bytes of a file that describes, of which a few may take much more memory than they are long: trees of values, lenses, lamps.
-pub(crate) fn read_description_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
+pub fn read_description_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
     read_bytes_within(file, what, &limits::DESCRIPTION)
 }
 
@@ -88,7 +88,7 @@ fn word(_: std::fs::FileType) -> &'static str {
 }
 
 /// The text of `file`, UTF-8 (a byte-order mark is passed over).
-pub(crate) fn decode_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<&'a str, Error> {
+pub fn decode_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<&'a str, Error> {
     let text = std::str::from_utf8(bytes).map_err(|cause| {
         let line = 1 + bytes[..cause.valid_up_to()].iter().filter(|&&b| b == b'\n').count();
         Error::at(file, line, "not UTF-8 text; save the file as UTF-8")

@@ -2,7 +2,7 @@
 
 use super::camera::Found;
 use crate::camera_file::read_text;
-use crate::error::Error;
+use etendue_io::failure::Error;
 use etendue_scene::record::Camera;
 use etendue_scene::{Overrides, load_camera};
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use super::kind::Kind;
 use super::shot::Shot;
-use crate::error::Error;
+use etendue_io::failure::Error;
 use std::collections::BTreeMap;
 
 /// A frame of even light with more saturated pixels tells nothing but where saturation lies.

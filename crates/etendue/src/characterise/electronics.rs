@@ -4,12 +4,12 @@ use super::folder::Laboratory;
 use super::kind::Kind;
 use super::parameter::Findings;
 use super::shot::Shot;
-use crate::error::Error;
 use crate::measure::Selection;
 use crate::measure::ptc::{self, Found, Group, PtcRequest};
-use crate::observer::Observer;
 use crate::report::Estimate;
+use etendue_core::observer::Observer;
 use etendue_io::emva_descriptor::DescribedLevel;
+use etendue_io::failure::Error;
 use etendue_metrology::patch_statistics::patch_statistics;
 use etendue_metrology::photon_transfer::{
     FEWEST, Figures, Nonuniformity, Outliers, Pattern, dead_pixels, hot_pixels, nonuniformity,
@@ -56,7 +56,11 @@ pub(super) fn measure(
         .and_then(|dark| Ok([dark, levels(&flat, photons_per_s.unwrap_or(ANY_LIGHT_PER_S))?].concat()));
     let made = made.and_then(|levels| ptc::groups(&selection, &levels, observer));
     let Some(groups) = findings.attempt(WHAT, made)? else { return Ok(None) };
-    let Some(found) = findings.attempt(WHAT, ptc::of_groups(&groups).map_err(Error::input))? else { return Ok(None) };
+    let Some(found) =
+        findings.attempt(WHAT, ptc::of_groups(&groups).map_err(|error| Error::input(error.to_string())))?
+    else {
+        return Ok(None);
+    };
     let request =
         PtcRequest { relative_light: photons_per_s.is_none(), selection: selection.clone(), ..PtcRequest::new("") };
     findings.part("Photon transfer", Kind::Flat, ptc::report(&request, &found));

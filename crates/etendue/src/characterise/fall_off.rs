@@ -6,9 +6,9 @@ use super::identity::PITCH_UM;
 use super::kind::Kind;
 use super::parameter::Findings;
 use super::shot::Shot;
-use crate::error::Error;
 use crate::measure::shading::falloff;
 use crate::measure::{FlatFieldRequest, PictureInput, Selection, SignalLevels, VignettingRequest};
+use etendue_io::failure::Error;
 
 const WHAT: &str = "fall-off of light over the field";
 

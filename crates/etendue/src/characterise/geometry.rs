@@ -3,12 +3,12 @@
 use super::folder::Laboratory;
 use super::kind::Kind;
 use super::parameter::Findings;
-use crate::error::Error;
 use crate::measure::readings::BALANCED;
 use crate::measure::views::{Found, TriedModel};
 use crate::measure::{CameraModel, ChartInput, Target, TruthInput, ViewsRequest};
-use crate::observer::Observer;
 use crate::report::{Cell, Report, Table};
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
 use etendue_scene::record::laboratory::ChartOfPoints;
 
 const WHAT: &str = "focal length, principal point, distortion";

@@ -1,7 +1,7 @@
 //! What is known of the camera by its pictures and by what is stated of them.
 
 use super::shot::Shot;
-use crate::error::Error;
+use etendue_io::failure::Error;
 use etendue_scene::record;
 
 /// The stand-in for the pitch of pixels, µm, where nothing states it.

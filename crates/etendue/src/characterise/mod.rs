@@ -19,11 +19,11 @@ mod point_picture;
 mod shot;
 mod spread;
 
-use crate::error::Error;
-use crate::observer::{Message, Observer};
-use crate::paths::relative_path;
 use crate::report::{finite, json_estimate};
 use camera::{CameraFile, Found, camera_file};
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
+use etendue_io::paths::relative_path;
 use etendue_io::{Existing, OutputFolder};
 use folder::Laboratory;
 use parameter::Findings;

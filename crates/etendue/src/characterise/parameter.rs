@@ -1,8 +1,8 @@
 //! What was found of a camera, number by number, and what was not.
 
 use super::kind::Kind;
-use crate::error::Error;
 use crate::report::{Estimate, Report};
+use etendue_io::failure::Error;
 
 /// A number of the camera.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! One picture of a laboratory folder, and what is known of it before it is measured.
 
 use super::kind::Kind;
-use crate::error::Error;
 use etendue_io::exif::{Exif, read_exif};
+use etendue_io::failure::Error;
 use etendue_io::hash::{ContentHash, of_bytes};
 use etendue_io::photograph::{Photograph, RawFacts, read_photograph};
 use etendue_io::sidecar;

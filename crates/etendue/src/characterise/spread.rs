@@ -4,10 +4,10 @@ use super::folder::Laboratory;
 use super::kind::Kind;
 use super::parameter::Findings;
 use super::shot::Shot;
-use crate::error::Error;
 use crate::measure::sfr::responses;
 use crate::measure::{PictureInput, Selection, SfrRequest, SignalLevels, TruthInput};
 use crate::report::{Estimate, Report};
+use etendue_io::failure::Error;
 use etendue_metrology::sfr::{Blur, Orientation, Sfr, blur};
 
 const WHAT: &str = "point spread";

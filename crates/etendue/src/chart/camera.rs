@@ -1,10 +1,10 @@
 //! The camera that a chart is made for: a camera file, or a reference camera that is written beside the chart.
 
 use crate::camera_file::read_text;
-use crate::error::Error;
-use crate::paths::relative_path;
 use etendue_charts::CameraStation;
+use etendue_io::failure::Error;
 use etendue_io::load_assets;
+use etendue_io::paths::relative_path;
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::plan::CameraBody;
 use etendue_scene::{Overrides, asset, load_camera};

@@ -4,7 +4,7 @@
 //! are applied before it is drawn. All others are written into `job.toml` and `scene.toml` afterwards.
 
 use crate::camera_file::read_text;
-use crate::error::Error;
+use etendue_io::failure::Error;
 use etendue_scene::{Description, Overrides, edit};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -5,7 +5,6 @@ mod changes;
 mod exposure;
 mod own_camera;
 
-use crate::error::Error;
 use crate::ranges::whole;
 use camera::ChartCamera;
 use changes::Changes;
@@ -16,6 +15,7 @@ use etendue_charts::{
 };
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
+use etendue_io::failure::Error;
 use etendue_io::photograph::Encoding;
 use etendue_io::png::{encode_display, encode_raw16};
 use etendue_io::{Existing, OutputFolder};
@@ -192,7 +192,7 @@ fn draw_chart(request: &ChartRequest, changes: &[String], folder: &Path) -> Resu
 }
 
 fn refused(error: ChartError) -> Error {
-    Error::input(error)
+    Error::input(error.to_string())
 }
 
 /// What the camera sees at the distance that is asked for, directly or by the width.

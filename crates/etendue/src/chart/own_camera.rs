@@ -2,12 +2,12 @@
 
 use super::camera::ChartCamera;
 use super::{ChartRequest, make};
-use crate::error::Error;
 use crate::job::JobRequest;
 use crate::memory::MemoryFiles;
 use crate::named_file::write_file;
-use crate::observer::Observer;
 use crate::render_options::RenderOptions;
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
 use etendue_io::{Existing, Sandbox};
 use etendue_scene::CameraSetup;
 use etendue_scene::record::render::Integrator;

@@ -1,9 +1,9 @@
 //! `etendue calibrate`: a camera file from several views of a chart.
 
 use super::views::ViewsRequest;
-use crate::error::Error;
-use crate::observer::Observer;
 use crate::report::Report;
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
 
 /// `etendue calibrate`
 #[derive(Clone, Debug)]

@@ -3,10 +3,10 @@
 use super::clipping::region;
 use super::picture_input::{PictureInput, refused};
 use super::readings::Readings;
-use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use etendue_charts::design::{ContrastPatches, OecfSteps};
+use etendue_io::failure::Error;
 use etendue_metrology::contrast::{ContrastPair, ContrastSettings, measure_contrast};
 use std::path::PathBuf;
 

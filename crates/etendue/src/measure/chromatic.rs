@@ -1,9 +1,9 @@
 //! `measure chromatic`: lateral chromatic displacement.
 
 use super::chart_points::ChartInput;
-use crate::error::Error;
 use crate::plot::{Axis, Colour, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use etendue_metrology::chromatic::{Displacement, Ring, displacements, rings, shift};
 use glam::DVec2;

@@ -2,10 +2,10 @@
 
 use super::ptc::{PtcRequest, measured};
 use super::readings::Selection;
-use crate::error::Error;
-use crate::observer::Observer;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use etendue_metrology::photon_transfer::temperature::{Growth, Law, fit};
 use etendue_stats::chi_square;
@@ -54,7 +54,7 @@ pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Re
     let currents = request.series.iter().map(current).collect::<Result<Vec<_>, Error>>()?;
     let growths = Law::ALL
         .into_iter()
-        .map(|law| fit(law, &currents, request.reference_c).map_err(Error::input))
+        .map(|law| fit(law, &currents, request.reference_c).map_err(|error| Error::input(error.to_string())))
         .collect::<Result<Vec<_>, _>>()?;
     if let Some(pair) = copies(&currents) {
         let [a, b] = pair.map(|i| request.series[i].1.display());

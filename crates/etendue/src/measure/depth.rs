@@ -1,8 +1,8 @@
 //! `measure depth`: how good an estimated depth picture is against the truth.
 
-use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use etendue_io::failure::Error;
 use etendue_io::photograph::{Photograph, read_photograph};
 use etendue_metrology::depth::{Alignment, DepthErrors, DepthSettings, measure_depth};
 use etendue_metrology::{Estimate, Image};

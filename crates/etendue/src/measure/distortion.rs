@@ -1,9 +1,9 @@
 //! `measure distortion`: from one picture of a plane chart.
 
 use super::chart_points::{ChartInput, Seen};
-use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
+use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use etendue_metrology::distortion::{Distortion, LineBow, LocalDistortion, RadialFit, distortion as fitted};
 use etendue_projection::Sense;

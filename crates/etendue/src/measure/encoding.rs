@@ -1,7 +1,7 @@
 //! From the numbers of a picture to light: as --encoding says, or the side-car, or the file.
 
-use crate::error::Error;
 use crate::tone_curve::tone_curve;
+use etendue_io::failure::Error;
 use etendue_io::photograph::{Channel, Encoding, Photograph, Stated, read_photograph};
 use etendue_io::table::read_numbers;
 use etendue_isp::ToneCurve;

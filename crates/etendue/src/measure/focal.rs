@@ -1,10 +1,10 @@
 //! `measure focal`: focal length and principal point.
 
 use super::views::{Found, ViewsRequest};
-use crate::error::Error;
-use crate::observer::Observer;
 use crate::report::Report;
 use etendue_core::maths::f64::acos;
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::Options;
 use etendue_projection::Calibration;

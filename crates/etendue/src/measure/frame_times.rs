@@ -1,6 +1,6 @@
 //! Times of frames that are measured: what the caller states, else what their side-car says.
 
-use crate::error::Error;
+use etendue_io::failure::Error;
 use etendue_io::photograph::{StatedRows, StatedTiming, stated_timing};
 use std::path::PathBuf;
 

@@ -5,10 +5,10 @@ use super::picture_input::{PictureInput, refused};
 use super::readings::Readings;
 use super::truth::Truth;
 use super::truth::place::Patch;
-use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use etendue_charts::design::{Backlit, ContrastPatches, FlatField, OecfSteps};
+use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use etendue_metrology::noise::{Noise, check_frame, measure_noise};
 use etendue_metrology::photon_transfer::Stack;
@@ -121,7 +121,7 @@ fn sought(truth: Option<&Truth>, file: &Path, readings: &Readings) -> Result<Vec
 const METHOD: &str = "noise of an even surface after ISO 15739 (± one standard uncertainty)";
 
 fn one(stack: &Stack, black: f64) -> Result<Report, Error> {
-    let noise = measure_noise(stack, black).map_err(Error::input)?;
+    let noise = measure_noise(stack, black).map_err(|error| Error::input(error.to_string()))?;
     let mut report = Report::new("noise", METHOD);
     report.figure("signal", "signal less black", "", noise.signal);
     report.figure("total_noise", "total noise", "", noise.total);

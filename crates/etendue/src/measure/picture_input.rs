@@ -2,8 +2,8 @@
 
 use super::readings::{Readings, Selection, SignalLevels};
 use super::truth::{Truth, TruthInput};
-use crate::error::Error;
-use crate::fault::Fault;
+use etendue_io::failure::Error;
+use etendue_io::failure::Fault;
 use std::fmt::Display;
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Counting the pictures that a measurement reads.
 
-use crate::observer::{Observer, Progress, Unit};
+use etendue_core::observer::{Observer, Progress, Unit};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// So many pictures, read by several threads.

@@ -5,7 +5,7 @@
 //! these, may be left out (0). Lines that begin with # and empty ones are skipped.
 
 use crate::camera_file::text_of;
-use crate::error::Error;
+use etendue_io::failure::Error;
 use etendue_metrology::target::{Grid, Node};
 use glam::DVec2;
 use std::collections::BTreeMap;

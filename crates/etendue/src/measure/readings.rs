@@ -2,7 +2,7 @@
 
 use super::balanced_mosaic::balanced_mosaic;
 use super::encoding::{EncodingChoice, ToLight};
-use crate::error::Error;
+use etendue_io::failure::Error;
 use etendue_io::photograph::{FilterTile, Photograph, Stated};
 use etendue_metrology::Image;
 use etendue_spectra::colour::BT709;

@@ -2,11 +2,11 @@
 
 use super::picture_input::{PictureInput, refused};
 use super::readings::Readings;
-use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::ranges::whole;
 use crate::report::{Cell, Report, Table};
 use etendue_charts::design::{Backlit, FlatField};
+use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use etendue_metrology::shading::{
     ColourShading, Shading, ShadingError, ShadingSettings, colour_shading, measure_shading,

@@ -3,10 +3,10 @@
 use super::encoding::EncodingChoice;
 use super::picture_input::{PictureInput, refused};
 use super::readings::{Readings, Selection};
-use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use etendue_charts::design::{DeadLeaves, SiemensStar};
+use etendue_io::failure::Error;
 use etendue_io::photograph::Stated;
 use etendue_metrology::texture::leaves::{TexturePoint, measure_texture};
 use etendue_metrology::texture::star::{Star, StarPoint, measure_star};

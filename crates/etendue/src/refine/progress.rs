@@ -6,10 +6,10 @@
 
 use super::state::{self, KeptFilm};
 use crate::delivery::{SoFar, check_finite};
-use crate::error::Error;
-use crate::observer::Unobserved;
 use crate::render_options::RenderOptions;
 use crate::results::CameraResults;
+use etendue_core::observer::Unobserved;
+use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;

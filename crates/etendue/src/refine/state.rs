@@ -3,9 +3,9 @@
 //! A file a film, named as a shard's and replaced as a whole after each pass, whose header says of which plan it is and which passes it
 //! holds. A run that is killed at any moment finds the last whole pass; at the end of a run there is no state.
 
-use crate::error::Error;
 use crate::film_file::{self, FILM, FilmOrigin, film_name};
 use crate::results::writer::write_exr;
+use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;

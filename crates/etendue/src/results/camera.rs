@@ -1,11 +1,11 @@
 //! One camera's results in memory.
 
 use super::frames::{encoded, frames};
-use crate::error::Error;
 use crate::render_options::RenderOptions;
 use crate::rig;
 use etendue_core::quantity::MeanElectrons;
 use etendue_core::{CameraPose, ExactTime, Plane};
+use etendue_io::failure::Error;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::photograph::{Frame, Light, take, take_with_breakdown};
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};

@@ -3,8 +3,8 @@
 use super::files::Files;
 use super::metadata;
 use super::sequence::Sequence;
-use crate::error::Error;
-use crate::observer::{Message, Observer};
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
 use etendue_io::read_regular;
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_scene::limits::DESCRIPTION;

@@ -3,12 +3,12 @@
 use super::files::Files;
 use super::metadata;
 use super::writer::{Encoder, ResultWriter};
-use crate::error::Error;
-use crate::observer::{Message, Observer};
 use crate::tone_curve::encoding;
 use etendue_core::Plane;
+use etendue_core::observer::{Message, Observer};
 use etendue_core::quantity::{DigitalNumber, Display};
 use etendue_io::exr::{self, EncodeError};
+use etendue_io::failure::Error;
 use etendue_io::jpeg::encode_jpeg;
 use etendue_io::tiff::{self, DngFacts};
 use etendue_io::{Provenance, png};

@@ -1,7 +1,7 @@
 //! What a run that fails, is cancelled or panics leaves in its folder: told to the caller on the way out.
 
-use crate::observer::{Message, Observer};
 use crate::refine::state;
+use etendue_core::observer::{Message, Observer};
 use etendue_io::OutputFolder;
 use std::cell::Cell;
 use std::path::PathBuf;

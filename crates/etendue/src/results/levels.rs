@@ -1,6 +1,6 @@
 //! The level of raw frames: whether a camera's frames are useful at all.
 
-use crate::observer::{Message, Observer};
+use etendue_core::observer::{Message, Observer};
 use etendue_sensor::Raw;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

@@ -7,14 +7,14 @@ use super::frames::{Wanted, write_frames};
 use super::metadata;
 use super::sequence::Sequence;
 use super::writer::ResultWriter;
-use crate::error::Error;
-use crate::observer::Observer;
 use crate::rig;
+use etendue_core::observer::Observer;
 use etendue_core::quantity::Radiance;
 use etendue_io::exr::{
     self, Layer, Lengths, SpectralBands, encode_ground_truth, ground_truth_image, ground_truth_of_planes, layers_image,
     plane_image, radiance_image, spectral_image,
 };
+use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder, png};
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::CameraPlan;

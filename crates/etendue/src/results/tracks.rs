@@ -2,7 +2,7 @@
 
 use super::files::Files;
 use super::writer::ResultWriter;
-use crate::error::Error;
+use etendue_io::failure::Error;
 use etendue_io::{OutputFolder, read_regular};
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};
 use etendue_scene::limits::DESCRIPTION;

@@ -1,8 +1,8 @@
 //! The pictures of a camera's frames as one video, made of their files when all are there.
 
 use super::files::Files;
-use crate::error::Error;
 use etendue_io::OutputFolder;
+use etendue_io::failure::Error;
 use etendue_io::picture::read_picture;
 use etendue_io::y4m::{VideoFacts, write_frame, write_head};
 use etendue_pipeline::plan::CameraPlan;

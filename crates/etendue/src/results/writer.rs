@@ -1,8 +1,8 @@
 //! Where the files of one camera go.
 
-use crate::error::Error;
 use etendue_core::quantity::Irradiance;
 use etendue_io::exr::{EncodeError, ExrImage, SpectralBands, spectral_image};
+use etendue_io::failure::Error;
 use etendue_io::{OutputFolder, Provenance, sidecar};
 use etendue_pipeline::photograph::Light;
 use rayon::prelude::*;

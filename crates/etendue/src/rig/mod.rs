@@ -12,12 +12,12 @@ mod view;
 
 pub use view::{PinholeView, camera_mount, pinhole_view};
 
-use crate::error::Error;
-use crate::observer::{Message, Observer};
 use crate::results::files::Files;
 use etendue_core::CameraPose;
+use etendue_core::observer::{Message, Observer};
 use etendue_io::OutputFolder;
 use etendue_io::calibration::export::{NamedCamera, colmap, kalibr, ros};
+use etendue_io::failure::Error;
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_projection::Calibration;
 use std::ops::Range;

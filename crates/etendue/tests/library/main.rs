@@ -4,6 +4,7 @@ mod annotations;
 mod dropped_effects;
 mod examples;
 mod far_times;
+mod faults;
 mod flicker;
 mod panics;
 mod progress;

@@ -148,7 +148,7 @@ impl Series {
     /// The series that is asked for; `usual` exposures where nothing is, which a camera without electronics does without.
     pub fn asked(&self, usual: Option<u32>) -> Result<Option<chart::Series>, Error> {
         let required = self.exposures.is_some() || self.levels.is_some();
-        let exposures = self.exposures(usual).map_err(Error::input)?;
+        let exposures = self.exposures(usual).map_err(|error| Error::input(error.to_string()))?;
         Ok(exposures.map(|exposures| chart::Series { exposures, required }))
     }
 

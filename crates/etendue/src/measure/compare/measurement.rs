@@ -3,7 +3,7 @@
 use super::curve::curves;
 use super::side::{Quantity, Side};
 use crate::camera_file::text_of;
-use crate::error::Error;
+use etendue_io::failure::Error;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;

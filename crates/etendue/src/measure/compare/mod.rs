@@ -15,10 +15,10 @@ mod side;
 mod sides;
 mod tone;
 
-use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use curve::{Curve, Gap, gaps, limit};
+use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use light::Light;
 use mean::{Compared, means};

@@ -5,7 +5,7 @@ use super::light::Light;
 use super::measurement::measurement;
 use super::side::Side;
 use crate::camera_file::open_camera;
-use crate::error::Error;
+use etendue_io::failure::Error;
 use std::path::Path;
 
 fn is_camera(file: &Path) -> bool {

@@ -2,9 +2,9 @@
 
 use super::request::LensRequest;
 use crate::camera_file::read_text;
-use crate::error::Error;
-use crate::fault::Fault;
 use etendue_core::maths::f64::sin_cos;
+use etendue_io::failure::Error;
+use etendue_io::failure::Fault;
 use etendue_io::load_assets;
 use etendue_io::prescription::read_prescription;
 use etendue_optics::Lens;

@@ -4,10 +4,10 @@ mod body;
 mod ghosts;
 mod request;
 
-use crate::error::Error;
 use crate::ranges::{number, whole};
 use crate::report::fixed;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use etendue_io::failure::Error;
 use etendue_optics::lens::{FieldReport, ImageReport, LensReport, OtherBundle};
 use etendue_optics::{Lens, PRINCIPAL_NM, Prescribed};
 use etendue_pipeline::plan::CameraBody;

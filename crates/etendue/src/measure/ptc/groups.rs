@@ -6,11 +6,11 @@
 
 use super::found::{Fixed, Found};
 use super::reading::{Reading, refused};
-use crate::error::Error;
 use crate::measure::pictures::Pictures;
 use crate::measure::readings::Selection;
-use crate::observer::Observer;
+use etendue_core::observer::Observer;
 use etendue_io::emva_descriptor::{DescribedLevel, EmvaDescriptor};
+use etendue_io::failure::Error;
 use etendue_metrology::photon_transfer::{Level, Pattern, Stack, TransferData, TransferError, nonuniformity};
 use std::sync::atomic::AtomicUsize;
 

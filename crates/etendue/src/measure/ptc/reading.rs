@@ -1,11 +1,11 @@
 //! From a descriptor's pictures to the curve and the fixed patterns.
 
 use super::found::{Fixed, Found};
-use crate::error::Error;
 use crate::measure::clipping::Cut;
 use crate::measure::pictures::Pictures;
 use crate::measure::readings::Selection;
 use etendue_io::emva_descriptor::{DescribedLevel, EmvaDescriptor};
+use etendue_io::failure::Error;
 use etendue_metrology::Image;
 use etendue_metrology::photon_transfer::{Figures, Level, Pattern, Stack, TransferData, TransferError, nonuniformity};
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ pub(super) struct Reading<'a> {
 }
 
 pub(super) fn refused(error: TransferError) -> Error {
-    Error::input(error)
+    Error::input(error.to_string())
 }
 
 /// Adds pictures to a stack, which the first begins.

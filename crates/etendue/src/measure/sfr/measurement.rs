@@ -4,7 +4,6 @@ use super::found::Found;
 use super::refusal::failure;
 use super::report::report;
 use super::request::SfrRequest;
-use crate::error::Error;
 use crate::measure::clipping::region;
 use crate::measure::picture_input::refused;
 use crate::measure::readings::{Readings, field_position};
@@ -13,6 +12,7 @@ use crate::measure::truth::place::Sought;
 use crate::ranges::whole;
 use crate::report::Report;
 use etendue_charts::design::{SlantedEdges, SlantedStar};
+use etendue_io::failure::Error;
 use etendue_metrology::sfr::{Sfr, SfrError, SfrSettings, measure_edge, measure_strip};
 use rayon::prelude::*;
 

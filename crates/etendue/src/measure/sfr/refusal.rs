@@ -1,9 +1,9 @@
 //! Why an edge was not measured.
 
 use super::request::SfrRequest;
-use crate::error::Error;
 use crate::measure::picture_input::refused;
 use crate::measure::truth::place::Sought;
+use etendue_io::failure::Error;
 use etendue_metrology::sfr::SfrError;
 
 /// An edge that cannot be measured, by its picture and its place.

@@ -7,8 +7,8 @@ pub(crate) mod points;
 mod truth_file;
 
 use super::readings::{Readings, pixels};
-use crate::error::Error;
 use etendue_core::maths::f64::sin;
+use etendue_io::failure::Error;
 use etendue_metrology::sfr::Strip;
 use glam::DVec2;
 use place::{Patch, Sought, Spoke, Star, StarPlace, TrapPlace};

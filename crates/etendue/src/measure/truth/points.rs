@@ -1,8 +1,8 @@
 //! What the truth of a chart of points says: its kind and pitch, and how far the camera stands from it.
 
 use super::Truth;
-use crate::error::Error;
 use etendue_charts::design::{Checkerboard, Circles, Dots};
+use etendue_io::failure::Error;
 use etendue_metrology::target::Target;
 use glam::DVec3;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! The parts of a truth.json that measurements read.
 
-use crate::error::Error;
+use etendue_io::failure::Error;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::path::Path;

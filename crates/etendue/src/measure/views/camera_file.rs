@@ -2,7 +2,7 @@
 
 use super::found::Found;
 use crate::calibration;
-use crate::error::Error;
+use etendue_io::failure::Error;
 use etendue_scene::record::lens::calibrated::View;
 use etendue_scene::record::{self, Camera, Lens, Sensor};
 use etendue_scene::written::File;

@@ -3,10 +3,10 @@
 use super::found::Found;
 use super::request::ViewsRequest;
 use super::{advice, assumed};
-use crate::error::Error;
 use crate::measure::chart_points::{Seen, WithoutChart, all};
-use crate::observer::Observer;
 use etendue_core::maths::f64::ln;
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
 use etendue_metrology::calibrate::{CalibrateError, CameraModel, Options, Sightings, calibrate_rejecting_outliers};
 use glam::DVec2;
 use std::fmt::Display;

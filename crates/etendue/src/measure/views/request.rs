@@ -1,8 +1,8 @@
 //! What views of a chart are asked.
 
 use super::stated::StatedLength;
-use crate::error::Error;
 use crate::measure::chart_points::ChartInput;
+use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::{CameraModel, Options};
 use glam::DVec2;

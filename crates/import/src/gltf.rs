@@ -1,0 +1,179 @@
+//! glTF files: their mesh as it is, lights, cameras and what moves in our keys.
+
+use super::lamps;
+use super::moving::{Moving, add_moving, part_of, to_world};
+use super::naming::{Names, path_between};
+use super::without::{even_sky, whole_view};
+use super::written::{ImportedCamera, View, Written, pose_of, size_of, written};
+use etendue_io::failure::Error;
+use etendue_io::mesh::{
+    GltfCamera, GltfLight, GltfLightKind, GltfMotion, GltfProjection, GltfStage, read_gltf_motion, read_gltf_stage,
+    read_mesh,
+};
+use etendue_scene::asset::{MeshAsset, SlotSurface};
+use etendue_scene::record::{Body, Light, LightColour, Mesh, Object, Pose, Scene, Transform};
+use etendue_spectra::colour::BT709;
+use glam::{DAffine3, DVec3};
+use std::path::Path;
+
+pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
+    let stage = read_gltf_stage(file).map_err(Error::input)?;
+    let motion = read_gltf_motion(file).map_err(Error::input)?;
+    let (mut report, mut files) = (Vec::new(), Vec::new());
+    let mut scene = Scene::default();
+    let mesh = if stage.mesh_nodes.is_empty() { None } else { Some(read_mesh(file).map_err(Error::input)?) };
+    let still = stage.mesh_nodes.iter().any(|node| motion.parts.mover_of[*node].is_none());
+    // What stands still is called as the file, and its part of the file "still": no part that moves may be.
+    let mut names = Names::default();
+    let mut still_name = String::new();
+    if still {
+        let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+        still_name = names.take(&stem, "model");
+        names.take("still", "still");
+    }
+    let moving = add_moving(&mut scene, &motion, (file, folder), &mut names, &mut files, &mut report)
+        .map_err(|told| Error::input(format!("{}: {told}", file.display())))?;
+    match (mesh.is_some(), still, motion.movers.is_empty()) {
+        (false, ..) => report.push("it has no meshes".to_owned()),
+        (true, false, _) => report.push("all its meshes move".to_owned()),
+        (true, true, true) => {
+            let way = path_between(folder, file).to_string_lossy().into_owned();
+            add_still(&mut scene, &still_name, &way, &mut report);
+        }
+        (true, true, false) => {
+            let part = "meshes/still.gltf".to_owned();
+            files.push((part.clone(), part_of(&motion, None, (file, folder))));
+            add_still(&mut scene, &still_name, &part, &mut report);
+        }
+    }
+    report.extend(motion.notes.iter().cloned());
+    let mut light_names = Names::default();
+    let held = Held { motion: &motion, moving: &moving };
+    for light in &stage.lights {
+        scene.lights.extend(light_of(light, &held, &mut light_names, &mut report));
+    }
+    if scene.lights.is_empty() && !mesh.as_ref().is_some_and(glows) {
+        report.push(even_sky(&mut scene));
+    }
+    let cameras = cameras_of(&stage, &held, mesh.as_ref(), &mut report);
+    let mut made = written(file, &scene, &cameras, report);
+    made.files.extend(files);
+    Ok(made)
+}
+
+/// The mesh of what stands still, in a file that `way` leads to.
+fn add_still(scene: &mut Scene, name: &str, way: &str, report: &mut Vec<String>) {
+    scene.meshes.push(Mesh::new(name, way));
+    scene.objects.push(Object::new(name, Body::Mesh(name.into()), Transform::default()));
+    report.push(format!("its meshes: object \"{name}\", materials and pictures as the plan tells"));
+}
+
+/// What lights and cameras move with.
+struct Held<'a> {
+    motion: &'a GltfMotion,
+    moving: &'a Moving,
+}
+
+impl Held<'_> {
+    /// The frame of what is in a node, and the way from its axes to those of the frame; in the file's axes.
+    fn place(&self, node: usize, to_file: DAffine3) -> (Option<String>, DAffine3) {
+        let Some(mover) = self.motion.parts.mover_of[node] else { return (None, to_file) };
+        let (name, scale) = self.moving.frame(mover);
+        let own = self.motion.movers[mover].to_file.inverse() * to_file;
+        (Some(name.to_owned()), DAffine3::from_scale(DVec3::splat(scale)) * own)
+    }
+}
+
+fn glows(mesh: &MeshAsset) -> bool {
+    let emits = |surface: &SlotSurface| matches!(surface, SlotSurface::Layers(layers) if layers.emission.is_some());
+    mesh.slot_materials.iter().any(|slot| slot.surface.as_ref().is_some_and(emits))
+}
+
+/// `None` of a light that gives none.
+fn light_of(light: &GltfLight, held: &Held<'_>, names: &mut Names, report: &mut Vec<String>) -> Option<Light> {
+    let name = names.take(&light.name, "light");
+    // The specification multiplies linear sRGB by the intensity: what a lamp of that colour has is its luminance times as much.
+    let share: f64 = light.colour.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
+    let level = light.intensity * share;
+    if level <= 0.0 {
+        report.push(format!("light \"{name}\" is dark and left out"));
+        return None;
+    }
+    let note = |kind: &str, unit: &str| {
+        let range = if light.has_range { "; its range is not used: light has none" } else { "" };
+        format!("light \"{name}\", {kind}: {level} {unit}{range}")
+    };
+    let colour = LightColour::Rgb(light.colour.into());
+    let (frame, place) = held.place(light.node, light.to_file);
+    let position = to_world(place.translation);
+    let ahead = to_world(place.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);
+    let made = match light.kind {
+        GltfLightKind::Point => {
+            report.push(note("point", "cd"));
+            lamps::point(&name, position, level, colour)
+        }
+        GltfLightKind::Spot { inner_rad, outer_rad } => {
+            report.push(note("spot, whose edge falls by our own curve between the same angles", "cd"));
+            // 90° in 32 bits may lie above it.
+            let half_deg = [inner_rad, outer_rad].map(|rad| rad.to_degrees().min(90.0));
+            lamps::spot(&name, (position, ahead), half_deg, level, colour)
+        }
+        GltfLightKind::Directional => {
+            report.push(note("directional: a sun's disc of 0.01°", "lx"));
+            if frame.is_some() {
+                report.push(format!("light \"{name}\" stands still: suns do not move"));
+            }
+            let ahead = to_world(light.to_file.matrix3 * DVec3::NEG_Z).normalize_or(DVec3::NEG_Z);
+            lamps::parallel(&name, -ahead, level, colour)
+        }
+    };
+    Some(lamps::in_frame(made, frame))
+}
+
+fn cameras_of(
+    stage: &GltfStage,
+    held: &Held<'_>,
+    mesh: Option<&MeshAsset>,
+    report: &mut Vec<String>,
+) -> Vec<ImportedCamera> {
+    let mut names = Names::default();
+    let cameras: Vec<ImportedCamera> =
+        stage.cameras.iter().map(|camera| camera_of(camera, held, &mut names, report)).collect();
+    match (cameras.is_empty(), mesh) {
+        (true, mesh) => {
+            report.push("it has no cameras: \"view\" is ours, which sees all of it from the front".to_owned());
+            vec![view_of(mesh)]
+        }
+        _ => cameras,
+    }
+}
+
+fn camera_of(camera: &GltfCamera, held: &Held<'_>, names: &mut Names, report: &mut Vec<String>) -> ImportedCamera {
+    let name = names.take(&camera.name, "camera");
+    let (view, aspect, told) = match camera.projection {
+        GltfProjection::Perspective { yfov_rad, aspect } => {
+            let told = format!("perspective of {:.4}° in height", yfov_rad.to_degrees());
+            (View::Perspective { yfov_rad }, aspect, told)
+        }
+        GltfProjection::Orthographic { half_m: [x, y] } => {
+            (View::Orthographic { width_m: 2.0 * x }, Some(x / y), format!("orthographic of {} m in width", 2.0 * x))
+        }
+    };
+    let free = if aspect.is_none() { "; its shape is ours" } else { "" };
+    report.push(format!("camera \"{name}\": {told}{free}; its near and far planes are not used"));
+    // The scale of its node does not count.
+    let (frame, place) = held.place(camera.node, camera.to_file);
+    let axis = |v: DVec3| to_world(place.matrix3 * v);
+    let pose = pose_of(to_world(place.translation), axis(DVec3::NEG_Z), axis(DVec3::Y));
+    let pose = Pose { frame: frame.map(|frame| frame.as_str().into()), ..pose };
+    ImportedCamera { name, pose, view, size_px: size_of(aspect.unwrap_or(4.0 / 3.0)) }
+}
+
+/// A view of the whole mesh, from the front and above.
+fn view_of(mesh: Option<&MeshAsset>) -> ImportedCamera {
+    let places = || mesh.iter().flat_map(|m| m.positions.iter().map(|p| (m.origin, p)));
+    let world =
+        |(origin, p): ([f64; 3], &[f32; 3])| to_world(DVec3::from_array(origin) + DVec3::from_array(p.map(f64::from)));
+    let bound = |pick: fn(DVec3, DVec3) -> DVec3| places().map(world).reduce(pick).unwrap_or(DVec3::ZERO);
+    whole_view(bound(DVec3::min), bound(DVec3::max))
+}

@@ -1,0 +1,103 @@
+//! Scenes of other programs as files of the format: a scene, a job with its cameras, what became of what.
+//!
+//! What a file of another program says is written down in our own keys, so that it can be read, changed and built upon
+//! (docs/import.md, docs/decisions/import.md).
+
+mod gltf;
+mod lamps;
+mod mitsuba;
+mod moving;
+mod naming;
+mod pbrt;
+mod scenery;
+pub mod syntax;
+#[cfg(feature = "usd")]
+mod usd;
+mod without;
+mod written;
+
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
+use etendue_io::{Existing, OutputFolder};
+use std::path::{Path, PathBuf};
+use written::Written;
+
+/// What is imported, by the endings of files.
+const KINDS: &str = ".glb, .gltf, .pbrt, .xml (Mitsuba), .usd, .usda, .usdc or .usdz";
+
+/// A scene of another program.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ImportRequest {
+    /// Its file.
+    pub file: PathBuf,
+    /// Values of parameters by their names, for scenes of Mitsuba: of each that the file names as `$name`, in place of its `<default>`.
+    pub parameters: Vec<(String, String)>,
+}
+
+/// Writes `scene.toml`, `job.toml` and what they need into a folder, of a scene of another program; answers with their paths. What was
+/// mapped to what and what was dropped stands at the head of the scene and goes to the observer.
+///
+/// # Errors
+/// Where the file cannot be read or used, a parameter has no effect, or the folder cannot be written.
+pub fn import(
+    request: &ImportRequest,
+    (folder, existing): (&Path, Existing),
+    observer: &dyn Observer,
+) -> Result<Vec<PathBuf>, Error> {
+    // The folder may be made by this: paths between files need it.
+    let from = std::path::absolute(folder).map_err(|cause| Error::input(format!("{}: {cause}", folder.display())))?;
+    let Written { files, report } = read(request, &from)?;
+    let mut folder = OutputFolder::open_beside(folder, existing).map_err(Error::input)?;
+    folder.claim(files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
+    for (name, bytes) in &files {
+        folder.write(name, bytes).map_err(Error::run)?;
+    }
+    report.iter().for_each(|line| observer.message(Message::Note(line)));
+    folder.commit().map_err(Error::run)
+}
+
+/// The files of a scene, whose paths lead from `folder`.
+fn read(request: &ImportRequest, folder: &Path) -> Result<Written, Error> {
+    let ImportRequest { file, parameters } = request;
+    let ending = file.extension().unwrap_or_default().to_ascii_lowercase();
+    let reader = match ending.to_str() {
+        Some("xml") => return mitsuba::imported(file, folder, parameters),
+        Some("glb" | "gltf") => gltf::imported,
+        Some("pbrt") => pbrt::imported,
+        #[cfg(feature = "usd")]
+        Some("usd" | "usda" | "usdc" | "usdz") => usd::imported,
+        #[cfg(not(feature = "usd"))]
+        Some("usd" | "usda" | "usdc" | "usdz") => return Err(without_usd(file)),
+        _ => {
+            let shown = file.display();
+            return Err(Error::input(format!("{shown}: not a scene that is imported; expected a file of {KINDS}")));
+        }
+    };
+    match parameters.first() {
+        None => reader(file, folder),
+        Some((name, _)) => Err(Error::input(format!(
+            "{}: a value is given to the parameter \"{name}\", and only scenes of Mitsuba (.xml) have parameters: leave it out",
+            file.display()
+        ))),
+    }
+}
+
+/// What is said of a scene whose reader is not built in.
+#[cfg(any(test, not(feature = "usd")))]
+fn without_usd(file: &Path) -> Error {
+    Error::input(format!(
+        "{}: this program was built without the reader of Universal Scene Description; build it with it (cargo build --release --features usd), or convert the scene to glTF",
+        file.display()
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_without_the_reader_says_how_to_build_it() {
+        let told = without_usd(Path::new("a.usdz")).to_string();
+        assert!(told.contains("a.usdz: ") && told.contains("--features usd"), "{told}");
+    }
+}

@@ -1,0 +1,99 @@
+//! Parameters of an element, by name.
+
+use crate::syntax::mitsuba::MitsubaElement;
+use etendue_io::Error;
+use glam::DVec3;
+
+/// Numbers between commas and spaces.
+pub(super) fn numbers_of(text: &str) -> Result<Vec<f64>, String> {
+    let words = text.split(|c: char| c == ',' || c.is_ascii_whitespace()).filter(|word| !word.is_empty());
+    words.map(number_of).collect()
+}
+
+/// One finite number.
+pub(super) fn number_of(word: &str) -> Result<f64, String> {
+    let shown: String = word.chars().take(40).collect();
+    match word.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err(format!("\"{shown}\" is not finite")),
+        Err(_) => Err(format!("\"{shown}\" where a number is expected")),
+    }
+}
+
+/// The number of an attribute, or `default`.
+pub(super) fn attribute_number(element: &MitsubaElement, name: &str, default: f64) -> Result<f64, Error> {
+    let number = element.attribute(name).map(number_of).transpose().map_err(|told| element.fault(told))?;
+    Ok(number.unwrap_or(default))
+}
+
+/// What an element says by x, y and z, of which each may be left out, or by one value of three numbers or one.
+pub(super) fn triple_of(element: &MitsubaElement, default: f64) -> Result<DVec3, Error> {
+    let Some(value) = element.attribute("value") else {
+        let [x, y, z] = ["x", "y", "z"].map(|name| attribute_number(element, name, default));
+        return Ok(DVec3::new(x?, y?, z?));
+    };
+    match numbers_of(value).map_err(|told| element.fault(told))?[..] {
+        [one] => Ok(DVec3::splat(one)),
+        [x, y, z] => Ok(DVec3::new(x, y, z)),
+        ref others => Err(element.fault(format!("{} numbers, where three are expected", others.len()))),
+    }
+}
+
+/// The parameter of this name.
+pub(super) fn find<'a>(element: &'a MitsubaElement, name: &str) -> Option<&'a MitsubaElement> {
+    let found = element.children.iter().find(|child| child.attribute("name") == Some(name))?;
+    found.used.set(true);
+    Some(found)
+}
+
+/// Its value as a text.
+fn value<'a>(parameter: &'a MitsubaElement, tags: &[&str]) -> Result<&'a str, Error> {
+    match parameter.attribute("value") {
+        Some(value) if tags.contains(&parameter.tag) => Ok(value),
+        _ => {
+            let told = format!("\"{}\": expected <{} value=\"…\"/>", parameter.name(), tags.join("> or <"));
+            Err(parameter.fault(told))
+        }
+    }
+}
+
+/// The number of a parameter; `None` where it is not there.
+pub(super) fn stated(element: &MitsubaElement, name: &str) -> Result<Option<f64>, Error> {
+    let Some(parameter) = find(element, name) else { return Ok(None) };
+    let text = value(parameter, &["float", "integer"])?;
+    number_of(text).map(Some).map_err(|told| parameter.fault(format!("\"{name}\": {told}")))
+}
+
+/// The number of a parameter, or `default`.
+pub(super) fn number(element: &MitsubaElement, name: &str, default: f64) -> Result<f64, Error> {
+    Ok(stated(element, name)?.unwrap_or(default))
+}
+
+/// The text of a parameter.
+pub(super) fn text<'a>(element: &'a MitsubaElement, name: &str) -> Result<Option<&'a str>, Error> {
+    find(element, name).map(|parameter| value(parameter, &["string"])).transpose()
+}
+
+/// The truth of a parameter, or `default`.
+pub(super) fn flag(element: &MitsubaElement, name: &str, default: bool) -> Result<bool, Error> {
+    let Some(parameter) = find(element, name) else { return Ok(default) };
+    match value(parameter, &["boolean"])?.to_ascii_lowercase().as_str() {
+        "true" => Ok(true),
+        "false" => Ok(false),
+        _ => Err(parameter.fault(format!("\"{name}\": expected true or false"))),
+    }
+}
+
+/// The point or vector of a parameter, or `default`.
+pub(super) fn vector(element: &MitsubaElement, name: &str, default: DVec3) -> Result<DVec3, Error> {
+    match find(element, name) {
+        None => Ok(default),
+        Some(parameter) if matches!(parameter.tag, "point" | "vector") => triple_of(parameter, 0.0),
+        Some(parameter) => Err(parameter.fault(format!("\"{name}\": expected <point> or <vector>"))),
+    }
+}
+
+/// The elements of one kind within another.
+pub(super) fn all<'a>(element: &'a MitsubaElement, tag: &'static str) -> impl Iterator<Item = &'a MitsubaElement> {
+    element.children.iter().filter(move |child| child.tag == tag).inspect(|child| child.used.set(true))
+}

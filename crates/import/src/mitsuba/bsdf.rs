@@ -1,0 +1,297 @@
+//! Surfaces.
+
+use super::access::text;
+use super::importer::{Importer, MAX_DEPTH};
+use super::usage::Use;
+use crate::scenery::{INTERFACE, KnownTexture, grey, plain};
+use crate::syntax::mitsuba::MitsubaElement;
+use etendue_io::Error;
+use etendue_scene::record::material::surface::Distribution;
+use etendue_scene::record::material::{
+    Conductor, Dielectric, Diffuse, Factor, Material, Metal, Mix, NormalMap, Surface, ThinSheet,
+};
+use etendue_spectra::{Spectrum, metal};
+use std::rc::Rc;
+
+/// What a surface of the file becomes.
+pub(super) struct Made {
+    /// `None` of one that is not seen.
+    pub(super) surface: Option<Surface>,
+    pub(super) opacity: Option<Factor>,
+    pub(super) normal_map: Option<NormalMap>,
+}
+
+impl From<Surface> for Made {
+    fn from(surface: Surface) -> Self {
+        Self { surface: Some(surface), opacity: None, normal_map: None }
+    }
+}
+
+impl<'a> Importer<'a> {
+    /// The material of ours that a `<bsdf>` is; its name.
+    pub(super) fn bsdf(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Rc<str>, Error> {
+        if let Some(known) = self.surfaces.get(&element.number) {
+            return Ok(known.clone());
+        }
+        let Made { surface, opacity, normal_map } = self.made(element, depth)?;
+        let name: Rc<str> = match surface {
+            None => INTERFACE.into(),
+            Some(surface) => {
+                let wish = element.attribute("id").unwrap_or(element.kind());
+                let own = self.scenery.names.take(wish, "material");
+                let normal_map = normal_map.filter(|_| !matches!(surface, Surface::Mix(_)));
+                if normal_map.is_some() {
+                    self.normal_mapped.insert(own.as_str().into(), None);
+                }
+                self.scenery.scene.materials.push(Material {
+                    opacity,
+                    normal_map,
+                    ..Material::new(own.as_str(), surface)
+                });
+                own.as_str().into()
+            }
+        };
+        self.surfaces.insert(element.number, name.clone());
+        Ok(name)
+    }
+
+    fn made(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
+        if depth >= MAX_DEPTH {
+            return Err(
+                element.fault(format!("surfaces stand more than {MAX_DEPTH} deep in one another, or in a circle"))
+            );
+        }
+        self.at(element);
+        let made = self.model(element, depth)?;
+        self.note_unused(element);
+        Ok(made)
+    }
+
+    fn model(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
+        let kind = element.kind();
+        // What stands within says it, or both sides are alike.
+        if !matches!(
+            kind,
+            "twosided"
+                | "mask"
+                | "blendbsdf"
+                | "bumpmap"
+                | "normalmap"
+                | "null"
+                | "dielectric"
+                | "roughdielectric"
+                | "thindielectric"
+        ) && depth == 0
+        {
+            self.scenery.report.note(
+                "surfaces without \"twosided\" are black from behind in Mitsuba; here both sides of them are alike",
+            );
+        }
+        Ok(match kind {
+            "diffuse" => {
+                let reflectance = self.reflectance(element, "reflectance", 0.5, &|v| v)?;
+                Surface::Diffuse(Diffuse::new(reflectance)).into()
+            }
+            "plastic" | "roughplastic" => Surface::Coated(self.plastic(element)?).into(),
+            "conductor" | "roughconductor" => Surface::Conductor(self.conductor(element)?).into(),
+            "dielectric" | "roughdielectric" => {
+                let rough = if kind == "dielectric" { None } else { Some(self.alpha(element)?) };
+                if rough.is_some() {
+                    self.note_slopes(element)?;
+                }
+                let index = self.index(element, "bk7")?;
+                Surface::Dielectric(Dielectric { alpha: rough, ..Dielectric::new(index) }).into()
+            }
+            "thindielectric" => {
+                let index = self.index(element, "bk7")?;
+                Surface::ThinSheet(ThinSheet { index: Some(index.into()), ..ThinSheet::default() }).into()
+            }
+            "principled" => self.principled(element)?.into(),
+            "null" => Made { surface: None, opacity: None, normal_map: None },
+            "twosided" => {
+                let [inner, others @ ..] = &self.within(element, "bsdf")?[..] else {
+                    return Err(element.fault("a \"twosided\" without a <bsdf>"));
+                };
+                if others.iter().any(|other| other.number != inner.number) {
+                    self.scenery.report.note("of a \"twosided\" with two surfaces both sides have the first");
+                }
+                self.made(inner, depth + 1)?
+            }
+            "mask" => self.mask(element, depth)?,
+            "blendbsdf" => self.blend(element, depth)?,
+            "bumpmap" => {
+                self.scenery.report.note("bumps of a \"bumpmap\" are not used; its surface is");
+                element.children.iter().for_each(|child| child.used.set(true));
+                self.only(element, depth)?
+            }
+            "normalmap" => self.normals(element, depth)?,
+            other => {
+                self.scenery
+                    .report
+                    .note(format!("the surface \"{other}\" is not understood: grey of 0.5 in its place"));
+                element.children.iter().for_each(|child| child.used.set(true));
+                Surface::Diffuse(Diffuse::new(plain(0.5))).into()
+            }
+        })
+    }
+
+    /// The one surface within another.
+    fn only(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
+        match self.within(element, "bsdf")?[..] {
+            [inner] => self.made(inner, depth + 1),
+            ref others => {
+                let told = format!("{} surfaces within a \"{}\"; expected one <bsdf>", others.len(), element.kind());
+                Err(element.fault(told))
+            }
+        }
+    }
+
+    fn mask(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
+        let opacity = self.factor(element, "opacity", 0.5)?;
+        let inner = self.only(element, depth)?;
+        if inner.opacity.is_some() {
+            self.scenery.report.note("of a \"mask\" within another the outer one alone is used");
+        }
+        Ok(Made { opacity: Some(opacity), ..inner })
+    }
+
+    fn normals(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
+        let found = self.within(element, "texture")?;
+        let inner = self.only(element, depth)?;
+        let Some(texture) = found.first() else {
+            return Err(element.fault("a \"normalmap\" without a <texture>"));
+        };
+        let normal_map = match self.texture(texture, Use::Data)? {
+            KnownTexture::Picture { name, .. } => Some(NormalMap::new(name.as_str())),
+            KnownTexture::Even(_) => None,
+        };
+        if matches!(inner.surface, Some(Surface::Mix(_))) {
+            self.scenery.report.note("a \"normalmap\" over a blend of surfaces is not used");
+        }
+        Ok(Made { normal_map, ..inner })
+    }
+
+    fn blend(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Made, Error> {
+        let weight = self.factor(element, "weight", 0.5)?;
+        let parts = self.within(element, "bsdf")?;
+        let [a, b] = parts[..] else {
+            return Err(element.fault(format!("{} surfaces, where a \"blendbsdf\" has two", parts.len())));
+        };
+        let share = |weight: f64| Some(Factor::Number(weight.into()));
+        let [first, second] = [self.part(a, depth)?, self.part(b, depth)?];
+        match (first, second, weight) {
+            (None, None, _) => Ok(Made { surface: None, opacity: None, normal_map: None }),
+            // A blend with what is not seen is a surface of which a share is there.
+            (Some(_), None, Factor::Number(w)) => {
+                Ok(Made { opacity: share(1.0 - w.value), ..self.made(a, depth + 1)? })
+            }
+            (None, Some(_), Factor::Number(w)) => Ok(Made { opacity: share(w.value), ..self.made(b, depth + 1)? }),
+            (None, Some(_), picture) => Ok(Made { opacity: Some(picture), ..self.made(b, depth + 1)? }),
+            (Some(_), None, _) => {
+                self.scenery.report.note("a blend with a second part that is not seen is taken as its first alone");
+                self.made(a, depth + 1)
+            }
+            (Some(a), Some(b), weight) => Ok(Surface::Mix(Mix::new(&*a, &*b, weight)).into()),
+        }
+    }
+
+    /// The name of a part of a blend, which has no opacity of its own.
+    fn part(&mut self, element: &'a MitsubaElement, depth: usize) -> Result<Option<Rc<str>>, Error> {
+        let name = self.bsdf(element, depth + 1)?;
+        let materials = &self.scenery.scene.materials;
+        let Some(found) = materials.iter().find(|m| m.name.value == *name) else { return Ok(None) };
+        if found.normal_map.is_some() {
+            self.scenery.report.note("green of a \"normalmap\" within a blend points up in its picture; set y = \"down\" where the picture lies mirrored");
+        }
+        if found.opacity.is_none() {
+            return Ok(Some(name));
+        }
+        let own = self.scenery.names.take(&format!("{name}-whole"), "part");
+        let whole = Material { name: own.as_str().into(), opacity: None, ..found.clone() };
+        self.scenery.report.note("a \"mask\" within a blend is not used: its surface is");
+        self.scenery.scene.materials.push(whole);
+        Ok(Some(own.as_str().into()))
+    }
+
+    /// α of a surface that is alike in all directions.
+    pub(super) fn alpha(&mut self, element: &'a MitsubaElement) -> Result<Factor, Error> {
+        let (both, u) = (self.factor(element, "alpha", 0.1)?, self.value(element, "alpha_u")?.is_some());
+        if !u {
+            return Ok(both);
+        }
+        let [u, v] = [self.factor(element, "alpha_u", 0.1)?, self.factor(element, "alpha_v", 0.1)?];
+        match (&u, &v) {
+            (Factor::Number(u), Factor::Number(v)) if u.value != v.value => {
+                let told = "roughness that differs by direction is alike in all: α is the geometric mean";
+                self.scenery.report.note(told);
+                Ok(Factor::Number((u.value * v.value).sqrt().into()))
+            }
+            _ => Ok(u),
+        }
+    }
+
+    /// Whether facets are distributed after Beckmann, as where nothing is said.
+    fn is_beckmann(element: &'a MitsubaElement) -> Result<bool, Error> {
+        match text(element, "distribution")?.unwrap_or("beckmann") {
+            "ggx" => Ok(false),
+            "beckmann" => Ok(true),
+            other => Err(element.fault(format!("\"distribution\" of \"{other}\"; expected beckmann or ggx"))),
+        }
+    }
+
+    /// Notes slopes that a surface of ours does not have.
+    pub(super) fn note_slopes(&mut self, element: &'a MitsubaElement) -> Result<(), Error> {
+        if Self::is_beckmann(element)? {
+            let told =
+                format!("facets of a \"{}\" after Beckmann are GGX's of the same α: longer tails", element.kind());
+            self.scenery.report.note(told);
+        }
+        Ok(())
+    }
+
+    fn conductor(&mut self, element: &'a MitsubaElement) -> Result<Conductor, Error> {
+        let is_rough = element.kind() == "roughconductor";
+        let alpha = if is_rough { self.alpha(element)? } else { Factor::Number(0.0.into()) };
+        let is_beckmann = is_rough && Self::is_beckmann(element)?;
+        let conductor = Conductor::new(self.metal(element)?, alpha);
+        Ok(Conductor { distribution: is_beckmann.then(|| Distribution::Beckmann.into()), ..conductor })
+    }
+
+    fn metal(&mut self, element: &'a MitsubaElement) -> Result<Metal, Error> {
+        let tint = self.reflectance(element, "specular_reflectance", 1.0, &|v| v)?;
+        let tint = match tint {
+            etendue_scene::record::Reflectance::Plain(etendue_scene::record::Colour::Grey(v)) => [v.value; 3],
+            etendue_scene::record::Reflectance::Plain(etendue_scene::record::Colour::LinearSrgb(v)) => v.value,
+            _ => {
+                self.scenery.report.note("\"specular_reflectance\" of a picture or a table is 1");
+                [1.0; 3]
+            }
+        };
+        let has_index = self.value(element, "eta")?.is_some() || self.value(element, "k")?.is_some();
+        let named = text(element, "material")?;
+        let is_mirror = !has_index && named.is_none_or(|name| name == "none");
+        if is_mirror && grey(tint) == Some(1.0) {
+            // Fresnel's formula gives 1 − 4·10⁻⁷ and more.
+            return Ok(self.scenery.index_file(|_| 1e-3, |_| 100.0));
+        }
+        if is_mirror {
+            self.scenery.report.note("a mirror of a colour is a metal that reflects it at normal incidence");
+            return Ok(self.metal_of_rgb(tint));
+        }
+        if grey(tint) != Some(1.0) {
+            self.scenery.report.note("\"specular_reflectance\" of a metal is 1");
+        }
+        if has_index {
+            let (n, _) = self.coefficient(element, "eta", 0.0)?;
+            let (k, _) = self.coefficient(element, "k", 1.0)?;
+            let at = |s: &Spectrum, nm: f32| f64::from(s.at(nm));
+            return Ok(self.scenery.index_file(|nm| at(&n, nm), |nm| at(&k, nm)));
+        }
+        let name = named.unwrap_or_default();
+        if metal::names().contains(&name) {
+            return Ok(Metal::Named(name.into()));
+        }
+        self.scenery.report.note(format!("the metal \"{name}\" is not known: aluminium in its place"));
+        Ok(Metal::Named("Al".into()))
+    }
+}

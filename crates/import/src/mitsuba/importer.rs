@@ -1,0 +1,214 @@
+//! Elements to a scene.
+
+use super::access::all;
+use super::camera;
+use super::usage::Use;
+use crate::scenery::{Graphics, KnownTexture, Scenery};
+use crate::syntax::mitsuba::{MitsubaElement, MitsubaScene};
+use crate::written::{ImportedCamera, Written, written};
+use etendue_io::Error;
+use etendue_scene::record::Transform;
+use etendue_scene::record::medium::{Everywhere, MediumShape};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+/// References and surfaces within one another.
+pub(super) const MAX_DEPTH: usize = 32;
+
+/// The scene as far as it is made, and what the file's elements became.
+pub(super) struct Importer<'a> {
+    pub(super) scenery: Scenery,
+    /// Elements by what they are called.
+    ids: HashMap<&'a str, &'a MitsubaElement>,
+    /// Names of ours of surfaces, by the numbers of their elements.
+    pub(super) surfaces: HashMap<usize, Rc<str>>,
+    /// Names of ours of surfaces with a normal map, and of the same with its green down where there is one.
+    pub(super) normal_mapped: HashMap<Rc<str>, Option<Rc<str>>>,
+    /// What textures became, by the numbers of their elements and what they are for.
+    pub(super) textures: HashMap<(usize, Use), KnownTexture>,
+    /// Whether pictures lie on shapes and surfaces, by the numbers of their elements.
+    pub(super) pictured: HashMap<usize, bool>,
+    /// Names of media, by the numbers of their elements; empty for what is not understood.
+    pub(super) media: HashMap<usize, Rc<str>>,
+    cameras: Vec<ImportedCamera>,
+    /// Where files are sought, in this order.
+    folders: &'a [PathBuf],
+}
+
+impl<'a> Importer<'a> {
+    pub(super) fn new(file: &Path, folder: &Path, scene: &'a MitsubaScene) -> Result<Self, Error> {
+        let root = &scene.root;
+        let mut importer = Self {
+            scenery: Scenery::new(file, folder),
+            ids: HashMap::new(),
+            surfaces: HashMap::new(),
+            normal_mapped: HashMap::new(),
+            textures: HashMap::new(),
+            pictured: HashMap::new(),
+            media: HashMap::new(),
+            cameras: Vec::new(),
+            folders: &scene.folders,
+        };
+        importer.collect(root)?;
+        importer.aliases(root)?;
+        importer.take_cameras(root)?;
+        for element in &root.children {
+            importer.top(element)?;
+        }
+        Ok(importer)
+    }
+
+    /// Notes what stands in an element's place from now on.
+    pub(super) fn at(&mut self, element: &MitsubaElement) {
+        let file = element.place.file.file_name().unwrap_or_default().to_string_lossy();
+        self.scenery.report.at(format!("{file}:{}", element.place.line));
+    }
+
+    fn collect(&mut self, element: &'a MitsubaElement) -> Result<(), Error> {
+        if let Some(id) = element.attribute("id")
+            && element.tag != "ref"
+            && element.tag != "alias"
+            && self.ids.insert(id, element).is_some()
+        {
+            return Err(element.fault(format!("a second element is called \"{id}\"; give each its own id")));
+        }
+        element.children.iter().try_for_each(|child| self.collect(child))
+    }
+
+    fn aliases(&mut self, root: &'a MitsubaElement) -> Result<(), Error> {
+        for alias in all(root, "alias") {
+            let (Some(id), Some(name)) = (alias.attribute("id"), alias.attribute("as")) else {
+                return Err(alias.fault("<alias> without \"id\" or \"as\""));
+            };
+            let known = self.ids.get(id).copied();
+            self.ids.insert(name, known.ok_or_else(|| alias.fault(format!("no element is called \"{id}\"")))?);
+        }
+        Ok(())
+    }
+
+    /// What an element is or refers to.
+    pub(super) fn resolve(&self, element: &'a MitsubaElement) -> Result<&'a MitsubaElement, Error> {
+        if element.tag != "ref" {
+            return Ok(element);
+        }
+        let id = element.attribute("id").ok_or_else(|| element.fault("<ref> without \"id\""))?;
+        let found = self.ids.get(id).copied();
+        let found = found.ok_or_else(|| element.fault(format!("no element is called \"{id}\"; check the id")))?;
+        element.used.set(true);
+        found.used.set(true);
+        Ok(found)
+    }
+
+    /// Elements of a kind within another, by themselves or by reference, whatever their names.
+    pub(super) fn within(&self, element: &'a MitsubaElement, tag: &str) -> Result<Vec<&'a MitsubaElement>, Error> {
+        let mut found = Vec::new();
+        for child in element.children.iter().filter(|child| matches!(child.tag, "ref") || child.tag == tag) {
+            let was_used = child.used.get();
+            let meant = self.resolve(child)?;
+            if meant.tag == tag {
+                meant.used.set(true);
+                found.push(meant);
+            } else {
+                child.used.set(was_used);
+            }
+        }
+        Ok(found)
+    }
+
+    /// The path of a file that the scene file names.
+    pub(super) fn file(&self, name: &str) -> PathBuf {
+        let found = self.folders.iter().map(|folder| folder.join(name)).find(|path| path.is_file());
+        found.unwrap_or_else(|| self.scenery.source_folder.join(name))
+    }
+
+    /// The path of a file as the written scene names it.
+    pub(super) fn path(&self, name: &str) -> String {
+        self.scenery.way_to(&self.file(name))
+    }
+
+    /// Notes what nobody has asked for within an element.
+    pub(super) fn note_unused(&mut self, element: &MitsubaElement) {
+        self.at(element);
+        for child in element.children.iter().filter(|child| !child.used.get()) {
+            let what = match (child.name(), child.tag, child.kind()) {
+                ("", tag, "") => format!("<{tag}>"),
+                ("", tag, kind) => format!("<{tag} type=\"{kind}\">"),
+                (name, ..) => format!("\"{name}\""),
+            };
+            self.scenery.report.note(format!("{} \"{}\": {what} is not used", element.tag, element.kind()));
+        }
+    }
+
+    /// Cameras come first: the first one says what is up.
+    fn take_cameras(&mut self, root: &'a MitsubaElement) -> Result<(), Error> {
+        let sensors: Vec<&MitsubaElement> = all(root, "sensor").collect();
+        let mut read = Vec::new();
+        for sensor in sensors {
+            self.at(sensor);
+            let media = self.within(sensor, "medium")?;
+            if let Some(camera) = camera::read(sensor, &mut self.scenery.report)? {
+                read.push((sensor, camera, media));
+            }
+        }
+        let first = read.first().map(|(_, camera, _)| camera.to_ours());
+        self.scenery.to_ours = first.unwrap_or_else(|| camera::MitsubaCamera::at_origin().to_ours());
+        if read.is_empty() {
+            self.scenery.report.at(String::new());
+            self.scenery.report.note("it has no camera that is read: one at the origin that looks along z is ours");
+            let camera = camera::MitsubaCamera::at_origin();
+            let imported = camera.imported("camera", self.scenery.to_ours, &mut self.scenery.report);
+            self.cameras.push(imported);
+        }
+        for (sensor, camera, media) in read {
+            self.at(sensor);
+            let name = self.scenery.names.take(sensor.attribute("id").unwrap_or("camera"), "camera");
+            let imported = camera.imported(&name, self.scenery.to_ours, &mut self.scenery.report);
+            self.cameras.push(imported);
+            for medium in media {
+                let name = self.medium(medium)?;
+                self.scenery
+                    .report
+                    .note("a camera's medium fills the whole world, and adds to those of shapes within it");
+                self.scenery.fill(&name, MediumShape::Everywhere(Everywhere::default()), Transform::default());
+            }
+            self.note_unused(sensor);
+        }
+        Ok(())
+    }
+
+    /// An element of the scene itself.
+    fn top(&mut self, element: &'a MitsubaElement) -> Result<(), Error> {
+        self.at(element);
+        let kind = element.kind();
+        match element.tag {
+            "shape" => self.shape(element, &Graphics::plain(), 0)?,
+            "emitter" => self.emitter(element)?,
+            "integrator" | "sampler" => {
+                let told = format!("{} \"{kind}\" is not used: how light is found is the job's", element.tag);
+                self.scenery.report.note(told);
+            }
+            // Cameras are read; what has an id stands here to be referred to.
+            "sensor" | "alias" | "bsdf" | "texture" | "spectrum" | "medium" | "volume" | "phase" | "film"
+            | "rfilter" | "rgb" => {}
+            // Parameters, as <default> of other versions.
+            tag => self.scenery.report.note(format!("<{tag}> of the scene itself is not used")),
+        }
+        Ok(())
+    }
+
+    /// The files of the scene.
+    pub(super) fn finish(self, file: &Path) -> Result<Written, Error> {
+        let Scenery { scene, mut report, files, .. } = self.scenery;
+        report.at(String::new());
+        let counts =
+            [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len(), scene.media.len()];
+        let [objects, materials, textures, lights, media] = counts;
+        report.note(format!(
+            "made: {objects} objects, {materials} materials, {textures} textures, {lights} lights, {media} media"
+        ));
+        let mut made = written(file, &scene, &self.cameras, report.lines());
+        made.files.extend(files);
+        Ok(made)
+    }
+}

@@ -1,0 +1,36 @@
+//! Scenes of Mitsuba 3.
+//!
+//! Source: the documentation of the program (mitsuba.readthedocs.io) and, where it leaves a rule open, what version 3.9.1 does (docs/import.md lists the
+//! rules; tests/oracles/mitsuba_scenes.py).
+//!
+//! Mitsuba's space is right-handed and has no up: ours is the same turned, with the axis upwards that is nearest to the first camera's up. A length of 1
+//! is a metre; a radiance of 1 of white light is 1 cd/m².
+
+mod access;
+mod bsdf;
+mod camera;
+mod emitter;
+mod envmap;
+mod green;
+mod importer;
+mod medium;
+mod plastic;
+mod principled;
+mod shape;
+mod solids;
+mod texture;
+mod transform;
+mod usage;
+mod value;
+
+use super::written::Written;
+use crate::syntax::mitsuba::read_mitsuba;
+use etendue_io::Sandbox;
+use etendue_io::failure::Error;
+use importer::Importer;
+use std::path::Path;
+
+pub(super) fn imported(file: &Path, folder: &Path, given: &[(String, String)]) -> Result<Written, Error> {
+    let scene = read_mitsuba(file, given, &Sandbox::NONE).map_err(Error::input)?;
+    Importer::new(file, folder, &scene).and_then(|importer| importer.finish(file)).map_err(Error::input)
+}

@@ -1,0 +1,92 @@
+//! Transforms, step by step.
+
+use super::access::{attribute_number, find, numbers_of, triple_of};
+use crate::syntax::mitsuba::MitsubaElement;
+use etendue_core::maths::f64 as maths;
+use etendue_io::Error;
+use glam::{DAffine3, DMat3, DMat4, DVec3};
+
+/// The transform of a parameter; none where it is not there.
+pub(super) fn transform_of(element: &MitsubaElement, name: &str) -> Result<DAffine3, Error> {
+    let Some(parameter) = find(element, name) else { return Ok(DAffine3::IDENTITY) };
+    if parameter.tag != "transform" {
+        return Err(parameter.fault(format!("\"{name}\": expected <transform>")));
+    }
+    let mut made = DAffine3::IDENTITY;
+    for step in &parameter.children {
+        // Each holds in the space that those before it lead to.
+        made = step_of(step)? * made;
+    }
+    if !made.is_finite() || made.matrix3.determinant() == 0.0 {
+        return Err(parameter.fault("this makes a space without extent; correct its numbers"));
+    }
+    Ok(made)
+}
+
+fn step_of(step: &MitsubaElement) -> Result<DAffine3, Error> {
+    let known: &[&str] = match step.tag {
+        "rotate" => &["value", "x", "y", "z", "angle"],
+        "lookat" => &["origin", "target", "up"],
+        "matrix" => &["value"],
+        _ => &["value", "x", "y", "z"],
+    };
+    if let Some((name, _)) = step.attributes.iter().find(|(name, _)| !known.contains(&&**name)) {
+        return Err(step.fault(format!("\"{name:.40}\" of <{}>; expected {}", step.tag, known.join(", "))));
+    }
+    match step.tag {
+        "translate" => Ok(DAffine3::from_translation(triple_of(step, 0.0)?)),
+        "scale" => Ok(DAffine3::from_scale(triple_of(step, 1.0)?)),
+        "rotate" => {
+            if step.attribute("angle").is_none() {
+                return Err(step.fault("<rotate> without \"angle\""));
+            }
+            let degrees = attribute_number(step, "angle", 0.0)?;
+            let axis = triple_of(step, 0.0)?.try_normalize().ok_or_else(|| step.fault("a rotation about no axis"))?;
+            Ok(DAffine3::from_mat3(rotation(degrees, axis)))
+        }
+        "lookat" => look_at(step),
+        "matrix" => matrix(step),
+        tag => Err(step.fault(format!("<{tag}> in a transform; expected translate, rotate, scale, lookat or matrix"))),
+    }
+}
+
+/// By Rodrigues' formula about an axis of length 1; degrees.
+fn rotation(degrees: f64, axis: DVec3) -> DMat3 {
+    let (s, c) = maths::sin_cos(degrees.to_radians());
+    let column = |v: DVec3| c * v + s * axis.cross(v) + (1.0 - c) * axis.dot(v) * axis;
+    DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
+}
+
+/// x to the left, y upwards, z ahead.
+fn look_at(step: &MitsubaElement) -> Result<DAffine3, Error> {
+    let three = |name: &str| {
+        let text = step.attribute(name).ok_or_else(|| step.fault(format!("<lookat> without \"{name}\"")))?;
+        match numbers_of(text).map_err(|told| step.fault(told))?[..] {
+            [x, y, z] => Ok(DVec3::new(x, y, z)),
+            _ => Err(step.fault(format!("\"{name}\" of <lookat>: expected three numbers"))),
+        }
+    };
+    let (origin, target) = (three("origin")?, three("target")?);
+    let ahead = (target - origin).try_normalize().ok_or_else(|| step.fault("<lookat> looks at its own place"))?;
+    let up = match step.attribute("up") {
+        Some(_) => three("up")?,
+        None => ahead.any_orthonormal_vector(),
+    };
+    let left = up.cross(ahead).try_normalize().ok_or_else(|| step.fault("<lookat> looks along its up"))?;
+    Ok(DAffine3::from_mat3_translation(DMat3::from_cols(left, ahead.cross(left), ahead), origin))
+}
+
+/// Row by row.
+fn matrix(step: &MitsubaElement) -> Result<DAffine3, Error> {
+    let text = step.attribute("value").ok_or_else(|| step.fault("<matrix> without \"value\""))?;
+    let numbers = numbers_of(text).map_err(|told| step.fault(told))?;
+    if let Ok(rows) = <[f64; 9]>::try_from(&numbers[..]) {
+        return Ok(DAffine3::from_mat3(DMat3::from_cols_array(&rows).transpose()));
+    }
+    let rows = <[f64; 16]>::try_from(&numbers[..])
+        .map_err(|_| step.fault(format!("{} numbers; a <matrix> has 9 or 16", numbers.len())))?;
+    match rows[12..] == [0.0, 0.0, 0.0, 1.0] {
+        true => Ok(DAffine3::from_mat4(DMat4::from_cols_array(&rows).transpose())),
+        false => Err(step.fault("a matrix that is no affine transform; expected 0, 0, 0, 1 as its last row")),
+    }
+}

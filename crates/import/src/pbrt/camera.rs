@@ -1,0 +1,153 @@
+//! Cameras and films.
+
+use super::parameters::Parameters;
+use crate::scenery::{Graphics, Report, to_ours};
+use crate::written::{ImportedCamera, View, pose_of};
+use etendue_core::maths::f64 as maths;
+use glam::{DAffine3, DMat3, DVec3};
+use std::rc::Rc;
+
+/// The field of what stands in for a camera that is not understood, degrees of the shorter side: a normal lens's.
+const STAND_IN_DEG: f64 = 40.0;
+
+/// The size of the picture.
+pub(super) struct Film {
+    size_px: [u64; 2],
+}
+
+impl Default for Film {
+    fn default() -> Self {
+        Self { size_px: [1280, 720] }
+    }
+}
+
+impl Film {
+    pub(super) fn read(parameters: Parameters<'_>) -> Result<Self, String> {
+        let pixels = |name: &str, default: f64| match parameters.number(name, default)? {
+            n if (1.0..=65_536.0).contains(&n) && n.fract() == 0.0 => Ok(n as u64),
+            n => Err(format!("\"{name}\" of {n}; expected a whole number from 1 to 65536")),
+        };
+        Ok(Self { size_px: [pixels("xresolution", 1280.0)?, pixels("yresolution", 720.0)?] })
+    }
+}
+
+/// A camera as the file has it.
+pub(super) struct PbrtCamera {
+    /// From its axes (x right, y up, z forward) to pbrt's world.
+    to_world: DAffine3,
+    kind: Kind,
+    /// Radius of the lens and distance of what is sharp, both above 0.
+    lens: Option<[f64; 2]>,
+    frame_aspect: Option<f64>,
+    window: Option<[f64; 4]>,
+    outside: Rc<str>,
+}
+
+enum Kind {
+    Perspective { fov_deg: f64 },
+    Orthographic,
+}
+
+/// A camera, and the medium that it stands in, empty for none.
+pub(super) struct Placed {
+    pub(super) camera: ImportedCamera,
+    pub(super) outside: Rc<str>,
+}
+
+impl PbrtCamera {
+    /// Where a file has none.
+    pub(super) fn at_origin() -> Self {
+        let (lens, frame_aspect, window) = (None, None, None);
+        let kind = Kind::Perspective { fov_deg: 90.0 };
+        Self { to_world: DAffine3::IDENTITY, kind, lens, frame_aspect, window, outside: Rc::from("") }
+    }
+
+    pub(super) fn read(
+        kind: &str,
+        parameters: Parameters<'_>,
+        graphics: &Graphics,
+        report: &mut Report,
+    ) -> Result<Self, String> {
+        let own = match kind {
+            "perspective" => {
+                let fov_deg = parameters.number("fov", 90.0)?;
+                if !(0.0..180.0).contains(&fov_deg) || fov_deg == 0.0 {
+                    return Err(format!("a field of {fov_deg}°; expected an angle between 0° and 180°"));
+                }
+                Kind::Perspective { fov_deg }
+            }
+            "orthographic" => Kind::Orthographic,
+            other => {
+                parameters.0.iter().for_each(|p| p.used.set(true));
+                report.note(format!(
+                    "the camera \"{other}\" is not understood: a perspective of {STAND_IN_DEG}° from its place is ours (a lens file: state it as our lens)"
+                ));
+                Kind::Perspective { fov_deg: STAND_IN_DEG }
+            }
+        };
+        let window = parameters.numbers("screenwindow")?.map(<[f64; 4]>::try_from).transpose();
+        let window = window.map_err(|_| "\"screenwindow\": expected four numbers")?;
+        let [radius, focus] = [parameters.number("lensradius", 0.0)?, parameters.number("focaldistance", 1e6)?];
+        let frame_aspect =
+            parameters.numbers("frameaspectratio")?.and_then(|n| n.first().copied()).filter(|a| *a > 0.0);
+        for name in ["shutteropen", "shutterclose"] {
+            if parameters.find(name).is_some() {
+                report.note("the camera's shutter is not used: nothing moves");
+            }
+        }
+        let lens = (radius > 0.0 && focus > 0.0).then_some([radius, focus]);
+        let outside = graphics.outside.clone();
+        Ok(Self { to_world: graphics.to_world.inverse(), kind: own, lens, frame_aspect, window, outside })
+    }
+
+    /// From pbrt's world to ours.
+    pub(super) fn to_ours(&self) -> DMat3 {
+        to_ours(self.to_world.matrix3)
+    }
+
+    pub(super) fn imported(self, film: &Film, to_ours: DMat3, report: &mut Report) -> Placed {
+        let [width, height] = film.size_px;
+        let aspect = self.frame_aspect.unwrap_or(width as f64 / height as f64);
+        let [half_x, half_y] = match self.window {
+            Some([x0, x1, y0, y1]) => {
+                if x0 + x1 != 0.0 || y0 + y1 != 0.0 {
+                    report.note("a \"screenwindow\" that is not centred is centred");
+                }
+                [0.5 * (x1 - x0).abs(), 0.5 * (y1 - y0).abs()]
+            }
+            None if aspect > 1.0 => [aspect, 1.0],
+            None => [1.0, 1.0 / aspect],
+        };
+        if ((half_x / half_y) * (height as f64 / width as f64) - 1.0).abs() > 1e-3 {
+            report.note("pixels that are not square are square: the picture's height holds");
+        }
+        let axis = |v: DVec3| to_ours * (self.to_world.matrix3 * v);
+        let yfov_rad = |fov_deg: f64| 2.0 * maths::atan2(half_y * maths::tan(0.5 * fov_deg.to_radians()), 1.0);
+        let view = match (self.kind, self.lens) {
+            (Kind::Perspective { fov_deg }, Some([radius_m, focus_m])) => {
+                let yfov_rad = yfov_rad(fov_deg);
+                let field = yfov_rad.to_degrees();
+                report.note(format!(
+                    "camera: perspective of {field:.4}° in height, a lens of radius {radius_m} m that is focused on {focus_m} m"
+                ));
+                View::Lens { yfov_rad, radius_m, focus_m }
+            }
+            (Kind::Perspective { fov_deg }, None) => {
+                let yfov_rad = yfov_rad(fov_deg);
+                report.note(format!("camera: perspective of {:.4}° in height", yfov_rad.to_degrees()));
+                View::Perspective { yfov_rad }
+            }
+            (Kind::Orthographic, lens) => {
+                if lens.is_some() {
+                    report.note("the lens of an orthographic camera is not used: all is sharp");
+                }
+                let width_m = 2.0 * half_x * axis(DVec3::X).length();
+                report.note(format!("camera: orthographic of {width_m} m in width"));
+                View::Orthographic { width_m }
+            }
+        };
+        let pose = pose_of(to_ours * self.to_world.translation, axis(DVec3::Z), axis(DVec3::Y));
+        let camera = ImportedCamera { name: "camera".to_owned(), pose, view, size_px: film.size_px };
+        Placed { camera, outside: self.outside }
+    }
+}

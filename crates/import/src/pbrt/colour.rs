@@ -1,0 +1,126 @@
+//! Spectra: rgb, tables, black bodies and names.
+
+use super::parameters::Parameters;
+use crate::scenery::{LightUnit, Scenery, coefficient_of_rgb, illuminant_of};
+use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
+use etendue_scene::record::{Colour, LightColour};
+use etendue_spectra::colour::BT709;
+use etendue_spectra::illuminant;
+use etendue_spectra::{Outside, Spectrum};
+
+pub(super) fn three(name: &str, numbers: &[f64]) -> Result<[f64; 3], String> {
+    let found = numbers.len();
+    numbers.try_into().map_err(|_| format!("\"{name}\": {found} numbers, where an rgb has three"))
+}
+
+/// How far beyond its ends a spectrum is 0, nm.
+const END_NM: f64 = 1e-3;
+
+/// Wavelengths in nm and values, one after the other.
+fn points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
+    let pairs: Vec<(f64, f64)> = numbers.as_chunks::<2>().0.iter().map(|[nm, value]| (*nm, *value)).collect();
+    let rising = pairs.windows(2).all(|pair| pair[0].0 < pair[1].0);
+    match numbers.len().is_multiple_of(2) && !pairs.is_empty() && rising {
+        true => Ok(pairs),
+        false => Err(format!("\"{name}\": expected pairs of wavelength and value, wavelengths rising")),
+    }
+}
+
+/// The same of a light or a share of it, which pbrt takes as 0 outside of the wavelengths given.
+fn ended_points(name: &str, numbers: &[f64]) -> Result<Vec<(f64, f64)>, String> {
+    let pairs = points(name, numbers)?;
+    let ends = [pairs[0].0 - END_NM, pairs[pairs.len() - 1].0 + END_NM].map(|nm| (nm, 0.0));
+    Ok(ends[..1].iter().chain(&pairs).chain(&ends[1..]).copied().collect())
+}
+
+/// A spectrum of pairs of wavelength and value.
+pub(super) fn table(name: &str, numbers: &[f64], outside: Outside) -> Result<Spectrum, String> {
+    Spectrum::from_points(&points(name, numbers)?, outside).map_err(|e| format!("\"{name}\": {e}"))
+}
+
+impl Scenery {
+    /// The light of the parameter `name`; white of luminance 1 where it is not there.
+    pub(super) fn light(&mut self, parameters: Parameters<'_>, name: &str) -> Result<LightUnit, String> {
+        let Some(parameter) = parameters.find(name) else {
+            return Ok(LightUnit { colour: illuminant_of("D65"), luminance: 1.0 });
+        };
+        match (&*parameter.kind, &parameter.values) {
+            ("rgb" | "color", PbrtValues::Numbers(numbers)) => {
+                let rgb = three(name, numbers)?;
+                if rgb.iter().any(|v| *v < 0.0) {
+                    return Err(format!("\"{name}\": light below 0"));
+                }
+                let luminance = rgb.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
+                Ok(LightUnit { colour: LightColour::Rgb(rgb.into()), luminance })
+            }
+            ("blackbody", PbrtValues::Numbers(numbers)) => {
+                let kelvin = *numbers.first().ok_or("a black body without its temperature")?;
+                let legal = kelvin.clamp(500.0, 20_000.0);
+                if legal != kelvin {
+                    self.report.note(format!("a black body of {kelvin} K is one of {legal} K"));
+                }
+                Ok(LightUnit { colour: LightColour::Temperature(legal.into()), luminance: 1.0 })
+            }
+            ("spectrum", PbrtValues::Numbers(numbers)) => {
+                let points = ended_points(name, numbers)?;
+                let file = self.spectrum_file(&points);
+                Ok(LightUnit { colour: LightColour::Spectrum(file.as_str().into()), luminance: 1.0 })
+            }
+            ("spectrum", PbrtValues::Texts(texts)) => Ok(self.named_light(texts)),
+            (kind, _) => Err(format!("\"{kind} {name}\" is no light; expected rgb, blackbody or spectrum")),
+        }
+    }
+
+    fn named_light(&mut self, texts: &[String]) -> LightUnit {
+        let name = texts.first().map_or("", String::as_str);
+        let own = name.strip_prefix("stdillum-").map(|name| name.replace('F', "FL"));
+        let known = own.filter(|name| illuminant::names().contains(&name.as_str()));
+        if known.is_none() {
+            self.report.note(format!("the light's spectrum \"{name}\" is not known: D65 in its place"));
+        }
+        LightUnit { colour: illuminant_of(known.as_deref().unwrap_or("D65")), luminance: 1.0 }
+    }
+
+    /// A share of light, 0 … 1.
+    pub(super) fn share(&mut self, parameter: &PbrtParameter) -> Result<Colour, String> {
+        let name = &parameter.name;
+        match (&*parameter.kind, &parameter.values) {
+            ("rgb" | "color", PbrtValues::Numbers(numbers)) => Ok(self.share_of_rgb(name, three(name, numbers)?)),
+            ("float", PbrtValues::Numbers(numbers)) if numbers.len() == 1 => {
+                Ok(Colour::Grey(self.cut(name, numbers[0]).into()))
+            }
+            ("spectrum", PbrtValues::Numbers(numbers)) => {
+                let points: Vec<(f64, f64)> =
+                    ended_points(name, numbers)?.into_iter().map(|(nm, v)| (nm, self.cut(name, v))).collect();
+                let file = self.spectrum_file(&points);
+                Ok(Colour::Spectrum(file.as_str().into()))
+            }
+            ("spectrum", PbrtValues::Texts(texts)) => {
+                let shown = texts.first().map_or("", String::as_str);
+                self.report
+                    .note(format!("the spectrum \"{shown}\" of a surface is not known: grey of 0.5 in its place"));
+                Ok(Colour::Grey(0.5.into()))
+            }
+            (kind, _) => Err(format!("\"{kind} {name}\" is no share of light; expected rgb or spectrum")),
+        }
+    }
+
+    /// A coefficient over the wavelength, 0 or more, at the wavelengths of [`smooth_file`](Self::smooth_file); the second number says whether it is
+    /// the same at all.
+    pub(super) fn coefficient(
+        &mut self,
+        parameters: Parameters<'_>,
+        name: &str,
+        default: [f64; 3],
+    ) -> Result<(Spectrum, Option<f64>), String> {
+        let rgb = match parameters.find(name).map(|p| (&*p.kind, &p.values)) {
+            None => default,
+            Some(("rgb" | "color", PbrtValues::Numbers(numbers))) => three(name, numbers)?,
+            Some(("spectrum", PbrtValues::Numbers(numbers))) => {
+                return Ok((table(name, numbers, Outside::Zero)?, None));
+            }
+            Some((kind, _)) => return Err(format!("\"{kind} {name}\": expected an rgb or a table of wavelengths")),
+        };
+        coefficient_of_rgb(name, rgb)
+    }
+}

@@ -1,0 +1,156 @@
+//! Pictures of light from infinity: from pbrt's equal-area square to our equirectangular ones.
+
+use super::octahedral::{direction_of, square_of};
+use crate::scenery::{Graphics, Scenery, linear_pixels};
+use etendue_io::picture::read_picture;
+use etendue_scene::asset::ImageAsset;
+use etendue_scene::record::Environment;
+use etendue_scene::record::environment::EnvironmentImage;
+use etendue_spectra::colour::BT709;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+impl Scenery {
+    /// The environment of a picture, whose numbers are cd/m² times `scale`, or times what gives a surface that faces the picture's +z `lux`; `None`, and
+    /// a note, where it is of a kind that is not read.
+    pub(super) fn environment(
+        &mut self,
+        file: &str,
+        graphics: &Graphics,
+        scale: f64,
+        lux: Option<f64>,
+    ) -> Result<Option<Environment>, String> {
+        let path = self.source_folder.join(file);
+        let image = read_picture(&path).map_err(|e| e.to_string())?.in_rec_709();
+        let Some(texels) = Texels::of(&image) else {
+            self.report.note(format!("the picture of light `{file}` is left out: expected linear numbers (EXR, HDR)"));
+            return Ok(None);
+        };
+        if image.width != image.height {
+            return Err(format!(
+                "`{file}` of {} by {} pixels; pbrt-v4 has squares (imgtool makeequiarea)",
+                image.width, image.height
+            ));
+        }
+        let scale = match lux {
+            Some(lux) => scale * lux / texels.illuminance().max(f64::MIN_POSITIVE),
+            None => scale,
+        };
+        if scale <= 0.0 || !scale.is_finite() {
+            self.report.note("a light \"infinite\" is dark and left out");
+            return Ok(None);
+        }
+        // Of the square 4 n² pixels cover the sphere as finely as 2 n × 4 n of ours do at the horizon.
+        let rows = image.height as usize;
+        let to_light = graphics.to_world.matrix3.inverse() * self.to_ours.transpose();
+        let found = |direction: DVec3| texels.bilinear(square_of((to_light * direction).normalize_or(DVec3::Z)));
+        let path = self.environment_file(rows, &found)?;
+        self.report
+            .note(format!("the light of `{file}`: resampled to {} by {rows} pixels, 1 is {scale} cd/m²", 2 * rows));
+        Ok(Some(Environment::Image(EnvironmentImage::new(path.as_str(), scale))))
+    }
+}
+
+/// Linear pixels of a square.
+struct Texels<'a> {
+    size: usize,
+    pixel: Box<dyn Fn(usize) -> [f32; 3] + 'a>,
+}
+
+impl<'a> Texels<'a> {
+    fn of(image: &'a ImageAsset) -> Option<Self> {
+        Some(Self { size: image.width as usize, pixel: linear_pixels(image)? })
+    }
+
+    /// What a surface that faces +z of the picture gets, lx of numbers in cd/m².
+    fn illuminance(&self) -> f64 {
+        let n = self.size;
+        let lux = |i: usize| {
+            let along = |k: usize| (k as f64 + 0.5) / n as f64;
+            let cos = direction_of([along(i % n), along(i / n)]).z.max(0.0);
+            let luminance: f64 = (self.pixel)(i).iter().zip(BT709).map(|(v, weight)| f64::from(*v) * weight).sum();
+            cos * luminance
+        };
+        (0..n * n).map(lux).sum::<f64>() * 4.0 * PI / (n * n) as f64
+    }
+
+    /// The texel of whole coordinates, which may lie one outside: there the square goes on mirrored about the middle of its edge.
+    fn at(&self, x: isize, y: isize) -> [f32; 3] {
+        let n = self.size as isize;
+        let inside = |v: isize| (0..n).contains(&v);
+        let (mut x, mut y) = (x, y);
+        if !inside(x) {
+            (x, y) = (x.clamp(0, n - 1), n - 1 - y);
+        }
+        if !inside(y) {
+            (x, y) = (n - 1 - x, y.clamp(0, n - 1));
+        }
+        (self.pixel)((y * n + x) as usize)
+    }
+
+    fn bilinear(&self, [u, v]: [f64; 2]) -> [f64; 3] {
+        let [x, y] = [u, v].map(|c| c * self.size as f64 - 0.5);
+        let (x0, y0) = (x.floor(), y.floor());
+        let (fx, fy) = (x - x0, y - y0);
+        let corner = |dx: isize, dy: isize| self.at(x0 as isize + dx, y0 as isize + dy).map(f64::from);
+        let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
+        std::array::from_fn(|i| (1.0 - fy) * ((1.0 - fx) * a[i] + fx * b[i]) + fy * ((1.0 - fx) * c[i] + fx * d[i]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenery::resampled;
+    use etendue_core::maths::f64 as maths;
+
+    const SIZE: usize = 32;
+
+    /// Half of the square white, resampled.
+    fn half(is_white: impl Fn(usize, usize) -> bool) -> Vec<f32> {
+        let pixel = |i: usize| [f32::from(u8::from(is_white(i % SIZE, i / SIZE))); 3];
+        let texels = Texels { size: SIZE, pixel: Box::new(pixel) };
+        resampled(SIZE, &|direction| texels.bilinear(square_of(direction)))[0].clone()
+    }
+
+    #[test]
+    fn directions_are_found_where_they_were() {
+        let at = |image: &[f32], azimuth_deg: f64| {
+            let column = ((180.0 - azimuth_deg) / 360.0 * 2.0 * SIZE as f64) as usize % (2 * SIZE);
+            image[(SIZE / 2) * 2 * SIZE + column]
+        };
+        // The square's left half is x < 0, its upper half y < 0, its inner half (by area) z > 0.
+        let behind = half(|x, _| x < SIZE / 2);
+        assert_eq!([0.0, 80.0, 100.0, 180.0, -100.0].map(|a| at(&behind, a)), [0.0, 0.0, 1.0, 1.0, 1.0]);
+        let right = half(|_, y| y < SIZE / 2);
+        assert_eq!([10.0, 90.0, 170.0, -10.0, -90.0].map(|a| at(&right, a)), [0.0, 0.0, 0.0, 1.0, 1.0]);
+        let above = half(|x, y| (2 * x + 1).abs_diff(SIZE) + (2 * y + 1).abs_diff(SIZE) < SIZE);
+        let row = |row: usize| &above[row * 2 * SIZE..(row + 1) * 2 * SIZE];
+        assert!(row(4).iter().all(|v| *v == 1.0) && row(SIZE - 5).iter().all(|v| *v == 0.0));
+    }
+
+    #[test]
+    fn an_even_picture_of_1_cd_m2_gives_pi_lx() {
+        let texels = |white: fn(usize) -> f32| Texels { size: SIZE, pixel: Box::new(move |i| [white(i); 3]) };
+        // The horizon runs along the diagonals of 2 n of n² texels, whose centres count as dark; their upper halves see it at a mean cosine of 4 / (3 n).
+        // That is (2 n · ½ · 4 / (3 n)) / (n² / 4) = 16 / (3 n²) of the whole at most.
+        let even = texels(|_| 1.0).illuminance();
+        assert!((even - PI).abs() < 16.0 / (3 * SIZE * SIZE) as f64 * PI, "{even}");
+        // Its corners are the sky below.
+        let below = texels(|i| f32::from(u8::from(i % SIZE + i / SIZE < SIZE / 2 - 1)));
+        assert_eq!(below.illuminance(), 0.0);
+    }
+
+    #[test]
+    fn light_is_kept() {
+        let image = half(|x, y| (x + y) % 3 == 0);
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for (row, values) in image.chunks(2 * SIZE).enumerate() {
+            let weight = maths::cos(PI * (0.5 - (row as f64 + 0.5) / SIZE as f64));
+            sum += weight * values.iter().map(|v| f64::from(*v)).sum::<f64>();
+            weights += weight * values.len() as f64;
+        }
+        // A third of the texels, of equal areas; the mean of an uneven sample of stripes of one texel is off by some thousandths.
+        assert!((sum / weights - 1.0 / 3.0).abs() < 5e-3, "{}", sum / weights);
+    }
+}

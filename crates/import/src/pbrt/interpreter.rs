@@ -1,0 +1,286 @@
+//! Directives to a scene: the state that they change, and what they make.
+
+use super::camera::{Film, PbrtCamera};
+use super::parameters::Parameters;
+use crate::scenery::{Graphics, Scenery};
+use crate::syntax::pbrt::{PbrtDirective, PbrtParameter, PbrtPlace};
+use crate::written::{Written, written};
+use etendue_core::maths::f64 as maths;
+use glam::{DAffine3, DMat3, DMat4, DVec3};
+use std::collections::HashMap;
+use std::path::Path;
+use std::rc::Rc;
+
+/// Blocks within one another, and shapes of instances.
+const MAX_DEPTH: usize = 1 << 10;
+
+/// A shape of an object that is placed later.
+#[derive(Clone)]
+struct Stored {
+    kind: String,
+    parameters: Rc<Vec<PbrtParameter>>,
+    graphics: Graphics,
+}
+
+pub(super) struct Interpreter {
+    scenery: Scenery,
+    graphics: Graphics,
+    blocks: Vec<(bool, Graphics)>,
+    systems: HashMap<String, DAffine3>,
+    camera: Option<PbrtCamera>,
+    film: Film,
+    in_world: bool,
+    /// Whether transforms are of the start of the exposure.
+    at_start: bool,
+    objects: HashMap<String, Vec<Stored>>,
+    open_object: Option<String>,
+}
+
+impl Interpreter {
+    pub(super) fn new(file: &Path, folder: &Path) -> Self {
+        Self {
+            scenery: Scenery::new(file, folder),
+            graphics: Graphics::plain(),
+            blocks: Vec::new(),
+            systems: HashMap::new(),
+            camera: None,
+            film: Film::default(),
+            in_world: false,
+            at_start: true,
+            objects: HashMap::new(),
+            open_object: None,
+        }
+    }
+
+    pub(super) fn take(&mut self, directive: PbrtDirective, place: PbrtPlace<'_>) -> Result<(), String> {
+        let file = place.file.file_name().unwrap_or_default().to_string_lossy();
+        self.scenery.report.at(format!("{file}:{}", place.line));
+        match directive {
+            PbrtDirective::Plain(name) => self.plain(name),
+            PbrtDirective::Numbers(name, numbers) => self.transform(name, &numbers),
+            PbrtDirective::Named(name, word) => self.named(name, word),
+            PbrtDirective::MediumInterface([inside, outside]) => {
+                (self.graphics.inside, self.graphics.outside) = (inside.into(), outside.into());
+                Ok(())
+            }
+            PbrtDirective::Typed(name, kind, parameters) => self.typed(name, kind, parameters),
+            PbrtDirective::Texture([name, values, kind], parameters) => {
+                self.scenery.texture(&name, &values, &kind, Parameters(&parameters))
+            }
+            PbrtDirective::Setting(option) => {
+                self.scenery.report.note(format!("`Option \"{}\"` is not used", option.name));
+                Ok(())
+            }
+            PbrtDirective::Include(_) => Ok(()),
+        }
+    }
+
+    fn plain(&mut self, name: &str) -> Result<(), String> {
+        match name {
+            "WorldBegin" => self.begin_world()?,
+            "Identity" => self.set(DAffine3::IDENTITY),
+            "ReverseOrientation" => self.graphics.reverse_orientation = !self.graphics.reverse_orientation,
+            "AttributeBegin" | "TransformBegin" => {
+                if self.blocks.len() >= MAX_DEPTH {
+                    return Err(format!("blocks stand more than {MAX_DEPTH} deep in one another"));
+                }
+                self.blocks.push((name == "AttributeBegin", self.graphics.clone()));
+            }
+            "AttributeEnd" | "TransformEnd" => match self.blocks.pop() {
+                Some((true, before)) if name == "AttributeEnd" => self.graphics = before,
+                Some((false, before)) if name == "TransformEnd" => self.graphics.to_world = before.to_world,
+                _ => return Err(format!("`{name}` without its beginning; the file is damaged")),
+            },
+            "ObjectEnd" => {
+                self.open_object.take().ok_or("`ObjectEnd` without its beginning; the file is damaged")?;
+                return self.plain("AttributeEnd");
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn begin_world(&mut self) -> Result<(), String> {
+        if std::mem::replace(&mut self.in_world, true) {
+            return Err("a second `WorldBegin`".to_owned());
+        }
+        let camera = self.camera.get_or_insert_with(PbrtCamera::at_origin);
+        self.scenery.to_ours = camera.to_ours();
+        self.graphics.to_world = DAffine3::IDENTITY;
+        self.systems.insert("world".to_owned(), DAffine3::IDENTITY);
+        Ok(())
+    }
+
+    fn set(&mut self, to_world: DAffine3) {
+        if self.at_start {
+            self.graphics.to_world = to_world;
+        } else {
+            self.scenery
+                .report
+                .note("motion (`ActiveTransform`) is not used: all stands as at the start of the exposure");
+        }
+    }
+
+    fn transform(&mut self, name: &str, numbers: &[f64]) -> Result<(), String> {
+        let now = self.graphics.to_world;
+        let next = match (name, numbers) {
+            ("Translate", [x, y, z]) => now * DAffine3::from_translation(DVec3::new(*x, *y, *z)),
+            ("Scale", [x, y, z]) => now * DAffine3::from_scale(DVec3::new(*x, *y, *z)),
+            ("Rotate", [angle, x, y, z]) => now * DAffine3::from_mat3(rotation(*angle, DVec3::new(*x, *y, *z))?),
+            ("LookAt", [ex, ey, ez, lx, ly, lz, ux, uy, uz]) => {
+                let [eye, look, up] = [[*ex, *ey, *ez], [*lx, *ly, *lz], [*ux, *uy, *uz]].map(DVec3::from_array);
+                now * look_at(eye, look, up)?.inverse()
+            }
+            ("Transform", numbers) => affine(numbers)?,
+            ("ConcatTransform", numbers) => now * affine(numbers)?,
+            _ => {
+                self.scenery.report.note("motion (`TransformTimes`) is not used");
+                return Ok(());
+            }
+        };
+        if !next.is_finite() || next.matrix3.determinant() == 0.0 {
+            return Err(format!("`{name}` makes a space without extent; correct its numbers"));
+        }
+        self.set(next);
+        Ok(())
+    }
+
+    fn named(&mut self, name: &str, word: String) -> Result<(), String> {
+        match name {
+            "CoordinateSystem" => {
+                self.systems.insert(word, self.graphics.to_world);
+            }
+            "CoordSysTransform" => match self.systems.get(&word) {
+                Some(system) => self.set(*system),
+                None => return Err(format!("no coordinate system \"{word}\" stands before this")),
+            },
+            "NamedMaterial" => self.graphics.material = self.scenery.named_material(&word),
+            "ObjectBegin" => {
+                self.plain("AttributeBegin")?;
+                if self.open_object.is_some() {
+                    return Err("an object within an object".to_owned());
+                }
+                self.objects.insert(word.clone(), Vec::new());
+                self.open_object = Some(word);
+            }
+            "ObjectInstance" => return self.instance(&word),
+            "ActiveTransform" => self.at_start = word != "EndTime",
+            "ColorSpace" if word != "srgb" => {
+                self.scenery.report.note(format!("colours of \"{word}\" are taken as sRGB's"));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn typed(&mut self, name: &'static str, kind: String, parameters: Vec<PbrtParameter>) -> Result<(), String> {
+        let given = Parameters(&parameters);
+        let told = |what: String| format!("{name} \"{kind}\": {what}");
+        match name {
+            "Camera" => {
+                let camera = PbrtCamera::read(&kind, given, &self.graphics, &mut self.scenery.report).map_err(told)?;
+                self.systems.insert("camera".to_owned(), self.graphics.to_world.inverse());
+                self.camera = Some(camera);
+            }
+            "Film" => {
+                self.film = Film::read(given).map_err(told)?;
+                self.scenery
+                    .report
+                    .note(format!("the film \"{kind}\" gives the size of the picture, and no more is used of it"));
+            }
+            "Sampler" | "Integrator" | "PixelFilter" | "Accelerator" => {
+                self.scenery.report.note(format!("{name} \"{kind}\" is not used: how light is found is the job's"));
+            }
+            "Attribute" => self.scenery.report.note(format!("`Attribute \"{kind}\"` is not understood and left out")),
+            "Material" => self.graphics.material = self.scenery.material(&kind, given, None).map_err(told)?,
+            "MakeNamedMaterial" => {
+                let of = given.text("type").map_err(told)?.unwrap_or("").to_owned();
+                self.scenery.material(&of, given, Some(&kind)).map_err(told)?;
+            }
+            "MakeNamedMedium" => self.scenery.medium(&kind, given).map_err(told)?,
+            "LightSource" => self.scenery.light_source(&kind, given, &self.graphics).map_err(told)?,
+            "AreaLightSource" => {
+                self.graphics.area_light = self.scenery.area_light(&kind, given).map_err(told)?.map(Rc::new);
+            }
+            _ => return self.shape(kind, parameters),
+        }
+        self.scenery.note_unused(&format!("{name} \"{kind}\""), given.unused());
+        Ok(())
+    }
+
+    fn shape(&mut self, kind: String, parameters: Vec<PbrtParameter>) -> Result<(), String> {
+        if !self.in_world {
+            return Err("a shape before `WorldBegin`".to_owned());
+        }
+        if let Some(object) = &self.open_object {
+            let graphics = self.graphics.clone();
+            let stored = Stored { kind, parameters: Rc::new(parameters), graphics };
+            self.objects.entry(object.clone()).or_default().push(stored);
+            return Ok(());
+        }
+        self.scenery.shape(&kind, Parameters(&parameters), &self.graphics)
+    }
+
+    fn instance(&mut self, word: &str) -> Result<(), String> {
+        if self.open_object.is_some() {
+            return Err("an instance within an object".to_owned());
+        }
+        let stored = self.objects.get(word).ok_or_else(|| format!("no object \"{word}\" stands before this"))?;
+        for Stored { kind, parameters, graphics } in stored {
+            if graphics.area_light.is_some() {
+                self.scenery.report.note("shapes of instances give no light, as in pbrt");
+            }
+            let to_world = self.graphics.to_world * graphics.to_world;
+            let placed = Graphics { to_world, area_light: None, ..graphics.clone() };
+            self.scenery.shape(kind, Parameters(parameters), &placed)?;
+        }
+        Ok(())
+    }
+
+    /// The files of the scene.
+    pub(super) fn finish(mut self, file: &Path) -> Result<Written, String> {
+        if !self.in_world {
+            return Err("it has no `WorldBegin`: no scene of pbrt-v4 (older ones: pbrt --upgrade)".to_owned());
+        }
+        if !self.blocks.is_empty() {
+            return Err("a block has no end: the file may be truncated".to_owned());
+        }
+        self.scenery.report.at(String::new());
+        let camera = self.camera.take().unwrap_or_else(PbrtCamera::at_origin);
+        let camera = camera.imported(&self.film, self.scenery.to_ours, &mut self.scenery.report);
+        self.scenery.fill_air(&camera.outside);
+        let Scenery { scene, mut report, files, .. } = self.scenery;
+        let counts =
+            [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len(), scene.media.len()];
+        let [objects, materials, textures, lights, media] = counts;
+        report.note(format!(
+            "made: {objects} objects, {materials} materials, {textures} textures, {lights} lights, {media} media"
+        ));
+        let mut made = written(file, &scene, &[camera.camera], report.lines());
+        made.files.extend(files);
+        Ok(made)
+    }
+}
+
+/// By Rodrigues' formula; degrees.
+fn rotation(degrees: f64, axis: DVec3) -> Result<DMat3, String> {
+    let axis = axis.try_normalize().ok_or("`Rotate` about no axis")?;
+    let (s, c) = maths::sin_cos(degrees.to_radians());
+    let column = |v: DVec3| c * v + s * axis.cross(v) + (1.0 - c) * axis.dot(v) * axis;
+    Ok(DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)))
+}
+
+/// From a camera (x right, y up, z forward) to the world.
+fn look_at(eye: DVec3, look: DVec3, up: DVec3) -> Result<DAffine3, String> {
+    let ahead = (look - eye).try_normalize().ok_or("`LookAt` looks at its own place")?;
+    let right = up.cross(ahead).try_normalize().ok_or("`LookAt` looks along its up")?;
+    Ok(DAffine3::from_mat3_translation(DMat3::from_cols(right, ahead.cross(right), ahead), eye))
+}
+
+fn affine(numbers: &[f64]) -> Result<DAffine3, String> {
+    let numbers: [f64; 16] = numbers.try_into().map_err(|_| "a matrix of 16 numbers is expected")?;
+    match [numbers[3], numbers[7], numbers[11], numbers[15]] == [0.0, 0.0, 0.0, 1.0] {
+        true => Ok(DAffine3::from_mat4(DMat4::from_cols_array(&numbers))),
+        false => Err("a matrix that is no affine transform; expected 0, 0, 0, 1 as every fourth number".to_owned()),
+    }
+}

@@ -1,0 +1,251 @@
+//! Materials.
+
+use super::colour::table;
+use super::parameters::Parameters;
+use crate::scenery::{INTERFACE, KnownTexture, Scenery, plain};
+use crate::syntax::pbrt::PbrtValues;
+use etendue_scene::asset::COAT_INDICES;
+use etendue_scene::record::Colour;
+use etendue_scene::record::material::{
+    Coated, Conductor, Dielectric, Diffuse, Factor, Leaf, Material, Metal, Mix, Surface, ThinSheet,
+};
+use etendue_spectra::{Outside, Spectrum, metal};
+use std::rc::Rc;
+
+/// pbrt's α of a roughness.
+fn remapped(roughness: f64) -> f64 {
+    roughness.max(0.0).sqrt()
+}
+
+fn kept(roughness: f64) -> f64 {
+    roughness
+}
+
+impl Scenery {
+    /// Makes a material of ours; its name. `named` is what the file calls it.
+    pub(super) fn material(
+        &mut self,
+        kind: &str,
+        parameters: Parameters<'_>,
+        named: Option<&str>,
+    ) -> Result<Rc<str>, String> {
+        let laid = self.known.pictures_laid;
+        let made: Rc<str> = match self.surface_of(kind, parameters)? {
+            None => INTERFACE.into(),
+            Some(surface) => {
+                let own: Rc<str> = self.names.take(named.unwrap_or(kind), "material").into();
+                for unread in ["displacement", "normalmap"] {
+                    if parameters.find(unread).is_some() {
+                        self.report.note(format!("\"{unread}\" of a material is not used"));
+                    }
+                }
+                self.scene.materials.push(Material::new(&*own, surface));
+                own
+            }
+        };
+        if self.known.pictures_laid > laid {
+            self.known.pictured.insert(made.clone());
+        }
+        if let Some(name) = named {
+            self.known.materials.insert(name.to_owned(), made.clone());
+        }
+        Ok(made)
+    }
+
+    /// The material of ours that the file calls so; grey where it has none.
+    pub(super) fn named_material(&mut self, name: &str) -> Rc<str> {
+        match self.known.materials.get(name) {
+            Some(own) => {
+                let own = own.clone();
+                self.known.pictures_laid += usize::from(self.known.pictured.contains(&own));
+                own
+            }
+            None => {
+                self.report.note(format!("no material \"{name}\" stands before its use: grey of 0.5 in its place"));
+                "".into()
+            }
+        }
+    }
+
+    fn surface_of(&mut self, kind: &str, parameters: Parameters<'_>) -> Result<Option<Surface>, String> {
+        Ok(Some(match kind {
+            "diffuse" => Surface::Diffuse(Diffuse::new(self.reflectance(parameters, "reflectance", 0.5)?)),
+            "coateddiffuse" => Surface::Coated(self.coated(parameters)?),
+            "conductor" => Surface::Conductor(self.conductor(parameters, "")?),
+            "coatedconductor" => {
+                self.report.note("the coat of a \"coatedconductor\" is not used: its metal is bare");
+                Surface::Conductor(self.conductor(parameters, "conductor.")?)
+            }
+            "dielectric" => {
+                let alpha = self.alpha(parameters, "")?;
+                let index = self.index(parameters)?;
+                let alpha = Some(alpha).filter(|a| !matches!(a, Factor::Number(n) if n.value == 0.0));
+                Surface::Dielectric(Dielectric { alpha, ..Dielectric::new(index) })
+            }
+            "thindielectric" => {
+                let index = self.index(parameters)?;
+                Surface::ThinSheet(ThinSheet { index: Some(index.into()), ..ThinSheet::default() })
+            }
+            "diffusetransmission" => {
+                if parameters.number("scale", 1.0)? != 1.0 {
+                    self.report.note("\"scale\" of a \"diffusetransmission\" is taken as 1");
+                }
+                let reflectance = self.reflectance(parameters, "reflectance", 0.25)?;
+                Surface::Leaf(Leaf::new(reflectance, self.reflectance(parameters, "transmittance", 0.25)?))
+            }
+            "mix" => self.mix(parameters)?,
+            "interface" | "none" | "" => return Ok(None),
+            other => {
+                self.report.note(format!("the material \"{other}\" is not understood: grey of 0.5 in its place"));
+                parameters.0.iter().for_each(|p| p.used.set(true));
+                Surface::Diffuse(Diffuse::new(plain(0.5)))
+            }
+        }))
+    }
+
+    /// α of a surface that is alike in all directions.
+    fn alpha(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Factor, String> {
+        let map = if parameters.flag("remaproughness", true)? { remapped } else { kept };
+        let [u, v] = ["uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
+        let both = format!("{prefix}roughness");
+        match (parameters.find(&u).is_some(), parameters.find(&v).is_some()) {
+            (false, false) => self.factor(parameters, &both, 0.0, map),
+            _ => {
+                let [a, b] = [self.factor(parameters, &u, 0.0, map)?, self.factor(parameters, &v, 0.0, map)?];
+                if let (Factor::Number(a), Factor::Number(b)) = (&a, &b)
+                    && a.value != b.value
+                {
+                    self.report.note("roughness that differs by direction is alike in all: α is the geometric mean");
+                    return Ok(Factor::Number((a.value * b.value).sqrt().into()));
+                }
+                Ok(a)
+            }
+        }
+    }
+
+    fn index(&mut self, parameters: Parameters<'_>) -> Result<f64, String> {
+        let Some(eta) = parameters.find("eta") else { return Ok(1.5) };
+        let index = match &eta.values {
+            PbrtValues::Numbers(numbers) if numbers.len() == 1 => numbers[0],
+            PbrtValues::Numbers(numbers) => {
+                self.report.note("an index over the wavelength is that at 587.6 nm: glass bodies do not disperse");
+                f64::from(table("eta", numbers, Outside::Hold)?.at(587.56))
+            }
+            PbrtValues::Texts(texts) => {
+                let name = texts.first().map_or("", String::as_str);
+                let known = [
+                    ("glass-BK7", 1.5168),
+                    ("glass-BAF10", 1.67003),
+                    ("glass-FK51A", 1.48656),
+                    ("glass-LASF9", 1.85025),
+                    ("glass-F5", 1.60342),
+                    ("glass-SF5", 1.67271),
+                    ("glass-SF10", 1.72828),
+                    ("glass-SF11", 1.78472),
+                ];
+                let found = known.iter().find(|(glass, _)| *glass == name);
+                match found {
+                    Some(_) => self.report.note("a glass is its index at 587.6 nm: glass bodies do not disperse"),
+                    None => {
+                        self.report.note(format!("the glass \"{name}\" is not known: an index of 1.5 in its place"));
+                    }
+                }
+                found.map_or(1.5, |(_, index)| *index)
+            }
+            PbrtValues::Flags(_) => return Err("\"eta\": expected a number".to_owned()),
+        };
+        let legal = index.clamp(1.0, 4.0);
+        if legal != index {
+            self.report.note(format!("an index of {index} is one of {legal}"));
+        }
+        Ok(legal)
+    }
+
+    fn coated(&mut self, parameters: Parameters<'_>) -> Result<Coated, String> {
+        if parameters.numbers("albedo")?.is_some_and(|a| a.iter().any(|v| *v != 0.0)) {
+            self.report.note("light that a coat scatters within itself (\"albedo\") is not used");
+        }
+        // What it takes to scatter within the coat counts with an albedo alone, and how often it is followed is ours.
+        ["g", "maxdepth", "nsamples"].iter().for_each(|name| {
+            parameters.find(name);
+        });
+        if parameters.find("thickness").is_some() {
+            self.report.note("the \"thickness\" of a coat is not used: light leaves it where it went in");
+        }
+        let reflectance = self.reflectance(parameters, "reflectance", 0.5)?;
+        let stated = self.index(parameters)?;
+        let index = stated.clamp(*COAT_INDICES.start(), *COAT_INDICES.end());
+        if index != stated {
+            self.report.note(format!("a coat of index {stated} is one of {index}"));
+        }
+        let alpha = self.alpha(parameters, "")?;
+        Ok(Coated { index: Some(index.into()), ..Coated::new(reflectance, alpha) })
+    }
+
+    fn conductor(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Conductor, String> {
+        let alpha = self.alpha(parameters, prefix)?;
+        let metal = match parameters.find("reflectance") {
+            Some(_) => self.metal_of_reflectance(parameters)?,
+            None => self.metal_of_index(parameters, prefix)?,
+        };
+        Ok(Conductor::new(metal, alpha))
+    }
+
+    fn metal_of_reflectance(&mut self, parameters: Parameters<'_>) -> Result<Metal, String> {
+        let parameter = parameters.find("reflectance").ok_or("no reflectance")?;
+        let rgb = match self.texture_of(parameter, true)? {
+            Some(KnownTexture::Even(rgb)) => rgb,
+            Some(KnownTexture::Picture { .. }) => {
+                self.report.note("a picture of a metal's reflectance is 0.5");
+                [0.5; 3]
+            }
+            None => match self.share(parameter)? {
+                Colour::Grey(v) => [v.value; 3],
+                Colour::LinearSrgb(rgb) => rgb.value,
+                _ => {
+                    self.report.note("a table of a metal's reflectance is 0.5");
+                    [0.5; 3]
+                }
+            },
+        };
+        Ok(self.metal_of_rgb(rgb))
+    }
+
+    fn metal_of_index(&mut self, parameters: Parameters<'_>, prefix: &str) -> Result<Metal, String> {
+        let [eta, k] = ["eta", "k"].map(|name| parameters.find(&format!("{prefix}{name}")));
+        match (eta.map(|p| &p.values), k.map(|p| &p.values)) {
+            (None, None) => Ok(Metal::Named("Cu".into())),
+            (Some(PbrtValues::Texts(texts)), _) => {
+                let name = texts.first().map_or("", String::as_str);
+                let symbol = name.strip_prefix("metal-").and_then(|rest| rest.strip_suffix("-eta")).unwrap_or(name);
+                if metal::names().contains(&symbol) {
+                    return Ok(Metal::Named(symbol.into()));
+                }
+                self.report.note(format!("the metal \"{name}\" is not known: aluminium in its place"));
+                Ok(Metal::Named("Al".into()))
+            }
+            (Some(PbrtValues::Numbers(n)), Some(PbrtValues::Numbers(k))) => {
+                // A single number is the same at all wavelengths.
+                let of = |name: &str, numbers: &[f64]| match numbers {
+                    [even] => Ok(Spectrum::from_fn(|_| *even)),
+                    // An index of 0 outside, as pbrt has it, is no material.
+                    pairs => table(name, pairs, Outside::Hold),
+                };
+                let [n, k] = [of("eta", n)?, of("k", k)?];
+                Ok(self.index_file(|nm| f64::from(n.at(nm)), |nm| f64::from(k.at(nm))))
+            }
+            _ => Err("\"eta\" and \"k\": expected the name of a metal, or a table of both".to_owned()),
+        }
+    }
+
+    fn mix(&mut self, parameters: Parameters<'_>) -> Result<Surface, String> {
+        let names = parameters.texts("materials")?.ok_or("a mix without its \"materials\"")?;
+        let [a, b] = names else { return Err(format!("{} materials, where a mix has two", names.len())) };
+        let [a, b] = [a, b].map(|name| {
+            let own = self.named_material(name);
+            self.known_material(if &*own == INTERFACE { "" } else { &own })
+        });
+        let weight = self.factor(parameters, "amount", 0.5, kept)?;
+        Ok(Surface::Mix(Mix::new(a.as_str(), b.as_str(), weight)))
+    }
+}

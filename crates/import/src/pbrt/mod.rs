@@ -1,0 +1,33 @@
+//! Scenes of pbrt-v4.
+//!
+//! Source: "Input file format (v4)" of pbrt.org and the program's own code where the page leaves a rule open (docs/import.md lists the rules).
+//!
+//! pbrt's space is left-handed and has no up: ours is its mirror image, with the axis upwards that is nearest to the camera's up, so that pictures
+//! are the same. A length of 1 is a metre; a radiance of 1 of white light is 1 cd/m², by which pbrt's `power` and `illuminance` are lm and lx.
+
+mod camera;
+mod colour;
+mod environment;
+mod interpreter;
+mod light;
+mod material;
+mod media;
+mod octahedral;
+mod parameters;
+mod shape;
+mod surface;
+mod texture;
+
+use super::written::Written;
+use crate::syntax::pbrt::read_pbrt;
+use etendue_io::Sandbox;
+use etendue_io::failure::Error;
+use interpreter::Interpreter;
+use std::path::Path;
+
+pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
+    let mut interpreter = Interpreter::new(file, folder);
+    read_pbrt(file, &Sandbox::NONE, &mut |directive, place| interpreter.take(directive, place))
+        .map_err(Error::input)?;
+    interpreter.finish(file).map_err(|told| Error::input(format!("{}: {told}", file.display())))
+}

@@ -1,0 +1,204 @@
+//! Shapes: meshes in their places, spheres, discs, cylinders.
+
+use super::parameters::Parameters;
+use crate::scenery::{Graphics, Scenery, Triangles, above_zero};
+use etendue_scene::record::material::Factor;
+
+impl Scenery {
+    pub(super) fn shape(&mut self, kind: &str, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
+        let told = |what: String| format!("Shape \"{kind}\": {what}");
+        let Some(graphics) = &self.with_alpha(parameters, graphics).map_err(told)? else { return Ok(()) };
+        match kind {
+            "trianglemesh" => {
+                let mesh = Triangles::of(parameters).map_err(told)?;
+                let mesh = if self.lays_picture(graphics) { mesh.with_uv() } else { mesh };
+                self.mesh(mesh, graphics).map_err(told)?;
+            }
+            "plymesh" => {
+                let mesh = self.ply(parameters).map_err(told)?;
+                let mesh = if self.lays_picture(graphics) { mesh.with_uv() } else { mesh };
+                self.mesh(mesh, graphics).map_err(told)?;
+            }
+            "bilinearmesh" => {
+                self.report.note("bilinear patches are two triangles each: exact where they are flat");
+                let mesh = Triangles::of_patches(parameters).map_err(told)?;
+                self.mesh(mesh, graphics).map_err(told)?;
+            }
+            "sphere" => self.sphere(parameters, graphics).map_err(told)?,
+            "disk" => self.disc(parameters, graphics).map_err(told)?,
+            "cylinder" => self.cylinder(parameters, graphics).map_err(told)?,
+            other => {
+                let why = match other {
+                    "loopsubdiv" => {
+                        "surfaces are not subdivided here: pbrt --format or another program makes a mesh of it"
+                    }
+                    "curve" => "hairs have no shape here",
+                    _ => "it has no shape here",
+                };
+                self.report.note(format!("the shape \"{other}\" is left out: {why}"));
+                return Ok(());
+            }
+        }
+        self.note_unused(&format!("Shape \"{kind}\""), parameters.unused());
+        Ok(())
+    }
+
+    /// What holds for a shape with its "alpha"; `None` where it says that nothing is there.
+    fn with_alpha(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<Option<Graphics>, String> {
+        let opacity = match self.factor(parameters, "alpha", 1.0, |alpha| alpha)? {
+            Factor::Number(share) if share.value >= 1.0 => None,
+            Factor::Number(share) if share.value <= 0.0 => {
+                // So lights are hidden in pbrt's scenes: a shape that nobody sees gives light all the same.
+                self.report.note(match graphics.area_light {
+                    Some(_) => {
+                        "a light of alpha 0, which pbrt lets shine unseen, is left out: what shines is seen here"
+                    }
+                    None => "a shape of alpha 0 is left out: it is not there",
+                });
+                return Ok(None);
+            }
+            some => Some(some),
+        };
+        Ok(Some(Graphics { opacity, ..graphics.clone() }))
+    }
+
+    fn ply(&mut self, parameters: Parameters<'_>) -> Result<Triangles, String> {
+        let name = parameters.text("filename")?.ok_or("no \"filename\"")?;
+        if name.ends_with(".gz") {
+            return Err(format!("`{name}`: compressed files are not read; unpack it and change the name"));
+        }
+        if parameters.find("displacement").is_some() {
+            self.report.note("\"displacement\" of a mesh is not used");
+        }
+        Triangles::read(&self.source_folder.join(name))
+    }
+
+    fn sphere(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
+        let radius = above_zero("radius", parameters.number("radius", 1.0)?)?;
+        let [a, b] = [parameters.number("zmin", -radius)?, parameters.number("zmax", radius)?];
+        let heights = [a.min(b), a.max(b)].map(|z| z.clamp(-radius, radius));
+        let turn_deg = turn_deg(parameters)?;
+        if heights == [-radius, radius] && turn_deg == 360.0 && !self.lays_picture(graphics) {
+            self.whole_sphere(radius, graphics);
+            return Ok(());
+        }
+        self.round(Triangles::of_sphere(radius, heights, turn_deg.to_radians()), graphics)
+    }
+
+    fn disc(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
+        let radius = above_zero("radius", parameters.number("radius", 1.0)?)?;
+        let (inner, height) = (parameters.number("innerradius", 0.0)?, parameters.number("height", 0.0)?);
+        let turn_deg = turn_deg(parameters)?;
+        if inner == 0.0 && turn_deg == 360.0 && !self.lays_picture(graphics) {
+            self.whole_disc(radius, height, graphics);
+            return Ok(());
+        }
+        self.round(Triangles::of_ring([radius, inner], height, turn_deg.to_radians(), |s, t| [s, t]), graphics)
+    }
+
+    fn cylinder(&mut self, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {
+        let radius = above_zero("radius", parameters.number("radius", 1.0)?)?;
+        let [a, b] = [parameters.number("zmin", -1.0)?, parameters.number("zmax", 1.0)?];
+        let turn_deg = turn_deg(parameters)?;
+        self.round(Triangles::of_cylinder(radius, [a.min(b), a.max(b)], turn_deg.to_radians()), graphics)
+    }
+
+    /// A round shape as one mesh.
+    fn round(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
+        self.report
+            .note("cylinders, and spheres and discs that carry a picture or are not whole, are meshes of 256 sides");
+        self.surface(mesh, graphics, 1)
+    }
+
+    /// Whether a picture is laid by the texture coordinates of a shape.
+    fn lays_picture(&self, graphics: &Graphics) -> bool {
+        matches!(graphics.opacity, Some(Factor::Texture(_))) || self.known.pictured.contains(&graphics.material)
+    }
+}
+
+/// The turn of a round shape about its axis, 0 to 360°.
+fn turn_deg(parameters: Parameters<'_>) -> Result<f64, String> {
+    Ok(parameters.number("phimax", 360.0)?.clamp(0.0, 360.0))
+}
+
+impl Triangles {
+    fn of(parameters: Parameters<'_>) -> Result<Self, String> {
+        let mesh = Self::points(parameters)?;
+        let triangles = indices::<3>(parameters, mesh.positions.len())?;
+        Ok(Self { triangles, ..mesh })
+    }
+
+    /// Corners of a patch stand in rows: (0, 0), (1, 0), (0, 1), (1, 1).
+    fn of_patches(parameters: Parameters<'_>) -> Result<Self, String> {
+        let mesh = Self::points(parameters)?;
+        let patches = indices::<4>(parameters, mesh.positions.len())?;
+        if mesh.uvs.is_empty() {
+            return Ok(mesh.of_own_patches(&patches));
+        }
+        let triangles = patches.into_iter().flat_map(halves).collect();
+        Ok(Self { triangles, ..mesh })
+    }
+
+    /// Patches with vertices of their own and the texture coordinates of their corners, as pbrt gives where a file has none.
+    fn of_own_patches(self, patches: &[[u32; 4]]) -> Self {
+        let corners = patches.iter().flatten().map(|i| *i as usize);
+        Self {
+            normals: corners.clone().filter_map(|i| self.normals.get(i)).copied().collect(),
+            positions: corners.map(|i| self.positions[i]).collect(),
+            uvs: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].repeat(patches.len()),
+            triangles: (0..patches.len() as u32).map(|i| [0, 1, 2, 3].map(|k| 4 * i + k)).flat_map(halves).collect(),
+        }
+    }
+
+    /// The same with the texture coordinates of pbrt's corners where it has none of its own.
+    fn with_uv(self) -> Self {
+        if self.uvs.is_empty() { self.with_corners_as_uv() } else { self }
+    }
+
+    fn points(parameters: Parameters<'_>) -> Result<Self, String> {
+        let positions = whole::<3, f64>("P", parameters.numbers("P")?.ok_or("no \"P\"")?)?.to_vec();
+        let normals = whole::<3, f64>("N", parameters.numbers("N")?.unwrap_or_default())?.to_vec();
+        let uvs = match parameters.numbers("uv")? {
+            Some(uvs) => Some(uvs),
+            None => parameters.numbers("st")?,
+        };
+        let uvs = whole::<2, f64>("uv", uvs.unwrap_or_default())?.to_vec();
+        for (name, found) in [("N", normals.len()), ("uv", uvs.len())] {
+            if found != 0 && found != positions.len() {
+                return Err(format!("{found} of \"{name}\" for {} of \"P\"", positions.len()));
+            }
+        }
+        Ok(Self { positions, normals, uvs, triangles: Vec::new() })
+    }
+}
+
+/// The triangles of a patch.
+fn halves([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
+    [[a, b, d], [a, d, c]]
+}
+
+/// The corners of faces of `N`: of one face, in their order, where the file does not say them.
+fn indices<const N: usize>(parameters: Parameters<'_>, vertices: usize) -> Result<Vec<[u32; N]>, String> {
+    match parameters.numbers("indices")? {
+        Some(stated) => {
+            let legal = stated.iter().map(|i| index(*i, vertices)).collect::<Result<Vec<u32>, _>>()?;
+            whole::<N, u32>("indices", &legal).map(<[_]>::to_vec)
+        }
+        None if vertices == N => Ok(vec![std::array::from_fn(|i| i as u32)]),
+        None => Err("no \"indices\"".to_owned()),
+    }
+}
+
+fn index(value: f64, vertices: usize) -> Result<u32, String> {
+    match value.fract() == 0.0 && value >= 0.0 && value < vertices as f64 {
+        true => Ok(value as u32),
+        false => Err(format!("index {value} is out of range: there are {vertices} points")),
+    }
+}
+
+fn whole<'a, const N: usize, T>(name: &str, values: &'a [T]) -> Result<&'a [[T; N]], String> {
+    match values.as_chunks::<N>() {
+        (chunks, []) => Ok(chunks),
+        _ => Err(format!("\"{name}\": {} numbers, which is no multiple of {N}", values.len())),
+    }
+}

@@ -1,0 +1,148 @@
+//! Round shapes as meshes, where they carry a texture or are parts: their texture coordinates are then those of the program that wrote the scene.
+
+use super::triangles::Triangles;
+use etendue_core::maths::f64 as maths;
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// Parts of a turn about the axis: their chords lie within 7.5e-5 of the radius.
+const SIDES: u32 = 256;
+/// Parts of the angle from pole to pole.
+const RINGS: u32 = 128;
+
+/// A point of a surface.
+pub(crate) struct Point {
+    pub(crate) position: DVec3,
+    /// Unit.
+    pub(crate) normal: DVec3,
+    /// v points upwards in pictures.
+    pub(crate) uv: [f64; 2],
+}
+
+impl Triangles {
+    /// A surface over the unit square, which `point` gives at (s, t); triangles without area are left out.
+    fn over_square(columns: u32, rows: u32, point: impl Fn(f64, f64) -> Point) -> Self {
+        let mut made = Self::default();
+        for row in 0..=rows {
+            for column in 0..=columns {
+                let Point { position, normal, uv } =
+                    point(f64::from(column) / f64::from(columns), f64::from(row) / f64::from(rows));
+                made.positions.push(position.to_array());
+                made.normals.push(normal.to_array());
+                made.uvs.push(uv);
+            }
+        }
+        let at = |row: u32, column: u32| row * (columns + 1) + column;
+        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+            let [a, b] = [at(row, column), at(row, column + 1)];
+            let [c, d] = [at(row + 1, column), at(row + 1, column + 1)];
+            for corners in [[a, b, d], [a, d, c]] {
+                if made.has_area(corners) {
+                    made.triangles.push(corners);
+                }
+            }
+        }
+        made
+    }
+
+    fn has_area(&self, corners: [u32; 3]) -> bool {
+        let [a, b, c] = corners.map(|i| DVec3::from_array(self.positions[i as usize]));
+        let longest = [a.distance(b), b.distance(c), c.distance(a)].into_iter().fold(0.0, f64::max);
+        (b - a).cross(c - a).length() > 1e-12 * longest * longest
+    }
+
+    /// The part of a sphere about the origin between two heights z, over `turn_rad` from +x towards +y. u is the share of the turn, v that of the angle
+    /// from the lower to the upper border. (Mitsuba's whole sphere has the same.)
+    pub(crate) fn of_sphere(radius: f64, [low, high]: [f64; 2], turn_rad: f64) -> Self {
+        let polar = |z: f64| maths::acos((z / radius).clamp(-1.0, 1.0));
+        let (from, to) = (polar(low), polar(high));
+        Self::over_square(SIDES, RINGS, |s, t| {
+            let (sin, cos) = maths::sin_cos(from + (to - from) * t);
+            let around = around(s * turn_rad);
+            let normal = DVec3::new(sin * around.x, sin * around.y, cos);
+            Point { position: radius * normal, normal, uv: [s, t] }
+        })
+    }
+
+    /// The side of a cylinder about z between two heights, over `turn_rad` from +x towards +y. u is the share of the turn, v that of the height.
+    pub(crate) fn of_cylinder(radius: f64, [low, high]: [f64; 2], turn_rad: f64) -> Self {
+        Self::over_square(SIDES, 1, |s, t| {
+            let normal = around(s * turn_rad);
+            Point { position: radius * normal + DVec3::Z * (low + (high - low) * t), normal, uv: [s, t] }
+        })
+    }
+
+    /// The ring between an outer and an inner radius (0: a disc) in the plane z = `height`, its front towards +z, over `turn_rad` from +x towards +y;
+    /// `uv` gives the texture coordinates at the shares of the turn and of the way from the outer border to the inner.
+    pub(crate) fn of_ring(
+        [outer, inner]: [f64; 2],
+        height: f64,
+        turn_rad: f64,
+        uv: impl Fn(f64, f64) -> [f64; 2],
+    ) -> Self {
+        // One row would lay a texture by straight lines across each triangle, which end in one point of the middle.
+        Self::over_square(SIDES, RINGS, |s, t| {
+            let position = around(s * turn_rad) * (outer + (inner - outer) * t) + DVec3::Z * height;
+            Point { position, normal: DVec3::Z, uv: uv(s, t) }
+        })
+    }
+
+    /// The same triangles with vertices of their own and the texture coordinates that pbrt gives where a file has none: those of the corners of each.
+    pub(crate) fn with_corners_as_uv(self) -> Self {
+        let corners = self.triangles.iter().flatten().map(|i| *i as usize);
+        let take = |list: &[[f64; 3]]| match list.is_empty() {
+            true => Vec::new(),
+            false => corners.clone().map(|i| list[i]).collect(),
+        };
+        Self {
+            positions: take(&self.positions),
+            normals: take(&self.normals),
+            uvs: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]].repeat(self.triangles.len()),
+            triangles: (0..self.triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        }
+    }
+}
+
+/// A unit vector at this angle from +x towards +y; exact after whole turns.
+fn around(angle_rad: f64) -> DVec3 {
+    let (sin, cos) = maths::sin_cos(if angle_rad >= TAU { 0.0 } else { angle_rad });
+    DVec3::new(cos, sin, 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn area(mesh: &Triangles) -> f64 {
+        let at = |i: u32| DVec3::from_array(mesh.positions[i as usize]);
+        mesh.triangles.iter().map(|[a, b, c]| 0.5 * (at(*b) - at(*a)).cross(at(*c) - at(*a)).length()).sum()
+    }
+
+    /// Areas of zones (Archimedes), sides and rings; chords lose 1e-4 of them.
+    #[test]
+    fn parts_have_their_areas() {
+        let parts = [
+            (Triangles::of_sphere(2.0, [-2.0, 2.0], TAU), 2.0 * TAU * 4.0),
+            (Triangles::of_sphere(2.0, [-1.0, 0.5], 0.25 * TAU), 0.25 * TAU * 2.0 * 1.5),
+            (Triangles::of_cylinder(0.5, [1.0, 4.0], 0.5 * TAU), 0.5 * TAU * 0.5 * 3.0),
+            (Triangles::of_ring([3.0, 1.0], 2.0, TAU, |s, t| [s, t]), 0.5 * TAU * 8.0),
+            (Triangles::of_ring([3.0, 0.0], 2.0, 0.3 * TAU, |s, t| [s, t]), 0.15 * TAU * 9.0),
+        ];
+        for (mesh, expected) in parts {
+            let found = area(&mesh);
+            assert!((found / expected - 1.0).abs() < 2e-4, "{found} for {expected}");
+        }
+    }
+
+    #[test]
+    fn coordinates_of_a_sphere_begin_at_its_south_pole_and_at_x() {
+        let ball = Triangles::of_sphere(1.0, [-1.0, 1.0], TAU);
+        let find = |at: DVec3| {
+            let near = |p: &&([f64; 3], &[f64; 2])| DVec3::from_array(p.0).distance(at) < 1e-9;
+            *ball.positions.iter().copied().zip(&ball.uvs).collect::<Vec<_>>().iter().find(near).expect("a vertex").1
+        };
+        assert_eq!(find(DVec3::X), [0.0, 0.5]);
+        assert_eq!(find(DVec3::Y), [0.25, 0.5]);
+        assert_eq!((find(DVec3::NEG_Z)[1], find(DVec3::Z)[1]), (0.0, 1.0));
+    }
+}

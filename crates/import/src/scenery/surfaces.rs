@@ -1,0 +1,93 @@
+//! Surfaces: the default one, those that give light, metals by tables.
+
+use super::stage::Scenery;
+use etendue_scene::record::material::{Diffuse, Factor, Material, Metal, Surface};
+use etendue_scene::record::{Colour, Reflectance, SurfaceEmission};
+use etendue_spectra::upsample;
+use std::fmt::Write as _;
+use std::rc::Rc;
+
+impl Scenery {
+    /// A material by its name in ours; the grey one where it is empty.
+    pub(crate) fn known_material(&mut self, own: &str) -> String {
+        if !own.is_empty() {
+            return own.to_owned();
+        }
+        if let Some(grey) = self.known.materials.get("") {
+            return grey.to_string();
+        }
+        let grey: Rc<str> = self.names.take("default", "default").into();
+        self.known.materials.insert(String::new(), grey.clone());
+        self.scene.materials.push(Material::new(&*grey, Surface::Diffuse(Diffuse::new(plain(0.5)))));
+        grey.to_string()
+    }
+
+    /// The black surface of lights that have none of their own, one for all of them.
+    pub(crate) fn black(&mut self) -> Rc<str> {
+        const KEY: &str = "black/";
+        if let Some(black) = self.known.materials.get(KEY) {
+            return black.clone();
+        }
+        let black: Rc<str> = self.names.take("black", "black").into();
+        self.known.materials.insert(KEY.to_owned(), black.clone());
+        self.scene.materials.push(Material::new(&*black, Surface::Diffuse(Diffuse::new(plain(0.0)))));
+        black
+    }
+
+    /// A copy of a material that gives light.
+    pub(crate) fn glowing(&mut self, own: &str, emission: SurfaceEmission) -> String {
+        let own = self.known_material(own);
+        let name = self.names.take(&format!("{own}-light"), "light");
+        let found = self.scene.materials.iter().find(|m| m.name.value == own).cloned();
+        let own = found.unwrap_or_else(|| Material::new(name.as_str(), Surface::Diffuse(Diffuse::new(plain(0.5)))));
+        self.scene.materials.push(Material { name: name.as_str().into(), emission: Some(emission), ..own });
+        name
+    }
+
+    /// A copy of a material of which only a share is there.
+    pub(crate) fn thinned(&mut self, own: &str, opacity: Factor) -> String {
+        let told = match &opacity {
+            Factor::Number(share) => format!("{own} {}", share.value),
+            Factor::Texture(texture) => {
+                let channel = texture.channel.as_ref().map(|c| c.value);
+                format!("{own} {} {channel:?} {:?}", texture.texture.value, texture.scale.as_ref().map(|s| s.value))
+            }
+        };
+        if let Some(known) = self.known.thinned.get(&told) {
+            return known.to_string();
+        }
+        let name = self.names.take(&format!("{own}-thin"), "thin");
+        let found = self.scene.materials.iter().find(|m| m.name.value == own).cloned();
+        let copy = found.map(|m| Material { name: name.as_str().into(), opacity: Some(opacity), ..m });
+        self.scene.materials.extend(copy);
+        self.known.thinned.insert(told, name.as_str().into());
+        name
+    }
+
+    /// A metal that reflects shares of light of linear sRGB at normal incidence, as pbrt has it: n = 1 and the k that reflects so.
+    pub(crate) fn metal_of_rgb(&mut self, rgb: [f64; 3]) -> Metal {
+        let reflectance = upsample::reflectance_spectrum(rgb.map(|v| v as f32));
+        let k = |nm: f32| {
+            let r = f64::from(reflectance.at(nm)).clamp(0.0, 0.9999);
+            2.0 * r.sqrt() / (1.0 - r).sqrt()
+        };
+        self.index_file(|_| 1.0, k)
+    }
+
+    /// A metal of a complex refractive index over the wavelength, in a file beside the scene.
+    pub(crate) fn index_file(&mut self, n: impl Fn(f32) -> f64, k: impl Fn(f32) -> f64) -> Metal {
+        let mut text = "wavelength_nm,n,k\n".to_owned();
+        for nm in (60_u16..=166).map(|i| 5 * i) {
+            let at = f32::from(nm);
+            writeln!(text, "{nm},{},{}", n(at).max(1e-3), k(at).max(0.0)).expect("a text grows");
+        }
+        let name = self.file_names.take("metal", "metal");
+        let path = self.add_file(format!("spectra/{name}.csv"), text.into_bytes());
+        Metal::File(path.as_str().into())
+    }
+}
+
+/// The same reflectance at all wavelengths.
+pub(crate) fn plain(reflectance: f64) -> Reflectance {
+    Reflectance::Plain(Colour::Grey(reflectance.into()))
+}

@@ -1,0 +1,187 @@
+//! XML to elements.
+
+use std::cell::Cell;
+use std::path::Path;
+use std::rc::Rc;
+
+use etendue_scene::limits;
+use roxmltree::{Document, Node};
+
+use super::element::{MitsubaElement, MitsubaPlace, MitsubaScene};
+use super::folders::Folders;
+use super::lines::Lines;
+use super::names::{TAGS, modern, shortened};
+use super::parameters::Parameters;
+use etendue_io::source::{decode_text, read_description_bytes};
+use etendue_io::{Error, Sandbox};
+
+/// Files that include one another.
+const MAX_INCLUDES: usize = 16;
+/// Elements within one another.
+const MAX_DEPTH: usize = 64;
+
+/// What is known while files are read.
+pub(super) struct Reading<'a> {
+    folders: Folders,
+    sandbox: &'a Sandbox,
+    /// Of all files so far.
+    bytes: u64,
+    parameters: Parameters,
+    count: usize,
+}
+
+/// A file that is being read.
+struct OpenFile {
+    path: Rc<Path>,
+    lines: Lines,
+    /// Whether names are of a version before 2.
+    is_old: bool,
+    /// How many files include it.
+    includes: usize,
+}
+
+impl OpenFile {
+    fn fault(&self, node: &Node<'_, '_>, what: String) -> Error {
+        Error::at(&self.path, self.lines.line(node.range().start), what)
+    }
+}
+
+impl<'a> Reading<'a> {
+    pub(super) fn new(file: &Path, given: &[(String, String)], sandbox: &'a Sandbox) -> Result<Self, String> {
+        let parameters = Parameters::given(given)?;
+        Ok(Self { folders: Folders::beside(file), sandbox, bytes: 0, parameters, count: 0 })
+    }
+
+    /// The scene of the first file.
+    pub(super) fn scene(mut self, file: &Path) -> Result<MitsubaScene, Error> {
+        let root = self.file(file, 0)?;
+        if root.tag != "scene" {
+            let tag = root.tag;
+            return Err(root.fault(format!("<{tag}> where a whole scene is expected: a file whose root is <scene>")));
+        }
+        self.parameters.check_used().map_err(|told| Error::new(file, told))?;
+        Ok(MitsubaScene { root, folders: self.folders.all() })
+    }
+
+    fn file(&mut self, file: &Path, includes: usize) -> Result<MitsubaElement, Error> {
+        let bytes = read_description_bytes(file, "scene")?;
+        self.bytes += bytes.len() as u64;
+        limits::DESCRIPTION.check_unpacked(self.bytes).map_err(|told| Error::new(file, told))?;
+        let text = decode_text(file, &bytes)?;
+        let document = Document::parse(text).map_err(|e| {
+            let told = format!("no well-formed XML: {}", shortened(&e.to_string()));
+            Error::at(file, e.pos().row as usize, told)
+        })?;
+        let root = document.root_element();
+        let mut open = OpenFile { path: file.into(), lines: Lines::of(text), is_old: false, includes };
+        let version = root.attribute("version").ok_or_else(|| {
+            open.fault(&root, "no \"version\" of the root element: no scene of Mitsuba 3, which has it".to_owned())
+        })?;
+        let major = version.split('.').next().and_then(|major| major.trim().parse::<u32>().ok());
+        open.is_old = match major {
+            Some(major @ 0..=3) => major < 2,
+            _ => {
+                let told = format!("version \"{}\"; expected one up to 3, as \"3.0.0\"", shortened(version));
+                return Err(open.fault(&root, told));
+            }
+        };
+        self.element(&root, &open, 0)
+    }
+
+    fn element(&mut self, node: &Node<'_, '_>, file: &OpenFile, depth: usize) -> Result<MitsubaElement, Error> {
+        if depth >= MAX_DEPTH {
+            return Err(file.fault(node, format!("elements stand more than {MAX_DEPTH} deep in one another")));
+        }
+        let word = match node.tag_name().name() {
+            "lookAt" => "lookat",
+            word => word,
+        };
+        let Some(&tag) = TAGS.iter().find(|tag| **tag == word) else {
+            return Err(file.fault(node, format!("<{}> is no element of Mitsuba's scenes", shortened(word))));
+        };
+        let attributes = node
+            .attributes()
+            .map(|attribute| {
+                let value = self.parameters.put_in(attribute.value(), &mut self.bytes);
+                let value = value.map_err(|told| file.fault(node, told))?;
+                let is_parameter = attribute.name() == "name" && !matches!(tag, "default" | "alias" | "include");
+                let value = if file.is_old && is_parameter { modern(&value) } else { value };
+                Ok((attribute.name().into(), value.into()))
+            })
+            .collect::<Result<Vec<_>, Error>>()?;
+        let place = MitsubaPlace { file: file.path.clone(), line: file.lines.line(node.range().start) };
+        let number = self.count;
+        self.count += 1;
+        let mut element =
+            MitsubaElement { tag, attributes, children: Vec::new(), place, number, used: Cell::new(false) };
+        for child in node.children() {
+            if child.is_element() {
+                self.child(&child, file, depth, &mut element.children)?;
+            } else if child.is_text() && child.text().is_some_and(|text| !text.trim().is_empty()) {
+                return Err(file.fault(&child, format!("text within <{tag}>; expected elements alone")));
+            }
+        }
+        if file.is_old && tag == "bsdf" && element.kind() == "diffuse" {
+            element.children.iter_mut().for_each(rename_reflectance);
+        }
+        Ok(element)
+    }
+
+    /// Puts what an element within another becomes behind its `siblings`.
+    fn child(
+        &mut self,
+        node: &Node<'_, '_>,
+        file: &OpenFile,
+        depth: usize,
+        siblings: &mut Vec<MitsubaElement>,
+    ) -> Result<(), Error> {
+        let element = self.element(node, file, depth + 1)?;
+        let needed = |name: &str| {
+            let told = || element.fault(format!("<{}> without \"{name}\"", element.tag));
+            element.attribute(name).map(str::to_owned).ok_or_else(told)
+        };
+        match element.tag {
+            "default" => {
+                let (name, value) = (needed("name")?, needed("value")?);
+                self.parameters.default(name, value).map_err(|told| element.fault(told))?;
+            }
+            "path" if depth > 0 => {
+                return Err(element.fault("<path> within another element; expected it in the scene itself"));
+            }
+            "path" => {
+                let is_folder = |path: &Path| self.sandbox.check(path).map(|()| path.is_dir());
+                let added = self.folders.add(&needed("value")?, &file.path, is_folder);
+                added.map_err(|told| element.fault(told))?;
+            }
+            "include" => {
+                let included = self.included(&needed("filename")?, &element, file)?;
+                match included.tag {
+                    "scene" => siblings.extend(included.children),
+                    _ => siblings.push(included),
+                }
+            }
+            _ => siblings.push(element),
+        }
+        Ok(())
+    }
+
+    fn included(&mut self, name: &str, at: &MitsubaElement, file: &OpenFile) -> Result<MitsubaElement, Error> {
+        let mark = self.folders.begin(&file.path);
+        let path = self.folders.find(name);
+        self.sandbox.check(&path).map_err(|why| at.fault(format!("<include filename=\"{name}\">: {why}")))?;
+        if file.includes + 1 >= MAX_INCLUDES {
+            let told = format!("files include one another more than {MAX_INCLUDES} deep; include less, or each once");
+            return Err(at.fault(told));
+        }
+        let included = self.file(&path, file.includes + 1);
+        self.folders.end(&mark);
+        included
+    }
+}
+
+/// What colours a `diffuse` of a version before 2, by its name of today.
+fn rename_reflectance(parameter: &mut MitsubaElement) {
+    let names =
+        parameter.attributes.iter_mut().filter(|(name, value)| &**name == "name" && &**value == "diffuse_reflectance");
+    names.for_each(|(_, value)| *value = "reflectance".into());
+}

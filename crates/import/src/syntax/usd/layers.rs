@@ -1,0 +1,166 @@
+//! Layers and packages as `openusd` asks for them: read within limits, and looked at before they are parsed.
+
+use super::arcs::Arcs;
+use super::crate_bounds::check_crate;
+use super::package::{Package, packed};
+use super::text_bounds::check_text;
+use super::tree::UsdFile;
+use etendue_io::source::read_bytes;
+use etendue_io::{Error, Sandbox};
+use etendue_scene::limits;
+use openusd::ar::{
+    Asset, DefaultResolver, ResolvedPath, Resolver, is_package_relative_path, split_package_relative_path_outer,
+};
+use openusd::usdc::CrateData;
+use std::cell::{Cell, RefCell};
+use std::collections::{HashMap, HashSet};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+/// How a crate begins.
+const CRATE: &[u8] = b"PXR-USDC";
+
+/// Files of a scene.
+#[derive(Clone)]
+pub(super) struct Layers(Rc<Shared>);
+
+struct Shared {
+    paths: DefaultResolver,
+    sandbox: Sandbox,
+    packages: RefCell<HashMap<PathBuf, Rc<Package>>>,
+    /// Layers that were looked at, by what they are called.
+    seen: RefCell<HashSet<String>>,
+    bytes: Cell<u64>,
+    arcs: RefCell<Arcs>,
+    /// The first file that is refused: `openusd` goes on without it.
+    fault: RefCell<Option<Error>>,
+}
+
+impl Layers {
+    pub(super) fn new(sandbox: &Sandbox) -> Self {
+        Self(Rc::new(Shared {
+            paths: DefaultResolver::new(),
+            sandbox: sandbox.clone(),
+            packages: RefCell::default(),
+            seen: RefCell::default(),
+            bytes: Cell::new(0),
+            arcs: RefCell::default(),
+            fault: RefCell::default(),
+        }))
+    }
+
+    /// The first file that was refused.
+    pub(super) fn fault(&self) -> Option<Error> {
+        self.0.fault.borrow().clone()
+    }
+
+    /// Where a file lies that a value names, of its resolved path.
+    pub(super) fn file(&self, resolved: &str) -> Option<UsdFile> {
+        if !is_package_relative_path(resolved) {
+            return Some(UsdFile::Plain(PathBuf::from(resolved)));
+        }
+        let (package, name) = split_package_relative_path_outer(resolved)?;
+        let package = self.package(Path::new(&package)).ok()?;
+        packed(&package, &name).map(|bytes| UsdFile::Packed(name, bytes))
+    }
+
+    fn read(&self, file: &Path) -> Result<Vec<u8>, Error> {
+        self.0.sandbox.check(file).map_err(|told| Error::missing(file, told))?;
+        read_bytes(file, "USD")
+    }
+
+    fn package(&self, file: &Path) -> Result<Rc<Package>, Error> {
+        if let Some(known) = self.0.packages.borrow().get(file) {
+            return Ok(known.clone());
+        }
+        let package = Package::new(self.read(file)?).map_err(|told| Error::new(file, told))?;
+        if package.layers().next().is_none() {
+            return Err(Error::new(file, format!("a package without a layer; it has {}", package.shown())));
+        }
+        let package = Rc::new(package);
+        self.0.packages.borrow_mut().insert(file.to_owned(), package.clone());
+        Ok(package)
+    }
+
+    /// The bytes of a layer or package, looked at.
+    fn opened(&self, resolved: &str) -> Result<Vec<u8>, Error> {
+        let (file, bytes) = match split_package_relative_path_outer(resolved) {
+            Some((package, name)) if is_package_relative_path(resolved) => {
+                let file = PathBuf::from(package);
+                let found = self.package(&file)?.file(&name).map(<[u8]>::to_vec);
+                let found = found.ok_or_else(|| Error::new(&file, format!("no file \"{name}\" in this package")))?;
+                (file, found)
+            }
+            _ if Path::new(resolved).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("usdz")) => {
+                return Ok(self.package(Path::new(resolved))?.of_layers());
+            }
+            _ => (PathBuf::from(resolved), self.read(Path::new(resolved))?),
+        };
+        if self.0.seen.borrow().contains(resolved) {
+            return Ok(bytes);
+        }
+        self.0.bytes.set(self.0.bytes.get() + bytes.len() as u64);
+        limits::MESH.check_unpacked(self.0.bytes.get()).map_err(|told| Error::new(&file, told))?;
+        let checked = if bytes.starts_with(CRATE) { check_crate(&bytes) } else { check_text(&bytes) };
+        let checked = checked.and_then(|()| self.check_arcs(&bytes));
+        checked.map_err(|told| Error::new(&file, format!("damaged, or no scene that is read: {told}")))?;
+        self.0.seen.borrow_mut().insert(resolved.to_owned());
+        Ok(bytes)
+    }
+}
+
+impl Layers {
+    /// Parses a layer that has classes once more, for its circles; what cannot be parsed is told by whoever composes it.
+    fn check_arcs(&self, bytes: &[u8]) -> Result<(), String> {
+        let is_crate = bytes.starts_with(CRATE);
+        let has = |word: &[u8]| bytes.windows(word.len()).any(|found| found == word);
+        // Names of a crate's fields are packed.
+        if !is_crate && !has(b"inherit") && !has(b"specializes") {
+            return Ok(());
+        }
+        let mut arcs = self.0.arcs.borrow_mut();
+        if is_crate {
+            return CrateData::open(io::Cursor::new(bytes), true).map_or(Ok(()), |layer| arcs.add(&layer));
+        }
+        let Ok(text) = std::str::from_utf8(bytes) else { return Ok(()) };
+        openusd::usda::parse(text).map_or(Ok(()), |layer| arcs.add(&layer))
+    }
+}
+
+impl Resolver for Layers {
+    fn create_identifier(&self, asset_path: &str, anchor: Option<&ResolvedPath>) -> String {
+        self.0.paths.create_identifier(asset_path, anchor)
+    }
+
+    fn resolve(&self, asset_path: &str) -> Option<ResolvedPath> {
+        let (file, within) = match split_package_relative_path_outer(asset_path) {
+            Some((package, name)) if is_package_relative_path(asset_path) => (PathBuf::from(package), Some(name)),
+            _ => (PathBuf::from(asset_path), None),
+        };
+        self.0.sandbox.check(&file).ok()?;
+        if !file.is_absolute() || !file.is_file() {
+            return None;
+        }
+        if let Some(name) = within {
+            self.package(&file).ok()?.file(&name)?;
+        }
+        Some(ResolvedPath::new(asset_path))
+    }
+
+    fn resolve_for_new_asset(&self, _asset_path: &str) -> Option<ResolvedPath> {
+        None
+    }
+
+    fn open_asset(&self, resolved_path: &ResolvedPath) -> io::Result<Box<dyn Asset>> {
+        let resolved = resolved_path.to_string_lossy();
+        match self.opened(&resolved) {
+            Ok(bytes) => Ok(Box::new(io::Cursor::new(bytes))),
+            Err(error) => {
+                let told = io::Error::other(error.to_string());
+                self.0.fault.borrow_mut().get_or_insert(error);
+                Err(told)
+            }
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! A stage, prim by prim.
+
+use super::layers::Layers;
+use super::tree::{UsdAttribute, UsdAxis, UsdPrim, UsdRelation, UsdStage};
+use super::values::{bytes_of, plain};
+use etendue_io::guard::guarded;
+use etendue_io::{Error, Sandbox};
+use etendue_scene::limits;
+use openusd::sdf::{Specifier, Value};
+use openusd::usd::{Attribute, Prim, Relationship, Stage, TimeCode};
+use openusd::usda::parser::Parser;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Prims of a stage, instances counted each: `openusd` keeps some kilobytes for each.
+const MAX_PRIMS: usize = 100_000;
+/// Prims within one another.
+const MAX_DEPTH: usize = 64;
+/// What could not be composed is told so often.
+const MAX_NOTES: usize = 50;
+/// What a composed prim takes, and each arc by which something is said of it, bytes.
+const PRIM: u64 = 4096;
+const NODE: u64 = 16_384;
+/// What an attribute takes beside its value, bytes.
+const OVERHEAD: u64 = 256;
+
+/// Reads a scene with all layers that it names, which must lie in `sandbox`.
+///
+/// # Errors
+/// Where the file cannot be read or is damaged, or a layer of it is; what a layer names and is not there is said in the stage's notes.
+pub fn read_usd(file: &Path, sandbox: &Sandbox) -> Result<UsdStage, Error> {
+    // Whether it is there, and of what kind, is told in our words.
+    sandbox.check(file).map_err(|told| Error::missing(file, told))?;
+    if !file.is_file() {
+        etendue_io::source::read_bytes(file, "USD")?;
+    }
+    let real = std::path::absolute(file).map_err(|cause| Error::missing(file, cause.to_string()))?;
+    guarded(file, || Reading { file, layers: Layers::new(sandbox), time: 0.0, prims: 0, bytes: 0 }.stage(&real))
+}
+
+struct Reading<'a> {
+    file: &'a Path,
+    layers: Layers,
+    time: f64,
+    prims: usize,
+    bytes: u64,
+}
+
+impl Reading<'_> {
+    fn fault(&self, told: impl std::fmt::Display) -> Error {
+        Error::new(self.file, format!("no scene that can be read: {told}"))
+    }
+
+    fn stage(mut self, real: &Path) -> Result<UsdStage, Error> {
+        let opened = Stage::builder().resolver(self.layers.clone()).open(&real.to_string_lossy());
+        let stage = opened.map_err(|cause| {
+            let place = self.layers.fault().or_else(|| self.place_of_fault(real));
+            place.unwrap_or_else(|| self.fault(format!("{cause:#}")))
+        })?;
+        self.time = stage.start_time_code();
+        let metres = number(&stage, "metersPerUnit");
+        if let Some(wrong) = metres.filter(|m| !(*m > 0.0 && m.is_finite())) {
+            let told = format!("\"metersPerUnit\" of {wrong}; expected a finite number above 0");
+            return Err(Error::new(self.file, told));
+        }
+        let up = match stage.stage_metadata("upAxis") {
+            Ok(Some(Value::Token(axis))) if axis.as_str() == "Z" => UsdAxis::Z,
+            Ok(Some(Value::String(axis))) if axis == "Z" => UsdAxis::Z,
+            _ => UsdAxis::Y,
+        };
+        let roots = self.children(&stage.prim("/"), 0);
+        if let Some(fault) = self.layers.fault() {
+            return Err(fault);
+        }
+        let metres_per_unit = metres.unwrap_or(0.01);
+        let errors = stage.composition_errors();
+        let mut notes: Vec<String> =
+            errors.iter().take(MAX_NOTES).map(|error| format!("not composed: {error}")).collect();
+        if errors.len() > MAX_NOTES {
+            notes.push(format!("not composed: {} others", errors.len() - MAX_NOTES));
+        }
+        Ok(UsdStage { metres_per_unit, says_metres: metres.is_some(), up, start_time: self.time, roots: roots?, notes })
+    }
+
+    /// Of a text that is not parsed: its line.
+    fn place_of_fault(&self, real: &Path) -> Option<Error> {
+        let text = String::from_utf8(etendue_io::source::read_bytes(real, "USD").ok()?).ok()?;
+        let mut parser = Parser::new(&text);
+        let cause = parser.parse().err()?;
+        let line = parser.last_error_highlight()?.line;
+        Some(Error::at(self.file, line, format!("no text of USD: {cause:#}")))
+    }
+
+    fn children(&mut self, prim: &Prim, depth: usize) -> Result<Vec<UsdPrim>, Error> {
+        if depth > MAX_DEPTH {
+            return Err(self.fault(format!("prims stand more than {MAX_DEPTH} deep in one another")));
+        }
+        let children = prim.children().map_err(|cause| self.fault(words(cause)))?;
+        let mut made = Vec::new();
+        for child in children {
+            made.extend(self.prim(&child, depth)?);
+        }
+        Ok(made)
+    }
+
+    /// `None` of what is no prim of the scene.
+    fn prim(&mut self, prim: &Prim, depth: usize) -> Result<Option<UsdPrim>, Error> {
+        let path = prim.path().as_str().to_owned();
+        let Some(mut made) = self.plain_prim(prim).map_err(|told| self.fault(format!("{path}: {told}")))? else {
+            return Ok(None);
+        };
+        self.prims += 1;
+        if self.prims > MAX_PRIMS {
+            return Err(self.fault(format!(
+                "it has more than {MAX_PRIMS} prims, instances counted each; make it smaller, or import parts of it"
+            )));
+        }
+        made.children = self.children(prim, depth + 1)?;
+        Ok(Some(made))
+    }
+
+    /// A prim without those within it; `None` of what is no prim of the scene.
+    fn plain_prim(&mut self, prim: &Prim) -> Result<Option<UsdPrim>, String> {
+        if prim.specifier().map_err(words)? != Some(Specifier::Def) || !prim.is_active().map_err(words)? {
+            return Ok(None);
+        }
+        let kind = prim.type_name().map_err(words)?.map(|kind| kind.as_str().to_owned()).unwrap_or_default();
+        let schemas = prim.api_schemas().map_err(words)?.iter().map(|schema| schema.as_str().to_owned()).collect();
+        let nodes = prim.prim_index().graph().map_err(words)?.all_nodes().count().saturating_sub(1);
+        self.spend(PRIM + NODE * nodes as u64)?;
+        let mut relations = BTreeMap::new();
+        for relation in prim.relationships().map_err(words)? {
+            relations.insert(last(relation.path().as_str()).to_owned(), read_relation(&relation)?);
+        }
+        let mut attributes = BTreeMap::new();
+        for attribute in prim.attributes().map_err(words)? {
+            let name = last(attribute.path().as_str()).to_owned();
+            let read = self.attribute(&attribute, &name)?;
+            self.spend(OVERHEAD + name.len() as u64 + read.value.as_ref().map_or(0, bytes_of))?;
+            attributes.insert(name, read);
+        }
+        let path = prim.path().as_str().to_owned();
+        let inactive_ids = inactive_ids(prim)?;
+        self.spend(8 * inactive_ids.len() as u64)?;
+        Ok(Some(UsdPrim { path, kind, schemas, attributes, relations, inactive_ids, children: Vec::new() }))
+    }
+
+    /// Counts what a part of the tree takes, with what `openusd` keeps of it.
+    fn spend(&mut self, bytes: u64) -> Result<(), String> {
+        self.bytes += bytes;
+        limits::MESH.check_unpacked(self.bytes)
+    }
+
+    fn attribute(&self, attribute: &Attribute, name: &str) -> Result<UsdAttribute, String> {
+        let value = attribute.get_at::<Value>(TimeCode::new(self.time)).map_err(words)?;
+        let mut made =
+            UsdAttribute { value: value.and_then(|value| plain(value, &self.layers)), ..UsdAttribute::default() };
+        made.varies = attribute.num_time_samples().map_err(words)? > 1;
+        if name.starts_with("inputs:") || name.starts_with("outputs:") {
+            made.connections =
+                attribute.connections().map_err(words)?.iter().map(|path| path.as_str().to_owned()).collect();
+        }
+        if name.starts_with("primvars:") || name == "normals" {
+            made.interpolation = word(attribute.get_metadata::<Value>("interpolation").map_err(words)?);
+        }
+        Ok(made)
+    }
+}
+
+/// A token, or a text; empty of anything else.
+fn word(value: Option<Value>) -> String {
+    match value {
+        Some(Value::Token(word)) => word.as_str().to_owned(),
+        Some(Value::String(word)) => word,
+        _ => String::new(),
+    }
+}
+
+/// What is said of a prim or a property beside its value.
+fn metadata(stage: &Stage, path: &openusd::sdf::Path, name: &str) -> Result<Option<Value>, String> {
+    // `openusd` asks by the handle of an attribute alone, whatever stands at the path.
+    stage.attribute(path.clone()).get_metadata(name).map_err(words)
+}
+
+/// The metadata `inactiveIds` of a prim, of the strongest layer that has an opinion: those of weaker layers are not merged into it.
+fn inactive_ids(prim: &Prim) -> Result<Vec<i64>, String> {
+    Ok(match metadata(prim.stage(), prim.path(), "inactiveIds")? {
+        Some(Value::Int64ListOp(list)) => list.iter().copied().collect(),
+        Some(Value::Int64Vec(list)) => list,
+        Some(Value::Int64(id)) => vec![id],
+        _ => Vec::new(),
+    })
+}
+
+fn read_relation(relation: &Relationship) -> Result<UsdRelation, String> {
+    let targets = relation.targets().map_err(words)?;
+    let strength = word(metadata(relation.stage(), relation.path(), "bindMaterialAs")?);
+    Ok(UsdRelation {
+        targets: targets.iter().map(|target| target.as_str().to_owned()).collect(),
+        is_stronger: strength == "strongerThanDescendants",
+        ..UsdRelation::default()
+    })
+}
+
+/// A cause with what caused it.
+fn words(cause: impl std::fmt::Display) -> String {
+    format!("{cause:#}")
+}
+
+/// The name of a property of a path, `/World.size`.
+fn last(path: &str) -> &str {
+    path.split_once('.').map_or(path, |(_, name)| name)
+}
+
+/// A number that the stage says of itself.
+fn number(stage: &Stage, name: &str) -> Option<f64> {
+    match stage.stage_metadata(name).ok()?? {
+        Value::Double(v) => Some(v),
+        Value::Float(v) => Some(v.into()),
+        Value::Int(v) => Some(v.into()),
+        _ => None,
+    }
+}

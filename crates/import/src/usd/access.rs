@@ -1,0 +1,83 @@
+//! Attributes by what is expected of them.
+
+use crate::syntax::usd::{UsdAsset, UsdPrim, UsdValue};
+use glam::DVec3;
+
+/// A number; `None` where there is none.
+pub(super) fn stated(prim: &UsdPrim, name: &str) -> Option<f64> {
+    match prim.value(name)? {
+        UsdValue::Number(v) if v.is_finite() => Some(*v),
+        _ => None,
+    }
+}
+
+/// A number, or what holds without one.
+pub(super) fn number(prim: &UsdPrim, name: &str, default: f64) -> f64 {
+    stated(prim, name).unwrap_or(default)
+}
+
+/// True or false.
+pub(super) fn flag(prim: &UsdPrim, name: &str, default: bool) -> bool {
+    match prim.value(name) {
+        Some(UsdValue::Flag(v)) => *v,
+        Some(UsdValue::Number(v)) => *v != 0.0,
+        _ => default,
+    }
+}
+
+/// A tuple of finite numbers.
+pub(super) fn tuple<const N: usize>(prim: &UsdPrim, name: &str) -> Option<[f64; N]> {
+    match prim.value(name)? {
+        UsdValue::Tuple(list) if list.iter().all(|v| v.is_finite()) => list.as_slice().try_into().ok(),
+        _ => None,
+    }
+}
+
+/// A token or text; empty where there is none.
+pub(super) fn text<'a>(prim: &'a UsdPrim, name: &str) -> &'a str {
+    match prim.value(name) {
+        Some(UsdValue::Text(text)) => text,
+        _ => "",
+    }
+}
+
+/// A file, unless its name is empty.
+pub(super) fn asset<'a>(prim: &'a UsdPrim, name: &str) -> Option<&'a UsdAsset> {
+    match prim.value(name) {
+        Some(UsdValue::Asset(asset)) if !asset.stated.is_empty() => Some(asset),
+        _ => None,
+    }
+}
+
+/// An array of numbers; empty where there is none.
+pub(super) fn numbers<'a>(prim: &'a UsdPrim, name: &str) -> &'a [f64] {
+    match prim.value(name) {
+        Some(UsdValue::Numbers(list)) => list,
+        _ => &[],
+    }
+}
+
+/// An array of numbers of things, each 0 or more; `None` of one that is not.
+pub(super) fn indices(prim: &UsdPrim, name: &str) -> Option<Vec<usize>> {
+    let index = |v: &f64| (*v >= 0.0 && *v < 1e15).then_some(*v as usize);
+    numbers(prim, name).iter().map(index).collect()
+}
+
+/// An array of tuples, one after the other; empty where there is none of `N` numbers each.
+pub(super) fn tuples<'a, const N: usize>(prim: &'a UsdPrim, name: &str) -> &'a [[f64; N]] {
+    match prim.value(name) {
+        Some(UsdValue::Tuples(count, list)) if *count == N => list.as_chunks::<N>().0,
+        _ => &[],
+    }
+}
+
+/// A direction or place.
+pub(super) fn vector(prim: &UsdPrim, name: &str) -> Option<DVec3> {
+    tuple::<3>(prim, name).map(DVec3::from_array)
+}
+
+/// Counts everything of a prim as looked at: what is left out is told once.
+pub(super) fn leave(prim: &UsdPrim) {
+    prim.attributes.values().for_each(|attribute| attribute.used.set(true));
+    prim.relations.values().for_each(|relation| relation.used.set(true));
+}

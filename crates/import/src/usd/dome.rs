@@ -1,0 +1,92 @@
+//! Light from all round: UsdLux's DomeLight.
+
+use super::access::{asset, text};
+use super::importer::{Importer, State};
+use crate::scenery::{LightPicture, LightUnit, grey, is_upright, linear_pixels};
+use crate::syntax::usd::{UsdAxis, UsdFile, UsdPrim};
+use etendue_scene::record::{Emission, Environment, Level, LightColour};
+use glam::{DMat3, DVec3};
+use std::path::Path;
+
+/// From the space of a dome, its top +y, to that of our pictures: the middle of its picture is seen along +z, the quarter to the left along +x (OpenEXR's).
+fn picture_axes() -> DMat3 {
+    DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X)
+}
+
+impl<'a> Importer<'a> {
+    pub(super) fn dome(&mut self, prim: &'a UsdPrim, state: &State<'a>, unit: LightUnit) -> Result<(), String> {
+        let environment = match asset(prim, "inputs:texture:file") {
+            None => {
+                self.scenery.report.note(format!("{}: {} cd/m²", prim.kind, unit.luminance));
+                let emission = Emission::new(Level::Luminance(unit.luminance.into()));
+                Some(Environment::Uniform(Emission { colour: Some(unit.colour), ..emission }))
+            }
+            Some(_) => self.dome_picture(prim, state, &unit)?,
+        };
+        if let Some(environment) = environment
+            && self.scenery.scene.environment.replace(environment).is_some()
+        {
+            self.scenery.report.note("of several lights from all round only the last is used");
+        }
+        Ok(())
+    }
+
+    /// `None`, and a note, of a picture that is not used.
+    fn dome_picture(
+        &mut self,
+        prim: &'a UsdPrim,
+        state: &State<'a>,
+        unit: &LightUnit,
+    ) -> Result<Option<Environment>, String> {
+        let Some(stated) = asset(prim, "inputs:texture:file") else { return Ok(None) };
+        let shown = stated.stated.as_str();
+        if !matches!(text(prim, "inputs:texture:format"), "" | "automatic" | "latlong") {
+            self.scenery.report.note(format!("the picture of light `{shown}` is left out: expected latlong"));
+            return Ok(None);
+        }
+        if stated.file.is_none() {
+            self.scenery.report.note(format!("the picture of light `{shown}` is not there: no light from it"));
+            return Ok(None);
+        }
+        if let LightColour::Rgb(rgb) = &unit.colour
+            && grey(rgb.value).is_none()
+        {
+            self.scenery.report.note("the colour of a dome with a picture is white of its luminance");
+        }
+        let image = self.image(stated)?;
+        let Some(pixel) = linear_pixels(&image).filter(|_| is_linear(shown)) else {
+            let told = format!("the picture of light `{shown}` is left out: expected linear numbers (EXR, HDR)");
+            self.scenery.report.note(told);
+            return Ok(None);
+        };
+        let pole = match text(prim, "poleAxis") {
+            "Z" => UsdAxis::Z,
+            "scene" if prim.kind == "DomeLight_1" => self.stage.up,
+            "" if prim.kind == "DomeLight_1" => self.stage.up,
+            _ => UsdAxis::Y,
+        };
+        // A pole along z: as turned by 90° about x.
+        let stand =
+            if pole == UsdAxis::Z { DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y) } else { DMat3::IDENTITY };
+        let axes = state.to_world.matrix3;
+        let own = DMat3::from_cols(
+            axes.x_axis.normalize_or_zero(),
+            axes.y_axis.normalize_or_zero(),
+            axes.z_axis.normalize_or_zero(),
+        );
+        let turn = self.scenery.to_ours * own * stand * picture_axes().transpose();
+        // What is resampled need not lie beside the scene as well.
+        let path = match (&stated.file, is_upright(&turn)) {
+            (Some(UsdFile::Packed(..)), false) => String::new(),
+            _ => self.file(stated)?,
+        };
+        let picture = LightPicture { shown, path: &path, columns: image.width as usize, pixel: &*pixel };
+        self.scenery.light_picture(&picture, image.height as usize, turn, unit.luminance).map(Some)
+    }
+}
+
+/// Whether a picture's ending is one of linear numbers: those of 16 bits are encoded.
+fn is_linear(name: &str) -> bool {
+    let ending = Path::new(name).extension().unwrap_or_default().to_ascii_lowercase();
+    ending == "exr" || ending == "hdr"
+}

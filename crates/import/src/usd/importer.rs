@@ -1,0 +1,224 @@
+//! Prims to a scene.
+
+use super::access::text;
+use super::binding::{Bindings, binds_collections, bound};
+use super::bound_material::BoundMaterial;
+use super::paths::Paths;
+use super::transform::transform_of;
+use crate::scenery::{KnownTexture, Scenery};
+use crate::syntax::usd::{UsdAxis, UsdPrim, UsdStage};
+use crate::without::{even_sky, whole_view};
+use crate::written::{ImportedCamera, Written, written};
+use glam::{DAffine3, DMat3, DVec3};
+use std::collections::HashMap;
+use std::path::Path;
+use std::rc::Rc;
+
+/// Prims that are walked, those of instances counted each.
+const MAX_VISITS: usize = 1_000_000;
+
+/// The scene as far as it is made.
+pub(super) struct Importer<'a> {
+    pub(super) scenery: Scenery,
+    pub(super) stage: &'a UsdStage,
+    pub(super) paths: Paths<'a>,
+    /// From the stage's space to that of lengths in metres.
+    root: DAffine3,
+    /// What materials became, by their paths.
+    pub(super) materials: HashMap<String, BoundMaterial>,
+    /// Of the material that is being made: how pictures lie that are black outside.
+    pub(super) black_outside: Vec<[[f64; 2]; 2]>,
+    /// What pictures became, by all that is asked of them.
+    pub(super) textures: HashMap<String, KnownTexture>,
+    /// Files of packages that are written, by their names there.
+    pub(super) unpacked: HashMap<String, String>,
+    pub(super) cameras: Vec<ImportedCamera>,
+    /// The box that holds all shapes, in our world.
+    low: DVec3,
+    high: DVec3,
+    pub(super) shines: bool,
+    visits: usize,
+}
+
+/// What holds for a prim by those about it.
+#[derive(Clone)]
+pub(super) struct State<'a> {
+    pub(super) to_world: DAffine3,
+    is_visible: bool,
+    purpose: &'a str,
+    /// The materials that are bound.
+    pub(super) bindings: Bindings<'a>,
+    /// Instancers about it.
+    pub(super) depth: usize,
+}
+
+impl State<'_> {
+    /// Whether it is seen in a picture.
+    pub(super) fn is_drawn(&self) -> bool {
+        self.is_visible && matches!(self.purpose, "" | "default" | "render")
+    }
+}
+
+impl<'a> Importer<'a> {
+    pub(super) fn new(file: &Path, folder: &Path, stage: &'a UsdStage) -> Self {
+        let mut scenery = Scenery::new(file, folder);
+        scenery.to_ours = match stage.up {
+            UsdAxis::Y => DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X),
+            UsdAxis::Z => DMat3::IDENTITY,
+        };
+        Self {
+            scenery,
+            stage,
+            paths: Paths::of(&stage.roots),
+            root: DAffine3::from_scale(DVec3::splat(stage.metres_per_unit)),
+            materials: HashMap::new(),
+            black_outside: Vec::new(),
+            textures: HashMap::new(),
+            unpacked: HashMap::new(),
+            cameras: Vec::new(),
+            low: DVec3::INFINITY,
+            high: DVec3::NEG_INFINITY,
+            shines: false,
+            visits: 0,
+        }
+    }
+
+    /// Makes the scene of all prims.
+    pub(super) fn read(&mut self) -> Result<(), String> {
+        let metres = self.stage.metres_per_unit;
+        let by = if self.stage.says_metres { "as it says" } else { "as where nothing is said" };
+        let up = if self.stage.up == UsdAxis::Y { "y" } else { "z" };
+        self.scenery.report.note(format!("a length of 1 is {metres} m, {by}; {up} is up"));
+        self.stage.notes.iter().for_each(|note| self.scenery.report.note(note.as_str()));
+        let bindings = Bindings::default();
+        let state = State { to_world: self.root, is_visible: true, purpose: "", bindings, depth: 0 };
+        for prim in &self.stage.roots {
+            self.prim(prim, &state)?;
+        }
+        self.scenery.report.at(String::new());
+        Ok(())
+    }
+
+    /// The files of the scene.
+    pub(super) fn finish(mut self, file: &Path) -> Result<Written, String> {
+        self.read()?;
+        let Scenery { scene, report, .. } = &mut self.scenery;
+        if scene.lights.is_empty() && scene.environment.is_none() && !self.shines {
+            let told = even_sky(scene);
+            report.note(told);
+        }
+        if self.cameras.is_empty() {
+            report.note("it has no cameras: \"view\" is ours, which sees all of it from the front");
+            let is_empty = self.low.x > self.high.x;
+            let [low, high] = if is_empty { [DVec3::ZERO; 2] } else { [self.low, self.high] };
+            self.cameras.push(whole_view(low, high));
+        }
+        let counts = [scene.objects.len(), scene.materials.len(), scene.textures.len(), scene.lights.len()];
+        let [objects, materials, textures, lights] = counts;
+        report.note(format!("made: {objects} objects, {materials} materials, {textures} textures, {lights} lights"));
+        let mut made = written(file, &self.scenery.scene, &self.cameras, self.scenery.report.lines());
+        made.files.extend(self.scenery.files);
+        Ok(made)
+    }
+
+    /// A prim and all within it.
+    pub(super) fn prim(&mut self, prim: &'a UsdPrim, about: &State<'a>) -> Result<(), String> {
+        self.visits += 1;
+        if self.visits > MAX_VISITS {
+            return Err(format!("it has more than {MAX_VISITS} prims with all instances; instance less"));
+        }
+        self.scenery.report.at(prim.path.clone());
+        let (own, is_reset) = transform_of(prim)?;
+        let mut state = about.clone();
+        state.to_world = if is_reset { self.root } else { about.to_world } * own;
+        state.is_visible &= text(prim, "visibility") != "invisible";
+        let purpose = text(prim, "purpose");
+        if !purpose.is_empty() {
+            state.purpose = purpose;
+        }
+        state.bindings = self.bindings(prim, &about.bindings);
+        match prim.kind.as_str() {
+            "PointInstancer" => return self.instancer(prim, &state),
+            // Whoever asks for them reads them.
+            "Material" | "Shader" | "NodeGraph" | "GeomSubset" => return Ok(()),
+            "Camera" => self.camera(prim, &state)?,
+            "" | "Xform" | "Scope" | "SkelRoot" => {}
+            _ if !state.is_drawn() => self.leave_undrawn(prim),
+            kind if kind.ends_with("Light") || kind == "DomeLight_1" => self.light(prim, &state)?,
+            _ => self.shape(prim, &state)?,
+        }
+        self.note_unused(prim);
+        prim.children.iter().try_for_each(|child| self.prim(child, &state))
+    }
+
+    /// What a prim is bound to, within one of these bindings.
+    pub(super) fn bindings(&mut self, prim: &'a UsdPrim, about: &Bindings<'a>) -> Bindings<'a> {
+        if binds_collections(prim) {
+            self.scenery.report.note("materials that are bound to collections are not used");
+        }
+        let paths = &self.paths;
+        let is_material = |path: &str| paths.prim(path).is_some_and(|prim| prim.kind == "Material");
+        for path in bound(prim).filter(|path| !is_material(path)) {
+            self.scenery
+                .report
+                .note(format!("the material <{path}> is not there: what is bound to it is as if it were not"));
+        }
+        about.within(prim, is_material)
+    }
+
+    /// Says that a prim is not drawn.
+    pub(super) fn leave_undrawn(&mut self, prim: &UsdPrim) {
+        super::access::leave(prim);
+        let told = "what is invisible, or for purposes other than rendering (guide, proxy), is left out";
+        self.scenery.report.note(told);
+    }
+
+    /// What a shape is called.
+    pub(super) fn name(prim: &UsdPrim) -> Rc<str> {
+        prim.name().into()
+    }
+
+    /// Notes that a shape reaches to a place of the file's world.
+    pub(super) fn reaches(&mut self, place: DVec3) {
+        let ours = self.scenery.to_ours * place;
+        (self.low, self.high) = (self.low.min(ours), self.high.max(ours));
+    }
+
+    /// Notes what changes over time, and what nobody has asked for.
+    pub(super) fn note_unused(&mut self, prim: &UsdPrim) {
+        let time = self.stage.start_time;
+        self.scenery.report.at(prim.path.clone());
+        let kind = if prim.kind.is_empty() { "prim" } else { &prim.kind };
+        for (name, attribute) in prim.attributes.iter().filter(|(_, attribute)| attribute.value.is_some()) {
+            if !attribute.used.get() {
+                if !is_aside(name) {
+                    self.scenery.report.note(format!("{kind}: \"{name}\" is not used"));
+                }
+            } else if attribute.varies {
+                self.scenery.report.note(format!("{kind}: \"{name}\" changes: all stands as at time code {time}"));
+            }
+        }
+        for (name, relation) in prim.relations.iter().filter(|(_, relation)| !relation.targets.is_empty()) {
+            if !relation.used.get() && !is_aside(name) {
+                self.scenery.report.note(format!("{kind}: the relationship \"{name}\" is not used"));
+            }
+        }
+    }
+}
+
+/// Attributes and relationships that say nothing of a picture, and those of which what they lead to is used.
+fn is_aside(name: &str) -> bool {
+    matches!(name, "extent" | "doubleSided" | "extentsHint" | "visibility" | "purpose" | "xformOpOrder")
+        || matches!(name, "proxyPrim" | "familyName")
+        || [
+            "ui:",
+            "userProperties:",
+            "outputs:",
+            "xformOp:",
+            "collection:",
+            "primvars:displayColor",
+            "primvars:displayOpacity",
+        ]
+        .iter()
+        .any(|start| name.starts_with(start))
+}

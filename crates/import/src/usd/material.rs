@@ -1,0 +1,299 @@
+//! UsdPreviewSurface as surfaces of ours.
+
+use super::bound_material::BoundMaterial;
+use super::importer::Importer;
+use super::network::Input;
+use super::texture::{ColourRule, Picture};
+use crate::scenery::{KnownTexture, grey};
+use crate::syntax::usd::{UsdPrim, UsdValue};
+use etendue_scene::asset::COAT_INDICES;
+use etendue_scene::record::material::factor::FactorTexture;
+use etendue_scene::record::material::{
+    Channel, Coated, Conductor, Diffuse, Factor, Green, Material, Mix, NormalMap, Sides, Surface, ThinSheet,
+};
+use etendue_scene::record::{Emission, Level, LightColour, Reflectance, SurfaceEmission};
+use etendue_spectra::colour::BT709;
+use std::ops::RangeInclusive;
+
+/// The index that reflects a share of light at normal incidence.
+fn index_of(share: f64) -> f64 {
+    let root = share.clamp(0.0, 0.36).sqrt();
+    (1.0 + root) / (1.0 - root)
+}
+
+impl<'a> Importer<'a> {
+    /// The material of a path.
+    pub(super) fn material(&mut self, path: &str) -> Result<BoundMaterial, String> {
+        if let Some(known) = self.materials.get(path) {
+            return Ok(known.clone());
+        }
+        let bound = self.paths.prim(path).map(|prim| self.material_of(prim)).transpose()?.unwrap_or_default();
+        self.materials.insert(path.to_owned(), bound.clone());
+        Ok(bound)
+    }
+
+    fn material_of(&mut self, prim: &'a UsdPrim) -> Result<BoundMaterial, String> {
+        self.black_outside.clear();
+        let named = prim.attributes.keys().filter(|name| name.starts_with("outputs:") && name.ends_with("surface"));
+        // That of all renderers comes first.
+        let outputs = std::iter::once("outputs:surface").chain(named.map(String::as_str));
+        let found = outputs.filter_map(|name| self.input(prim, name)).find_map(|input| match input {
+            Input::Shader(shader, _) => Some(shader),
+            Input::Value(_) => None,
+        });
+        let id = found.and_then(|shader| self.plain_text(shader, "info:id")).unwrap_or_default();
+        let (Some(shader), "UsdPreviewSurface") = (found, id) else {
+            self.scenery.report.at(prim.path.clone());
+            let told = match id {
+                "" => "a material without a surface is grey of 0.5".to_owned(),
+                id => format!("a surface \"{id}\" is not understood: grey of 0.5 in its place"),
+            };
+            self.scenery.report.note(told);
+            return Ok(BoundMaterial::default());
+        };
+        self.scenery.report.at(shader.path.clone());
+        let primvar = self.primvar_of(shader);
+        let name = self.scenery.names.take(prim.name(), "material");
+        let surface = self.surface(shader, &name)?;
+        let normal_map = self.normal_map(shader)?;
+        if normal_map.is_some() && matches!(surface, Surface::Mix(_)) {
+            self.scenery.report.note("the normals of a surface between plastic and metal are not used");
+        }
+        let material = Material {
+            emission: self.emission(shader)?,
+            opacity: self.opacity(shader, &surface)?,
+            normal_map: normal_map.filter(|_| !matches!(surface, Surface::Mix(_))),
+            ..Material::new(name.as_str(), surface)
+        };
+        self.shines |= material.emission.is_some();
+        self.scenery.scene.materials.push(material);
+        self.note_left_out(shader);
+        Ok(BoundMaterial::new(&name, primvar, std::mem::take(&mut self.black_outside)))
+    }
+
+    fn note_left_out(&mut self, shader: &'a UsdPrim) {
+        let stands = |importer: &Self, name: &str, usual: f64| match importer.input(shader, name) {
+            None => false,
+            Some(Input::Value(UsdValue::Number(v))) => *v != usual,
+            Some(_) => true,
+        };
+        if stands(self, "inputs:clearcoat", 0.0) {
+            self.scenery.report.note("a second coat (clearcoat) is not used");
+        }
+        let _ = stands(self, "inputs:clearcoatRoughness", 0.01);
+        for (name, usual) in [("displacement", 0.0), ("occlusion", 1.0)] {
+            if stands(self, &format!("inputs:{name}"), usual) {
+                self.scenery.report.note(format!("UsdPreviewSurface: \"{name}\" is not used"));
+            }
+        }
+        self.note_unused(shader);
+    }
+
+    /// No metal is coated, a metal has the index that reflects its colour, between is a mix, as for glTF.
+    fn surface(&mut self, shader: &'a UsdPrim, name: &str) -> Result<Surface, String> {
+        let alpha = self.factor(shader, "inputs:roughness", 0.5, &|v| v * v)?;
+        let metallic = self.factor(shader, "inputs:metallic", 0.0, &|v| v)?;
+        let base = self.reflectance(shader, "inputs:diffuseColor", [0.18; 3])?;
+        let stated = self.plain_number(shader, "inputs:ior").unwrap_or(1.5);
+        if self.is_clear(shader) {
+            self.scenery.report.note(
+                "a surface of an opacity of 0.5 or less is a pane without thickness: light goes straight through; for a solid that refracts write type = \"dielectric\"",
+            );
+            let index = self.index_within("ior", stated, 1.0..=4.0);
+            return Ok(Surface::ThinSheet(ThinSheet { index: Some(index.into()), ..ThinSheet::default() }));
+        }
+        if self.plain_number(shader, "inputs:useSpecularWorkflow").unwrap_or(0.0) != 0.0 {
+            return self.specular(shader, base, alpha);
+        }
+        let coated = self.coated(base, ("ior", stated), &alpha);
+        if matches!(&metallic, Factor::Number(m) if m.value == 0.0) {
+            return Ok(coated);
+        }
+        let colour = self.mean_colour(shader, "inputs:diffuseColor", [0.18; 3])?;
+        let metal = Surface::Conductor(Conductor::new(self.scenery.metal_of_rgb(colour), alpha));
+        if matches!(&metallic, Factor::Number(m) if m.value == 1.0) {
+            return Ok(metal);
+        }
+        let [a, b] = [("plain", coated), ("metal", metal)].map(|(word, surface)| {
+            let own = self.scenery.names.take(&format!("{name}-{word}"), "part");
+            self.scenery.scene.materials.push(Material::new(own.as_str(), surface));
+            own
+        });
+        Ok(Surface::Mix(Mix::new(a.as_str(), b.as_str(), metallic)))
+    }
+
+    /// A surface that says its reflectance at normal incidence.
+    fn specular(&mut self, shader: &'a UsdPrim, base: Reflectance, alpha: Factor) -> Result<Surface, String> {
+        let colour = self.mean_colour(shader, "inputs:specularColor", [0.0; 3])?;
+        let share: f64 = colour.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
+        if share > 0.25 {
+            self.scenery
+                .report
+                .note("a surface whose highlights reflect more than a quarter is a metal of their colour");
+            return Ok(Surface::Conductor(Conductor::new(self.scenery.metal_of_rgb(colour), alpha)));
+        }
+        if grey(colour).is_none() {
+            self.scenery.report.note("the colour of highlights (specularColor) is white of its luminance");
+        }
+        Ok(self.coated(base, ("specularColor", index_of(share)), &alpha))
+    }
+
+    /// A base under a coat. Within its range an index is as stated; one of 1 reflects nothing, and leaves the base alone.
+    fn coated(&mut self, base: Reflectance, (name, index): (&str, f64), alpha: &Factor) -> Surface {
+        if index == 1.0 {
+            return Surface::Diffuse(Diffuse::new(base));
+        }
+        let index = self.index_within(name, index, COAT_INDICES);
+        Surface::Coated(Coated { index: Some(index.into()), ..Coated::new(base, alpha.clone()) })
+    }
+
+    /// The nearest index of a range.
+    fn index_within(&mut self, name: &str, stated: f64, range: RangeInclusive<f64>) -> f64 {
+        let legal = stated.clamp(*range.start(), *range.end());
+        if legal != stated {
+            let [low, high] = [range.start(), range.end()];
+            self.scenery.report.note(format!(
+                "the refractive index {stated} of \"{name}\" is taken as {legal}: expected {low} … {high}"
+            ));
+        }
+        legal
+    }
+
+    /// Whether opacity says what of the surface is there, and not how much goes through it.
+    fn is_presence(&self, shader: &'a UsdPrim) -> bool {
+        self.plain_text(shader, "inputs:opacityMode") == Some("presence")
+    }
+
+    /// Whether most light goes through.
+    fn is_clear(&self, shader: &'a UsdPrim) -> bool {
+        if self.is_presence(shader) {
+            return false;
+        }
+        let opacity = self.plain_number(shader, "inputs:opacity");
+        let threshold = self.plain_number(shader, "inputs:opacityThreshold").unwrap_or(0.0);
+        opacity.is_some_and(|opacity| opacity <= 0.5) && threshold <= 0.0
+    }
+
+    fn opacity(&mut self, shader: &'a UsdPrim, surface: &Surface) -> Result<Option<Factor>, String> {
+        if matches!(surface, Surface::ThinSheet(_)) {
+            return Ok(None);
+        }
+        let threshold = self.plain_number(shader, "inputs:opacityThreshold").unwrap_or(0.0);
+        let opacity = match threshold > 0.0 {
+            true => self.factor(shader, "inputs:opacity", 1.0, &move |v| f64::from(v >= threshold))?,
+            false => self.factor(shader, "inputs:opacity", 1.0, &|v| v)?,
+        };
+        let is_whole = matches!(&opacity, Factor::Number(v) if v.value == 1.0);
+        if !is_whole && threshold <= 0.0 && !self.is_presence(shader) {
+            self.scenery.report.note("opacity is the share of the surface that is there, its highlights with it");
+        }
+        Ok(Some(opacity).filter(|_| !is_whole))
+    }
+
+    fn emission(&mut self, shader: &'a UsdPrim) -> Result<Option<SurfaceEmission>, String> {
+        let name = "inputs:emissiveColor";
+        let picture = match self.input(shader, name) {
+            Some(Input::Shader(node, output)) => self.picture(node, &output, name)?,
+            _ => Picture::Even(self.plain_tuple(shader, name).unwrap_or([0.0; 3])),
+        };
+        let (rgb, texture) = match picture {
+            Picture::Even(rgb) => (rgb.map(|v| v.max(0.0)), None),
+            Picture::Node(node) => match self.colours(&node, ColourRule::Light)? {
+                KnownTexture::Even(rgb) => (rgb, None),
+                KnownTexture::Picture { name, scale, .. } => ([scale; 3], Some(name)),
+            },
+        };
+        let luminance: f64 = rgb.iter().zip(BT709).map(|(v, weight)| v * weight).sum();
+        if luminance <= 0.0 {
+            return Ok(None);
+        }
+        self.scenery.report.at(shader.path.clone());
+        self.scenery.report.note(format!("a surface shines to both sides, {luminance} cd/m²"));
+        let colour = match grey(rgb) {
+            Some(_) => LightColour::Illuminant("D65".into()),
+            None => LightColour::Rgb(rgb.into()),
+        };
+        let light = Emission { colour: Some(colour), ..Emission::new(Level::Luminance(luminance.into())) };
+        let texture = texture.map(|name| name.as_str().into());
+        Ok(Some(SurfaceEmission { sides: Some(Sides::Both.into()), texture, ..SurfaceEmission::new(light) }))
+    }
+
+    fn normal_map(&mut self, shader: &'a UsdPrim) -> Result<Option<NormalMap>, String> {
+        let Some(Input::Shader(node, output)) = self.input(shader, "inputs:normal") else { return Ok(None) };
+        let Picture::Node(node) = self.picture(node, &output, "inputs:normal")? else { return Ok(None) };
+        let is_down = node.scale[1] < 0.0;
+        let expected = |i: usize| (node.scale[i].abs() - 2.0).abs() < 1e-6 && (node.bias[i].abs() - 1.0).abs() < 1e-6;
+        if !(0..3).all(expected) {
+            self.scenery.report.note("a picture of normals is read as 2 v − 1, whatever its scale and bias");
+        }
+        let y = is_down.then(|| Green::Down.into());
+        let name = self.data_picture(&node)?;
+        Ok(name.map(|name| NormalMap { y, ..NormalMap::new(name.as_str()) }))
+    }
+
+    /// A share of light over the wavelength.
+    fn reflectance(&mut self, shader: &'a UsdPrim, name: &str, usual: [f64; 3]) -> Result<Reflectance, String> {
+        let picture = match self.input(shader, name) {
+            Some(Input::Shader(node, output)) => self.picture(node, &output, name)?,
+            _ => Picture::Even(self.plain_tuple(shader, name).unwrap_or(usual)),
+        };
+        let known = match picture {
+            Picture::Even(rgb) => KnownTexture::Even(rgb),
+            Picture::Node(node) => self.colours(&node, ColourRule::Share)?,
+        };
+        Ok(match known {
+            KnownTexture::Even(rgb) => Reflectance::Plain(self.scenery.share_of_rgb(name, rgb)),
+            KnownTexture::Picture { name, scale, .. } => {
+                Reflectance::Texture { name: name.as_str().into(), scale: (scale != 1.0).then(|| scale.into()) }
+            }
+        })
+    }
+
+    /// The mean of a colour where only one can be used.
+    fn mean_colour(&mut self, shader: &'a UsdPrim, name: &str, usual: [f64; 3]) -> Result<[f64; 3], String> {
+        let rgb = match self.input(shader, name) {
+            Some(Input::Shader(node, output)) => match self.picture(node, &output, name)? {
+                Picture::Even(rgb) => rgb,
+                Picture::Node(node) => {
+                    self.scenery.report.note("the picture of a metal's colour is its mean");
+                    self.mean(&node)?
+                }
+            },
+            _ => self.plain_tuple(shader, name).unwrap_or(usual),
+        };
+        Ok(rgb.map(|v| self.scenery.cut(name, v)))
+    }
+
+    /// A number, 0 … 1, after a rule.
+    fn factor(
+        &mut self,
+        shader: &'a UsdPrim,
+        name: &str,
+        usual: f64,
+        rule: &dyn Fn(f64) -> f64,
+    ) -> Result<Factor, String> {
+        let even = match self.input(shader, name) {
+            Some(Input::Shader(node, output)) => match self.picture(node, &output, name)? {
+                Picture::Even([v, ..]) => v,
+                Picture::Node(node) => match self.numbers(&node, rule)? {
+                    KnownTexture::Even([v, ..]) => return Ok(Factor::Number(v.into())),
+                    KnownTexture::Picture { name, .. } => {
+                        let channel = Some(Channel::Red.into());
+                        return Ok(Factor::Texture(FactorTexture { channel, ..FactorTexture::new(name.as_str()) }));
+                    }
+                },
+            },
+            _ => self.plain_number(shader, name).unwrap_or(usual),
+        };
+        let share = self.scenery.cut(name, even);
+        Ok(Factor::Number(rule(share).into()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn four_percent_are_glass() {
+        assert!((super::index_of(0.04) - 1.5).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,169 @@
+//! Meshes: polygons as triangles, with what lies on them.
+
+use super::access::{indices, text, tuples};
+use super::primvar::{Counts, Primvar};
+use crate::scenery::Triangles;
+use crate::syntax::usd::UsdPrim;
+use etendue_io::mesh::polygon_triangles;
+use glam::{DAffine3, DVec3};
+use std::collections::{HashMap, HashSet};
+
+/// Corners of a polygon.
+const MAX_CORNERS: usize = 65_536;
+
+/// What a mesh's polygons are: UsdGeomMesh's `subdivisionScheme`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scheme {
+    /// The surface, with normals of their own.
+    None,
+    /// The control mesh of a surface that goes through it, flat where it is.
+    Bilinear,
+    /// The control mesh of a smooth surface (Catmull-Clark, Loop), as where nothing is said.
+    Smooth,
+}
+
+/// A mesh as a prim has it.
+pub(super) struct PolygonMesh<'a> {
+    points: &'a [[f64; 3]],
+    /// Where the corners of each face begin; one more than there are faces.
+    begins: Vec<usize>,
+    /// Points of all corners.
+    corners: Vec<usize>,
+    normals: Option<Primvar<'a, 3>>,
+    /// Of the control mesh of a smooth surface: normals of points.
+    smooth: Vec<[f64; 3]>,
+    holes: HashSet<usize>,
+    counts: Counts,
+    pub(super) scheme: Scheme,
+    /// Whether its winding is the other way round.
+    pub(super) is_left_handed: bool,
+}
+
+impl<'a> PolygonMesh<'a> {
+    /// An error, in words, of a mesh that cannot be used.
+    pub(super) fn read(prim: &'a UsdPrim) -> Result<Self, String> {
+        let points = tuples::<3>(prim, "points");
+        if points.iter().flatten().any(|v| !v.is_finite()) {
+            return Err("a point that is no finite number".to_owned());
+        }
+        let counts = indices(prim, "faceVertexCounts").ok_or("a face of fewer than no corners")?;
+        let corners = indices(prim, "faceVertexIndices").ok_or("a corner at a point below 0")?;
+        let begins: Vec<usize> = std::iter::once(0)
+            .chain(counts.iter().scan(0_usize, |sum, count| {
+                *sum = sum.saturating_add(*count);
+                Some(*sum)
+            }))
+            .collect();
+        let stated = begins.last().copied().unwrap_or_default();
+        if stated != corners.len() {
+            return Err(format!("its faces have {stated} corners, of which {} are there", corners.len()));
+        }
+        if let Some(beyond) = corners.iter().find(|corner| **corner >= points.len()) {
+            return Err(format!("a corner at point {beyond}, of {}", points.len()));
+        }
+        let counts = Counts { faces: counts.len(), points: points.len(), corners: corners.len() };
+        let scheme = match text(prim, "subdivisionScheme") {
+            "none" => Scheme::None,
+            "bilinear" => Scheme::Bilinear,
+            _ => Scheme::Smooth,
+        };
+        // The creases of what is smoothed have no place in its cage.
+        for name in ["cornerIndices", "cornerSharpnesses", "creaseIndices", "creaseLengths", "creaseSharpnesses"] {
+            let _ = prim.value(name);
+        }
+        let mut normals = Primvar::read(prim, "primvars:normals", "constant", counts)?;
+        if normals.is_none() {
+            normals = Primvar::read(prim, "normals", "vertex", counts)?;
+        }
+        let mut made = Self {
+            points,
+            begins,
+            corners,
+            normals: normals.filter(|_| scheme == Scheme::None),
+            holes: indices(prim, "holeIndices").unwrap_or_default().into_iter().collect(),
+            counts,
+            scheme,
+            smooth: Vec::new(),
+            is_left_handed: text(prim, "orientation") == "leftHanded",
+        };
+        if scheme == Scheme::Smooth {
+            made.smooth = made.smoothed();
+        }
+        Ok(made)
+    }
+
+    /// The mean normal of each point's faces, in the mesh's own space.
+    fn smoothed(&self) -> Vec<[f64; 3]> {
+        let mut plain = Triangles { positions: self.points.to_vec(), ..Triangles::default() };
+        for face in self.begins.windows(2).filter(|face| face[1] - face[0] >= 3) {
+            let point = |i: usize| self.corners[i] as u32;
+            plain.triangles.extend((face[0] + 1..face[1] - 1).map(|i| [face[0], i, i + 1].map(point)));
+        }
+        plain.smooth(DAffine3::IDENTITY);
+        plain.normals
+    }
+
+    pub(super) fn faces(&self) -> usize {
+        self.counts.faces
+    }
+
+    /// Texture coordinates of its prim by their name, those that there are.
+    pub(super) fn uvs(&self, prim: &'a UsdPrim, name: &str) -> Result<Option<Primvar<'a, 2>>, String> {
+        Primvar::read(prim, &format!("primvars:{name}"), "constant", self.counts)
+    }
+
+    /// The area of all faces in the space that a transform leads to.
+    pub(super) fn area(&self, to_world: DAffine3) -> f64 {
+        let (all, _) = self.triangles(0..self.faces(), None);
+        let at = |i: u32| to_world.transform_point3(DVec3::from_array(all.positions[i as usize]));
+        all.triangles.iter().map(|t| t.map(at)).map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum()
+    }
+
+    /// Triangles of some faces, with texture coordinates; the second number says how many polygons had none.
+    pub(super) fn triangles(
+        &self,
+        faces: impl Iterator<Item = usize>,
+        uvs: Option<&Primvar<'a, 2>>,
+    ) -> (Triangles, usize) {
+        let mut made = Triangles::default();
+        let mut known: HashMap<[usize; 3], u32> = HashMap::new();
+        let mut refused = 0;
+        for face in faces.filter(|face| *face < self.faces() && !self.holes.contains(face)) {
+            let own = self.begins[face]..self.begins[face + 1];
+            if own.len() < 3 {
+                continue;
+            }
+            let places: Vec<[f64; 3]> = self.corners[own.clone()].iter().map(|point| self.points[*point]).collect();
+            let Some(cut) = polygon_triangles(&places).filter(|_| own.len() <= MAX_CORNERS) else {
+                refused += 1;
+                continue;
+            };
+            for triangle in cut {
+                let vertex = triangle.map(|i| self.vertex([face, own.start + i], uvs, &mut made, &mut known));
+                made.triangles.push(vertex);
+            }
+        }
+        (made, refused)
+    }
+
+    /// The number of a corner's vertex: one for all corners that are alike.
+    fn vertex(
+        &self,
+        [face, corner]: [usize; 2],
+        uvs: Option<&Primvar<'a, 2>>,
+        made: &mut Triangles,
+        known: &mut HashMap<[usize; 3], u32>,
+    ) -> u32 {
+        let point = self.corners[corner];
+        let place = [face, point, corner];
+        let normal = self.normals.as_ref().map(|normals| normals.index(place));
+        let uv = uvs.map(|uvs| uvs.index(place));
+        *known.entry([point, normal.unwrap_or_default(), uv.unwrap_or_default()]).or_insert_with(|| {
+            made.positions.push(self.points[point]);
+            made.normals.extend(self.normals.iter().zip(normal).map(|(normals, index)| normals.value(index)));
+            made.normals.extend(self.smooth.get(point));
+            made.uvs.extend(uvs.iter().zip(uv).map(|(uvs, index)| uvs.value(index)));
+            made.positions.len() as u32 - 1
+        })
+    }
+}

@@ -1,0 +1,43 @@
+//! Scenes of Universal Scene Description.
+//!
+//! Source: openusd.org, the schemas UsdGeom, UsdLux and UsdShade, and "UsdPreviewSurface Specification" 2.6; docs/import.md lists the rules.
+//!
+//! A stage is right-handed with y or z upwards: y becomes ours as glTF's does (+z is forward), z stays. Lengths are of the stage's unit. A luminance of 1 is
+//! 1 cd/m², as UsdLux has it. Values are those at the stage's start.
+
+mod access;
+mod binding;
+mod bound_material;
+mod camera;
+mod cone;
+mod dome;
+mod importer;
+mod instancer;
+mod light;
+mod light_unit;
+mod material;
+mod mesh;
+mod network;
+mod paths;
+mod polygons;
+mod primvar;
+mod shape;
+mod solids;
+#[cfg(test)]
+mod tests;
+mod texture;
+mod transform;
+mod wrap;
+
+use super::written::Written;
+use crate::syntax::usd::read_usd;
+use etendue_io::Sandbox;
+use etendue_io::failure::Error;
+use importer::Importer;
+use std::path::Path;
+
+pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
+    let stage = read_usd(file, &Sandbox::NONE).map_err(Error::input)?;
+    let made = Importer::new(file, folder, &stage).finish(file);
+    made.map_err(|told| Error::input(format!("{}: {told}", file.display())))
+}

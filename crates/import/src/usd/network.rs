@@ -1,0 +1,60 @@
+//! Inputs of shaders and what they are connected to.
+
+use super::importer::Importer;
+use crate::syntax::usd::{UsdPrim, UsdValue};
+
+/// Connections from one to the next.
+const MAX_STEPS: usize = 32;
+
+/// What an input has.
+pub(super) enum Input<'a> {
+    /// A value.
+    Value(&'a UsdValue),
+    /// The output of a shader, `r` or `rgb`.
+    Shader(&'a UsdPrim, String),
+}
+
+impl<'a> Importer<'a> {
+    /// What an input has, through the borders of materials and node graphs; `None` where it has nothing.
+    pub(super) fn input(&self, prim: &'a UsdPrim, name: &str) -> Option<Input<'a>> {
+        let (mut prim, mut name) = (prim, name.to_owned());
+        for _ in 0..MAX_STEPS {
+            let attribute = prim.attributes.get(&name);
+            let attribute = attribute.inspect(|attribute| attribute.used.set(true))?;
+            let next = attribute.connections.first().and_then(|path| self.paths.property(path));
+            let Some((source, property)) = next else { return attribute.value.as_ref().map(Input::Value) };
+            if source.kind == "Shader" {
+                let output = property.strip_prefix("outputs:")?;
+                return Some(Input::Shader(source, output.to_owned()));
+            }
+            (prim, name) = (source, property.to_owned());
+        }
+        None
+    }
+
+    /// A number of an input that is not connected to a shader.
+    pub(super) fn plain_number(&self, prim: &'a UsdPrim, name: &str) -> Option<f64> {
+        match self.input(prim, name)? {
+            Input::Value(UsdValue::Number(v)) if v.is_finite() => Some(*v),
+            _ => None,
+        }
+    }
+
+    /// Several of them.
+    pub(super) fn plain_tuple<const N: usize>(&self, prim: &'a UsdPrim, name: &str) -> Option<[f64; N]> {
+        match self.input(prim, name)? {
+            Input::Value(UsdValue::Tuple(list)) if list.iter().all(|v| v.is_finite()) => {
+                list.as_slice().try_into().ok()
+            }
+            _ => None,
+        }
+    }
+
+    /// A word of an input that is not connected to a shader.
+    pub(super) fn plain_text(&self, prim: &'a UsdPrim, name: &str) -> Option<&'a str> {
+        match self.input(prim, name)? {
+            Input::Value(UsdValue::Text(text)) => Some(text),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Meshes of polygons, a mesh of ours for each of their materials.
+
+use super::access::{flag, indices, text};
+use super::binding::is_bound;
+use super::importer::{Importer, State};
+use super::mesh::{PolygonMesh, Scheme};
+use super::primvar::Primvar;
+use crate::scenery::{AreaLight, Graphics, Triangles};
+use crate::syntax::usd::UsdPrim;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// The faces of a mesh.
+struct Parts<'a> {
+    /// Those of subsets by the paths of their materials.
+    by_material: BTreeMap<&'a str, Vec<usize>>,
+    /// Those of no subset, which have the mesh's own.
+    rest: Vec<usize>,
+}
+
+/// A prim that is a mesh.
+struct MeshPrim<'p, 'a> {
+    prim: &'a UsdPrim,
+    state: &'p State<'a>,
+    mesh: PolygonMesh<'a>,
+    /// Texture coordinates that materials have asked for, by their names.
+    uvs: BTreeMap<String, Option<Primvar<'a, 2>>>,
+    light: Option<Rc<AreaLight>>,
+}
+
+impl<'a> MeshPrim<'_, 'a> {
+    /// Triangles of some faces, and how many polygons had none.
+    fn triangles(&mut self, faces: Vec<usize>, uv: &str) -> Result<(Triangles, usize), String> {
+        if !self.uvs.contains_key(uv) {
+            self.uvs.insert(uv.to_owned(), self.mesh.uvs(self.prim, uv)?);
+        }
+        Ok(self.mesh.triangles(faces.into_iter(), self.uvs[uv].as_ref()))
+    }
+}
+
+impl<'a> Importer<'a> {
+    pub(super) fn polygons(&mut self, prim: &'a UsdPrim, state: &State<'a>) -> Result<(), String> {
+        let mesh = PolygonMesh::read(prim)?;
+        let Parts { by_material, rest } = self.parts(prim, state, mesh.faces())?;
+        self.scenery.report.at(prim.path.clone());
+        self.note_scheme(mesh.scheme);
+        let light = self.light_of_shape(prim).map(|light| self.spread(light, &mesh, prim, state));
+        let mut of = MeshPrim { prim, state, mesh, uvs: BTreeMap::new(), light };
+        if !rest.is_empty() || by_material.is_empty() {
+            self.part(&mut of, state.bindings.material(), rest)?;
+        }
+        by_material.into_iter().try_for_each(|(path, faces)| self.part(&mut of, Some(path), faces))
+    }
+
+    fn parts(&mut self, prim: &'a UsdPrim, state: &State<'a>, faces: usize) -> Result<Parts<'a>, String> {
+        let mut by_material: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        let mut taken = vec![false; faces];
+        for subset in prim.children.iter().filter(|child| child.kind == "GeomSubset") {
+            let bindings = self.bindings(subset, &state.bindings);
+            let Some(path) = bindings.material().filter(|_| is_bound(subset)) else { continue };
+            if !matches!(text(subset, "elementType"), "" | "face") {
+                self.scenery.report.note("a GeomSubset of other than faces is not used");
+                continue;
+            }
+            for face in indices(subset, "indices").ok_or_else(|| format!("{}: a face below 0", subset.path))? {
+                if taken.get(face) == Some(&false) {
+                    taken[face] = true;
+                    by_material.entry(path).or_default().push(face);
+                }
+            }
+            self.note_unused(subset);
+        }
+        let rest = (0..taken.len()).filter(|face| !taken[*face]).collect();
+        Ok(Parts { by_material, rest })
+    }
+
+    fn note_scheme(&mut self, scheme: Scheme) {
+        self.scenery.report.note(match scheme {
+            Scheme::None => return,
+            Scheme::Bilinear => "a bilinear subdivision surface is its control mesh, flat from edge to edge",
+            Scheme::Smooth => {
+                "a subdivision surface is its control mesh with smooth normals: subdivide it before, or set subdivisionScheme = \"none\""
+            }
+        });
+    }
+
+    /// Faces of a mesh that have one material.
+    fn part(&mut self, of: &mut MeshPrim<'_, 'a>, material: Option<&str>, faces: Vec<usize>) -> Result<(), String> {
+        let (graphics, material) = self.graphics(of.prim, of.state, material)?;
+        let (mut triangles, refused) = of.triangles(faces, material.primvar())?;
+        if material.has_pictures() && triangles.uvs.is_empty() {
+            let name = material.primvar();
+            let told = format!("a mesh without \"{name}\", by which its pictures lie: all of it has their corner");
+            self.scenery.report.note(told);
+            triangles.uvs = vec![[0.0; 2]; triangles.positions.len()];
+        }
+        if material.shows_outside(&triangles.uvs) {
+            self.note_outside();
+        }
+        if refused > 0 {
+            self.scenery.report.note(format!("{refused} polygons that cross themselves are left out"));
+        }
+        // Normals say which side is the front, and those of a control mesh follow its winding.
+        let has_own = !triangles.normals.is_empty() && of.mesh.scheme == Scheme::None;
+        let reverse_orientation = of.mesh.is_left_handed && !has_own;
+        self.add(triangles, &Graphics { reverse_orientation, area_light: of.light.clone(), ..graphics })
+    }
+
+    /// The light of a mesh: where "normalize" holds, divided by the area of all its faces in the world of the stage.
+    fn spread(&self, light: Rc<AreaLight>, mesh: &PolygonMesh<'a>, prim: &UsdPrim, state: &State<'a>) -> Rc<AreaLight> {
+        if !flag(prim, "inputs:normalize", false) {
+            return light;
+        }
+        let metres = self.stage.metres_per_unit;
+        let area = mesh.area(state.to_world) / (metres * metres);
+        if area > 0.0 { Rc::new(AreaLight { luminance: light.luminance / area, ..(*light).clone() }) } else { light }
+    }
+}

@@ -1,0 +1,90 @@
+//! What texts of USD become, rule by rule.
+
+mod bindings;
+mod instances;
+mod lights;
+mod materials;
+mod meshes;
+mod pictures;
+
+use super::importer::Importer;
+use crate::syntax::usd::read_usd;
+use etendue_io::Sandbox;
+use etendue_io::png::{encode_grey8, encode_grey16};
+use etendue_scene::record::material::Material;
+use etendue_scene::record::{Level, Scene};
+use std::path::Path;
+
+/// Two triangles of 1 by 2, in metres, with a material and a subdivision scheme.
+const CARD: &str = "int[] faceVertexCounts = [3, 3] int[] faceVertexIndices = [0, 1, 2, 0, 2, 3] \
+    point3f[] points = [(0,0,0), (1,0,0), (1,2,0), (0,2,0)] uniform token subdivisionScheme = \"none\"";
+
+/// A scene, and what is said of it.
+struct Made {
+    scene: Scene,
+    told: String,
+    files: Vec<(String, Vec<u8>)>,
+}
+
+impl Made {
+    /// Of the text of a stage in metres, z upwards; beside it lie `letter.png` (colours of 8 bits), `grey.png` and `grey16.png`.
+    fn of(body: &str) -> Self {
+        Self::in_units(body, 1.0)
+    }
+
+    fn in_units(body: &str, metres: f64) -> Self {
+        let place = tempfile::tempdir().expect("a temporary folder");
+        let file = place.path().join("a.usda");
+        let head = format!("#usda 1.0\n(\n metersPerUnit = {metres}\n upAxis = \"Z\"\n)\n");
+        std::fs::write(&file, format!("{head}{body}\n")).expect("written");
+        let letter = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/import/letter.png");
+        std::fs::copy(letter, place.path().join("letter.png")).expect("copied");
+        let grey = encode_grey8(2, 2, &[0, 128, 255, 64]).expect("a picture");
+        let fine = encode_grey16(2, 2, &[0, 128, 255, 64]).expect("a picture");
+        [("grey.png", grey), ("grey16.png", fine)]
+            .into_iter()
+            .for_each(|(name, bytes)| std::fs::write(place.path().join(name), bytes).expect("written"));
+        let stage = read_usd(&file, &Sandbox::NONE).expect("a stage");
+        let mut importer = Importer::new(&file, place.path(), &stage);
+        importer.read().expect("a scene");
+        let told = importer.scenery.report.lines().join("\n");
+        Self { scene: importer.scenery.scene, told, files: importer.scenery.files }
+    }
+
+    /// The name of the material of an object.
+    fn material_name(&self, object: &str) -> &str {
+        let found = self.scene.objects.iter().find(|found| found.name.value == object);
+        let material = found.unwrap_or_else(|| panic!("no {object}")).material.as_ref();
+        material.map_or("", |name| name.value.as_str())
+    }
+
+    fn material(&self, object: &str) -> &Material {
+        let name = self.material_name(object);
+        self.scene.materials.iter().find(|found| found.name.value == name).expect("a material")
+    }
+
+    /// The luminance of an object's light, cd/m².
+    fn luminance(&self, object: &str) -> f64 {
+        match &self.material(object).emission.as_ref().expect("a light").light.level {
+            Level::Luminance(level) => level.value,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// Whether a sentence, or a part of one, is said.
+    fn says(&self, phrase: &str) -> bool {
+        self.told.contains(phrase)
+    }
+}
+
+fn near(found: f64, expected: f64) {
+    assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{found}, expected {expected}");
+}
+
+/// A material of UsdPreviewSurface by its inputs.
+fn surface(name: &str, inputs: &str) -> String {
+    format!(
+        "def Material \"{name}\" {{ token outputs:surface.connect = </{name}/S.outputs:surface>\n\
+         def Shader \"S\" {{ uniform token info:id = \"UsdPreviewSurface\" {inputs} token outputs:surface }} }}\n"
+    )
+}
