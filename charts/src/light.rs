@@ -54,7 +54,8 @@ fn black_dn(bench: &Bench, field: &Path) -> Result<f64, Error> {
 
 fn tone(bench: &Bench) -> Result<Section, Error> {
     let [lowest, highest] = RANGE;
-    let exposures = Exposures::spaced(EXPOSURES as u32, Spacing::Log, lowest, highest).map_err(Error::input)?;
+    let exposures = Exposures::spaced(EXPOSURES as u32, Spacing::Log, lowest, highest)
+        .map_err(|error| Error::input(error.to_string()))?;
     let series = Some(Series { exposures, required: true });
     let chart = ChartRequest { series, ..bench.request(Chart::Backlit(Backlit), "tone") };
     let panel = bench.drawn("backlit", &chart)?;
