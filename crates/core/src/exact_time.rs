@@ -58,7 +58,7 @@ impl ExactTime {
         seconds.next_up() - seconds
     }
 
-    /// Whether a number in a file represents the time exactly.
+    /// Returns true if a number in a file represents the time exactly.
     #[must_use]
     pub fn is_number(self) -> bool {
         Self::from_seconds(self.seconds()) == Some(self)
@@ -115,22 +115,22 @@ impl fmt::Display for ExactTime {
 /// Error: the text is not a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected a decimal number of seconds from -1e15 to 1e15")]
-pub struct NoTime;
+pub struct ParseTimeError;
 
 impl FromStr for ExactTime {
-    type Err = NoTime;
+    type Err = ParseTimeError;
 
     /// Decimal seconds such as `-12.5`, or with an exponent, which are read as an f64.
-    fn from_str(text: &str) -> Result<Self, NoTime> {
+    fn from_str(text: &str) -> Result<Self, ParseTimeError> {
         let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
         let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
         let is_digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
         if !is_digits(whole) || !is_digits(fraction) || whole.len() > 15 || digits.len() == fraction.len() + 1 {
-            let seconds: f64 = text.parse().map_err(|_| NoTime)?;
-            return Self::from_seconds(seconds).ok_or(NoTime);
+            let seconds: f64 = text.parse().map_err(|_| ParseTimeError)?;
+            return Self::from_seconds(seconds).ok_or(ParseTimeError);
         }
-        let whole_s: i64 = whole.parse().map_err(|_| NoTime)?;
-        let fraction_s = format!("0.{fraction}0").parse().map_err(|_| NoTime)?;
+        let whole_s: i64 = whole.parse().map_err(|_| ParseTimeError)?;
+        let fraction_s = format!("0.{fraction}0").parse().map_err(|_| ParseTimeError)?;
         let sum = Self::new(whole_s, fraction_s);
         Ok(if text.starts_with('-') { Self::default() - sum } else { sum })
     }
@@ -152,7 +152,7 @@ impl Epoch {
         Self { whole_s: if start.seconds().abs() < Self::FAR_S { 0 } else { start.whole_s } }
     }
 
-    /// Whether times are counted from zero.
+    /// Returns true if times are counted from zero.
     #[must_use]
     pub fn is_zero(self) -> bool {
         self.whole_s == 0
@@ -177,11 +177,9 @@ impl Epoch {
     }
 }
 
-/// The frequency, rate or period of a periodic process, whichever is stated exactly: 1/f would be rounded.
+/// The rate or period of a periodic process, whichever is stated exactly: 1/f would be rounded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cycle {
-    /// Frequency, Hz.
-    Frequency(f64),
     /// A period of `count` events, which follow each other at `rate_hz`.
     Events {
         /// Events a second, Hz.
@@ -194,25 +192,20 @@ pub enum Cycle {
 }
 
 impl Cycle {
-    /// Returns the period, s.
+    /// Returns the cycle of a frequency, Hz.
     #[must_use]
-    pub fn period_s(self) -> f64 {
-        match self {
-            Self::Frequency(frequency_hz) => 1.0 / frequency_hz,
-            Self::Events { rate_hz, count } => f64::from(count) / rate_hz,
-            Self::Period(period_s) => period_s,
-        }
+    pub fn from_frequency(frequency_hz: f64) -> Self {
+        Self::Events { rate_hz: frequency_hz, count: 1 }
     }
 
     /// Returns a delay of the same phase, s: the same number if it is near zero, else one less than a period from zero plus its fraction of
-    /// a second. The error is below 10⁻⁶ of a period, or of an event, for the stated frequency, rate or period.
+    /// a second. The error is below 10⁻⁶ of an event or a period for the stated rate or period.
     #[must_use]
     pub fn reduced_s(self, delay: ExactTime) -> f64 {
         if delay.seconds().abs() < Epoch::FAR_S {
             return delay.seconds();
         }
         let whole_s = match self {
-            Self::Frequency(frequency_hz) => remaining_events(frequency_hz, delay.whole_s, 1) / frequency_hz,
             Self::Events { rate_hz, count } => remaining_events(rate_hz, delay.whole_s, count) / rate_hz,
             // The remainder of f64 is exact.
             Self::Period(period_s) => delay.whole_s as f64 % period_s,
@@ -263,7 +256,7 @@ mod tests {
             [5.0, 0.5, -2.0, 1000.0]
         );
         for text in ["", ".", "-", "1.2.3", "1_000", "nan", "inf", "1e16", "12:30", "0x10"] {
-            assert_eq!(text.parse::<ExactTime>(), Err(NoTime), "{text}");
+            assert_eq!(text.parse::<ExactTime>(), Err(ParseTimeError), "{text}");
         }
     }
 
@@ -289,17 +282,19 @@ mod tests {
     /// Exact products of integers: 2^k periods of a binary fraction of a hertz, and of 59.94 Hz by rational arithmetic.
     #[test]
     fn phases_hold_at_any_distance() {
-        let phase = |cycle: Cycle, text: &str| (cycle.reduced_s(time(text)) / cycle.period_s()).rem_euclid(1.0);
+        let phase = |frequency_hz: f64, text: &str| {
+            (Cycle::from_frequency(frequency_hz).reduced_s(time(text)) * frequency_hz).rem_euclid(1.0)
+        };
         for far in ["1700000000", "10000000000", "999999999999999"] {
-            assert_eq!(Cycle::Frequency(1e6).reduced_s(time(far)), 0.0);
+            assert_eq!(Cycle::from_frequency(1e6).reduced_s(time(far)), 0.0);
             let whole: i64 = far.parse().expect("digits");
             let eighths = (whole % 8) as f64 / 8.0;
-            assert_eq!(phase(Cycle::Frequency(50.125), far), eighths);
+            assert_eq!(phase(50.125, far), eighths);
             // The f64 nearest to 59.94 is m/2^47.
             let scale = (1_i64 << 47) as f64;
             let m = (59.94 * scale) as i128;
             let exact = ((m * i128::from(whole)) % (1 << 47)) as f64 / scale;
-            assert!((phase(Cycle::Frequency(59.94), far) - exact).abs() < 1e-6, "{far}");
+            assert!((phase(59.94, far) - exact).abs() < 1e-6, "{far}");
         }
         // 25 files a second in a loop of 3; the product is exact in an f64.
         let three = Cycle::Events { rate_hz: 25.0, count: 3 };

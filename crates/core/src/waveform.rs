@@ -155,7 +155,7 @@ impl Waveform {
             Piece { length_s: dark_s, from: 0.0, to: 0.0 },
         ];
         let levels = Levels::recurring(-0.5 * rise_s, &pieces, period_s);
-        Ok(Self { cycle: Some(Cycle::Frequency(frequency_hz)), ..Self::of_levels(levels) })
+        Ok(Self { cycle: Some(Cycle::from_frequency(frequency_hz)), ..Self::of_levels(levels) })
     }
 
     /// The light of a lamp on mains of `frequency_hz`, 1 + m cos(2π · 2f t): brightest at the time 0 and twice a period of the mains,
@@ -168,7 +168,7 @@ impl Waveform {
         if !(0.0..=1.0).contains(&depth) {
             return Err(WaveformError::Depth { depth });
         }
-        let cycle = Some(Cycle::Frequency(2.0 * frequency_hz));
+        let cycle = Some(Cycle::from_frequency(2.0 * frequency_hz));
         Ok(Self { shape: Shape::Mains(Mains { frequency_hz, depth }), cycle, delay_s: 0.0 })
     }
 

@@ -48,17 +48,17 @@ fn remedies(camera: &CameraPlan) -> String {
     let name = &camera.name;
     let products = &camera.products;
     let spectra = products.radiance || products.irradiance;
-    let asked = [
+    let products_made = [
         (products.ground_truth, "output.ground_truth = false"),
         (products.radiance, "output.radiance = false"),
         (products.irradiance, "output.irradiance = false"),
         (products.undistorted.is_some(), "no output.undistorted"),
         (products.signal_breakdown, "output.signal_breakdown = false"),
     ];
-    let asked = asked.into_iter().filter(|(is_asked, _)| *is_asked).map(|(_, key)| key.to_owned());
+    let product_keys = products_made.into_iter().filter(|(is_made, _)| *is_made).map(|(_, key)| key.to_owned());
     let size = format!("smaller width_px and height_px of [sensor] of camera {name}");
     let bands = spectra.then(|| "a larger render.band_width_nm".to_owned());
-    let keys: Vec<String> = [size].into_iter().chain(bands).chain(asked).collect();
+    let keys: Vec<String> = [size].into_iter().chain(bands).chain(product_keys).collect();
     format!(
         "reduce it with {}; keep more of films and textures on the disk with --film-memory and --texture-memory; run fewer --threads; or give the run more memory (--memory 0 omits this check)",
         keys.join(", ")

@@ -1,6 +1,6 @@
 //! The memory that is free for a run, as the caller states it.
 
-/// What limits the memory of a run.
+/// A limit on the memory of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MemoryLimit {
     /// The address space of the process (`ulimit -v`).

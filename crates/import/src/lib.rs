@@ -10,7 +10,13 @@ mod moving;
 mod naming;
 mod pbrt;
 mod scenery;
-pub mod syntax;
+/// Files of other programs as those programs structure them: directives, elements and prims, each with its place.
+pub mod syntax {
+    pub mod mitsuba;
+    pub mod pbrt;
+    #[cfg(feature = "usd")]
+    pub mod usd;
+}
 #[cfg(feature = "usd")]
 mod usd;
 mod without;

@@ -3,7 +3,7 @@
 use std::fmt::{self, Display};
 use std::path::PathBuf;
 
-/// Why a call of this library did not succeed. Nothing that was written under a final name is half-written.
+/// An error of a call of the library. No file under a final name is half-written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Error {
     /// The input or the arguments cannot be used: all faults, with file, line and key where they have them. Arguments are

@@ -87,11 +87,11 @@ fn every_format_has_the_size_and_the_heading_of_its_convention() {
 }
 
 fn check_kitti(export: &Export) {
-    let found = label(&export.path("set"));
-    export.assert("KITTI", &found[7..10], &[SIZE_M.z, SIZE_M.y, SIZE_M.x]);
+    let label_row = label(&export.path("set"));
+    export.assert("KITTI", &label_row[7..10], &[SIZE_M.z, SIZE_M.y, SIZE_M.x]);
     // Modulo 360°: −90° less the rotation about z, as y points down.
-    let (found, expected) = (sin_cos(found[13]), sin_cos((-90.0 - export.turn_deg).to_radians()));
-    export.assert("KITTI", &[found.0, found.1], &[expected.0, expected.1]);
+    let (heading, expected) = (sin_cos(label_row[13]), sin_cos((-90.0 - export.turn_deg).to_radians()));
+    export.assert("KITTI", &[heading.0, heading.1], &[expected.0, expected.1]);
 }
 
 fn check_own(export: &Export) {
@@ -145,8 +145,8 @@ fn check_bop(export: &Export) {
     let pose = &poses["0"][0];
     export.assert("BOP", &numbers(&pose["cam_R_m2c"]), &[-sin, -cos, 0.0, 0.0, 0.0, -1.0, cos, -sin, 0.0]);
     // The camera stands 1.5 m above the ground.
-    let found: Vec<f64> = numbers(&pose["cam_t_m2c"]).iter().map(|mm| mm / 1000.0).collect();
-    export.assert("BOP", &found, &[-CENTRE_M[1], 1.5 - CENTRE_M[2], CENTRE_M[0]]);
+    let translation_m: Vec<f64> = numbers(&pose["cam_t_m2c"]).iter().map(|mm| mm / 1000.0).collect();
+    export.assert("BOP", &translation_m, &[-CENTRE_M[1], 1.5 - CENTRE_M[2], CENTRE_M[0]]);
     let models = export.json("set/bop/models/models_info.json");
     let model = &models[pose["obj_id"].to_string()];
     let metres = |keys: [&str; 3]| keys.map(|key| model[key].as_f64().expect("a number") / 1000.0);

@@ -316,10 +316,10 @@ fn a_wrong_key_of_a_chart_gives_the_error_of_its_job() {
         "scene.objects.nothing=null",
     ] {
         let expected = etendue(["render", &job, "-o", &render, "--set", change]);
-        let found = etendue(["chart", "dots", "--camera", &camera, "-o", &out, "--set", change]);
+        let chart_run = etendue(["chart", "dots", "--camera", &camera, "-o", &out, "--set", change]);
         let folder = text(&folder);
         let lines = |lines: &str| lines.replace(&folder, "").replace(&out, "");
-        assert_eq!((found.status, lines(&found.err)), (2, lines(&expected.err)), "{change}");
+        assert_eq!((chart_run.status, lines(&chart_run.err)), (2, lines(&expected.err)), "{change}");
         assert!(!place.path("new").exists(), "{change} left something");
     }
     // The chart sets the exposures of a series.

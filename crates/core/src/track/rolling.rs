@@ -179,11 +179,15 @@ mod tests {
         let amplitude = 1e10;
         let omega = core::f64::consts::PI;
         let rate = |time_s: f64, _: f64| amplitude * omega * crate::maths::f64::sin(omega * time_s);
-        let found = pieces(0.0, 1.0, &|time_s| rate(time_s, 0.5)).expect("below the greatest angle");
-        assert!(found.len() > MOST as usize && found.len() < 2 * MOST as usize, "{}", found.len());
-        assert!(found.iter().all(Piece::is_met));
-        assert!(found.windows(2).all(|pair| pair[0].start_s < pair[1].start_s));
-        let turned: f64 = found.iter().map(|piece| piece.turns).sum();
+        let turns_of_pieces = pieces(0.0, 1.0, &|time_s| rate(time_s, 0.5)).expect("below the greatest angle");
+        assert!(
+            turns_of_pieces.len() > MOST as usize && turns_of_pieces.len() < 2 * MOST as usize,
+            "{}",
+            turns_of_pieces.len()
+        );
+        assert!(turns_of_pieces.iter().all(Piece::is_met));
+        assert!(turns_of_pieces.windows(2).all(|pair| pair[0].start_s < pair[1].start_s));
+        let turned: f64 = turns_of_pieces.iter().map(|piece| piece.turns).sum();
         // Rounding of some 7 000 sums of up to 2·10¹⁰ rad, half of 4·10⁻⁶ each.
         assert!((turned - 2.0 * amplitude).abs() < 1.5e-2, "{turned}");
     }

@@ -8,7 +8,7 @@ const CUT_FRACTION: f64 = 0.01;
 /// Readings from this value on are no whole numbers of a digital format.
 const MAX_WHOLE: f32 = 16_777_216.0;
 
-/// How the readings of a region are clipped.
+/// Clipping of the readings of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Cut {
     /// All readings are equal.

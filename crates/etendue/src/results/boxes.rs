@@ -1,6 +1,6 @@
 //! The boxes of a frame as JSON.
 
-use super::metadata::times;
+use super::metadata::add_time;
 use etendue_pipeline::boxes::{ObjectBoxes, PixelBox, SolidBox, Stance};
 use etendue_pipeline::frame_view::FrameView;
 use etendue_pipeline::plan::Plan;
@@ -29,7 +29,7 @@ pub(super) fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxe
         "objects": boxes.iter().map(|object| object_json(plan, size, object)).collect::<Vec<_>>(),
     });
     let timing = &frame.camera.timing;
-    times::add(&mut facts, timing, "time", timing.frame_middle(frame.frame));
+    add_time(&mut facts, timing, "time", timing.frame_middle(frame.frame));
     facts
 }
 

@@ -60,12 +60,12 @@ struct FrameFacts {
 
 /// Sends the observer the levels of a camera's frames in one line, as a warning where all frames are white or black; nothing of a camera without raw frames.
 pub(crate) fn report<'a>(camera: &str, frames: impl Iterator<Item = &'a Value>, observer: &dyn Observer) {
-    let found: Vec<FrameFacts> = frames.filter_map(|facts| FrameFacts::deserialize(facts).ok()).collect();
-    let levels: Vec<Levels> = found.iter().map(|frame| frame.levels).collect();
-    let (Some(mean), Some(first)) = (Levels::mean(&levels), found.first()) else { return };
+    let frame_facts: Vec<FrameFacts> = frames.filter_map(|facts| FrameFacts::deserialize(facts).ok()).collect();
+    let levels: Vec<Levels> = frame_facts.iter().map(|frame| frame.levels).collect();
+    let (Some(mean), Some(first)) = (Levels::mean(&levels), frame_facts.first()) else { return };
     // Black and white are the same in all frames of a camera.
     let (black, white) = (first.black_level_dn, first.white_level_dn);
-    let of = if found.len() > 1 { format!(" of {} frames", found.len()) } else { String::new() };
+    let of = if frame_facts.len() > 1 { format!(" of {} frames", frame_facts.len()) } else { String::new() };
     let line = format!(
         "camera {camera}: mean level{of} {:.1} DN, {:.2} % from black ({black:.0}) to white ({white:.0}); {:.2} % of the pixels are clipped, {:.2} % black",
         mean.mean_dn,

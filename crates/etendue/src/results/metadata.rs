@@ -2,9 +2,8 @@
 
 mod frame;
 mod sensor;
-pub(super) mod times;
 
-pub(crate) use frame::{check_whole, own_frame, sealed, state_of, with_state, without_state};
+pub(crate) use frame::{add_time, check_whole, own_frame, sealed, state_of, time_facts, with_state, without_state};
 pub(crate) use sensor::{frame, sensor};
 
 use crate::calibration;
@@ -102,8 +101,8 @@ fn exposure_facts(camera: &CameraPlan, frame: u32) -> Vec<(String, String)> {
         return Vec::new();
     }
     let timing = &camera.timing;
-    let starts = times::facts(timing, "time", timing.frame_start(frame));
-    let poses = times::facts(timing, "pose_time", timing.frame_middle(frame));
+    let starts = time_facts(timing, "time", timing.frame_start(frame));
+    let poses = time_facts(timing, "pose_time", timing.frame_middle(frame));
     let texts = starts.into_iter().filter(|(name, _)| name == "time").chain(poses);
     let text = |value: Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
     let exposure = (EXPOSURE_S.to_owned(), camera.body.exposure.exposure_s.to_string());
@@ -290,7 +289,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
             "ids": "instances and materials: place in the list, from 1; 0 is the background",
         },
     });
-    times::add(&mut facts, &camera.timing, "time", camera.timing.frame_start(first));
+    add_time(&mut facts, &camera.timing, "time", camera.timing.frame_start(first));
     if let Some(passes) = passes(camera) {
         facts["sampling"]["passes"] = json!(passes);
     }

@@ -2,11 +2,10 @@
 
 mod annotations;
 mod dropped_effects;
+mod errors;
 mod examples;
 mod far_times;
-mod faults;
 mod flicker;
-mod panics;
 mod progress;
 mod rig;
 mod scale;

@@ -43,7 +43,7 @@ fn removed_key(change: &str) -> Option<&str> {
     (value.trim() == "null").then_some(key.trim())
 }
 
-/// Whether the file states a key itself.
+/// Returns true if the file itself states the key.
 fn states(tree: &Node, key: &str) -> bool {
     key.split('.').try_fold(tree, |node, part| node.as_table()?.get(part)).is_some()
 }
@@ -97,9 +97,9 @@ mod tests {
     fn changes_are_written_where_the_key_is() {
         let text =
             "# a comment\nformat = 1\nspeed = -2\n[render]\nspp = 4 # few\n[[cameras]]\nname = \"a\"\nat = [0, 1.5]\n";
-        let found = edited(text, &["render.spp=16", "cameras.a.output.raw=true", "speed=null"]);
+        let edited_text = edited(text, &["render.spp=16", "cameras.a.output.raw=true", "speed=null"]);
         assert_eq!(
-            found,
+            edited_text,
             "format = 1\n\n[render]\nspp = 16\n\n[[cameras]]\nname = \"a\"\nat = [0, 1.5]\noutput = { raw = true }\n"
         );
     }
@@ -107,7 +107,7 @@ mod tests {
     #[test]
     fn keys_of_a_base_are_removed_with_remove() {
         let text = "format = 1\nbase = \"b.toml\"\n[sensor]\nbits = 8\n";
-        let found = edited(text, &["sensor.dark=null", "sensor.bits=null", "isp=null"]);
-        assert_eq!(found, "format = 1\nbase = \"b.toml\"\nremove = [\"sensor.dark\", \"isp\"]\n\n[sensor]\n");
+        let edited_text = edited(text, &["sensor.dark=null", "sensor.bits=null", "isp=null"]);
+        assert_eq!(edited_text, "format = 1\nbase = \"b.toml\"\nremove = [\"sensor.dark\", \"isp\"]\n\n[sensor]\n");
     }
 }

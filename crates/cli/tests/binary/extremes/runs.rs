@@ -36,7 +36,7 @@ fn runs_that_cannot_go_on() {
     // What is free depends on the addresses that the system gave.
     let needed = memory.found.split(", and ").next().unwrap_or_default().to_owned();
     let memory = Row { found: format!("{needed}, and less is free"), ..memory };
-    let about = "With real limits of the system. Smaller allocations that fail and panics of workers have tests of their own (crates/cli/tests/binary/memory\\_that\\_fails.rs, crates/etendue/tests/library/panics.rs); \
+    let about = "With real limits of the system. Smaller allocations that fail and panics of workers have tests of their own (crates/cli/tests/binary/memory\\_that\\_fails.rs, crates/etendue/tests/library/errors.rs); \
         kills and several runs in one folder are below.";
     check("Runs that cannot go on", about, &[full, memory]);
 }

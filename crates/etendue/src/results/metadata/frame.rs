@@ -1,11 +1,12 @@
 //! What is said of a frame that has a light of its own.
 
-use super::{pose_rows, times};
+use super::pose_rows;
+use etendue_core::ExactTime;
 use etendue_io::{FileDigest, sidecar};
-use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
+use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence, Timing};
 use etendue_sensor::SensorState;
 use serde::Deserialize as _;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -24,10 +25,10 @@ pub(crate) fn own_frame(plan: &Plan, camera: &CameraPlan, frame: u32, photograph
     facts["plan_hash"] = plan.hash_text().into();
     let timing = &camera.timing;
     facts["exposure"] = json!({});
-    times::add(&mut facts["exposure"], timing, "start", timing.epoch.time(exposure.start_s()));
-    times::add(&mut facts["exposure"], timing, "end", timing.epoch.time(exposure.end_s()));
-    times::add(&mut facts, timing, "time", timing.frame_start(frame));
-    times::add(&mut facts, timing, "pose_time", timing.frame_middle(frame));
+    add_time(&mut facts["exposure"], timing, "start", timing.epoch.time(exposure.start_s()));
+    add_time(&mut facts["exposure"], timing, "end", timing.epoch.time(exposure.end_s()));
+    add_time(&mut facts, timing, "time", timing.frame_start(frame));
+    add_time(&mut facts, timing, "pose_time", timing.frame_middle(frame));
     facts["camera_to_world"] = json!(pose(exposure.middle_s()));
     if camera.time == TimeDependence::Motion && camera.path.still_over(exposure).is_none() {
         facts["camera_to_world_start"] = json!(pose(exposure.start_s()));
@@ -85,4 +86,25 @@ pub(crate) fn without_state(mut facts: Value) -> Value {
 pub(crate) fn state_of(facts: &Value, since: u32) -> Option<SensorState> {
     facts.get(SINCE).filter(|stated| **stated == since)?;
     serde_json::from_value(facts.get(STATE)?.clone()).ok()
+}
+
+/// Returns `<name>_s`, the nearest number, and, for a job whose epoch is not zero, `<name>`, text with digits to the picosecond.
+pub(crate) fn time_facts(timing: &Timing, name: &str, time: ExactTime) -> Map<String, Value> {
+    let number = (format!("{name}_s"), time.seconds().into());
+    let text = (!timing.epoch.is_zero()).then(|| (name.to_owned(), digits(time).into()));
+    std::iter::once(number).chain(text).collect()
+}
+
+/// Returns decimal seconds, rounded to the picosecond.
+fn digits(time: ExactTime) -> String {
+    const PER_S: f64 = 1e12;
+    let rounded = (time.fraction_s() * PER_S).round() / PER_S;
+    (ExactTime::from(time.whole_s() as f64) + rounded.into()).to_string()
+}
+
+/// Adds the entries of a time to a table.
+pub(crate) fn add_time(table: &mut Value, timing: &Timing, name: &str, time: ExactTime) {
+    if let Some(table) = table.as_object_mut() {
+        table.extend(time_facts(timing, name, time));
+    }
 }

@@ -4,15 +4,14 @@
 //! are unchanged, and row times keep the duration of a frame. docs/sensor.md has the table of keys. Calibrations describe the full
 //! sensor and are converted with [`full_raster`] and [`etendue_projection::Calibration::with_larger_pixels`].
 
-mod neighbours;
-mod processing;
 mod sensor;
 
 use super::context::Context;
 use etendue_projection::{Raster, RasterError};
 use etendue_scene::Placed;
+use etendue_scene::record::processing::PaperFilter;
 use etendue_scene::record::sensor::Scale;
-use etendue_scene::record::{Camera, Lens, lens};
+use etendue_scene::record::{Camera, Lens, Processing, lens};
 use std::borrow::Cow;
 
 /// Returns the number of pixels of the described sensor in a row and in a column of one pixel.
@@ -36,8 +35,32 @@ pub(super) fn scaled<'c>(camera: &'c Camera, context: &mut Context<'_>) -> Optio
         distortion.k1.value *= k * k;
         distortion.k2.iter_mut().for_each(|k2| k2.value *= k * k * k * k);
     }
-    camera.isp.iter_mut().for_each(|isp| processing::shrink(isp, k));
+    camera.isp.iter_mut().for_each(|isp| shrink_processing(isp, k));
     Some(Cow::Owned(camera))
+}
+
+/// Converts positions and sizes in the image, px, to those of the smaller image; filters of neighbouring pixels are unchanged.
+fn shrink_processing(isp: &mut Processing, k: f64) {
+    let centre = isp.shading.iter_mut().filter_map(|shading| shading.centre_px.as_mut());
+    centre.for_each(|centre| centre.value = centre.value.map(|px| px / k));
+    isp.image_filters.iter_mut().for_each(|filter| shrink_filter(filter, k));
+}
+
+fn shrink_filter(filter: &mut PaperFilter, k: f64) {
+    match filter {
+        PaperFilter::Glow(glow) => glow.radius_px.value /= k,
+        PaperFilter::Drops(drops) => {
+            for length in [&mut drops.min_radius_px, &mut drops.max_radius_px, &mut drops.blur_px] {
+                length.value /= k;
+            }
+            drops.flow_px_per_frame.iter_mut().for_each(|flow| flow.value /= k);
+        }
+        PaperFilter::ToneMap(_)
+        | PaperFilter::Colour(_)
+        | PaperFilter::PulseNoise(_)
+        | PaperFilter::GaussianNoise(_)
+        | PaperFilter::UniformNoise(_) => {}
+    }
 }
 
 fn distortion(lens: &mut Lens) -> Option<&mut lens::Distortion> {

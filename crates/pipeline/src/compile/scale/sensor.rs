@@ -1,9 +1,9 @@
 //! The sensor with pixels of k × k. Every key is named here, so that a new key needs a decision; docs/sensor.md states the reasons.
 
-use super::neighbours;
 use etendue_core::maths::f64::{exp_m1, ln_1p, pow};
 use etendue_scene::record::sensor::Shutter;
 use etendue_scene::record::sensor::charge::{Blooming, Dark, Direction, Smear};
+use etendue_scene::record::sensor::exposure::Exchange;
 use etendue_scene::record::sensor::hdr::Hdr;
 use etendue_scene::record::sensor::read_out::Response;
 use etendue_scene::record::{Electronics, Sensor};
@@ -75,7 +75,7 @@ fn enlarge_electronics(electronics: &mut Electronics, k: f64) {
     dark_current_e_s.iter_mut().for_each(|current| current.value *= area);
     dark.iter_mut().for_each(|dark| enlarge_dark(dark, area));
     brighter_fatter_per_e.iter_mut().for_each(|shift| shift.value /= area * k);
-    [crosstalk, inter_pixel_capacitance].into_iter().flatten().for_each(|shares| neighbours::enlarge(shares, k));
+    [crosstalk, inter_pixel_capacitance].into_iter().flatten().for_each(|exchange| enlarge_exchange(exchange, k));
     if let Some(Smear::FrameTransfer(transfer)) = smear {
         transfer.line_shift_s.value *= k;
     }
@@ -83,6 +83,19 @@ fn enlarge_electronics(electronics: &mut Electronics, k: f64) {
     response.iter_mut().for_each(|response| enlarge_response(response, area));
     roi_px.iter_mut().for_each(|region| region.value = region.value.map(|px| px / k));
     hdr.iter_mut().for_each(|hdr| enlarge_captures(hdr, area));
+}
+
+/// Converts the fractions of an exchange with neighbouring pixels to those of pixels of k × k.
+///
+/// Each of the k² parts of a pixel exchanges with its own neighbours as before, and all parts have the same signal. Only the k parts beside a border give
+/// signal to the pixel beyond it: the fraction h across the side and the fraction c across both corners of each part, except at the two corners of the border
+/// that lead to diagonal pixels: h′ = (k h + 2 (k − 1) c)/k² and c′ = c/k².
+fn enlarge_exchange(exchange: &mut Exchange, k: f64) {
+    let corner = exchange.corner.as_ref().map_or(0.0, |corner| corner.value);
+    let across = |share: f64| (k * share + 2.0 * (k - 1.0) * corner) / (k * k);
+    exchange.horizontal.value = across(exchange.horizontal.value);
+    exchange.vertical.value = across(exchange.vertical.value);
+    exchange.corner.iter_mut().for_each(|corner| corner.value /= k * k);
 }
 
 /// Sources of dark current are distributed over the area: the number of those of hot and blinking pixels is unchanged. A pixel of n parts has one or more with

@@ -11,13 +11,13 @@ use crate::written::{Item, Value as Said};
 /// The largest divisor: no picture is wider.
 const MAX_DIVISOR: u64 = 65_536;
 
-/// How far from a whole number the reciprocal of a decimal fraction may be, as a part of it: 0.3333333 is 1/3.
+/// Relative tolerance of the reciprocal of a decimal fraction: 0.3333333 is 1/3.
 const ROUNDING: f64 = 1e-6;
 
 /// The size of a picture over that of the sensor as described: 1/divisor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale {
-    /// How many pixels of the described sensor one pixel has in a row and in a column, 1 or more.
+    /// Pixels of the described sensor in a row and in a column of one pixel, 1 or more.
     pub divisor: u64,
 }
 

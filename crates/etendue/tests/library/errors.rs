@@ -1,7 +1,7 @@
-//! A panic on a worker thread, here of the caller's observer: no file is half-written, what is whole is told and kept, and a run that resumes ends as if nothing had been.
+//! Errors of jobs and runs: their place, and a panic on a worker thread, here of the caller's observer: no file is half-written, what is whole is told and kept, and a run that resumes ends as if nothing had been.
 
 use etendue::{
-    Existing, Job, JobRequest, MemoryFiles, Message, Observer, OutputFolder, Progress, RenderOptions, Unobserved,
+    Error, Existing, Job, JobRequest, MemoryFiles, Message, Observer, OutputFolder, Progress, RenderOptions, Unobserved,
 };
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -115,4 +115,19 @@ fn jobs_of_one_process_take_turns_in_a_folder() {
     assert!(refused.to_string().contains("another run of this process writes into this folder"), "{refused}");
     drop(held);
     job(false).save(&options(), (place.path(), Existing::Refuse), &Unobserved).expect("free");
+}
+
+#[test]
+fn a_missing_file_is_a_fault_of_the_key_that_names_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let job = folder.path().join("job.toml");
+    let text = "format = 1\n[[scene.meshes]]\nname = \"m\"\nfile = \"lost.obj\"\nup_axis = \"z\"\n[[scene.objects]]\nname = \"o\"\nmesh = \"m\"\n\
+        [[cameras]]\nname = \"c\"\nposition_m = [0, 0, 1]\nlook_at_m = [0, 0, 0]\nup = [0, 1, 0]\n[cameras.lens]\ntype = \"pinhole\"\n\
+        focal_length_mm = 4\nf_number = 8\n[cameras.sensor]\nwidth_px = 8\nheight_px = 8\npixel_pitch_um = 4\n";
+    std::fs::write(&job, text).expect("written");
+    let opened = Job::open(&job).map(|_| ());
+    let Err(Error::Input(faults)) = opened else { panic!("{opened:?}") };
+    let Some(fault) = faults.iter().find(|fault| fault.message.contains("lost.obj")) else { panic!("{faults:?}") };
+    assert_eq!((fault.file.as_ref(), fault.line, fault.column), (Some(&job), Some(4), Some(8)), "{fault:?}");
+    assert_eq!(fault.key.as_deref(), Some("scene.meshes.m.file"));
 }
