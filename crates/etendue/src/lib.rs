@@ -37,94 +37,27 @@
 //! Nothing here prints, reads a clock, starts threads (work runs on the caller's rayon pool) or ends the process. What the caller should
 //! know and is no error goes to its [`Observer`].
 
-mod calibration;
-mod camera_file;
-pub mod characterise;
-pub mod chart;
-mod compare;
-mod compare_pictures;
-mod datasheet;
-mod delivery;
-mod develop;
-mod display;
-mod display_picture;
-mod expose;
-mod exposures;
-mod film_file;
-mod film_memory;
-mod flat;
-mod integrator;
-mod job;
-mod laboratory;
-mod markup;
-pub mod measure;
-mod memory;
-mod memory_check;
-mod memory_limits;
-mod merge;
-mod named_file;
-pub mod page;
-pub mod plan_report;
-pub mod plot;
-mod quality;
-mod ranges;
-mod raw_file;
-mod refine;
-mod render_options;
-mod render_settings;
-pub mod report;
-mod results;
-mod rig;
-mod sampled_light;
-mod shard;
-mod shard_spec;
-mod stated_render;
-mod stored_radiance;
-mod terminal_text;
-mod tone_curve;
-mod variations;
-mod weather;
-
-pub use camera_file::open_camera;
-pub use compare::{ChannelComparison, Comparison, compare};
-pub use datasheet::datasheet;
-pub use develop::{DevelopRequest, develop};
-pub use display_picture::display_jpeg;
 pub use etendue_core::observer::{FramePlace, ImageTile, Message, Observer, Progress, Unit, Unobserved};
 pub use etendue_import::{ImportRequest, import};
+pub use etendue_io::escape::{escaped, terminal_json, terminal_text};
 pub use etendue_io::failure::{Error, Fault};
 pub use etendue_io::inspect::{Shown, inspect, inspect_showing};
 pub use etendue_io::paths::relative_path;
 pub use etendue_io::{CacheUse, Existing, FileDigest, OutputFolder, TextureMemory, is_decoding};
+pub use etendue_measurement::{ChannelComparison, Comparison, characterise, compare, measure, page, plot, report};
 pub use etendue_pipeline::boxes::WorldObject;
 pub use etendue_pipeline::motion::{MotionTruth, NeighbourTruth};
 pub use etendue_pipeline::photograph::{Frame, Light};
 pub use etendue_pipeline::plan::effects::{EffectGroup, PlannedEffect};
 pub use etendue_pipeline::rays::RayTable;
 pub use etendue_pipeline::truth::GroundTruth;
+pub use etendue_plan_report::{self as plan_report, PlanReport, open_camera};
+pub use etendue_run::{
+    CameraResults, DevelopRequest, ExposeRequest, Files, FilmMemory, FlatRequest, FlatSource, Integrator, Job,
+    JobRequest, LaboratoryRequest, Levels, LightSampling, LightSignal, MAX_FRAMES, MemoryFiles, MemoryLimit,
+    MemoryLimits, PinholeView, Quality, RenderOptions, RenderSettings, Results, SampledLight, SampledPixel,
+    ShardRequest, ShardSpec, StatedRender, Triangles, WeatherRequest, camera_mount, chart, datasheet, develop,
+    display_jpeg, expose, flat, laboratory, merge, open_variations, pinhole_view, weather, write_file,
+};
 pub use etendue_sensor::TemporalNoise;
 pub use etendue_tracer::accel::Simd;
-pub use expose::{ExposeRequest, expose};
-pub use film_memory::FilmMemory;
-pub use flat::{FlatRequest, FlatSource, flat};
-pub use integrator::Integrator;
-pub use job::{Job, JobRequest};
-pub use laboratory::{LaboratoryRequest, laboratory};
-pub use markup::escaped;
-pub use memory::{MemoryFiles, Triangles};
-pub use memory_limits::{MemoryLimit, MemoryLimits};
-pub use merge::merge;
-pub use named_file::write_file;
-pub use plan_report::PlanReport;
-pub use quality::Quality;
-pub use raw_file::Levels;
-pub use render_options::{MAX_FRAMES, RenderOptions};
-pub use render_settings::RenderSettings;
-pub use results::{CameraResults, Files, Results};
-pub use rig::{PinholeView, camera_mount, pinhole_view};
-pub use sampled_light::{LightSampling, LightSignal, SampledLight, SampledPixel};
-pub use shard_spec::{ShardRequest, ShardSpec};
-pub use stated_render::StatedRender;
-pub use terminal_text::{terminal_json, terminal_text};
-pub use variations::open_variations;
-pub use weather::{WeatherRequest, weather};

@@ -10,6 +10,12 @@ pub fn relative_path(folder: &Path, file: &Path) -> PathBuf {
     up.chain(file.components().skip(shared)).collect()
 }
 
+/// Returns the stem of a camera file's name, which names the folder of its results; `camera` if there is none.
+#[must_use]
+pub fn camera_stem(file: &Path) -> String {
+    file.file_stem().map_or_else(|| "camera".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

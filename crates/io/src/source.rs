@@ -5,9 +5,9 @@ use std::fs::File;
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;
 
-use etendue_scene::limits::{self, Limit};
+use etendue_scene::limits::{self, DESCRIPTION, Limit};
 
-use crate::Error;
+use crate::{Error, failure};
 
 /// The bytes of `file`; `what` names in words what it should be ("mesh", "texture").
 pub fn read_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
@@ -145,4 +145,25 @@ mod tests {
         std::fs::write(place.path().join("a.obj"), b"x").expect("write");
         assert_eq!(read_bytes(&place.path().join("a.obj"), "mesh").expect("a file"), b"x");
     }
+}
+
+/// Reads a description as text; the error says in a few words why it cannot be read.
+///
+/// # Errors
+/// There is no such file, it is a folder, it is longer than a description may be, or it is not UTF-8.
+pub fn read_text(path: &Path) -> Result<String, String> {
+    let bytes = read_regular(path, &DESCRIPTION).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        std::io::ErrorKind::IsADirectory => "it is a folder; name a file in it".to_owned(),
+        _ => error.to_string(),
+    })?;
+    String::from_utf8(bytes).map_err(|_| "it is no text (UTF-8)".to_owned())
+}
+
+/// Reads a description that the caller names; the error begins with its path.
+///
+/// # Errors
+/// As [`read_text`].
+pub fn text_of(path: &Path) -> Result<String, failure::Error> {
+    read_text(path).map_err(|why| failure::Error::input(format!("{}: {why}", path.display())))
 }

@@ -1,0 +1,61 @@
+//! The file over which a new camera file is laid, and whether the two together are a camera.
+
+use super::camera::Found;
+use etendue_io::failure::Error;
+use etendue_io::source::read_text;
+use etendue_scene::record::Camera;
+use etendue_scene::{Overrides, load_camera};
+use std::path::Path;
+
+/// The camera of a base.
+///
+/// # Errors
+/// Where it cannot be read.
+pub(super) fn open(file: &Path) -> Result<Camera, Error> {
+    load_camera(file, &read_text, &Overrides::default()).map_err(|faults| Error::inputs(faults.list()))
+}
+
+/// Refuses a base with a key whose effect what was measured holds already.
+pub(super) fn refuse_what_is_measured(file: &Path, base: &Camera, found: &Found) -> Result<(), Error> {
+    let sensor = &base.sensor;
+    let mut twice = Vec::new();
+    if let (Some(measured), Some(based)) = (&found.electronics, &sensor.electronics) {
+        let dark = based.dark.as_ref().is_some_and(|dark| dark.temperature_c.is_some());
+        let keys = [
+            ("sensor.analogue_gain", based.analogue_gain.is_some(), "the gain"),
+            ("sensor.row_noise_e", based.row_noise_e.is_some(), "the noise in the dark"),
+            ("sensor.column_noise_e", based.column_noise_e.is_some(), "the noise in the dark"),
+            ("sensor.rts_noise", based.rts_noise.is_some(), "the noise in the dark"),
+            ("sensor.dark.temperature_c", dark && measured.dark_current_e_s.is_some(), "the dark current"),
+            ("sensor.angle_response", based.angle_response.is_some() && found.fall_off.is_some(), "the fall-off"),
+            (
+                "sensor.fill_factor",
+                sensor.fill_factor.is_some() && measured.efficiency.is_some(),
+                "the quantum efficiency",
+            ),
+        ];
+        twice.extend(keys.into_iter().filter(|(_, is_there, _)| *is_there));
+    }
+    let told: Vec<String> = twice
+        .into_iter()
+        .map(|(key, _, what)| {
+            format!(
+                "{}: {key} would be applied to {what} that was measured, which holds it: take it out of a copy of the base",
+                file.display()
+            )
+        })
+        .collect();
+    if told.is_empty() { Ok(()) } else { Err(Error::inputs(told)) }
+}
+
+/// Refuses numbers that are no camera.
+///
+/// # Errors
+/// What the camera file would be refused for.
+pub(super) fn check(file: &Path, text: &str) -> Result<(), Error> {
+    let read = |path: &Path| if path == file { Ok(text.to_owned()) } else { read_text(path) };
+    load_camera(file, &read, &Overrides::default()).map(drop).map_err(|faults| {
+        let told = faults.list().iter().map(|fault| format!("what was measured is no camera: {fault}"));
+        Error::inputs(told.collect::<Vec<_>>())
+    })
+}

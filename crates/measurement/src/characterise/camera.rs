@@ -1,0 +1,325 @@
+//! The camera file of what was found: keys with their standard uncertainties beside them. Keys that a camera file must have and that nothing tells are
+//! stand-ins, which say that they are, or are left to a base.
+
+use super::colour::Colour;
+use super::electronics::Electronics;
+use super::fall_off::FallOff;
+use super::folder::Laboratory;
+use super::identity::PITCH_UM;
+use super::point_picture::PointPicture;
+use super::spread::{Spread, told};
+use crate::measure::views::Found as Geometry;
+use crate::report::{Estimate, with_uncertainty};
+use etendue_core::maths::f64::{hypot, log10};
+use etendue_plan_report::calibration;
+use etendue_scene::written::{File, Table};
+
+/// Stand-ins.
+const F_NUMBER: f64 = 4.0;
+const FIELD_OF_VIEW_DEG: f64 = 60.0;
+const EXPOSURE_S: f64 = 0.01;
+const EFFICIENCY: f64 = 0.5;
+const BITS: u64 = 12;
+const FULL_WELL_E: f64 = 10_000.0;
+const STAND_IN: &str = "a stand-in: not measured";
+const TAKEN: &str = "a setting, not measured";
+
+/// All that was found.
+#[derive(Default)]
+pub(super) struct Found {
+    pub(super) electronics: Option<Electronics>,
+    pub(super) fall_off: Option<FallOff>,
+    pub(super) geometry: Option<Geometry>,
+    pub(super) spread: Option<Spread>,
+    pub(super) colour: Option<Colour>,
+    /// Of the pictures of the lens, s.
+    pub(super) exposure_s: Option<f64>,
+}
+
+/// A camera file, and what in it is a stand-in.
+pub(super) struct CameraFile {
+    pub(super) text: String,
+    pub(super) stand_ins: Vec<String>,
+}
+
+/// Keys as they are gathered, with comments.
+struct Draft<'a> {
+    laboratory: &'a Laboratory,
+    found: &'a Found,
+    /// Whether what is not known is another file's.
+    based: bool,
+    comments: Vec<(String, String)>,
+    stand_ins: Vec<String>,
+}
+
+/// The camera file; `base` is the file over which it is laid, `picture` the name of the picture of a point's light.
+pub(super) fn camera_file(
+    laboratory: &Laboratory,
+    found: &Found,
+    base: Option<&str>,
+    picture: Option<(&str, &PointPicture)>,
+) -> CameraFile {
+    let mut draft = Draft { laboratory, found, based: base.is_some(), comments: Vec::new(), stand_ins: Vec::new() };
+    let mut table = Table::new();
+    let (lens, effects, sensor, isp) = (draft.lens(), draft.effects(picture), draft.sensor(), draft.isp());
+    if let Some(base) = base {
+        table.put("base", base);
+    }
+    for (key, part) in [("lens", lens), ("effects", effects), ("sensor", sensor), ("isp", isp)] {
+        if let Some(part) = part {
+            table.put(key, part);
+        }
+    }
+    let name = laboratory.camera.name.as_ref().map_or_else(String::new, |name| format!(": {name}"));
+    let head = format!(
+        "Found by etendue characterise from {} pictures{name}. ± is one standard uncertainty.",
+        laboratory.count()
+    );
+    let file = File::new(table).head(head);
+    let file = draft.comments.iter().fold(file, |file, (key, comment)| file.beside(key, comment.clone()));
+    CameraFile { text: file.to_string(), stand_ins: draft.stand_ins }
+}
+
+/// A number to a hundredth of its standard uncertainty.
+fn rounded(e: Estimate) -> f64 {
+    let (value, u) = (e.value, e.standard_uncertainty);
+    if !(u > 0.0 && u.is_finite()) {
+        return value;
+    }
+    let decimals = (2.0 - log10(u).floor()).clamp(0.0, 17.0) as usize;
+    format!("{value:.decimals$}").parse().unwrap_or(value)
+}
+
+impl Draft<'_> {
+    fn beside(&mut self, key: &str, comment: impl Into<String>) {
+        self.comments.push((key.to_owned(), comment.into()));
+    }
+
+    /// A measured number that cannot be below 0.
+    fn measured(&mut self, table: &mut Table, section: &str, key: &str, e: Estimate) {
+        table.put(key, rounded(Estimate::new(e.value.max(0.0), e.standard_uncertainty)));
+        self.beside(&format!("{section}.{key}"), format!("± {:.1e}", e.standard_uncertainty));
+    }
+
+    /// A number that is measured, or is a stand-in where no base has it.
+    fn or_stand_in(&mut self, table: &mut Table, (section, key): (&str, &str), e: Option<Estimate>, stand_in: f64) {
+        match e {
+            Some(e) => self.measured(table, section, key, e),
+            None => self.stand_in(table, (section, key), stand_in),
+        }
+    }
+
+    /// A setting of the camera, or a stand-in for it.
+    fn setting(&mut self, table: &mut Table, (section, key): (&str, &str), known: Option<f64>, stand_in: f64) {
+        match known {
+            Some(known) => {
+                table.put(key, known);
+                self.beside(&format!("{section}.{key}"), TAKEN);
+            }
+            None => self.stand_in(table, (section, key), stand_in),
+        }
+    }
+
+    fn stand_in(&mut self, table: &mut Table, (section, key): (&str, &str), value: f64) {
+        if !self.based {
+            table.put(key, value);
+            self.beside(&format!("{section}.{key}"), STAND_IN);
+            self.stand_ins.push(format!("{section}.{key}"));
+        }
+    }
+
+    fn lens(&mut self) -> Option<Table> {
+        let found = self.found;
+        let mut lens = Table::new();
+        match &found.geometry {
+            Some(geometry) => {
+                lens.put("type", "calibrated");
+                lens.put("projection", calibration::projection(&geometry.camera.calibration).to_table().in_line());
+                let each =
+                    geometry.camera.parameters.iter().map(|p| format!("{} {}", p.name, with_uncertainty(p.estimate)));
+                self.beside("lens.projection", each.collect::<Vec<_>>().join(", "));
+            }
+            None if self.based => {}
+            None => {
+                lens.put("type", "calibrated");
+                let projection = Table::new().with("type", "rectilinear").with("field_of_view_deg", FIELD_OF_VIEW_DEG);
+                lens.put("projection", projection.in_line());
+                self.beside("lens.projection", STAND_IN);
+                self.stand_ins.push("lens.projection".to_owned());
+            }
+        }
+        // A lens of another type is the base's.
+        if found.geometry.is_none() && self.based {
+            return None;
+        }
+        // The lens is stated anew, and so is its f-number.
+        let based = std::mem::replace(&mut self.based, false);
+        self.setting(&mut lens, ("lens", "f_number"), self.laboratory.camera.f_number, F_NUMBER);
+        self.based = based;
+        if let Some(fall_off) = &found.fall_off {
+            let [radius_mm, ratio] = self.illumination(fall_off);
+            let list = |values: &[f64]| {
+                values.iter().map(|v| format!("{v:.6}").parse::<f64>().unwrap_or(*v)).collect::<Vec<_>>()
+            };
+            let table = Table::new().with("radius_mm", list(&radius_mm)).with("ratio", list(&ratio));
+            lens.put("relative_illumination", table);
+            self.beside("lens.relative_illumination.ratio", format!("± {:.1e} in the corner", fall_off.corner_u));
+        }
+        Some(lens)
+    }
+
+    /// Radii, mm, and ratios, as far as the corner that is farthest from the principal point.
+    fn illumination(&self, fall_off: &FallOff) -> [Vec<f64>; 2] {
+        let (mut radii, mut ratios) = (fall_off.radius_mm.clone(), fall_off.ratio.clone());
+        let Some(geometry) = &self.found.geometry else { return [radii, ratios] };
+        let (matrix, size) = (geometry.camera.calibration.matrix(), self.laboratory.camera.size_px.map(|n| n as f64));
+        let farthest = |at: f64, length: f64| at.max(length - at);
+        let corner_px = hypot(farthest(matrix.cx, size[0]), farthest(matrix.cy, size[1]));
+        let corner_mm = 0.001 * self.laboratory.camera.pixel_pitch_um.unwrap_or(PITCH_UM) * corner_px;
+        if radii.last().is_some_and(|last| corner_mm >= *last) {
+            radii.push(1.001 * corner_mm);
+            ratios.extend(fall_off.ratio.last());
+        }
+        [radii, ratios]
+    }
+
+    fn effects(&mut self, picture: Option<(&str, &PointPicture)>) -> Option<Table> {
+        let (name, picture) = picture?;
+        let psf = Table::new().with("image", std::path::Path::new(name)).with("image_pitch_um", picture.pitch_um);
+        self.beside("effects.psf.image", picture.about());
+        Some(Table::new().with("psf", psf))
+    }
+
+    fn sensor(&mut self) -> Option<Table> {
+        let [width, height] = self.laboratory.camera.size_px;
+        let mut sensor = Table::new().with("width_px", width as u64).with("height_px", height as u64);
+        let pitch_um = self.laboratory.camera.pixel_pitch_um;
+        self.setting(&mut sensor, ("sensor", "pixel_pitch_um"), pitch_um, PITCH_UM);
+        let found = self.found;
+        if let Some(electronics) = &found.electronics {
+            self.electronics(&mut sensor, electronics);
+        }
+        Some(sensor)
+    }
+
+    fn electronics(&mut self, sensor: &mut Table, electronics: &Electronics) {
+        let f = electronics.figures;
+        self.setting(sensor, ("sensor", "exposure_s"), self.found.exposure_s, EXPOSURE_S);
+        match self.laboratory.camera.cfa.clone() {
+            Some(cfa) => sensor.put("cfa", cfa),
+            None if self.based => {}
+            None => {
+                sensor.put("cfa", "mono");
+                self.beside("sensor.cfa", STAND_IN);
+                self.stand_ins.push("sensor.cfa".to_owned());
+            }
+        }
+        self.efficiency(sensor, electronics);
+        let full_well = Some(f.saturation_e).filter(|_| electronics.saturated);
+        let fallback = f.saturation_e.value.max(FULL_WELL_E);
+        self.or_stand_in(sensor, ("sensor", "full_well_e"), full_well, fallback);
+        self.measured(sensor, "sensor", "read_noise_e", f.dark_noise_e);
+        self.or_stand_in(sensor, ("sensor", "dark_current_e_s"), electronics.dark_current_e_s, 0.0);
+        self.measured(sensor, "sensor", "gain_dn_per_e", f.gain_dn_per_e);
+        self.measured(sensor, "sensor", "black_level_dn", electronics.black_level_dn);
+        match self.laboratory.camera.bits {
+            Some(bits) => sensor.put("bits", bits),
+            None if self.based => {}
+            None => {
+                sensor.put("bits", BITS);
+                self.beside("sensor.bits", STAND_IN);
+                self.stand_ins.push("sensor.bits".to_owned());
+            }
+        }
+        self.crosstalk(sensor);
+        if let Some(patterns) = &electronics.patterns {
+            let mut table = Table::new();
+            let (prnu, dsnu) = (patterns.prnu, patterns.dsnu_e);
+            for (key, e) in [
+                ("prnu", prnu.pixel),
+                ("prnu_row", prnu.row),
+                ("prnu_column", prnu.column),
+                ("dsnu_e", dsnu.pixel),
+                ("dsnu_row_e", dsnu.row),
+                ("dsnu_column_e", dsnu.column),
+            ] {
+                self.measured(&mut table, "sensor.non_uniformity", key, e);
+            }
+            if let Some(share) = electronics.dead.as_ref().and_then(|dead| dead.share) {
+                self.measured(&mut table, "sensor.non_uniformity", "dead_fraction", share);
+            }
+            sensor.put("non_uniformity", table);
+        }
+        if let Some((share, mean)) = electronics.hot.as_ref().and_then(|hot| hot.share.zip(hot.mean_e_s)) {
+            let mut hot = Table::new();
+            self.measured(&mut hot, "sensor.dark.hot", "share", share);
+            self.measured(&mut hot, "sensor.dark.hot", "mean_e_s", mean);
+            sensor.put("dark", Table::new().with("hot", hot));
+        }
+    }
+
+    fn efficiency(&mut self, sensor: &mut Table, electronics: &Electronics) {
+        match &electronics.efficiency {
+            Some((channels, wavelength_nm)) => {
+                let values: Vec<f64> = channels.iter().map(|(_, e)| rounded(*e)).collect();
+                let each: Vec<String> =
+                    channels.iter().map(|(_, e)| format!("± {:.1e}", e.standard_uncertainty)).collect();
+                match values[..] {
+                    [only] => sensor.put("quantum_efficiency", only),
+                    _ => sensor.put("quantum_efficiency", values),
+                }
+                let told = format!("{}; at {wavelength_nm} nm, taken for all wavelengths", each.join(", "));
+                self.beside("sensor.quantum_efficiency", told);
+            }
+            None => self.stand_in(sensor, ("sensor", "quantum_efficiency"), EFFICIENCY),
+        }
+    }
+
+    /// What neighbours exchange: of a mosaic, of light that its green pixels' neighbours see.
+    fn crosstalk(&mut self, sensor: &mut Table) {
+        let Some(spread) = self.found.spread else { return };
+        let exchange = |blur: Option<etendue_metrology::sfr::Blur>| blur.map(|blur| blur.exchange);
+        let Some((across, along)) = exchange(spread.along_rows).zip(exchange(spread.along_columns)) else { return };
+        if !(told(across) || told(along)) {
+            return;
+        }
+        let [beside, below] = self.neighbours_over_green();
+        let mut table = Table::new();
+        self.measured(&mut table, "sensor.crosstalk", "horizontal", across.scaled(1.0 / beside));
+        self.measured(&mut table, "sensor.crosstalk", "vertical", along.scaled(1.0 / below));
+        sensor.put("crosstalk", table);
+    }
+
+    /// Light of the pixels beside and below the first green one over its own.
+    fn neighbours_over_green(&self) -> [f64; 2] {
+        let camera = &self.laboratory.camera;
+        let (Some(cfa), Some(colour)) = (camera.cfa.as_ref().filter(|_| camera.is_mosaic()), &self.found.colour) else {
+            return [1.0; 2];
+        };
+        let tile = cfa.as_bytes();
+        let Some(at) = tile.iter().position(|letter| *letter == b'g').filter(|_| tile.len() == 4) else {
+            return [1.0; 2];
+        };
+        let light = |at: usize| match tile[at] {
+            b'r' => colour.white_balance[1].value / colour.white_balance[0].value,
+            b'b' => colour.white_balance[1].value / colour.white_balance[2].value,
+            _ => 1.0,
+        };
+        [light(at ^ 1), light(at ^ 2)]
+    }
+
+    fn isp(&mut self) -> Option<Table> {
+        let colour = self.found.colour?;
+        let mut isp = Table::new();
+        let list = |row: [Estimate; 3]| row.map(rounded).to_vec();
+        let doubts = |row: [Estimate; 3]| row.map(|e| format!("{:.1e}", e.standard_uncertainty)).join(", ");
+        isp.put("white_balance", list(colour.white_balance));
+        self.beside("isp.white_balance", format!("± {}", doubts(colour.white_balance)));
+        if let Some(matrix) = colour.matrix {
+            isp.put("colour_matrix", matrix.map(list).to_vec());
+            self.beside("isp.colour_matrix", format!("± {}", matrix.map(doubts).join("; ")));
+        }
+        // They belong to spectral responsivities, which only a base has.
+        self.based.then_some(isp)
+    }
+}

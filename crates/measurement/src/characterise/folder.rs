@@ -1,0 +1,156 @@
+//! A laboratory folder: its pictures by kind, and what is stated of them.
+
+use super::kind::Kind;
+use super::shot::Shot;
+use super::{checks, identity};
+use crate::measure::pictures::Pictures;
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
+use etendue_io::source::read_text;
+use etendue_scene::load_laboratory;
+use etendue_scene::record;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicUsize;
+
+/// The file that states what pictures do not.
+const FILE: &str = "laboratory.toml";
+const TRUTH: &str = "truth.json";
+/// Pictures by their names' ends; what is in them is told by their first bytes.
+const ENDINGS: [&str; 8] = ["png", "tif", "tiff", "dng", "jpg", "jpeg", "exr", "pfm"];
+/// Folders within folders.
+const DEEPEST: usize = 6;
+
+/// A laboratory's pictures.
+pub(super) struct Laboratory {
+    pub(super) root: PathBuf,
+    pub(super) stated: record::Laboratory,
+    /// In the order of their names.
+    shots: Vec<Shot>,
+    /// Of the camera.
+    pub(super) camera: identity::Camera,
+}
+
+impl Laboratory {
+    /// Reads all pictures and checks that they are of one camera, and usable.
+    pub(super) fn open(root: &Path, observer: &dyn Observer) -> Result<Self, Error> {
+        if !root.is_dir() {
+            return Err(Error::input(format!("{}: there is no such folder of pictures", root.display())));
+        }
+        let file = root.join(FILE);
+        let stated = match file.is_file() {
+            true => load_laboratory(&file, &read_text).map_err(|faults| Error::inputs(faults.list()))?,
+            false => record::Laboratory::default(),
+        };
+        let files = files(root)?;
+        check_stated(root, &file, &stated)?;
+        let pictures = Pictures { heading: "pictures", done: AtomicUsize::new(0), total: files.len(), observer };
+        let read = |(kind, file): &(Kind, PathBuf)| {
+            let shot = Shot::read(*kind, file, exposure_s(root, &stated, file));
+            pictures.step();
+            shot
+        };
+        let read: Vec<Result<Shot, Error>> = files.par_iter().map(read).collect();
+        let (mut shots, mut faults) = (Vec::new(), Vec::new());
+        for one in read {
+            match one {
+                Ok(shot) => shots.push(shot),
+                Err(Error::Input(more)) => faults.extend(more),
+                Err(other) => return Err(other),
+            }
+        }
+        if !faults.is_empty() {
+            return Err(Error::Input(faults));
+        }
+        checks::check(&shots)?;
+        let camera = identity::Camera::of(&shots, &stated)?;
+        Ok(Self { root: root.to_path_buf(), stated, shots, camera })
+    }
+
+    /// The pictures of a kind: raw ones where there are any, else developed ones.
+    pub(super) fn shots(&self, kind: Kind) -> Vec<&Shot> {
+        let all: Vec<&Shot> = self.shots.iter().filter(|shot| shot.kind == kind).collect();
+        let raw: Vec<&Shot> = all.iter().copied().filter(|shot| shot.is_raw()).collect();
+        if raw.is_empty() { all } else { raw }
+    }
+
+    /// How many pictures there are.
+    pub(super) fn count(&self) -> usize {
+        self.shots.len()
+    }
+
+    /// The truth of a kind's chart, where it lies beside the pictures.
+    pub(super) fn truth(&self, kind: Kind) -> Option<PathBuf> {
+        Some(self.root.join(kind.folder()).join(TRUTH)).filter(|file| file.is_file())
+    }
+}
+
+/// The exposure that the laboratory's file states of a picture's folder, or of one around it.
+fn exposure_s(root: &Path, stated: &record::Laboratory, file: &Path) -> Option<f64> {
+    let within = |folder: &str| file.starts_with(root.join(folder));
+    let fit = stated.exposures_s.iter().filter(|(folder, _)| within(&folder.value));
+    fit.max_by_key(|(folder, _)| Path::new(&folder.value).components().count()).map(|(_, s)| s.value)
+}
+
+/// Folders that are named are there: a key without effect is a mistake.
+fn check_stated(root: &Path, file: &Path, stated: &record::Laboratory) -> Result<(), Error> {
+    let lost = stated.exposures_s.iter().filter(|(folder, _)| !root.join(&folder.value).is_dir());
+    let told = |folder: &str| {
+        format!(
+            "{}: exposures_s: there is no folder {folder} here; name one from the laboratory folder",
+            file.display()
+        )
+    };
+    let mut faults: Vec<String> = lost.map(|(folder, _)| told(&folder.value)).collect();
+    let tables = [
+        (stated.flat.is_some(), Kind::Flat),
+        (stated.chart.is_some(), Kind::Chart),
+        (stated.edges.is_some(), Kind::Edges),
+        (stated.checker.is_some(), Kind::Checker),
+    ];
+    for (_, kind) in tables.into_iter().filter(|(given, kind)| *given && !root.join(kind.folder()).is_dir()) {
+        let name = kind.folder();
+        faults.push(format!(
+            "{}: [{name}] has no effect without a folder {name}/; add it, or remove the table",
+            file.display()
+        ));
+    }
+    if faults.is_empty() { Ok(()) } else { Err(Error::inputs(faults)) }
+}
+
+/// All pictures with their kinds, in the order of their names.
+fn files(root: &Path) -> Result<Vec<(Kind, PathBuf)>, Error> {
+    let mut found = Vec::new();
+    for kind in Kind::ALL {
+        let folder = root.join(kind.folder());
+        if folder.is_dir() {
+            let mut within = Vec::new();
+            gather(&folder, DEEPEST, &mut within)?;
+            within.sort();
+            found.extend(within.into_iter().map(|file| (kind, file)));
+        }
+    }
+    if found.is_empty() {
+        let names = Kind::ALL.map(|kind| format!("{}/ ({})", kind.folder(), kind.about())).join(", ");
+        let told = format!(
+            "{}: no pictures to characterise a camera by; expected folders of these names with pictures in them: {names}",
+            root.display()
+        );
+        return Err(Error::input(told));
+    }
+    Ok(found)
+}
+
+fn gather(folder: &Path, deeper: usize, found: &mut Vec<PathBuf>) -> Result<(), Error> {
+    let failed = |cause: std::io::Error| Error::input(format!("{}: {cause}", folder.display()));
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);
+        if path.is_dir() && deeper > 0 {
+            gather(&path, deeper - 1, found)?;
+        } else if path.is_file() && ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str())) {
+            found.push(path);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,201 @@
+//! A camera from a laboratory folder: dark frames, flats, views of a chart, slanted edges, a ColorChecker, any of them missing.
+//!
+//! The measurements are those of [`measure`](crate::measure), one after the other; what each finds is put into one camera file with its standard uncertainty,
+//! and what could not be known is said with the reason. docs/characterise.md tells how a folder is laid out.
+
+mod base;
+mod camera;
+mod checks;
+mod colour;
+mod electronics;
+mod fall_off;
+mod folder;
+mod geometry;
+mod identity;
+mod kind;
+mod page;
+mod parameter;
+mod point_picture;
+mod shot;
+mod spread;
+
+use crate::report::{finite, json_estimate};
+use camera::{CameraFile, Found, camera_file};
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
+use etendue_io::paths::relative_path;
+use etendue_io::{Existing, OutputFolder};
+use folder::Laboratory;
+use parameter::Findings;
+use point_picture::PointPicture;
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+
+pub use kind::Kind;
+pub use parameter::{Parameter, Part, Unknown};
+
+/// `etendue characterise`
+#[derive(Clone, Debug)]
+pub struct CharacteriseRequest {
+    /// The laboratory folder
+    pub folder: PathBuf,
+    /// A camera file over which the new one is laid: what is not measured is its
+    pub base: Option<PathBuf>,
+}
+
+impl CharacteriseRequest {
+    /// The same as the program without options.
+    pub fn new(folder: impl Into<PathBuf>) -> Self {
+        Self { folder: folder.into(), base: None }
+    }
+}
+
+/// What was found of a camera.
+pub struct Characterisation {
+    laboratory: Laboratory,
+    base: Option<PathBuf>,
+    findings: Findings,
+    found: Found,
+}
+
+/// Measures a camera by the pictures of a laboratory folder. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where the folder cannot be used: pictures that cannot be read, of several cameras, copies, saturated flats; or where nothing at all can be found.
+pub fn characterise(request: &CharacteriseRequest, observer: &dyn Observer) -> Result<Characterisation, Error> {
+    let laid_over = request.base.as_deref().map(|file| base::open(file).map(|camera| (file, camera))).transpose()?;
+    let laboratory = Laboratory::open(&request.folder, observer)?;
+    let (mut findings, mut found) = (Findings::default(), Found::default());
+    let f = &mut findings;
+    found.electronics = electronics::measure(&laboratory, f, observer)?;
+    let electronics = found.electronics.as_ref();
+    found.fall_off = fall_off::measure(&laboratory, electronics, f)?;
+    found.geometry = geometry::measure(&laboratory, f, observer)?;
+    found.spread = spread::measure(&laboratory, f)?;
+    found.colour = colour::measure(&laboratory, electronics, f)?;
+    if let Some((file, camera)) = &laid_over {
+        base::refuse_what_is_measured(file, camera, &found)?;
+    } else if found.colour.is_some() {
+        f.unknown(
+            "white balance and colour matrix of the camera file",
+            "they belong to the spectral responsivities, which light of one wavelength does not tell: lay the file over one that has them (--base)",
+        );
+    }
+    let lens = [Kind::Field, Kind::Chart, Kind::Edges, Kind::Checker];
+    found.exposure_s = lens.iter().find_map(|kind| laboratory.shots(*kind).first()?.exposure_s);
+    if findings.parameters.is_empty() {
+        let why: Vec<String> = findings.unknown.iter().map(|u| format!("{}: {}", u.what, u.why)).collect();
+        return Err(Error::inputs(
+            [vec![format!("{}: nothing of the camera can be found", request.folder.display())], why].concat(),
+        ));
+    }
+    for unknown in &findings.unknown {
+        observer.message(Message::Note(&format!("not known: {}: {}", unknown.what, unknown.why)));
+    }
+    Ok(Characterisation { laboratory, base: request.base.clone(), findings, found })
+}
+
+/// Refuses names of files that are there and may not be replaced, before anything is measured.
+///
+/// # Errors
+/// Where there is one of those that [`Characterisation::save`] would write, or their folder cannot be written.
+pub fn claim(file: &Path, existing: Existing) -> Result<(), Error> {
+    let folder = OutputFolder::open_beside(parent(file), existing).map_err(Error::input)?;
+    let names = ENDINGS.map(|ending| format!("{}{ending}", etendue_io::paths::camera_stem(file)));
+    folder.claim(names.iter().map(String::as_str)).map_err(Error::input)
+}
+
+/// What is written, behind the stem.
+const ENDINGS: [&str; 4] = [".toml", ".json", ".html", "-psf.png"];
+
+fn parent(file: &Path) -> &Path {
+    file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+impl Characterisation {
+    /// The numbers that were found.
+    #[must_use]
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.findings.parameters
+    }
+
+    /// What could not be known, with the reasons.
+    #[must_use]
+    pub fn unknown(&self) -> &[Unknown] {
+        &self.findings.unknown
+    }
+
+    /// The measurements that were made.
+    #[must_use]
+    pub fn parts(&self) -> &[Part] {
+        &self.findings.parts
+    }
+
+    /// Writes the camera file, and beside it under the same stem the report as a page (`.html`) and as JSON (`.json`), and the picture of a
+    /// point's light that the camera file names, where there is one (`-psf.png`); answers with their paths.
+    ///
+    /// # Errors
+    /// Where one is there and may not be replaced, or cannot be written.
+    pub fn save(&self, file: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
+        let stem = etendue_io::paths::camera_stem(file);
+        let parent = parent(file);
+        let picture = self.point_picture();
+        let picture_name = format!("{stem}{}", ENDINGS[3]);
+        let mut folder = OutputFolder::open_beside(parent, existing).map_err(Error::input)?;
+        let base = self.base.as_deref().map(|base| named_from(parent, base)).transpose()?;
+        let camera =
+            camera_file(&self.laboratory, &self.found, base.as_deref(), picture.as_ref().map(|p| (&*picture_name, p)));
+        base::check(&parent.join(format!("{stem}{}", ENDINGS[0])), &camera.text)?;
+        let mut files = vec![
+            (format!("{stem}{}", ENDINGS[0]), camera.text.clone().into_bytes()),
+            (format!("{stem}{}", ENDINGS[1]), format!("{:#}\n", self.json(&camera)).into_bytes()),
+            (format!("{stem}{}", ENDINGS[2]), self.page(&camera).into_bytes()),
+        ];
+        if let Some(picture) = picture {
+            files.push((picture_name, picture.png()?));
+        }
+        folder.claim(files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
+        files.iter().try_for_each(|(name, bytes)| folder.write(name, bytes)).map_err(Error::run)?;
+        folder.commit().map_err(Error::run)
+    }
+
+    fn point_picture(&self) -> Option<PointPicture> {
+        let pitch_um = self.laboratory.camera.pixel_pitch_um.unwrap_or(identity::PITCH_UM);
+        PointPicture::of(&self.found.spread?, pitch_um)
+    }
+
+    /// The report: parameters, what is not known, and every measurement as `etendue measure` prints it.
+    fn json(&self, camera: &CameraFile) -> Value {
+        let parameter = |p: &Parameter| {
+            let mut told = json_estimate(p.value);
+            told["expanded_uncertainty_95"] = finite(2.0 * p.value.standard_uncertainty);
+            told["unit"] = p.unit.into();
+            told["label"] = p.label.as_str().into();
+            told["from"] = p.from.folder().into();
+            (p.key.clone(), told)
+        };
+        let unknown = |u: &Unknown| json!({ "what": u.what, "why": u.why });
+        json!({
+            "program": "etendue",
+            "camera": self.laboratory.camera.name,
+            "pictures": Kind::ALL.map(|kind| (kind.folder().to_owned(), self.laboratory.shots(kind).len().into())).into_iter().collect::<Map<_, _>>(),
+            "parameters": self.findings.parameters.iter().map(parameter).collect::<Map<_, _>>(),
+            "not_known": self.findings.unknown.iter().map(unknown).collect::<Value>(),
+            "stand_ins": camera.stand_ins,
+            "measurements": self.findings.parts.iter().map(|part| (part.report.kind().to_owned(), part.report.json())).collect::<Map<_, _>>(),
+        })
+    }
+
+    fn page(&self, camera: &CameraFile) -> String {
+        page::page(&self.laboratory, &self.findings, camera)
+    }
+}
+
+/// A base as the camera file names it.
+fn named_from(folder: &Path, base: &Path) -> Result<String, Error> {
+    let whole = |path: &Path| path.canonicalize().map_err(|error| Error::input(format!("{}: {error}", path.display())));
+    let path = relative_path(&whole(folder)?, &whole(base)?);
+    path.to_str()
+        .map(str::to_owned)
+        .ok_or_else(|| Error::input(format!("{}: give a path that is text", base.display())))
+}

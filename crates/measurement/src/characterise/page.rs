@@ -1,0 +1,122 @@
+//! The report as one page that needs nothing beside it: a table of what was found, what is not known, and every measurement with its curves.
+
+use super::camera::CameraFile;
+use super::folder::Laboratory;
+use super::kind::Kind;
+use super::parameter::{Findings, Parameter, Part};
+use crate::page::{REPORT_STYLE, curves, details, html_page, notes};
+use crate::report::{Estimate, with_uncertainty};
+use etendue_io::escape::escaped;
+use std::fmt::Write as _;
+
+pub(super) fn page(laboratory: &Laboratory, findings: &Findings, camera: &CameraFile) -> String {
+    let name = laboratory.camera.name.clone().unwrap_or_else(|| "Camera".to_owned());
+    let mut body = format!("<div class=\"report\">\n<h1>{}</h1>\n", escaped(&name));
+    body += &head(laboratory);
+    body += &navigation(findings);
+    body += &parameters(findings);
+    body += &not_known(findings, camera);
+    findings.parts.iter().enumerate().for_each(|(i, part)| body += &measurement(i, part));
+    let _ = writeln!(
+        body,
+        "<section id=\"file\"><h2>Camera file</h2><pre>{}</pre></section>\n</div>",
+        escaped(&camera.text)
+    );
+    html_page(&format!("{name} – characterisation"), REPORT_STYLE, &body)
+}
+
+/// What was looked at.
+fn head(laboratory: &Laboratory) -> String {
+    let [width, height] = laboratory.camera.size_px;
+    let count = |kind: &Kind| laboratory.shots(*kind).len();
+    let kinds = Kind::ALL.iter().filter(|kind| count(kind) > 0);
+    let used = kinds.map(|kind| format!("{} × {}/", count(kind), kind.folder())).collect::<Vec<_>>().join(", ");
+    let filters = laboratory.camera.cfa.clone().unwrap_or_else(|| "unknown filters".to_owned());
+    format!("<p class=\"quiet\">{width} × {height} px, {}. Measured by: {used}.</p>\n", escaped(&filters))
+}
+
+fn navigation(findings: &Findings) -> String {
+    let link = |(i, part): (usize, &Part)| format!("<a href=\"#part-{i}\">{}</a>", escaped(part.title));
+    let parts: Vec<String> = findings.parts.iter().enumerate().map(link).collect();
+    format!(
+        "<nav><a href=\"#parameters\">Parameters</a> <a href=\"#not-known\">Not known</a> {} <a href=\"#file\">Camera file</a></nav>\n",
+        parts.join(" ")
+    )
+}
+
+/// Value ± expanded uncertainty (k = 2), to two digits of it.
+fn expanded(e: Estimate) -> String {
+    with_uncertainty(Estimate::new(e.value, 2.0 * e.standard_uncertainty))
+}
+
+fn parameters(findings: &Findings) -> String {
+    let mut html = "<section id=\"parameters\"><h2>Parameters</h2>\n<p>± is the expanded uncertainty: an interval of about 95 % (k = 2). \
+        What each leaves out is told at its measurement.</p>\n<table><thead><tr><th>quantity</th><th class=\"number\">value ± U</th><th>unit</th>\
+        <th class=\"number\">U, %</th><th>from</th><th>key</th></tr></thead>\n"
+        .to_owned();
+    for section in ["lens", "effects", "sensor", "isp"] {
+        let of = findings.parameters.iter().filter(|p| p.key.split('.').next() == Some(section));
+        let rows: String = of.map(parameter).collect();
+        if !rows.is_empty() {
+            let _ = writeln!(
+                html,
+                "<tbody><tr class=\"group\"><th colspan=\"6\">{}</th></tr>\n{rows}</tbody>",
+                group(section)
+            );
+        }
+    }
+    html + "</table></section>\n"
+}
+
+fn group(section: &str) -> &'static str {
+    match section {
+        "lens" => "Lens",
+        "effects" => "Point spread",
+        "sensor" => "Sensor",
+        _ => "Processing",
+    }
+}
+
+fn parameter(p: &Parameter) -> String {
+    let percent = 200.0 * p.value.standard_uncertainty / p.value.value.abs();
+    let percent = if percent < 100.0 && percent > 0.0 { format!("{percent:.2}") } else { "–".to_owned() };
+    format!(
+        "<tr><td>{}</td><td class=\"number\">{}</td><td>{}</td><td class=\"number\">{percent}</td><td>{}/</td><td><code>{}</code></td></tr>\n",
+        escaped(&p.label),
+        escaped(&expanded(p.value)),
+        escaped(p.unit),
+        p.from.folder(),
+        escaped(&p.key)
+    )
+}
+
+fn not_known(findings: &Findings, camera: &CameraFile) -> String {
+    let row = |what: &str, why: &str| format!("<tr><td>{}</td><td>{}</td></tr>\n", escaped(what), escaped(why));
+    let mut rows: String = findings.unknown.iter().map(|u| row(&u.what, &u.why)).collect();
+    if !camera.stand_ins.is_empty() {
+        let why =
+            "keys that a camera file must have and that nothing tells: stand-ins, to be replaced by hand or by a base";
+        rows += &row(&camera.stand_ins.join(", "), why);
+    }
+    if rows.is_empty() {
+        rows = row("–", "every quantity that is looked for was found");
+    }
+    format!(
+        "<section id=\"not-known\"><h2>Not known</h2>\n<table><thead><tr><th>what</th><th>why, and what would tell it</th></tr></thead>\
+         <tbody>\n{rows}</tbody></table></section>\n"
+    )
+}
+
+fn measurement(index: usize, part: &Part) -> String {
+    let report = &part.report;
+    let mut html = format!(
+        "<section id=\"part-{index}\"><h2>{}</h2>\n<p>By the pictures in {}/: {}.</p>\n",
+        escaped(part.title),
+        part.from.folder(),
+        escaped(report.method())
+    );
+    html += &curves(report);
+    html += &notes(report);
+    let _ = writeln!(html, "<details><summary>All figures</summary>\n{}</details></section>", details(report));
+    html
+}

@@ -1,0 +1,205 @@
+//! From the numbers of a picture to light: as --encoding says, or the side-car, or the file.
+
+use etendue_io::failure::Error;
+use etendue_io::photograph::{Channel, Encoding, Photograph, Stated, read_photograph};
+use etendue_io::table::read_numbers;
+use etendue_isp::ToneCurve;
+use etendue_plan_report::tone_curve::tone_curve;
+use etendue_sensor::hdr::companding::Companding;
+use std::path::{Path, PathBuf};
+
+/// What the numbers of a picture are.
+#[derive(Clone, Debug, Default)]
+pub struct EncodingChoice {
+    /// How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0
+    /// and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits]
+    pub chosen: Option<ChosenEncoding>,
+}
+
+/// A choice of the user's.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ChosenEncoding {
+    /// In proportion to light.
+    Linear,
+    /// The curve of IEC 61966-2-1.
+    Srgb,
+    /// The curve of a table.
+    Table(PathBuf),
+}
+
+/// Two columns: from light 0 a tone curve's table, otherwise a measured conversion function.
+fn table(file: &Path) -> Result<Encoding, Error> {
+    let table = read_numbers(file).map_err(Error::input)?;
+    if table.columns != 2 {
+        let file = file.display();
+        let told = format!("{file}: {} columns; expected two: light and number, or exposure and number", table.columns);
+        return Err(Error::input(told));
+    }
+    let points: Vec<(f64, f64)> = table.rows().map(|row| (row[0], row[1])).collect();
+    let of_light = points.first().is_some_and(|first| first.0 == 0.0);
+    Ok(if of_light { Encoding::Table(points) } else { Encoding::Oecf { points, largest_output: None } })
+}
+
+impl EncodingChoice {
+    /// What the user says of the numbers; `None` where nothing.
+    fn stated(&self) -> Result<Option<Stated>, Error> {
+        let encoding = match &self.chosen {
+            None => return Ok(None),
+            Some(ChosenEncoding::Linear) => Encoding::Linear,
+            Some(ChosenEncoding::Srgb) => Encoding::Srgb,
+            Some(ChosenEncoding::Table(file)) => {
+                return Ok(Some(Stated::new(table(file)?, format!("--encoding {}", file.display()))));
+            }
+        };
+        Ok(Some(Stated::new(encoding, "--encoding")))
+    }
+
+    /// A picture whose numbers are to become light.
+    pub(crate) fn photograph(&self, file: &Path) -> Result<Photograph, Error> {
+        let mut photograph = read_photograph(file).map_err(Error::input)?;
+        if companding(&photograph).is_some() {
+            photograph.stated.reason += ", companding undone";
+        }
+        let Some(stated) = self.stated()? else { return Ok(photograph) };
+        if photograph.raw.is_some() && stated.encoding != Encoding::Linear {
+            let (file, reason) = (file.display(), &photograph.stated.reason);
+            let told = format!("{file}: raw numbers in proportion to light ({reason}): leave --encoding out");
+            return Err(Error::input(told));
+        }
+        photograph.stated = stated;
+        Ok(photograph)
+    }
+
+    /// A picture whose numbers are measured as they are stored, unless the user asks for another curve to be taken off first.
+    pub(crate) fn stored(&self, file: &Path) -> Result<Photograph, Error> {
+        let mut photograph = self.photograph(file)?;
+        if self.chosen.is_none() && photograph.raw.is_none() {
+            photograph.stated = Stated::new(Encoding::Linear, "numbers are measured as stored");
+        }
+        Ok(photograph)
+    }
+
+    /// A raw picture, whose numbers must be in proportion to charge: one that says otherwise is refused, a guess is not asked.
+    pub(crate) fn raw(&self, file: &Path, mut photograph: Photograph) -> Result<Photograph, Error> {
+        let file = file.display();
+        if companding(&photograph).is_some() {
+            return Err(Error::input(format!(
+                "{file}: its numbers are companded, and their noise is no longer that of charge: give raws of all bits"
+            )));
+        }
+        let Stated { encoding, reason, guessed } = &photograph.stated;
+        if *encoding != Encoding::Linear && !guessed {
+            let what = format!("{file}: {} numbers ({reason})", encoding.name());
+            let remedy = if self.chosen.is_some() {
+                "leave it out"
+            } else {
+                "where they are linear all the same, say --encoding linear"
+            };
+            return Err(Error::input(format!("{what}, where numbers in proportion to charge are needed: {remedy}")));
+        }
+        if photograph.raw.is_none() && self.chosen.is_none() {
+            photograph.stated = Stated::new(Encoding::Linear, "raw numbers are measured as stored");
+        }
+        Ok(photograph)
+    }
+}
+
+fn companding(photograph: &Photograph) -> Option<Companding> {
+    let frame = photograph.raw.as_ref()?.frame.as_ref()?;
+    Some(Companding { knees: frame.companding_knees_dn.clone()?, bits: frame.bits })
+}
+
+/// What makes light of numbers.
+pub(crate) enum ToLight {
+    /// Nothing: numbers are in proportion to it.
+    Stored,
+    /// A tone curve, of numbers over the full scale; light is 0 … 1.
+    Curve(ToneCurve, f64),
+    /// The lines of a companded raw; light is in its linear numbers.
+    Companded(Companding),
+}
+
+impl ToLight {
+    pub(crate) fn of(file: &Path, photograph: &Photograph) -> Result<Self, Error> {
+        if let Some(companding) = companding(photograph) {
+            return Ok(Self::Companded(companding));
+        }
+        let Stated { encoding, reason, .. } = &photograph.stated;
+        if *encoding == Encoding::Linear {
+            return Ok(Self::Stored);
+        }
+        let full_scale = photograph.full_scale.unwrap_or(1.0);
+        let named = |error| Error::input(format!("{}: encoding by {reason}: {error}", file.display()));
+        Ok(Self::Curve(tone_curve(encoding, full_scale).map_err(named)?, full_scale))
+    }
+
+    /// A channel's light. Numbers of 8 and 16 bits repeat: each is decoded once.
+    pub(crate) fn of_channel(&self, channel: &Channel) -> Vec<f32> {
+        let Self::Curve(curve, full_scale) = self else {
+            return channel.samples.iter().map(|v| self.number(f64::from(*v)) as f32).collect();
+        };
+        let light = |v: f32| curve.decode((f64::from(v) / full_scale) as f32);
+        let whole = (2.0..=65_535.0).contains(full_scale);
+        let table: Vec<f32> =
+            if whole { (0..=*full_scale as u32).map(|v| light(v as f32)).collect() } else { Vec::new() };
+        let decode = |v: &f32| match table.get(*v as usize) {
+            Some(light) if v.fract() == 0.0 && *v >= 0.0 => *light,
+            _ => light(*v),
+        };
+        channel.samples.iter().map(decode).collect()
+    }
+
+    /// A level of a raw picture as its light is told.
+    pub(crate) fn number(&self, stored: f64) -> f64 {
+        match self {
+            Self::Companded(companding) => companding.linear(stored),
+            Self::Stored | Self::Curve(..) => stored,
+        }
+    }
+
+    /// The largest light, where the file has a largest number.
+    pub(crate) fn full_scale(&self, photograph: &Photograph) -> Option<f64> {
+        match self {
+            Self::Curve(..) => Some(1.0),
+            Self::Stored | Self::Companded(_) => photograph.full_scale.map(|full| self.number(full)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn light(stated: Encoding, full_scale: Option<f64>, numbers: &[f32]) -> Vec<f32> {
+        let channel = Channel { name: "Y".into(), samples: numbers.to_vec() };
+        let stated = Stated::new(stated, "told");
+        let photograph = Photograph {
+            width: numbers.len(),
+            height: 1,
+            channels: vec![channel],
+            full_scale,
+            stated,
+            raw: None,
+            correlated_block_px: 1,
+        };
+        let to_light = ToLight::of(Path::new("a.png"), &photograph).expect("a curve");
+        to_light.of_channel(&photograph.channels[0])
+    }
+
+    #[test]
+    fn numbers_become_light_by_their_curve() {
+        // IEC 61966-2-1: ((188/255 + 0.055)/1.055)^2.4.
+        let srgb = light(Encoding::Srgb, Some(255.0), &[0.0, 188.0, 255.0]);
+        assert!(srgb[0] == 0.0 && (srgb[1] - 0.502_886).abs() < 1e-5 && srgb[2] == 1.0, "{srgb:?}");
+        assert_eq!(light(Encoding::Linear, Some(255.0), &[0.0, 188.0]), [0.0, 188.0]);
+        let gamma = light(Encoding::Gamma(2.0), Some(65_535.0), &[32_767.5, 65_535.0]);
+        assert!((gamma[0] - 0.25).abs() < 1e-6 && gamma[1] == 1.0, "{gamma:?}");
+        let table = Encoding::Table(vec![(0.0, 0.0), (0.5, 0.8), (1.0, 1.0)]);
+        assert!((light(table, Some(255.0), &[204.0])[0] - 0.5).abs() < 1e-6);
+        // Of a measured function in the picture's own numbers, half way in the logarithm.
+        let oecf = Encoding::Oecf { points: vec![(2.0, 10.0), (8.0, 50.0), (32.0, 100.0)], largest_output: None };
+        let found = light(oecf, Some(255.0), &[10.0, 30.0, 100.0]);
+        assert!((found[0] - 0.0625).abs() < 1e-6 && (found[1] - 0.125).abs() < 1e-6 && found[2] == 1.0, "{found:?}");
+        assert!((light(Encoding::Srgb, None, &[0.5])[0] - 0.214_041).abs() < 1e-5);
+    }
+}

@@ -1,0 +1,134 @@
+//! The camera that is measured: that of a camera file, or one about a lens.
+
+use super::request::LensRequest;
+use etendue_core::maths::f64::sin_cos;
+use etendue_io::failure::Error;
+use etendue_io::failure::Fault;
+use etendue_io::load_assets;
+use etendue_io::prescription::read_prescription;
+use etendue_io::source::read_text;
+use etendue_optics::Lens;
+use etendue_pipeline::compile_camera_with_remarks;
+use etendue_pipeline::plan::CameraBody;
+use etendue_scene::asset::{LensFields, PrescriptionAsset};
+use etendue_scene::{Overrides, asset, load_camera};
+use glam::DVec3;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// Half of a full-frame diagonal, mm.
+const FULL_FRAME_MM: f64 = 21.64;
+
+/// A camera, and what is remarked of it.
+pub(super) type Told = (CameraBody, Vec<String>);
+
+/// The camera: of a camera file, or about a lens file or a published lens.
+pub(super) fn body(request: &LensRequest) -> Result<Told, Error> {
+    let given = Path::new(&request.lens);
+    if given.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
+        return match request.picture_radius_mm {
+            None => compiled(request, given, None),
+            Some(_) => Err(Error::input("--picture-radius-mm: a camera file's sensor says how large the picture is")),
+        };
+    }
+    let made = |radius_mm: f64| {
+        let text = made_camera(&request.lens, radius_mm);
+        compiled(request, &PathBuf::from(MADE), Some(text)).map_err(|failure| without_place(failure, &request.lens))
+    };
+    let first = made(request.picture_radius_mm.unwrap_or(FULL_FRAME_MM))?;
+    let fields = match request.picture_radius_mm {
+        None if is_lens_file(&request.lens) => read_prescription(given).ok().and_then(Fields::of),
+        _ => None,
+    };
+    match fields.and_then(|fields| fields.radius_mm(&first.0.lens, |radius_mm| made(radius_mm).map(|told| told.0))) {
+        Some(radius_mm) => made(radius_mm),
+        None => Ok(first),
+    }
+}
+
+fn compiled(request: &LensRequest, file: &Path, made: Option<String>) -> Result<Told, Error> {
+    let f_number = request.f_number.map(|n| format!("lens.f_number={n}"));
+    let changes: Vec<String> = request.set.iter().cloned().chain(f_number).collect();
+    let overrides = Overrides::new(&changes);
+    let read = |path: &Path| match &made {
+        Some(text) if path == file => Ok(text.clone()),
+        _ => read_text(path),
+    };
+    let camera = load_camera(file, &read, &overrides).map_err(|f| Error::inputs(f.list()))?;
+    let assets = load_assets(&asset::of_camera(&camera)).map_err(Error::inputs)?;
+    compile_camera_with_remarks(&camera, &assets).map_err(Error::inputs)
+}
+
+/// The name under which a camera about a lens is read; no such file exists.
+const MADE: &str = "measure.toml";
+
+/// Faults of a camera that nobody wrote: told of the lens, not of a line of text.
+fn without_place(failure: Error, lens: &str) -> Error {
+    let told = |fault: Fault| match fault.message.strip_prefix(MADE).and_then(|rest| rest.splitn(4, ':').last()) {
+        Some(words) => Fault { file: Some(lens.into()), ..Fault::new(format!("{lens}:{words}")) },
+        None => fault,
+    };
+    match failure {
+        Error::Input(faults) => Error::Input(faults.into_iter().map(told).collect()),
+        run @ Error::Run(_) => run,
+    }
+}
+
+fn is_lens_file(lens: &str) -> bool {
+    [".zmx", ".seq"].iter().any(|extension| lens.to_ascii_lowercase().ends_with(extension))
+}
+
+/// A camera about a lens that brings no sensor: focused as a lens file says, a published lens at infinity; a square picture of the radius asked for (a lens that
+/// lights less is measured as far as it lights).
+fn made_camera(lens: &str, radius_mm: f64) -> String {
+    const PIXELS: f64 = 1000.0;
+    let pitch_um = 1000.0 * radius_mm * std::f64::consts::SQRT_2 / PIXELS;
+    let (key, focus) =
+        if is_lens_file(lens) { ("file", "") } else { ("published", "focus_distance_m = \"infinity\"\n") };
+    let name = Value::from(lens);
+    format!(
+        "format = 1\n[lens]\ntype = \"prescription\"\n{key} = {name}\n{focus}[sensor]\n\
+         width_px = {PIXELS}\nheight_px = {PIXELS}\npixel_pitch_um = {pitch_um}\n"
+    )
+}
+
+/// The largest field that a lens file states.
+#[derive(Clone, Copy, Debug)]
+enum Fields {
+    Angle { rad: f64 },
+    Object { height_mm: f64, distance_mm: f64 },
+    Image { height_mm: f64 },
+}
+
+impl Fields {
+    fn of(asset: PrescriptionAsset) -> Option<Self> {
+        let largest = |list: &[f64]| list.iter().map(|x| x.abs()).reduce(f64::max).filter(|x| *x > 0.0);
+        Some(match asset.fields.as_ref()? {
+            LensFields::AnglesDeg(list) => Self::Angle { rad: largest(list)?.to_radians() },
+            LensFields::ObjectMm(list) => {
+                Self::Object { height_mm: largest(list)?, distance_mm: asset.object_distance_mm }
+            }
+            LensFields::ImageMm(list) => Self::Image { height_mm: largest(list)? },
+        })
+    }
+
+    /// Where on the sensor it lies: an angle where the lens sees it, an object's height by first order.
+    fn radius_mm(self, lens: &Lens, made: impl Fn(f64) -> Result<CameraBody, Error>) -> Option<f64> {
+        let f = lens.focal_length_mm();
+        let radius_mm = match self {
+            Self::Image { height_mm } => height_mm,
+            Self::Object { height_mm, distance_mm } => {
+                let Lens::Prescription(lens) = lens else { return None };
+                height_mm * (f / (distance_mm + lens.prescription().paraxial().front_focus_mm)).abs()
+            }
+            Self::Angle { rad } => {
+                let (sine, cosine) = sin_cos(rad);
+                // A picture that surely reaches as far, for distortions of usual lenses.
+                let rectilinear = if cosine > 0.0 { 1.3 * sine / cosine } else { f64::INFINITY };
+                let wide = made(f * rectilinear.min(2.5 * rad)).ok()?;
+                wide.lens.project(DVec3::new(sine, 0.0, cosine))?.length()
+            }
+        };
+        Some(radius_mm).filter(|r| r.is_finite() && *r > 0.0)
+    }
+}

@@ -1,0 +1,360 @@
+//! `measure oecf`: the tone curve from a series of exposures, or from steps in one picture.
+
+use super::clipping::Cut;
+use super::picture_input::{PictureInput, refused};
+use super::readings::{Readings, SignalLevels};
+use super::truth::Truth;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_charts::design::{Backlit, FlatField, OecfSteps};
+use etendue_io::failure::Error;
+use etendue_io::photograph::{Encoding, Stated};
+use etendue_metrology::oecf::response::{Response, ResponseSettings, camera_response};
+use etendue_metrology::oecf::{ExposurePoint, Oecf};
+use etendue_metrology::{Estimate, Image};
+use std::path::{Path, PathBuf};
+
+/// `etendue measure oecf`
+#[derive(Clone, Debug)]
+pub struct OecfRequest {
+    /// Pictures of one even surface, one an exposure; with --steps, or the --truth of a chart of steps, one picture
+    pub pictures: Vec<PathBuf>,
+    /// Exposure of each picture in their order, any unit [default: the side-cars' exposure_s]
+    pub exposures: Vec<f64>,
+    /// A table of steps in the picture: x, y, width, height, luminance; one step a line, # for comments
+    pub steps: Option<PathBuf>,
+    /// Find the camera's response from pictures of one scene (not even) at exposures known relatively
+    pub response: bool,
+    /// With --response: find the ratios of the exposures too
+    pub refine: bool,
+    /// Which readings of the picture, what they mean, and the chart's truth.
+    pub input: PictureInput,
+}
+
+impl OecfRequest {
+    /// The same as the program without options.
+    pub fn new(pictures: Vec<PathBuf>) -> Self {
+        Self {
+            pictures,
+            exposures: Vec::new(),
+            steps: None,
+            response: false,
+            refine: false,
+            input: PictureInput::default(),
+        }
+    }
+}
+
+/// The largest degree of a response.
+const DEGREE: usize = 8;
+
+/// The tone curve from a series of exposures or from steps (ISO 14524); the camera's response from a scene at exposures known relatively.
+///
+/// # Errors
+/// Where the pictures or their exposures cannot be used.
+pub fn oecf(request: &OecfRequest) -> Result<Report, Error> {
+    if request.response {
+        return response(request);
+    }
+    let truth = request.input.truth.read(&CHARTS)?;
+    let measured = match (&request.steps, &truth) {
+        (Some(table), _) => steps(request, table)?,
+        (None, Some(truth)) if EVEN.contains(&truth.chart()) => shots(request, truth)?,
+        (None, Some(truth)) => patches(request, truth)?,
+        (None, None) => exposures(request)?,
+    };
+    let oecf = Oecf::new(measured.points.clone()).map_err(|error| refused(&request.pictures[0], error))?;
+    let mut report = report(&oecf, &measured);
+    // Saturated points end the curve; black ones count as readings.
+    for (point, cut) in measured.points.iter().zip(&measured.cuts) {
+        if let Some(cut @ (Cut::Black { .. } | Cut::Throughout { reading: ..=0.0 })) = cut {
+            let (exposure, unit) = (point.exposure, measured.unit);
+            report.note(format!("exposure {exposure} {unit}: {}; its point does not account for it", cut.words()));
+        }
+    }
+    measured.left_out.iter().for_each(|name| report.note(format!("left out: {name} is not whole in the picture")));
+    if let Some(channel) = &request.input.selection.channel {
+        report.setting("channel", channel.clone());
+    }
+    Ok(report)
+}
+
+/// Charts of one even surface, and of steps.
+const EVEN: [&str; 2] = [FlatField::NAME, Backlit::NAME];
+const CHARTS: [&str; 3] = [OecfSteps::NAME, FlatField::NAME, Backlit::NAME];
+
+/// Points of the curve, the reading of no light, the unit of the exposures, and patches that are not seen.
+struct Measured {
+    points: Vec<ExposurePoint>,
+    /// What the readings are, and those of no light and of saturation.
+    readings: &'static str,
+    black: f64,
+    full_scale: Option<f64>,
+    unit: &'static str,
+    left_out: Vec<String>,
+    encoding: Stated,
+    /// Clipping of the readings of each point.
+    cuts: Vec<Option<Cut>>,
+}
+
+impl Measured {
+    fn new(measured: Vec<(ExposurePoint, Option<Cut>)>, levels: &SignalLevels, readings: &Readings) -> Self {
+        let (points, cuts) = measured.into_iter().unzip();
+        let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
+        let encoding = readings.stated.clone();
+        Self { points, readings: kind(readings), black, full_scale, unit: "", left_out: Vec::new(), encoding, cuts }
+    }
+}
+
+/// Returns the point of an exposure of a uniform surface, and the clipping of its readings.
+fn point(exposure: f64, surface: &Image, levels: &SignalLevels, readings: &Readings) -> (ExposurePoint, Option<Cut>) {
+    let full_scale = levels.full_scale(readings);
+    (ExposurePoint::of(exposure, surface, full_scale, readings.shared_px), Cut::of(surface, full_scale))
+}
+
+/// What the readings are: decoded ones no longer tell of the tone curve of the file.
+fn kind(readings: &Readings) -> &'static str {
+    if readings.stated.encoding == Encoding::Linear { readings.kind() } else { "decoded" }
+}
+
+/// Pictures with their exposures.
+fn series(request: &OecfRequest) -> Result<Vec<(f64, Readings)>, Error> {
+    let count = (request.pictures.len(), request.exposures.len());
+    if count.1 > 0 && count.0 != count.1 {
+        let message = format!("--exposures: expected one a picture, {} of them, not {}", count.0, count.1);
+        return Err(Error::input(message));
+    }
+    let told = |i: usize, file: &Path| match request.exposures.get(i) {
+        Some(exposure) => Ok(*exposure),
+        None => exposure_beside(file),
+    };
+    let one = |(i, file): (usize, &PathBuf)| Ok((told(i, file)?, request.input.selection.stored(file)?));
+    let series = request.pictures.iter().enumerate().map(one).collect::<Result<Vec<_>, Error>>()?;
+    let size = |r: &Readings| (r.image.width(), r.image.height());
+    if let Some(other) = series.iter().position(|(_, r)| size(r) != size(&series[0].1)) {
+        let (a, b) = (size(&series[other].1), size(&series[0].1));
+        let file = request.pictures[other].display();
+        return Err(Error::input(format!("{file}: {} × {} pixels, the first {} × {}", a.0, a.1, b.0, b.1)));
+    }
+    copies(request, &series)?;
+    Ok(series)
+}
+
+/// Two pictures with noise that are the same pixel by pixel are one picture given twice.
+fn copies(request: &OecfRequest, series: &[(f64, Readings)]) -> Result<(), Error> {
+    let noisy = |image: &Image| image.samples().iter().any(|s| *s != image.samples()[0]);
+    for (i, (_, a)) in series.iter().enumerate() {
+        if let Some(j) = (0..i).find(|j| series[*j].1.image == a.image && noisy(&a.image)) {
+            let (a, b) = (request.pictures[j].display(), request.pictures[i].display());
+            return Err(Error::input(format!("{a} and {b} are copies of one another: give one picture an exposure")));
+        }
+    }
+    Ok(())
+}
+
+fn exposure_beside(file: &Path) -> Result<f64, Error> {
+    let photograph = etendue_io::photograph::read_photograph(file).map_err(Error::input)?;
+    let lacks = || Error::input(format!("{}: its exposure is not known: give --exposures", file.display()));
+    photograph.raw.map(|facts| facts.exposure_s).ok_or_else(lacks)
+}
+
+fn exposures(request: &OecfRequest) -> Result<Measured, Error> {
+    let series = series(request)?;
+    let levels = &request.input.levels;
+    let points = series.iter().map(|(exposure, readings)| point(*exposure, &readings.image, levels, readings));
+    Ok(Measured::new(points.collect(), levels, &series[0].1))
+}
+
+/// The middle of an even chart at its cameras' exposures; each picture lies in the folder of its camera.
+fn shots(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
+    if request.input.truth.camera.is_some() {
+        return Err(Error::input("--camera: has no effect on a series: each picture's folder names its camera"));
+    }
+    let exposures = truth.exposures()?;
+    let mut series = Vec::new();
+    for file in &request.pictures {
+        let folder = file.parent().and_then(Path::file_name).and_then(|name| name.to_str()).unwrap_or_default();
+        let known = exposures.iter().find(|(name, _)| *name == folder).map(|(_, exposure)| *exposure);
+        let names = || exposures.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+        let lacks =
+            || refused(file, format!("lies in the folder '{folder}', which is none of the cameras {}", names()));
+        let exposure = known.ok_or_else(lacks)?;
+        let readings = request.input.selection.stored(file)?;
+        truth.fits(file, &readings)?;
+        series.push((exposure, readings));
+    }
+    copies(request, &series)?;
+    let levels = &request.input.levels;
+    let of_middle = |(exposure, readings): &(f64, Readings)| {
+        let middle = readings.part(truth.middle(readings)?, "--truth")?;
+        Ok(point(*exposure, &middle, levels, readings))
+    };
+    let points = series.iter().map(of_middle).collect::<Result<Vec<_>, Error>>()?;
+    Ok(Measured { unit: "cd s/m²", ..Measured::new(points, levels, &series[0].1) })
+}
+
+fn only_picture<'a>(request: &'a OecfRequest, option: &str) -> Result<&'a Path, Error> {
+    match &request.pictures[..] {
+        [picture] => Ok(picture),
+        more => Err(Error::input(format!("{option}: expected one picture that holds all steps, not {}", more.len()))),
+    }
+}
+
+/// The steps of a chart.
+fn patches(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
+    let picture = only_picture(request, "--truth")?;
+    let readings = request.input.selection.stored(picture)?;
+    truth.fits(picture, &readings)?;
+    let (patches, left_out) = truth.patches(&readings)?;
+    truth.shown(picture, &patches, &readings)?;
+    let levels = &request.input.levels;
+    let of_patch = |patch: &super::truth::place::Patch| {
+        let surface = readings.part(patch.at, &patch.name)?;
+        Ok(point(patch.luminance_cd_m2, &surface, levels, &readings))
+    };
+    let points = patches.iter().map(of_patch).collect::<Result<Vec<_>, Error>>()?;
+    Ok(Measured { unit: "cd/m²", left_out, ..Measured::new(points, levels, &readings) })
+}
+
+fn steps(request: &OecfRequest, table: &Path) -> Result<Measured, Error> {
+    let picture = only_picture(request, "--steps")?;
+    let readings = request.input.selection.stored(picture)?;
+    let text = etendue_io::source::text_of(table)?;
+    let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim().starts_with('#'));
+    let step = |(number, line): (u32, &str)| {
+        let place = format!("{}: line {number}", table.display());
+        let expected = || Error::input(format!("{place}: expected x, y, width, height, luminance, not '{line}'"));
+        let words: Option<Vec<f64>> = line.split(',').map(|word| word.trim().parse().ok()).collect();
+        let [x, y, width, height, luminance] = words.ok_or_else(expected)?[..] else { return Err(expected()) };
+        let whole = [x, y, width, height];
+        if whole.iter().any(|v| *v < 0.0 || v.fract() != 0.0) || width < 2.0 || height < 2.0 {
+            return Err(Error::input(format!(
+                "{place}: expected whole pixels, two or more wide and high, not '{line}'"
+            )));
+        }
+        let surface = readings.part(whole.map(|v| v as usize), &place)?;
+        Ok(point(luminance, &surface, &request.input.levels, &readings))
+    };
+    Ok(Measured::new(lines.map(step).collect::<Result<_, _>>()?, &request.input.levels, &readings))
+}
+
+fn report(oecf: &Oecf, measured: &Measured) -> Report {
+    let mut report =
+        Report::new("oecf", "opto-electronic conversion function after ISO 14524 (± one standard uncertainty)");
+    report.encoding(&measured.encoding);
+    report.setting("readings", measured.readings.to_owned());
+    report.setting("exposure_unit", measured.unit.to_owned());
+    if let Some(full_scale) = measured.full_scale {
+        report.fact("full_scale", "largest reading", "", full_scale);
+    }
+    let line = oecf.linearity(measured.black);
+    if let Some(line) = &line {
+        report.fact("slope", "slope of the straight line", "", line.slope);
+        report.fact("offset", "offset of the straight line", "", line.offset);
+        report.fact("linearity_error_percent", "largest deviation, 5 to 95 %", "%", 100.0 * line.largest);
+    }
+    if let Some(range) = oecf.dynamic_range() {
+        report.fact("dynamic_range", "dynamic range (SNR 1 to saturation)", "", range);
+    }
+    match oecf.points().get(oecf.saturation()) {
+        Some(point) => report.fact("saturation_exposure", "first saturated exposure", measured.unit, point.exposure),
+        None => report.note("no exposure saturates: the dynamic range is a lower bound"),
+    }
+    let row = |(i, p): (usize, &ExposurePoint)| {
+        let deviation = line.as_ref().map_or(Cell::Nothing, |line| Cell::Number(100.0 * line.deviations[i], 3));
+        vec![
+            Cell::Estimate(Estimate::new(p.exposure, 0.0)),
+            Cell::Estimate(p.reading),
+            p.noise.map_or(Cell::Nothing, |n| Cell::Number(n, 4)),
+            Cell::Number(oecf.gain(p.exposure), 4),
+            deviation,
+        ]
+    };
+    report.table(Table {
+        key: "points",
+        columns: vec![
+            ("exposure", if measured.unit == "cd/m²" { "luminance cd/m²" } else { "exposure" }),
+            ("reading", "reading"),
+            ("noise", "noise"),
+            ("gain", "slope"),
+            ("deviation_percent", "deviation %"),
+        ],
+        rows: oecf.points().iter().enumerate().map(row).collect(),
+    });
+    report.plot(plot(oecf, line.map(|l| (l.offset, l.slope)), measured.unit));
+    report
+}
+
+fn plot(oecf: &Oecf, line: Option<(f64, f64)>, unit: &str) -> Plot {
+    let exposure = if unit.is_empty() { "exposure".to_owned() } else { format!("exposure, {unit}") };
+    let points = oecf.points();
+    let (first, last) = (points[0].exposure, points[points.len() - 1].exposure);
+    let at = |i: i32| first + (last - first) * f64::from(i) / 200.0;
+    let measured = points.iter().map(|p| (p.exposure, p.reading.value, 2.0 * p.reading.standard_uncertainty));
+    let mut series = vec![
+        Series::with_errors("measured", Mark::Points, measured),
+        Series::new("monotone cubic", Mark::Line, (0..=200).map(at).map(|h| (h, oecf.reading(h)))),
+    ];
+    if let Some((offset, slope)) = line {
+        let top = points[points.len() - 1].reading.value;
+        let end = ((top - offset) / slope).min(last);
+        series.push(Series::new("straight line", Mark::Broken, [first, end].map(|h| (h, offset + slope * h))));
+    }
+    Plot {
+        title: "tone curve".to_owned(),
+        x: Axis::linear(&exposure).showing(&[0.0]),
+        y: Axis::linear("reading").showing(&[0.0]),
+        series,
+    }
+}
+
+fn response(request: &OecfRequest) -> Result<Report, Error> {
+    let series = series(request)?;
+    let full_scale = request.input.levels.full_scale(&series[0].1);
+    let full_scale =
+        full_scale.ok_or_else(|| Error::input("--full-scale: a response needs the reading of a saturated pixel"))?;
+    let settings = ResponseSettings {
+        full_scale,
+        black: request.input.levels.black(&series[0].1),
+        degree: DEGREE,
+        refine: request.refine,
+    };
+    let pictures: Vec<(f64, &Image)> = series.iter().map(|(exposure, r)| (*exposure, &r.image)).collect();
+    let found = camera_response(&pictures, &settings).map_err(|error| refused(&request.pictures[0], error))?;
+    let mut report = response_report(&found);
+    report.encoding(&series[0].1.stated);
+    Ok(report)
+}
+
+fn response_report(found: &Response) -> Report {
+    let method =
+        "camera response from exposures known relatively, after Mitsunaga and Nayar (± one standard uncertainty)";
+    let mut report = Report::new("response", method);
+    for (n, c) in found.coefficients.iter().enumerate().skip(1) {
+        report.fact(&format!("c{n}"), &format!("coefficient of M^{n}"), "", *c);
+    }
+    report.fact("residual_percent", "noise of a reading, of full scale", "%", 100.0 * found.residual);
+    let row = |i: i32| {
+        let reading = f64::from(i) / 20.0;
+        vec![Cell::Number(100.0 * reading, 0), Cell::Estimate(found.estimate(reading).scaled(100.0))]
+    };
+    report.table(Table {
+        key: "response",
+        columns: vec![("reading_percent", "reading %"), ("light_percent", "light %")],
+        rows: (0..=20).map(row).collect(),
+    });
+    let ratios = found.ratios.iter().enumerate();
+    report.table(Table {
+        key: "exposures",
+        columns: vec![("picture", "picture"), ("ratio", "exposure over the first's")],
+        rows: ratios.map(|(i, r)| vec![Cell::Number(i as f64 + 1.0, 0), Cell::Number(*r, 5)]).collect(),
+    });
+    let curve = (0..=100).map(|i| f64::from(i) / 100.0).map(|m| (found.light(m), m));
+    report.plot(Plot {
+        title: "camera response".to_owned(),
+        x: Axis::linear("light, of the largest"),
+        y: Axis::linear("reading over full scale"),
+        series: vec![Series::new("", Mark::Line, curve)],
+    });
+    report
+}

@@ -1,0 +1,271 @@
+//! `measure vignetting` and `etendue measure shading`: a flat field.
+
+use super::picture_input::{PictureInput, refused};
+use super::readings::Readings;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_charts::design::{Backlit, FlatField};
+use etendue_io::failure::Error;
+use etendue_io::ranges::whole;
+use etendue_metrology::Estimate;
+use etendue_metrology::shading::{
+    ColourShading, Shading, ShadingError, ShadingSettings, colour_shading, measure_shading,
+};
+use std::path::PathBuf;
+
+/// A picture of an evenly lit surface, and about which centre.
+#[derive(Clone, Debug)]
+pub struct FlatFieldRequest {
+    /// A picture of an evenly lit surface
+    pub picture: PathBuf,
+    /// Centre of the fall-off, raster coordinates [default: the picture's]
+    pub centre_px: Option<(f64, f64)>,
+    /// Rings of the profile over the radial field position
+    pub rings: u32,
+    /// Which readings of the picture, what they mean, and the chart's truth.
+    pub input: PictureInput,
+}
+
+impl FlatFieldRequest {
+    /// The same as the program without options.
+    pub fn new(picture: impl Into<PathBuf>) -> Self {
+        Self { picture: picture.into(), centre_px: None, rings: 20, input: PictureInput::default() }
+    }
+}
+
+/// `etendue measure vignetting`
+#[derive(Clone, Debug)]
+pub struct VignettingRequest {
+    /// The picture and its rings.
+    pub flat: FlatFieldRequest,
+    /// Whether the report holds what was found as keys of a camera file.
+    pub camera_keys: bool,
+    /// The pixels' pitch, µm, for --camera-out
+    pub pixel_pitch_um: Option<f64>,
+}
+
+impl VignettingRequest {
+    /// The same as the program without options.
+    pub fn new(flat: FlatFieldRequest) -> Self {
+        Self { flat, camera_keys: false, pixel_pitch_um: None }
+    }
+}
+
+/// `etendue measure shading`
+#[derive(Clone, Debug)]
+pub struct ShadingRequest {
+    /// The picture and its rings.
+    pub flat: FlatFieldRequest,
+    /// Blocks of the map along each side, an odd number
+    pub blocks: u32,
+}
+
+impl ShadingRequest {
+    /// The same as the program without options.
+    pub fn new(flat: FlatFieldRequest) -> Self {
+        Self { flat, blocks: 11 }
+    }
+}
+
+/// Blocks of the map along each side (ISO 17957).
+const BLOCKS: u32 = 11;
+/// Charts of one even surface.
+const CHARTS: [&str; 2] = [FlatField::NAME, Backlit::NAME];
+
+impl FlatFieldRequest {
+    fn settings(&self, readings: &Readings, blocks: u32) -> ShadingSettings {
+        ShadingSettings {
+            black: self.input.levels.black(readings),
+            full_scale: self.input.levels.full_scale(readings),
+            // Among the readings, which of a mosaic are those of one colour.
+            centre_px: self.centre_px.map(|(x, y)| readings.place([x, y]).into()),
+            rings: self.rings as usize,
+            blocks: blocks as usize,
+        }
+    }
+
+    fn refused(&self, error: &ShadingError) -> Error {
+        refused(&self.picture, error)
+    }
+
+    /// Where a chart's truth is given: whether it is even and fills this picture.
+    fn check(&self, readings: &Readings) -> Result<(), Error> {
+        self.input.truth(&CHARTS, &self.picture, readings)?.map_or(Ok(()), |truth| truth.filled())
+    }
+
+    fn measured(&self, blocks: u32, report: &mut Report) -> Result<(Shading, (f64, f64)), Error> {
+        whole("--rings", self.rings, 4..=1000)?;
+        whole("--blocks", blocks, 1..=501)?;
+        let readings = self.input.linear(&self.picture)?;
+        readings.independent(&self.picture, 1)?;
+        self.check(&readings)?;
+        report.encoding(&readings.stated);
+        report.note_cut(&self.picture.display().to_string(), &readings.image, self.input.levels.full_scale(&readings));
+        let shading =
+            measure_shading(&readings.image, &self.settings(&readings, blocks)).map_err(|e| self.refused(&e))?;
+        let (columns, rows) = readings.picture_px;
+        Ok((shading, (columns as f64, rows as f64)))
+    }
+}
+
+impl VignettingRequest {
+    fn pitch_um(&self) -> Result<Option<f64>, Error> {
+        let needed = || {
+            Error::input(
+                "--camera-out: expected --pixel-pitch-um above 0, as a lens states its fall-off over millimetres",
+            )
+        };
+        let pitch_um = self.pixel_pitch_um.filter(|p| *p > 0.0 && p.is_finite());
+        if self.camera_keys { pitch_um.ok_or_else(needed).map(Some) } else { Ok(None) }
+    }
+
+    /// Relative illumination as a lens states it: radii, mm, and ratios.
+    pub(crate) fn relative_illumination(&self, shading: &Shading, size: (f64, f64), pitch_um: f64) -> [Vec<f64>; 2] {
+        let (width, height) = size;
+        let (x, y) = self.flat.centre_px.unwrap_or((0.5 * width, 0.5 * height));
+        let (x, y) = (x.max(width - x), y.max(height - y));
+        let corner_mm = (x * x + y * y).sqrt() * pitch_um / 1000.0;
+        let steps = || (0..=20).map(|i| f64::from(i) / 20.0);
+        // The last step lies a little beyond the corner, as the lens's table must reach it.
+        let radii = steps().map(|p| p * corner_mm * (1.0 + 1e-6)).collect();
+        [radii, steps().map(|p| shading.falloff(p).max(0.0)).collect()]
+    }
+
+    /// The same as keys of a camera file.
+    fn camera(&self, shading: &Shading, size: (f64, f64), pitch_um: f64) -> String {
+        let list = |values: Vec<f64>| values.iter().map(|v| format!("{v:.6}")).collect::<Vec<_>>().join(", ");
+        let [radii, ratios] = self.relative_illumination(shading, size, pitch_um).map(list);
+        format!(
+            "# Measured relative illumination, corner ± {:.1e}: for [lens] of a camera file.\nformat = 1\n\n\
+             [lens.relative_illumination]\nradius_mm = [{radii}]\nratio = [{ratios}]\n",
+            shading.corner.standard_uncertainty
+        )
+    }
+}
+
+/// A flat field's fall-off over the radial field position.
+///
+/// # Errors
+/// Where the picture is not of an even surface that fills it.
+pub fn vignetting(request: &VignettingRequest) -> Result<Report, Error> {
+    Ok(falloff(request)?.0)
+}
+
+/// The same with the fall-off itself and the picture's columns and rows.
+pub(crate) fn falloff(request: &VignettingRequest) -> Result<(Report, Shading, (f64, f64)), Error> {
+    let pitch_um = request.pitch_um()?;
+    let mut report = Report::new(
+        "vignetting",
+        "relative illumination of a flat field over the radial field position (± one standard uncertainty)",
+    );
+    let (shading, size) = request.flat.measured(BLOCKS, &mut report)?;
+    report.figure("centre", "reading of the centre, less black", "", shading.centre);
+    report.figure("corner_percent", "illumination of the corner", "%", shading.corner.scaled(100.0));
+    let labels = [("a2", "a₂ of 1 + a₂ r² + a₄ r⁴ + a₆ r⁶ + a₈ r⁸"), ("a4", "a₄"), ("a6", "a₆"), ("a8", "a₈")];
+    for ((key, label), value) in labels.into_iter().zip(shading.coefficients) {
+        report.figure(key, label, "", value);
+    }
+    let percent = |e: Estimate| e.scaled(100.0);
+    report.table(Table {
+        key: "profile",
+        columns: vec![("field_percent", "field %"), ("illumination_percent", "illumination %")],
+        rows: shading
+            .profile
+            .iter()
+            .map(|ring| vec![Cell::Number(100.0 * ring.position, 2), Cell::Estimate(percent(ring.relative))])
+            .collect(),
+    });
+    report.plot(profile_plot(&[("", &shading)]));
+    if let Some(pitch_um) = pitch_um {
+        report.camera(request.camera(&shading, size, pitch_um));
+    }
+    Ok((report, shading, size))
+}
+
+/// A flat field's fall-off as a map, and its colour shading (ISO 17957).
+///
+/// # Errors
+/// Where the picture is not of an even surface that fills it.
+pub fn shading(request: &ShadingRequest) -> Result<Report, Error> {
+    let method = "shading of a flat field after ISO 17957: blocks relative to the centre (± one standard uncertainty)";
+    let mut report = Report::new("shading", method);
+    let (flat, blocks) = (&request.flat, request.blocks);
+    match flat.input.selection.colours(&flat.picture)? {
+        Some(colours) => {
+            colours[1].independent(&flat.picture, 1)?;
+            flat.check(&colours[1])?;
+            report.encoding(&colours[1].stated);
+            let settings = flat.settings(&colours[1], blocks);
+            let [red, green, blue] = &colours;
+            for (channel, name) in colours.iter().zip(["red", "green", "blue"]) {
+                let name = format!("{}, {name}", flat.picture.display());
+                report.note_cut(&name, &channel.image, flat.input.levels.full_scale(channel));
+            }
+            let found = colour_shading([&red.image, &green.image, &blue.image], &settings);
+            in_colour(&mut report, &found.map_err(|e| flat.refused(&e))?);
+        }
+        None => {
+            let (found, _) = flat.measured(blocks, &mut report)?;
+            extreme(&mut report, "illumination", "least illumination", &found.map);
+            report.table(map("illumination_percent", &found.map));
+            report.plot(profile_plot(&[("", &found)]));
+        }
+    }
+    Ok(report)
+}
+
+fn in_colour(report: &mut Report, found: &ColourShading) {
+    let [red, blue] = found.extremes();
+    report.figure("red_percent", "red over green, farthest from the centre's", "%", red.scaled(100.0));
+    report.figure("blue_percent", "blue over green, farthest from the centre's", "%", blue.scaled(100.0));
+    for (key, label, channel) in [("red", "least red", 0), ("green", "least green", 1), ("blue", "least blue", 2)] {
+        extreme(report, key, label, &found.channels[channel].map);
+    }
+    report.table(map("green_percent", &found.channels[1].map));
+    report.table(map("red_over_green_percent", &found.red));
+    report.table(map("blue_over_green_percent", &found.blue));
+    let [red, green, blue] = &found.channels;
+    report.plot(profile_plot(&[("blue", blue), ("red", red), ("green", green)]));
+}
+
+fn extreme(report: &mut Report, key: &str, label: &str, map: &[Vec<Estimate>]) {
+    let lower = |a: Estimate, b: Estimate| if b.value < a.value { b } else { a };
+    let least = map.iter().flatten().copied().reduce(lower).unwrap_or(Estimate::new(1.0, 0.0));
+    report.figure(&format!("{key}_least_percent"), label, "%", least.scaled(100.0));
+}
+
+/// A map as a table: one row of blocks a row.
+fn map(key: &'static str, map: &[Vec<Estimate>]) -> Table {
+    let row = |(i, blocks): (usize, &Vec<Estimate>)| {
+        vec![Cell::Number(i as f64 + 1.0, 0), Cell::List(blocks.iter().map(|e| 100.0 * e.value).collect(), 2)]
+    };
+    Table {
+        key,
+        columns: vec![("row", "row"), ("blocks", heading(key))],
+        rows: map.iter().enumerate().map(row).collect(),
+    }
+}
+
+fn heading(key: &str) -> &'static str {
+    match key {
+        "green_percent" => "green %",
+        "red_over_green_percent" => "red over green %",
+        "blue_over_green_percent" => "blue over green %",
+        _ => "illumination %",
+    }
+}
+
+fn profile_plot(channels: &[(&str, &Shading)]) -> Plot {
+    let series = channels.iter().map(|(name, shading)| {
+        let ring = |r: &etendue_metrology::shading::Ring| {
+            (100.0 * r.position, 100.0 * r.relative.value, 200.0 * r.relative.standard_uncertainty)
+        };
+        Series::with_errors(name, Mark::Points, shading.profile.iter().map(ring))
+    });
+    Plot {
+        title: "relative illumination (bars: 95 %)".to_owned(),
+        x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
+        y: Axis::linear("illumination, % of the centre").showing(&[100.0]),
+        series: series.collect(),
+    }
+}

@@ -1,0 +1,113 @@
+//! The camera that a chart is made for: a camera file, or a reference camera that is written beside the chart.
+
+use etendue_charts::CameraStation;
+use etendue_io::failure::Error;
+use etendue_io::load_assets;
+use etendue_io::paths::relative_path;
+use etendue_io::source::read_text;
+use etendue_pipeline::compile_camera;
+use etendue_pipeline::plan::CameraBody;
+use etendue_scene::{Overrides, asset, load_camera};
+use std::path::{Path, PathBuf};
+
+/// Camera files that need no other.
+const STAND_INS: [(&str, &str); 5] = [
+    ("web", include_str!("../../../../scenes/cameras/web.toml")),
+    ("ccd-mono", include_str!("../../../../scenes/cameras/ccd-mono.toml")),
+    ("ccd-bayer", include_str!("../../../../scenes/cameras/ccd-bayer.toml")),
+    ("automotive", include_str!("../../../../scenes/cameras/automotive.toml")),
+    ("laboratory", include_str!("../../../../scenes/cameras/laboratory.toml")),
+];
+
+/// The specimen of a series whose camera does not say one.
+const SPECIMEN: u64 = 1;
+
+/// A camera and where its file is.
+pub(super) struct ChartCamera {
+    /// The camera.
+    pub(super) body: CameraBody,
+    source: Source,
+}
+
+enum Source {
+    File(PathBuf),
+    StandIn(String, &'static str),
+}
+
+impl ChartCamera {
+    /// Reads and compiles a camera file, or a reference camera given by name, with changes `key=value` of its keys.
+    pub(super) fn load(given: &str, changes: &[String]) -> Result<Self, Error> {
+        let stand_in = STAND_INS.iter().find(|(name, _)| *name == given);
+        let source = match stand_in {
+            Some((name, text)) => Source::StandIn(format!("{name}.toml"), text),
+            None if given.ends_with(".toml") => Source::File(PathBuf::from(given)),
+            None => {
+                let names = STAND_INS.map(|(name, _)| name).join(", ");
+                let told = format!("--camera {given}: expected a camera file (.toml) or one of {names}");
+                return Err(Error::input(told));
+            }
+        };
+        let (path, text) = match &source {
+            Source::File(path) => (path.clone(), None),
+            Source::StandIn(name, text) => (PathBuf::from(name), Some(*text)),
+        };
+        let read = |file: &Path| match text {
+            Some(text) if file == path => Ok(text.to_owned()),
+            _ => read_text(file),
+        };
+        let camera = load_camera(&path, &read, &Overrides::new(changes)).map_err(|f| Error::inputs(f.list()))?;
+        let assets = load_assets(&asset::of_camera(&camera)).map_err(Error::inputs)?;
+        Ok(Self { body: compile_camera(&camera, &assets).map_err(Error::inputs)?, source })
+    }
+
+    /// The reference camera's file and its text.
+    pub(super) fn stand_in(&self) -> Option<(String, &'static str)> {
+        match &self.source {
+            Source::File(_) => None,
+            Source::StandIn(name, text) => Some((name.clone(), text)),
+        }
+    }
+
+    /// The camera file as a path from the chart's folder.
+    pub(super) fn base(&self, folder: &Path) -> Result<String, Error> {
+        let file = match &self.source {
+            Source::StandIn(name, _) => return Ok(name.clone()),
+            Source::File(path) => path,
+        };
+        let whole = |path: &Path| {
+            let here = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+            here.canonicalize().map_err(|error| Error::input(format!("{}: {error}", path.display())))
+        };
+        let from_to = relative_path(&whole(folder)?, &whole(file)?);
+        let text = from_to.to_str().filter(|text| !text.contains(['"', '\\']));
+        let told = || Error::input(format!("{}: give a path without quotes and backslashes", file.display()));
+        text.map(str::to_owned).ok_or_else(told)
+    }
+
+    /// Keys that a chart's cameras do without: what changes the exposure from frame to frame.
+    pub(super) fn removed_keys(&self) -> &'static [&'static str] {
+        let sensor = self.body.sensor.as_ref();
+        let controlled = sensor.is_some_and(|sensor| sensor.parameters().exposure.control.is_some());
+        if controlled { &["sensor.auto_exposure"] } else { &[] }
+    }
+
+    /// The specimen to name in the cameras of a series, so that all of them are the same one.
+    pub(super) fn specimen(&self, stations: &[CameraStation]) -> Option<u64> {
+        let sensor = self.body.sensor.as_ref()?;
+        let open = sensor.parameters().specimen.is_none();
+        (open && stations.len() > 1).then_some(SPECIMEN)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stand_ins_are_whole() {
+        for (name, _) in STAND_INS {
+            let camera = ChartCamera::load(name, &[]).unwrap_or_else(|failure| panic!("{name}: {failure}"));
+            assert_eq!(camera.body.sensor.is_some(), name != "laboratory");
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! A chart as a scene ready to render, with its truth beside it.
+
+mod camera;
+mod changes;
+mod exposure;
+mod own_camera;
+
+use camera::ChartCamera;
+use changes::Changes;
+pub use etendue_charts::design;
+pub use etendue_charts::{Chart, ChartError, Exposures, Spacing};
+use etendue_charts::{
+    Contents, Footprint, Meter, RasterRay, RayCamera, Request, camera_file, camera_stations, files, picture,
+};
+use etendue_core::Plane;
+use etendue_core::quantity::DigitalNumber;
+use etendue_io::failure::Error;
+use etendue_io::photograph::Encoding;
+use etendue_io::png::{encode_display, encode_raw16};
+use etendue_io::ranges::whole;
+use etendue_io::{Existing, OutputFolder};
+use etendue_pipeline::light_meter::LightMeter;
+use glam::DVec2;
+pub use own_camera::ChartBeforeCamera;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// The distance of a sheet before a camera that is focused nowhere in particular, m.
+const DISTANCE_M: f64 = 1.0;
+/// The luminance of white before a camera without electronics, cd/m².
+const LUMINANCE_CD_M2: f64 = 1000.0;
+
+/// A series of exposures, one camera each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// What white reaches in each.
+    pub exposures: Exposures,
+    /// Whether a camera whose exposure cannot be told is refused; otherwise the chart is made without the series.
+    pub required: bool,
+}
+
+/// A chart, the camera that looks at it, its light and its exposures.
+#[derive(Clone, Debug)]
+pub struct ChartRequest {
+    /// The chart.
+    pub chart: Chart,
+    /// The camera: a camera file (its name ends in `.toml`), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory.
+    pub camera: String,
+    /// Changes of the written job's keys, `key=value`, e.g. `render.spp=16` or `cameras.camera.lens.f_number=4`: the chart is drawn for the changed camera.
+    pub set: Vec<String>,
+    /// Distance of the sheet from the entrance pupil, m, above 0; `None`: where the camera is focused, or 1.
+    pub distance_m: Option<f64>,
+    /// Width of what the camera sees of the sheet, mm, above 0: the distance follows.
+    pub width_mm: Option<f64>,
+    /// The light's spectrum: D65, A, E, LED-B3, …
+    pub illuminant: String,
+    /// Luminance of a perfect white sheet (or of the panel), cd/m²; `None`: what `white` asks for.
+    pub luminance_cd_m2: Option<f64>,
+    /// The fraction of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure.
+    pub white: f64,
+    /// The seed of all random numbers.
+    pub seed: u64,
+    /// Writes the print as chart.png too, at this many pixels an inch.
+    pub png_dpi: Option<f64>,
+    /// How many cameras look at it: the first square to it, the others tilted by 25 degrees all round.
+    pub views: u32,
+    /// Whether the views lie a little off their places, as by hand, drawn by `seed`: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees.
+    pub hand_held: bool,
+    /// Exposures, one camera each; `None`: the camera's own.
+    pub series: Option<Series>,
+    /// Whether each exposure has a dark frame.
+    pub dark: bool,
+}
+
+impl ChartRequest {
+    /// One view by a camera at 0.7 of its saturation, in daylight D65.
+    pub fn new(chart: Chart, camera: impl Into<String>) -> Self {
+        Self {
+            chart,
+            camera: camera.into(),
+            set: Vec::new(),
+            distance_m: None,
+            width_mm: None,
+            illuminant: "D65".to_owned(),
+            luminance_cd_m2: None,
+            white: 0.7,
+            seed: 0,
+            png_dpi: None,
+            views: 1,
+            hand_held: false,
+            series: None,
+            dark: false,
+        }
+    }
+}
+
+/// Makes a chart as a scene with its job, cameras and truth in a folder; answers with the files' paths.
+///
+/// # Errors
+/// The camera cannot be used, the chart does not fit it, a change names no key of the job, or the folder cannot be written.
+pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Result<Vec<PathBuf>, Error> {
+    whole("--views", request.views, 1..=200)?;
+    let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+    let changes = Changes(&request.set);
+    let camera_changes = changes.camera_changes();
+    if !camera_changes.is_empty() {
+        // Errors in keys are reported as errors of the job, before the chart is drawn for the changed camera.
+        let unchanged = draw_chart(request, &[], folder.path())?;
+        changes.check(folder.path(), &unchanged.texts())?;
+    }
+    let mut files = draw_chart(request, &camera_changes, folder.path())?;
+    if !request.set.is_empty() {
+        let mut texts = files.texts();
+        changes.check(folder.path(), &texts)?;
+        changes.write(folder.path(), &files.camera_files, &mut texts)?;
+        files.replace(texts);
+    }
+    folder.claim(files.all.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
+    files.all.iter().try_for_each(|(name, bytes)| folder.write(name, bytes).map_err(Error::run))?;
+    folder.commit().map_err(Error::run)
+}
+
+/// The files of a chart, by their names in its folder.
+struct ChartFiles {
+    all: Vec<(String, Vec<u8>)>,
+    /// Names of its camera files.
+    camera_files: Vec<String>,
+}
+
+impl ChartFiles {
+    /// Returns the job, scene and camera files (TOML) by name.
+    fn texts(&self) -> BTreeMap<String, String> {
+        let is_text = |name: &str| name.ends_with(".toml");
+        let texts = self.all.iter().filter(|(name, _)| is_text(name));
+        texts.map(|(name, bytes)| (name.clone(), String::from_utf8_lossy(bytes).into_owned())).collect()
+    }
+
+    /// Replaces the files that are named in `texts`.
+    fn replace(&mut self, mut texts: BTreeMap<String, String>) {
+        for (name, bytes) in &mut self.all {
+            if let Some(text) = texts.remove(name) {
+                *bytes = text.into_bytes();
+            }
+        }
+    }
+}
+
+/// Draws the requested chart for its camera with `changes` of its keys, and returns the files.
+fn draw_chart(request: &ChartRequest, changes: &[String], folder: &Path) -> Result<ChartFiles, Error> {
+    let camera = ChartCamera::load(&request.camera, changes)?;
+    let body = &camera.body;
+    let ray = |at: DVec2| {
+        let (front, _) = body.truth_ray(at)?;
+        Some(RasterRay { origin_m: front.truth_origin_m(), direction: front.ray.direction })
+    };
+    let size_px = DVec2::new(body.raster.width() as f64, body.raster.height() as f64);
+    let ray_camera = RayCamera { size_px, ray: &ray };
+    let light_meter = LightMeter::of(body);
+    let electrons = |radiance: &_| light_meter.as_ref().map_or_else(Vec::new, |meter| meter.electrons(radiance));
+    let meter = light_meter.as_ref().zip(body.sensor.as_ref()).map(|(meter, sensor)| Meter {
+        exposure_s: sensor.parameters().exposure.exposure_s,
+        longest_s: sensor.parameters().exposure.frame_period_s,
+        saturation_e: meter.saturation_e(),
+        electrons: &electrons,
+    });
+    // Nothing is measured in no time.
+    let meter = meter.filter(|meter| meter.exposure_s > 0.0);
+    let seen = footprint(request, &camera, &ray_camera)?;
+    let drawing = request.chart.draw(&seen, request.seed).map_err(refused)?;
+    let light = request.light(meter.as_ref(), LUMINANCE_CD_M2).map_err(refused)?;
+    let exposures_s = request.exposures_s(&light, &drawing, meter.as_ref()).map_err(refused)?;
+    let mut stations = camera_stations(seen.distance_m, request.views, &exposures_s, request.dark);
+    if request.hand_held {
+        stations = stations.into_iter().zip(0..).map(|(station, nth)| station.hand_held(request.seed, nth)).collect();
+    }
+    let base = camera.base(folder)?;
+    let files = Request {
+        chart: &request.chart,
+        drawing: &drawing,
+        seen,
+        ray_camera: &ray_camera,
+        meter: meter.as_ref(),
+        light: &light,
+        stations: &stations,
+        camera: &base,
+        remove: camera.removed_keys(),
+        specimen: camera.specimen(&stations),
+        seed: request.seed,
+        changes: &Changes(&request.set).job_changes(),
+    };
+    chart_files(&files, &camera, request.png_dpi)
+}
+
+fn refused(error: ChartError) -> Error {
+    Error::input(error.to_string())
+}
+
+/// What the camera sees at the distance that is asked for, directly or by the width.
+fn footprint(request: &ChartRequest, camera: &ChartCamera, ray_camera: &RayCamera<'_>) -> Result<Footprint, Error> {
+    let legal = |option: &'static str, value: f64| match value.is_finite() && value > 0.0 {
+        true => Ok(value),
+        false => Err(refused(ChartError::option(option, value, "expected a number above 0"))),
+    };
+    let focused = camera.body.lens.focus_distance_m().filter(|m| m.is_finite());
+    let mut distance_m = match request.distance_m {
+        Some(distance_m) => legal("distance-m", distance_m)?,
+        None => focused.unwrap_or(DISTANCE_M),
+    };
+    if let Some(width_mm) = request.width_mm {
+        let width_mm = legal("width-mm", width_mm)?;
+        // The width is all but proportional to the distance.
+        for _ in 0..8 {
+            distance_m *= width_mm / ray_camera.footprint(distance_m).map_err(refused)?.outer_mm.x;
+        }
+    }
+    ray_camera.footprint(distance_m).map_err(refused)
+}
+
+fn chart_files(request: &Request<'_>, camera: &ChartCamera, png_dpi: Option<f64>) -> Result<ChartFiles, Error> {
+    let print = png_dpi.map(|dpi| picture(request.drawing, dpi)).transpose().map_err(refused)?;
+    let print = print.map(|plane| encode_display(&plane, &Encoding::Srgb)).transpose().map_err(Error::run)?;
+    let stand_in = camera.stand_in().map(|(name, text)| (name, text.as_bytes().to_vec()));
+    let mut all: Vec<(String, Vec<u8>)> = stand_in.into_iter().collect();
+    for file in files(request) {
+        all.push((file.name, bytes(file.contents)?));
+    }
+    all.extend(print.map(|bytes| ("chart.png".to_owned(), bytes)));
+    let camera_files = request.stations.iter().map(camera_file).collect::<BTreeSet<_>>().into_iter().collect();
+    Ok(ChartFiles { all, camera_files })
+}
+
+fn bytes(contents: Contents) -> Result<Vec<u8>, Error> {
+    match contents {
+        Contents::Text(text) => Ok(text.into_bytes()),
+        Contents::Grey16(width, height, values) => {
+            let samples = values.into_iter().map(u32::from).collect();
+            let plane: Plane<DigitalNumber> = Plane::from_samples(width, height, samples).expect("one value a texel");
+            encode_raw16(&plane).map_err(Error::run)
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Pictures of raws that were taken before, by a camera file's processing.
+
+use crate::raw_file::{Levels, Taken, taken};
+use crate::results::Files;
+use crate::results::frames::encoded;
+use crate::results::metadata;
+use crate::results::writer::ResultWriter;
+use etendue_io::failure::Error;
+use etendue_io::paths::camera_stem;
+use etendue_io::{Existing, OutputFolder};
+use etendue_pipeline::photograph::{Developed, developed};
+use etendue_pipeline::plan::{CameraBody, Development};
+use etendue_plan_report::camera_facts;
+use etendue_plan_report::open_camera;
+use etendue_sensor::Sensor;
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+
+/// Stored raws and the camera whose processing makes pictures of them.
+#[derive(Clone, Debug)]
+pub struct DevelopRequest {
+    /// Raws (PNG, TIFF, DNG), each with its side-car `camera.json` beside it.
+    pub raws: Vec<PathBuf>,
+    /// The camera file (TOML) whose sensor took them.
+    pub camera: PathBuf,
+    /// Changes of its keys, `key=value`.
+    pub set: Vec<String>,
+    /// For raws without a side-car: digital numbers of no light and of a saturated pixel.
+    pub levels: Option<Levels>,
+    /// The seed of added noises; `None`: that of the side-car, or 0.
+    pub seed: Option<u64>,
+}
+
+impl DevelopRequest {
+    /// Raws with their side-cars, by a camera file as it is.
+    pub fn new(raws: Vec<PathBuf>, camera: impl Into<PathBuf>) -> Self {
+        Self { raws, camera: camera.into(), set: Vec::new(), levels: None, seed: None }
+    }
+}
+
+/// Makes pictures of raws; writes them into a folder and answers with their paths. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where camera or raws cannot be used or contradict each other, or the folder cannot be written.
+pub fn develop(request: &DevelopRequest, (folder, existing): (&Path, Existing)) -> Result<Vec<PathBuf>, Error> {
+    let body = open_camera(&request.camera, &request.set)?;
+    let camera = Camera::of(&body).ok_or_else(|| {
+        let file = request.camera.display();
+        Error::input(format!("{file}: the camera has no [isp], so nothing says how a picture is made: add it"))
+    })?;
+    let name = camera_stem(&request.camera);
+    let mut folder = OutputFolder::open_part(folder, &name, existing).map_err(Error::input)?;
+    let mut writer = ResultWriter { prefix: name, folder: &mut folder };
+    writer.claim(Files::DEVELOPMENT)?;
+    all(&camera, request, &mut writer)?;
+    folder.commit().map_err(Error::run)
+}
+
+/// A camera that makes pictures.
+struct Camera<'a> {
+    body: &'a CameraBody,
+    sensor: &'a Sensor,
+    development: &'a Development,
+}
+
+impl<'a> Camera<'a> {
+    fn of(body: &'a CameraBody) -> Option<Self> {
+        Some(Self { body, sensor: body.sensor.as_ref()?, development: body.development.as_ref()? })
+    }
+}
+
+fn all(camera: &Camera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+    let (mut frames, mut files, mut correlated_block_px) = (Vec::new(), Map::new(), 1);
+    for (number, file) in request.raws.iter().enumerate() {
+        let mut taken = taken(file, request.levels, number as u32, camera.body, camera.sensor).map_err(Error::input)?;
+        correlated_block_px = correlated_block_px.max(taken.correlated_block_px);
+        taken.address.seed = request.seed.unwrap_or(taken.address.seed);
+        let name = Files::picture(taken.address.frame, camera.development.format);
+        if files.contains_key(&name) {
+            let told =
+                format!("{}: another raw is frame {}, too: develop them apart", file.display(), taken.address.frame);
+            return Err(Error::input(told));
+        }
+        writer.claim(&name)?;
+        let picture = developed(camera.development, &taken.raw, taken.address)
+            .map_err(|error| Error::input(format!("{}: {error}", file.display())))?;
+        writer.write(&name, encoded(&picture.display, camera.development))?;
+        frames.push(frame(file, &taken, &picture));
+        files.insert(name, Files::picture_entry(camera.development));
+    }
+    let facts = json!({
+        "program": "etendue",
+        "version": metadata::VERSION,
+        "sensor": camera_facts::sensor(camera.body),
+        "isp": camera.development.to_string(),
+        "frames": frames,
+        "sampling": { "correlated_block_px": correlated_block_px },
+        "files": files,
+    });
+    writer.json(Files::DEVELOPMENT, &facts)
+}
+
+/// What became of a raw.
+fn frame(file: &Path, taken: &Taken, picture: &Developed) -> Value {
+    json!({
+        "frame": taken.address.frame,
+        "raw": file.file_name().map(|name| name.to_string_lossy()),
+        "seed": taken.address.seed,
+        "black_level_dn": picture.facts.black_level_dn,
+        "white_level_dn": taken.raw.linear().white_level_dn,
+        "white_balance": picture.facts.white_balance,
+        "corrected_pixels": picture.facts.corrected_pixels,
+    })
+}

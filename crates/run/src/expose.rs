@@ -1,0 +1,251 @@
+//! Another lens and sensor on stored radiance.
+
+use crate::results::Files;
+use crate::results::frames::{Wanted, frames, write_frames};
+use crate::results::metadata;
+use crate::results::writer::ResultWriter;
+use crate::stored_radiance::StoredRadiance;
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
+use etendue_io::paths::camera_stem;
+use etendue_io::{Existing, OutputFolder};
+use etendue_optics::{DepthOfField, OpticsError};
+use etendue_pipeline::defocus::{held_margin_px, margin_px};
+use etendue_pipeline::photograph::Light;
+use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};
+use etendue_pipeline::stored;
+use etendue_plan_report::camera_facts;
+use etendue_plan_report::open_camera;
+use etendue_sensor::{FrameAddress, SensorState};
+use serde_json::json;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// A stored radiance image and the camera that photographs it.
+#[derive(Clone, Debug)]
+pub struct ExposeRequest {
+    /// A spectral radiance image rendered with `route = "pupil"`.
+    pub radiance: PathBuf,
+    /// The camera file (TOML).
+    pub camera: PathBuf,
+    /// Changes of its keys, `key=value`.
+    pub set: Vec<String>,
+    /// The seed of the sensor's noise; `None`: that of the radiance image.
+    pub seed: Option<u64>,
+    /// Frames to take, the last excluded.
+    pub frames: Range<u32>,
+    /// How things out of focus are blurred; `None`: physically, as far as lens and image allow.
+    pub depth_of_field: Option<DepthOfField>,
+}
+
+impl ExposeRequest {
+    /// One frame with the seed of the image, physically blurred.
+    pub fn new(radiance: impl Into<PathBuf>, camera: impl Into<PathBuf>) -> Self {
+        let (radiance, camera) = (radiance.into(), camera.into());
+        Self { radiance, camera, set: Vec::new(), seed: None, frames: 0..1, depth_of_field: None }
+    }
+}
+
+/// Photographs a stored radiance image by another lens and sensor; writes the files into a folder and answers with their paths.
+/// Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where image or camera cannot be used, the camera looks past the image, or the folder cannot be written.
+pub fn expose(
+    request: &ExposeRequest,
+    (folder, existing): (&Path, Existing),
+    observer: &dyn Observer,
+) -> Result<Vec<PathBuf>, Error> {
+    let body = open_camera(&request.camera, &request.set)?;
+    let stored = StoredRadiance::open(&request.radiance)?;
+    check_shutter(&body, &stored, request, observer)?;
+    let name = camera_stem(&request.camera);
+    let mut folder = OutputFolder::open_part(folder, &name, existing).map_err(Error::input)?;
+    let files = Files::of(&products(&body), &body, &request.frames);
+    let claimed = files.keys().map(String::as_str).chain([Files::SIDECAR]);
+    let claimed: Vec<String> = claimed.map(|file| format!("{name}/{file}")).collect();
+    folder.claim(claimed.iter().map(String::as_str)).map_err(Error::input)?;
+    write(&body, &stored, request, observer, &mut ResultWriter { prefix: name, folder: &mut folder })?;
+    folder.commit().map_err(Error::run)
+}
+
+/// Refuses rows that are read in turn where light depends on time, as the image holds one exposure of it for all of them; says where
+/// another exposure is asked for than the image was gathered over.
+fn check_shutter(
+    body: &CameraBody,
+    stored: &StoredRadiance,
+    request: &ExposeRequest,
+    observer: &dyn Observer,
+) -> Result<(), Error> {
+    let Some(stored_s) = stored.exposure_s() else { return Ok(()) };
+    let (radiance, camera) = (request.radiance.display(), request.camera.display());
+    if !body.exposure.is_global() {
+        return Err(Error::input(format!(
+            "{radiance} through {camera}: its light depends on time and is the mean over one exposure of {stored_s} s, and the camera reads its rows \
+             in turn; give it a \"global\" shutter, or render the job through the lens"
+        )));
+    }
+    let exposure = &body.exposure;
+    if exposure.exposure_s != stored_s || exposure.distinct_captures().len() > 1 {
+        observer.message(Message::Warning(&format!(
+            "{radiance}: its light depends on time and is the mean over {stored_s} s; motion and flicker stay those of that exposure, whatever \
+             exposures {camera} takes"
+        )));
+    }
+    Ok(())
+}
+
+/// Everything that the camera can make of the light.
+fn products(body: &CameraBody) -> Products {
+    Products {
+        radiance: false,
+        irradiance: true,
+        ghosts: body.effects.ghosts().is_some(),
+        variance: false,
+        sampling: false,
+        electrons: false,
+        raw: body.sensor.is_some(),
+        raw_format: RawFormat::usual(body.sensor.as_ref()),
+        signal_breakdown: false,
+        picture: body.development.is_some(),
+        ground_truth: false,
+        camera_space_position: false,
+        weather: false,
+        cover: false,
+        depth_png_per_m: None,
+        rays: false,
+        undistorted: None,
+        video: false,
+        annotations: Annotations::default(),
+        calibration_files: false,
+    }
+}
+
+fn write(
+    body: &CameraBody,
+    stored: &StoredRadiance,
+    request: &ExposeRequest,
+    observer: &dyn Observer,
+    writer: &mut ResultWriter<'_>,
+) -> Result<(), Error> {
+    let StoredRadiance { radiance, projection, distance, .. } = stored;
+    let at_pupil = stored::Stored { projection, radiance, distance: distance.as_ref() };
+    let refuse = |error: OpticsError| {
+        let (radiance, camera) = (request.radiance.display(), request.camera.display());
+        Error::input(format!("{radiance} through {camera}: {error}{}", margin(body)))
+    };
+    let depth_of_field = depth_of_field(body, stored, request, observer)?;
+    warn_of_margin(body, stored, &depth_of_field, observer).map_err(refuse)?;
+    let light = Light::at_pupil(body, &at_pupil, &depth_of_field).map_err(refuse)?;
+    let seed = request.seed.unwrap_or(stored.provenance.seed);
+    let facts = metadata::exposed_provenance(&stored.provenance, &writer.prefix, seed);
+    writer.irradiance(Files::IRRADIANCE, &light, false, &facts)?;
+    writer.ghosts(Files::GHOSTS, &light, &facts)?;
+    let mut points = Vec::new();
+    if let Some(captures) = light.captures() {
+        let address = |frame| FrameAddress { seed, camera: stored.camera_index(), frame, capture: 0 };
+        let products = products(body);
+        let wanted = Wanted {
+            products: &products,
+            camera: &writer.prefix.clone(),
+            facts: &facts,
+            undistorted: None,
+            one_by_one: false,
+            observer,
+        };
+        let taken = frames(body, captures, (request.frames.clone(), SensorState::default()), address, false);
+        points = write_frames(body, taken, address, wanted, writer)?;
+    }
+    let mut facts = sidecar(body, stored, request, seed, &depth_of_field);
+    facts["frames"] = points.into();
+    writer.json(Files::SIDECAR, &facts)
+}
+
+/// What the camera's effects need beyond its picture, where they need anything.
+fn margin(body: &CameraBody) -> String {
+    match body.effects.margin_px() {
+        [0, 0] => String::new(),
+        [x, y] => format!(
+            "; the camera's [effects] need {x} columns and {y} rows beyond its picture: give them a smaller \"margin\", or \
+             render with more \"overscan\""
+        ),
+    }
+}
+
+/// The depth of field that is asked for; where nothing is said, the physical one as far as lens and image allow.
+fn depth_of_field(
+    body: &CameraBody,
+    stored: &StoredRadiance,
+    request: &ExposeRequest,
+    observer: &dyn Observer,
+) -> Result<DepthOfField, Error> {
+    let blurs = body.lens.entrance_pupil_radius_m() > 0.0;
+    let file = request.radiance.display();
+    match request.depth_of_field {
+        Some(DepthOfField::None) => Ok(DepthOfField::None),
+        Some(_) if stored.distance.is_none() => Err(Error::input(format!(
+            "{file}: it has no distances (channel distance.Z), which depth of field needs: render it anew, or give \
+             --depth-of-field none"
+        ))),
+        Some(DepthOfField::Physical) if !blurs => Err(Error::input(format!(
+            "--depth-of-field physical has no effect: to the lens of {} everything is sharp",
+            request.camera.display()
+        ))),
+        Some(asked) => Ok(asked),
+        None if blurs && stored.distance.is_some() => Ok(DepthOfField::Physical),
+        None => {
+            if blurs {
+                let told = format!("{file} has no distances (channel distance.Z): defocus is left out");
+                observer.message(Message::Warning(&told));
+            }
+            Ok(DepthOfField::None)
+        }
+    }
+}
+
+/// Says where blurs from outside of the picture are cut off.
+fn warn_of_margin(
+    body: &CameraBody,
+    stored: &StoredRadiance,
+    depth_of_field: &DepthOfField,
+    observer: &dyn Observer,
+) -> Result<(), OpticsError> {
+    let wanted = margin_px(depth_of_field, body);
+    let held = held_margin_px(&stored.projection, body, stored.radiance.bands(), depth_of_field)?;
+    if held < wanted {
+        observer.message(Message::Warning(&format!(
+            "depth of field needs {wanted} px around the picture and the image holds {held}: blurs are cut off at its edges; render with \
+             more overscan"
+        )));
+    }
+    Ok(())
+}
+
+fn sidecar(
+    body: &CameraBody,
+    stored: &StoredRadiance,
+    request: &ExposeRequest,
+    seed: u64,
+    depth_of_field: &DepthOfField,
+) -> serde_json::Value {
+    json!({
+        "program": "etendue",
+        "version": metadata::VERSION,
+        "seed": seed,
+        "camera_index": stored.camera_index(),
+        "radiance": {
+            "plan_hash": stored.provenance.plan_hash,
+            "version": stored.provenance.version,
+            "camera": stored.provenance.camera,
+        },
+        "pose": { "camera_to_world": stored.provenance.camera_to_world },
+        "optics": camera_facts::optics(body),
+        "effects": camera_facts::effects(body),
+        "sensor": camera_facts::sensor(body),
+        "route": "pupil",
+        "sampling": { "correlated_block_px": stored.correlated_block_px() },
+        "depth_of_field": camera_facts::depth_of_field(depth_of_field),
+        "files": Files::of(&products(body), body, &request.frames),
+        "time_s": stored.provenance.time_s,
+    })
+}

@@ -1,0 +1,297 @@
+//! Even light on a camera's bare sensor.
+
+use crate::results::Files;
+use crate::results::frames::{Wanted, encoded_raw, frames, write_frames};
+use crate::results::metadata;
+use crate::results::writer::ResultWriter;
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
+use etendue_io::paths::camera_stem;
+use etendue_io::ranges::{number, whole};
+use etendue_io::{Existing, OutputFolder, Provenance};
+use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, Stack};
+use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};
+use etendue_plan_report::camera_facts;
+use etendue_plan_report::open_camera;
+use etendue_sensor::{CaptureLight, FrameAddress, Sensor, SensorState};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// The series as the standard's reference program reads it.
+const DESCRIPTOR: &str = "emva1288.txt";
+
+/// The camera's place among those of a job: it stands alone.
+const CAMERA: u32 = 0;
+
+/// Electrons are whole numbers up to here, 2⁵³.
+const MAX_E: f32 = 9_007_199_254_740_992.0;
+
+/// The even light, or the series of lights.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FlatSource {
+    /// Irradiance of the sensor, W/m², 0 or more; 0 is dark.
+    Irradiance {
+        /// W/m².
+        w_m2: f64,
+    },
+    /// Photons on the whole square of a pixel over the exposure, 0 or more; 0 is dark.
+    Photons {
+        /// Photons a pixel.
+        per_pixel: f64,
+    },
+    /// The series of EMVA 1288: `levels` exposures up to the camera's, where the light just saturates, two bright and two dark frames
+    /// each; then a stack of `stack` frames at half of saturation and one in the dark.
+    PhotonTransfer {
+        /// How many exposures, 3 or more.
+        levels: u32,
+        /// Frames of each stack, 3 or more.
+        stack: u32,
+    },
+}
+
+/// Even light of one wavelength on a camera's bare sensor.
+#[derive(Clone, Debug)]
+pub struct FlatRequest {
+    /// The camera file (TOML); its lens is taken off.
+    pub camera: PathBuf,
+    /// Changes of its keys, `key=value`.
+    pub set: Vec<String>,
+    /// Wavelength of the light, 300 to 1100 nm.
+    pub wavelength_nm: f64,
+    /// How bright the light is.
+    pub source: FlatSource,
+    /// Frames to take, the last excluded; a series has its own.
+    pub frames: Range<u32>,
+    /// Whether to write what each pixel's digital number is made of; not of a series.
+    pub signal_breakdown: bool,
+    /// The seed of the sensor's noise.
+    pub seed: u64,
+}
+
+impl FlatRequest {
+    /// One frame with the seed 0.
+    pub fn new(camera: impl Into<PathBuf>, wavelength_nm: f64, source: FlatSource) -> Self {
+        let camera = camera.into();
+        Self { camera, set: Vec::new(), wavelength_nm, source, frames: 0..1, signal_breakdown: false, seed: 0 }
+    }
+}
+
+impl FlatRequest {
+    fn check(&self) -> Result<(), Error> {
+        number("--wavelength-nm", self.wavelength_nm, 300.0..=1100.0, "nm")?;
+        match self.source {
+            FlatSource::Irradiance { w_m2 } => number("--irradiance-w-m2", w_m2, 0.0..=f64::MAX, "W/m²"),
+            FlatSource::Photons { per_pixel } => number("--photons", per_pixel, 0.0..=f64::MAX, "photons a pixel"),
+            FlatSource::PhotonTransfer { levels, stack } => {
+                whole("--photon-transfer", levels, 3..=10_000)?;
+                whole("--stack", stack, 3..=10_000)
+            }
+        }
+    }
+}
+
+/// Photographs even light by a camera's bare sensor, or takes the series by which EMVA 1288 measures; nothing is traced. Writes into a
+/// folder and answers with the files' paths. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where the camera has no electronics, the light is more than can be counted, or the folder cannot be written.
+pub fn flat(
+    request: &FlatRequest,
+    (folder, existing): (&Path, Existing),
+    observer: &dyn Observer,
+) -> Result<Vec<PathBuf>, Error> {
+    request.check()?;
+    let body = body(request)?;
+    let name = camera_stem(&request.camera);
+    let mut folder = OutputFolder::open_part(folder, &name, existing).map_err(Error::input)?;
+    let task = Task { request, body: &body, sensor: body.sensor.as_ref().expect("checked above"), observer };
+    let mut writer = ResultWriter { prefix: name, folder: &mut folder };
+    match request.source {
+        FlatSource::PhotonTransfer { levels, stack } => {
+            let series = flat::photon_transfer(task.sensor, request.wavelength_nm, levels, stack)
+                .map_err(|error| Error::input(format!("{}: {error}", request.camera.display())))?;
+            let frames = series.stacks.iter().flat_map(|stack| stack.frames.clone()).map(|n| task.file(n));
+            let mut files = frames.chain([DESCRIPTOR.to_owned(), Files::SIDECAR.to_owned()]);
+            files.try_for_each(|file| writer.claim(&file))?;
+            task.series(&series, &mut writer)?;
+        }
+        FlatSource::Irradiance { w_m2 } => {
+            let light = FlatLight { wavelength_nm: request.wavelength_nm, irradiance_w_m2: w_m2 };
+            task.single(light, &format!("--irradiance-w-m2 {w_m2:e}"), &mut writer)?;
+        }
+        FlatSource::Photons { per_pixel } => {
+            let light = FlatLight::of_photons(task.sensor, request.wavelength_nm, per_pixel)
+                .map_err(|error| Error::input(format!("--photons {per_pixel}: {error}")))?;
+            task.single(light, &format!("--photons {per_pixel:e}"), &mut writer)?;
+        }
+    }
+    folder.commit().map_err(Error::run)
+}
+
+fn body(request: &FlatRequest) -> Result<CameraBody, Error> {
+    let body = open_camera(&request.camera, &request.set)?;
+    let lack = || Error::input(format!("{}: the sensor has no electronics: add them", request.camera.display()));
+    flat::bare(&body).ok_or_else(lack)
+}
+
+/// What was asked for.
+struct Task<'a> {
+    request: &'a FlatRequest,
+    body: &'a CameraBody,
+    sensor: &'a Sensor,
+    observer: &'a dyn Observer,
+}
+
+impl Task<'_> {
+    fn products(&self) -> Products {
+        Products {
+            radiance: false,
+            irradiance: false,
+            ghosts: false,
+            variance: false,
+            sampling: false,
+            electrons: false,
+            raw: true,
+            raw_format: RawFormat::usual(Some(self.sensor)),
+            signal_breakdown: self.request.signal_breakdown,
+            picture: self.body.development.is_some(),
+            ground_truth: false,
+            camera_space_position: false,
+            weather: false,
+            cover: false,
+            depth_png_per_m: None,
+            rays: false,
+            undistorted: None,
+            video: false,
+            annotations: Annotations::default(),
+            calibration_files: false,
+        }
+    }
+
+    fn file(&self, frame: u32) -> String {
+        Files::raw(frame, self.products().raw_format)
+    }
+
+    fn seed(&self) -> u64 {
+        self.request.seed
+    }
+
+    fn address(&self, frame: u32) -> FrameAddress {
+        FrameAddress { seed: self.seed(), camera: CAMERA, frame, capture: 0 }
+    }
+
+    /// Single frames of one light, which was `given` so.
+    fn single(&self, light: FlatLight, given: &str, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let files = Files::of(&self.products(), self.body, &self.request.frames);
+        files.keys().map(String::as_str).chain([Files::SIDECAR]).try_for_each(|file| writer.claim(file))?;
+        let electrons = flat::electrons(self.body, light).expect("it has electronics");
+        if let Some(most) = electrons.samples().iter().find(|e| **e > MAX_E) {
+            let why = format!("makes {most:.1e} electrons a pixel, and at most {MAX_E:.0e} can be counted: give less");
+            return Err(Error::input(format!("{given}: {why}")));
+        }
+        let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());
+        let wanted = Wanted {
+            products: &products,
+            camera: &camera,
+            facts: &facts,
+            undistorted: None,
+            one_by_one: false,
+            observer: self.observer,
+        };
+        let begun = (self.request.frames.clone(), SensorState::default());
+        let steady = CaptureLight::steady(&electrons);
+        let taken = frames(self.body, steady, begun, |n| self.address(n), products.signal_breakdown);
+        let points = write_frames(self.body, taken, |n| self.address(n), wanted, writer)?;
+        let mut facts = self.sidecar(light);
+        facts["light"]["photons_per_pixel"] =
+            flat::photons(self.sensor, light, self.sensor.parameters().exposure.exposure_s).into();
+        facts["files"] = json!(files);
+        facts["frames"] = points.into();
+        writer.json(Files::SIDECAR, &facts)
+    }
+
+    /// The standard's series.
+    fn series(&self, series: &PhotonTransfer, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let channels = self.sensor.parameters().channels.len();
+        if channels > 1 {
+            let told = format!("the sensor has {channels} kinds of pixel: measure each kind by itself");
+            self.observer.message(Message::Warning(&told));
+        }
+        let mut size = (0, 0);
+        for stack in &series.stacks {
+            size = self.stack(stack, series.light, writer)?;
+        }
+        writer.write(DESCRIPTOR, Ok(self.descriptor(series, size).into_bytes()))?;
+        let mut facts = self.sidecar(series.light);
+        let stack = |s: &Stack| json!({ "exposure_s": s.exposure_s, "photons_per_pixel": s.photons, "frames": [s.frames.start, s.frames.end] });
+        facts["stacks"] = series.stacks.iter().map(stack).collect();
+        writer.json(Files::SIDECAR, &facts)
+    }
+
+    /// The frames of a stack, and their size.
+    fn stack(&self, stack: &Stack, light: FlatLight, writer: &mut ResultWriter<'_>) -> Result<(usize, usize), Error> {
+        let lit = f64::from(u8::from(stack.photons > 0.0));
+        let light = FlatLight { irradiance_w_m2: lit * light.irradiance_w_m2, ..light };
+        let electrons = flat::electrons(self.body, light).expect("it has electronics");
+        let (mut state, mut size) = (SensorState::default(), (0, 0));
+        for number in stack.frames.clone() {
+            let begun = stack.state(self.sensor, state);
+            let (next, raw) = self.sensor.step(begun, &electrons, self.address(number));
+            state = next;
+            let plane = raw.linear().plane;
+            size = (plane.width(), plane.height());
+            let products = self.products();
+            writer.write(&self.file(number), encoded_raw(&raw, &plane, products.raw_format))?;
+        }
+        Ok(size)
+    }
+
+    /// The series in the words of the reference program: `n` bits, columns, rows; `b` exposure in ns, photons a pixel; `d`
+    /// exposure in the dark; `i` a file.
+    fn descriptor(&self, series: &PhotonTransfer, (columns, rows): (usize, usize)) -> String {
+        let mut text = format!("v 4.0\nn {} {columns} {rows}\n", self.sensor.delivered_bits());
+        for stack in &series.stacks {
+            let exposure_ns = 1e9 * stack.exposure_s;
+            let head = match stack.photons {
+                0.0 => format!("d {exposure_ns:.3}"),
+                photons => format!("b {exposure_ns:.3} {photons:.6}"),
+            };
+            // Writing to a string does not fail.
+            let _ = writeln!(text, "{head}");
+            stack.frames.clone().for_each(|n| text += &format!("i {}\n", self.file(n)));
+        }
+        text
+    }
+
+    fn provenance(&self, writer: &ResultWriter<'_>) -> Provenance {
+        Provenance {
+            plan_hash: String::new(),
+            seed: self.seed(),
+            version: metadata::VERSION.to_owned(),
+            camera: writer.prefix.clone(),
+            frame: 0,
+            time_s: 0.0,
+            geometry: "even light on the bare sensor, pixel centres at +0.5, x right, y down".to_owned(),
+            camera_to_world: None,
+            further: BTreeMap::new(),
+        }
+    }
+
+    fn sidecar(&self, light: FlatLight) -> Value {
+        json!({
+            "program": "etendue",
+            "version": metadata::VERSION,
+            "seed": self.seed(),
+            "camera_index": CAMERA,
+            "light": {
+                "wavelength_nm": light.wavelength_nm,
+                "irradiance_w_m2": light.irradiance_w_m2,
+                "convention": "even light of one wavelength on the bare sensor, along its normal; photons on the whole square of a pixel",
+            },
+            "sensor": camera_facts::sensor(self.body),
+        })
+    }
+}

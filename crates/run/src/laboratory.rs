@@ -1,0 +1,253 @@
+//! A laboratory folder, rendered: what the verb `characterise` reads, taken by a camera whose file is known.
+//!
+//! | folder | pictures |
+//! | --- | --- |
+//! | `flat/` | even light of 550 nm on the bare sensor: levels of equal steps to a little above saturation, two frames each, and a stack at half of it (EMVA 1288) |
+//! | `dark/` | the same without light, and three long exposures, in the longest of which the dark current is 200 e⁻ |
+//! | `field/` | an even white sheet through the lens |
+//! | `chart/` | views of a checkerboard by hand, the first about square to it, the others tilted |
+//! | `edges/` | slanted edges |
+//! | `checker/` | a ColorChecker, of cameras in colour |
+//!
+//! The camera that takes them is written beside as `declared.toml`, without what changes the exposure from frame to frame; `laboratory.toml` states the flat light.
+//! Exposures of the flat series are so short that dark current adds less than half an electron to the offsets.
+
+use crate::chart::design::{Checkerboard, ColorChecker, FlatField, GridSize, SlantedEdges};
+use crate::chart::{Chart, ChartRequest, make};
+use crate::flat::{FlatRequest, FlatSource, flat};
+use crate::job::JobRequest;
+use crate::named_file::write_file;
+use crate::render_options::RenderOptions;
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
+use etendue_io::ranges::whole;
+use etendue_io::source::read_text;
+use etendue_io::{Existing, load_assets};
+use etendue_pipeline::compile_camera;
+use etendue_pipeline::flat::{FlatLight, PhotonTransfer, bare, photon_transfer, photons};
+use etendue_pipeline::plan::CameraBody;
+use etendue_scene::record::Camera;
+use etendue_scene::record::laboratory::FlatLight as StatedLight;
+use etendue_scene::record::sensor::charge::NonUniformity;
+use etendue_scene::written::File;
+use etendue_scene::{Overrides, asset, load_camera, record};
+use etendue_sensor::Sensor;
+use std::path::{Path, PathBuf};
+
+const WAVELENGTH_NM: f64 = 550.0;
+/// Electrons of dark current in the longest exposure of the flat series, and in the longest without light.
+const LITTLE_E: f64 = 0.25;
+const MUCH_E: f64 = 200.0;
+/// Long exposures without light, of the longest, and frames of each.
+const LONG: [f64; 3] = [0.25, 0.5, 1.0];
+const LONG_FRAMES: u32 = 4;
+/// Frames of every exposure have noise of their own.
+const SEEDS_APART: u64 = 1 << 20;
+/// Width of a square of the checkerboard seen from the front, px, at least.
+const SQUARE_PX: u32 = 24;
+/// Width of the picture for each column of squares with slanted edges, px, at least; of a mosaic twice that.
+const EDGES_PX: u32 = 64;
+/// Height that a row of squares with slanted edges takes, of the width of a column.
+const SQUARE_AND_MARGIN: f64 = 1.25;
+const DECLARED: &str = "declared.toml";
+const JOB: &str = "job.toml";
+
+/// `etendue laboratory`
+#[derive(Clone, Debug)]
+pub struct LaboratoryRequest {
+    /// The camera file (TOML)
+    pub camera: PathBuf,
+    /// Changes of its keys, `key=value`.
+    pub set: Vec<String>,
+    /// The seed of all noise.
+    pub seed: u64,
+    /// Levels of even light, 5 or more.
+    pub levels: u32,
+    /// Frames of the stacks without light and at half of saturation, 3 or more.
+    pub stack: u32,
+    /// Views of the checkerboard, 3 or more.
+    pub views: u32,
+    /// Samples a pixel of the pictures through the lens.
+    pub spp: u32,
+}
+
+impl LaboratoryRequest {
+    /// The same as the program without options.
+    pub fn new(camera: impl Into<PathBuf>) -> Self {
+        Self { camera: camera.into(), set: Vec::new(), seed: 0, levels: 15, stack: 32, views: 13, spp: 64 }
+    }
+}
+
+/// Photographs a laboratory folder by a camera file; answers with the files' paths. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where the camera has no electronics or is not linear, or the folder cannot be written.
+pub fn laboratory(
+    request: &LaboratoryRequest,
+    (folder, existing): (&Path, Existing),
+    observer: &dyn Observer,
+) -> Result<Vec<PathBuf>, Error> {
+    whole("--levels", request.levels, 5..=1000)?;
+    whole("--stack", request.stack, 3..=10_000)?;
+    whole("--views", request.views, 3..=200)?;
+    let camera = declared(request)?;
+    let has_frame_period = camera.sensor.electronics.as_ref().is_some_and(|e| e.frame_period_s.is_some());
+    let has_isp = camera.isp.is_some();
+    let body = compiled(&camera)?;
+    let declared = folder.join(DECLARED);
+    let head = "The camera that photographed this laboratory folder: nothing reads it here.";
+    write_file(&declared, File::new(camera.to_table()).head(head).to_string().as_bytes(), existing)?;
+    let sensor = bare(&body).and_then(|bare| bare.sensor).ok_or_else(|| lacks(request))?;
+    let bench = Bench { request, folder, existing, declared, has_frame_period, has_isp, observer };
+    let mut files = vec![bench.declared.clone()];
+    let series = bench.even_light(&sensor);
+    // Where there is no series, there is no laboratory.
+    files.extend(series.inspect_err(|_| drop(std::fs::remove_file(&bench.declared)))?);
+    files.extend(bench.long_exposures(sensor.parameters().charge.dark.mean_e_s())?);
+    files.extend(bench.lens(sensor.parameters().channels.len() > 1, (body.raster.width(), body.raster.height()))?);
+    Ok(files)
+}
+
+fn lacks(request: &LaboratoryRequest) -> Error {
+    Error::input(format!("{}: the sensor has no electronics: add them", request.camera.display()))
+}
+
+/// The camera with the changes, one specimen of it, and a constant exposure. Its files are named from the root of the file system.
+fn declared(request: &LaboratoryRequest) -> Result<Camera, Error> {
+    let file = request.camera.canonicalize();
+    let file = file.map_err(|cause| Error::input(format!("{}: {cause}", request.camera.display())))?;
+    let camera = load_camera(&file, &read_text, &Overrides::new(&request.set));
+    let mut camera = camera.map_err(|faults| Error::inputs(faults.list()))?;
+    let electronics = camera.sensor.electronics.as_mut().ok_or_else(|| lacks(request))?;
+    electronics.auto_exposure = None;
+    electronics.non_uniformity.get_or_insert_with(NonUniformity::default).seed.get_or_insert(1.into());
+    Ok(camera)
+}
+
+fn compiled(camera: &Camera) -> Result<CameraBody, Error> {
+    let assets = load_assets(&asset::of_camera(camera)).map_err(Error::inputs)?;
+    compile_camera(camera, &assets).map_err(Error::inputs)
+}
+
+/// Where pictures are taken.
+struct Bench<'a> {
+    request: &'a LaboratoryRequest,
+    folder: &'a Path,
+    existing: Existing,
+    declared: PathBuf,
+    has_frame_period: bool,
+    has_isp: bool,
+    observer: &'a dyn Observer,
+}
+
+impl Bench<'_> {
+    /// Frames of even light or of none.
+    fn flat(
+        &self,
+        part: &str,
+        exposure_s: f64,
+        irradiance_w_m2: f64,
+        (frames, seed): (std::ops::Range<u32>, u64),
+    ) -> Result<Vec<PathBuf>, Error> {
+        let mut set = vec![format!("sensor.exposure_s={exposure_s:e}")];
+        if self.has_isp {
+            set.push("isp=null".to_owned());
+        }
+        if self.has_frame_period {
+            set.push(format!("sensor.frame_period_s={:e}", 2.0 * exposure_s));
+        }
+        let source = FlatSource::Irradiance { w_m2: irradiance_w_m2 };
+        let request = FlatRequest { set, frames, seed, ..FlatRequest::new(&self.declared, WAVELENGTH_NM, source) };
+        flat(&request, (&self.folder.join(part), self.existing), self.observer)
+    }
+
+    /// `flat/` and the frames of `dark/` of the same exposures.
+    fn even_light(&self, sensor: &Sensor) -> Result<Vec<PathBuf>, Error> {
+        let PhotonTransfer { light, stacks } = self.series(sensor)?;
+        let mut files = Vec::new();
+        for (i, stack) in stacks.iter().enumerate() {
+            let lit = stack.photons > 0.0;
+            let part = format!("{}/{:02}", if lit { "flat" } else { "dark" }, i + 1);
+            let irradiance_w_m2 = if lit { light.irradiance_w_m2 } else { 0.0 };
+            files.extend(self.flat(
+                &part,
+                stack.exposure_s,
+                irradiance_w_m2,
+                (stack.frames.clone(), self.request.seed),
+            )?);
+        }
+        let photons_per_s = photons(sensor, light, 1.0);
+        let stated = StatedLight::new(photons_per_s, WAVELENGTH_NM);
+        let stated = record::Laboratory { flat: Some(stated), ..record::Laboratory::default() };
+        let file = self.folder.join("laboratory.toml");
+        write_file(&file, File::new(stated.to_table()).to_string().as_bytes(), self.existing)?;
+        files.push(file);
+        Ok(files)
+    }
+
+    /// The standard's series, no longer than dark current allows.
+    fn series(&self, sensor: &Sensor) -> Result<PhotonTransfer, Error> {
+        let parameters = sensor.parameters();
+        let longest_s = parameters.exposure.exposure_s.min(LITTLE_E / parameters.charge.dark.mean_e_s().max(1e-9));
+        let scale = longest_s / parameters.exposure.exposure_s;
+        let told = |error: etendue_pipeline::flat::FlatError| {
+            Error::input(format!("{}: {error}", self.request.camera.display()))
+        };
+        let series = photon_transfer(sensor, WAVELENGTH_NM, self.request.levels, self.request.stack).map_err(told)?;
+        let light = FlatLight { irradiance_w_m2: series.light.irradiance_w_m2 / scale, ..series.light };
+        let shorter = |stack: etendue_pipeline::flat::Stack| etendue_pipeline::flat::Stack {
+            exposure_s: scale * stack.exposure_s,
+            ..stack
+        };
+        Ok(PhotonTransfer { light, stacks: series.stacks.into_iter().map(shorter).collect() })
+    }
+
+    fn long_exposures(&self, dark_current_e_s: f64) -> Result<Vec<PathBuf>, Error> {
+        let longest_s = MUCH_E / dark_current_e_s.max(MUCH_E);
+        let longest_s = if dark_current_e_s > 0.0 { MUCH_E / dark_current_e_s } else { longest_s };
+        let mut files = Vec::new();
+        for (i, share) in LONG.iter().enumerate() {
+            let first = i as u32 * LONG_FRAMES;
+            let frames = (first..first + LONG_FRAMES, self.request.seed ^ SEEDS_APART);
+            files.extend(self.flat(&format!("dark/long-{}", i + 1), share * longest_s, 0.0, frames)?);
+        }
+        Ok(files)
+    }
+
+    /// Pictures through the lens.
+    fn lens(&self, in_colour: bool, (width_px, height_px): (usize, usize)) -> Result<Vec<PathBuf>, Error> {
+        let open = GridSize { columns: None, rows: None, pitch_mm: None };
+        // Regions about the edges of squares want 16 readings of a colour each way.
+        let wide = (width_px as u32 / if in_colour { 2 * EDGES_PX } else { EDGES_PX }).clamp(1, 3);
+        let squares = wide.max((SQUARE_AND_MARGIN * width_px as f64 / height_px as f64).ceil() as u32);
+        let edges = SlantedEdges { size: GridSize { columns: Some(squares), ..open }, angle_deg: 5.0, contrast: 4.0 };
+        // Tilted views stand farther away: their squares are two thirds as large, and corners want 10 px between them.
+        let columns = (width_px as u32 / SQUARE_PX).clamp(6, 12);
+        let board = GridSize { columns: Some(columns), ..open };
+        let mut charts: Vec<(&str, Chart, u32)> = vec![
+            ("field", Chart::FlatField(FlatField { reflectance: 0.9 }), 1),
+            ("chart", Chart::Checkerboard(Checkerboard { size: board }), self.request.views),
+            ("edges", Chart::SlantedEdges(edges), 1),
+        ];
+        if in_colour {
+            charts.push(("checker", ColorChecker.into(), 1));
+        }
+        let mut files = Vec::new();
+        for (i, (name, chart, views)) in (2..).zip(charts) {
+            files.extend(self.photographed(name, chart, views, self.request.seed ^ (i * SEEDS_APART))?);
+        }
+        Ok(files)
+    }
+
+    fn photographed(&self, name: &str, chart: Chart, views: u32, seed: u64) -> Result<Vec<PathBuf>, Error> {
+        let folder = self.folder.join(name);
+        let camera = self.declared.display().to_string();
+        let request = ChartRequest { views, hand_held: views > 1, seed, ..ChartRequest::new(chart, camera) };
+        let mut files = make(&request, (&folder, self.existing))?;
+        let mut job = JobRequest::new(folder.join(JOB));
+        job.set = vec![format!("render.spp={}", self.request.spp), "output.ground_truth=false".to_owned()];
+        let render = folder.join("render");
+        files.extend(job.open()?.save(&RenderOptions::default(), (&render, self.existing), self.observer)?);
+        Ok(files)
+    }
+}

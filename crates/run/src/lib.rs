@@ -1,0 +1,62 @@
+//! From a job to its results: plans, renders, exposures, delivery, shards, and the verbs that render or expose: charts, laboratories, flat fields.
+//!
+//! Nothing here prints, reads a clock, starts threads (work runs on the caller's rayon pool) or ends the process.
+
+pub mod chart;
+mod datasheet;
+mod delivery;
+mod develop;
+mod display;
+mod display_picture;
+mod expose;
+mod exposures;
+mod film_file;
+mod film_memory;
+mod flat;
+mod integrator;
+mod job;
+mod laboratory;
+mod memory;
+mod memory_check;
+mod memory_limits;
+mod merge;
+mod named_file;
+mod quality;
+mod raw_file;
+mod refine;
+mod render_options;
+mod render_settings;
+mod results;
+mod rig;
+mod sampled_light;
+mod shard;
+mod shard_spec;
+mod stated_render;
+mod stored_radiance;
+mod variations;
+mod weather;
+
+pub use datasheet::datasheet;
+pub use develop::{DevelopRequest, develop};
+pub use display_picture::display_jpeg;
+pub use expose::{ExposeRequest, expose};
+pub use film_memory::FilmMemory;
+pub use flat::{FlatRequest, FlatSource, flat};
+pub use integrator::Integrator;
+pub use job::{Job, JobRequest};
+pub use laboratory::{LaboratoryRequest, laboratory};
+pub use memory::{MemoryFiles, Triangles};
+pub use memory_limits::{MemoryLimit, MemoryLimits};
+pub use merge::merge;
+pub use named_file::write_file;
+pub use quality::Quality;
+pub use raw_file::Levels;
+pub use render_options::{MAX_FRAMES, RenderOptions};
+pub use render_settings::RenderSettings;
+pub use results::{CameraResults, Files, Results};
+pub use rig::{PinholeView, camera_mount, pinhole_view};
+pub use sampled_light::{LightSampling, LightSignal, SampledLight, SampledPixel};
+pub use shard_spec::{ShardRequest, ShardSpec};
+pub use stated_render::StatedRender;
+pub use variations::open_variations;
+pub use weather::{WeatherRequest, weather};

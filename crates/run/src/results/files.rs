@@ -1,0 +1,232 @@
+//! The files that a camera can deliver: their names, and what they hold.
+
+use etendue_core::quantity::{Cover, DigitalNumber, Irradiance, MeanElectrons, Quantity, Radiance, Transmittance};
+use etendue_pipeline::plan::{
+    Annotations, CameraBody, CameraPlan, CorrespondenceFormat, Development, PictureFormat, Products, RawFormat,
+    TimeDependence,
+};
+use etendue_plan_report::tone_curve::encoding;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// What a file holds: its quantity and unit.
+fn entry(quantity: &str, unit: &str) -> Value {
+    json!({ "quantity": quantity, "unit": unit })
+}
+
+/// [`entry`] of a quantity of the core.
+fn entry_of<Q: Quantity>() -> Value {
+    entry(Q::NAME, Q::UNIT)
+}
+
+/// Names and entries of the files that a camera can deliver.
+#[derive(Clone, Copy, Debug)]
+pub struct Files;
+
+impl Files {
+    /// Spectral radiance.
+    pub const RADIANCE: &str = "radiance.exr";
+    /// Spectral irradiance on the sensor plane.
+    pub const IRRADIANCE: &str = "irradiance.exr";
+    /// The part of the irradiance that is ghosts.
+    pub const GHOSTS: &str = "ghosts.exr";
+    /// Samples of each pixel and the variance that they leave.
+    pub const SAMPLING: &str = "sampling.exr";
+    /// Mean electrons of each pixel.
+    pub const ELECTRONS: &str = "electrons.exr";
+    /// The share of light that comes through the air.
+    pub const TRANSMITTANCE: &str = "transmittance.exr";
+    /// The part of the radiance that the air scattered in.
+    pub const AIRLIGHT: &str = "airlight.exr";
+    /// The share of each pixel that near drops or flakes cover.
+    pub const COVER: &str = "cover.exr";
+    /// Depth, normals, positions and identities.
+    pub const GROUND_TRUTH: &str = "ground_truth.exr";
+    /// Planar depth as a picture.
+    pub const DEPTH: &str = "depth.png";
+    /// Optical flow, visibility, image velocity and motion in space.
+    pub const MOTION: &str = "motion.exr";
+    /// Optical flow to the next frame, Middlebury.
+    pub const FLOW_FLO: &str = "flow_forward.flo";
+    /// Optical flow to the next frame, KITTI.
+    pub const FLOW_PNG: &str = "flow_forward.png";
+    /// Disparity and visibility.
+    pub const DISPARITY: &str = "disparity.exr";
+    /// Disparity as a float map.
+    pub const DISPARITY_PFM: &str = "disparity.pfm";
+    /// Disparity, KITTI.
+    pub const DISPARITY_PNG: &str = "disparity.png";
+    /// Boxes of objects.
+    pub const BOXES: &str = "boxes.json";
+    /// Boxes of objects over all frames.
+    pub const TRACKS: &str = "tracks.json";
+    /// Coverage of objects and materials.
+    pub const CRYPTOMATTE: &str = "cryptomatte.exr";
+    /// The pictures of all frames.
+    pub const VIDEO: &str = "picture.y4m";
+    /// The ray of each pixel.
+    pub const RAYS: &str = "rays.exr";
+    /// The side-car.
+    pub const SIDECAR: &str = "camera.json";
+    /// What `develop` made of which raw.
+    pub const DEVELOPMENT: &str = "develop.json";
+
+    /// What a frame is, where each has a light of its own: its times, its poses, and what the sensor remembers.
+    #[must_use]
+    pub fn frame(frame: u32) -> String {
+        format!("frame.{frame:04}.json")
+    }
+
+    /// A file of light or ground truth of one frame: `radiance.0007.exr`.
+    #[must_use]
+    pub fn numbered(name: &str, frame: u32) -> String {
+        let (stem, extension) = name.split_once('.').unwrap_or((name, ""));
+        format!("{stem}.{frame:04}.{extension}")
+    }
+
+    /// The raw picture of a frame.
+    #[must_use]
+    pub fn raw(frame: u32, format: RawFormat) -> String {
+        format!("raw.{frame:04}.{}", format.extension())
+    }
+
+    /// What the raw picture of a frame is made of.
+    #[must_use]
+    pub fn signal_breakdown(frame: u32) -> String {
+        format!("signal_breakdown.{frame:04}.exr")
+    }
+
+    /// The picture of a frame.
+    #[must_use]
+    pub fn picture(frame: u32, format: PictureFormat) -> String {
+        format!("picture.{frame:04}.{}", format.extension())
+    }
+
+    /// What the picture of a frame holds, and how its numbers are encoded.
+    #[must_use]
+    pub fn picture_entry(development: &Development) -> Value {
+        let encoding = encoding(&development.processing.tone);
+        let mut entry = entry(&format!("{} picture", encoding.name()), &format!("{} bits", development.format.bits()));
+        entry["encoding"] = encoding.to_json();
+        entry
+    }
+
+    /// A file of the undistorted twin.
+    #[must_use]
+    pub fn undistorted(name: &str) -> String {
+        format!("undistorted/{name}")
+    }
+
+    /// All files of a camera whose frames have one light, with what they hold.
+    #[must_use]
+    pub fn of(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
+        let mut files = Self::of_light(p);
+        files.extend(Self::of_frames(p, body, frames));
+        files
+    }
+
+    /// All files of a camera of a plan over frames, with what they hold.
+    #[must_use]
+    pub fn of_camera(camera: &CameraPlan, frames: &Range<u32>) -> BTreeMap<String, Value> {
+        let (p, body) = (&camera.products, &camera.body);
+        if camera.time == TimeDependence::None {
+            return Self::of(p, body, frames);
+        }
+        let mut files = Self::of_frames(p, body, frames);
+        for (name, entry) in Self::of_light(p) {
+            if Self::is_of_camera(&name) {
+                files.insert(name, entry);
+                continue;
+            }
+            files.extend(frames.clone().map(|frame| (Self::numbered(&name, frame), entry.clone())));
+        }
+        let facts = entry("times, poses and sensor of a frame", "");
+        files.extend(frames.clone().map(|frame| (Self::frame(frame), facts.clone())));
+        files
+    }
+
+    /// Whether a file tells of the camera or of all frames, and has no frame's number.
+    pub(crate) fn is_of_camera(name: &str) -> bool {
+        [Self::RAYS, Self::TRACKS].contains(&name) || name == Self::undistorted(Self::RAYS)
+    }
+
+    /// The files of light and ground truth.
+    fn of_light(p: &Products) -> BTreeMap<String, Value> {
+        let mut files = BTreeMap::new();
+        let mut add = |wanted: bool, name: &str, entry: Value| {
+            if wanted {
+                files.insert(name.to_owned(), entry);
+            }
+        };
+        add(p.radiance, Self::RADIANCE, entry_of::<Radiance>());
+        add(p.irradiance, Self::IRRADIANCE, entry_of::<Irradiance>());
+        add(p.ghosts, Self::GHOSTS, entry_of::<Irradiance>());
+        add(
+            p.sampling,
+            Self::SAMPLING,
+            entry("samples, variance of the mean by them and by the sensor", "1, e^2, e^2"),
+        );
+        add(p.electrons, Self::ELECTRONS, entry_of::<MeanElectrons>());
+        add(p.weather, Self::TRANSMITTANCE, entry_of::<Transmittance>());
+        add(p.weather, Self::AIRLIGHT, entry_of::<Radiance>());
+        add(p.cover, Self::COVER, entry_of::<Cover>());
+        add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
+        let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));
+        add(p.depth_png_per_m.is_some(), Self::DEPTH, entry("planar depth, 0 is invalid", &depth_unit));
+        Self::of_annotations(&p.annotations, &mut add);
+        add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
+        let twin = p.undistorted.is_some();
+        let planes = entry("depth, distance, normal, position, ids of the undistorted twin", "m, m, 1, m, 1");
+        add(twin && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
+        let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
+        add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
+        files
+    }
+
+    fn of_annotations(asked: &Annotations, add: &mut impl FnMut(bool, &str, Value)) {
+        let flow = entry("optical flow to the next frame", "px");
+        let layers = "flow, visibility, image velocity, scene flow, velocity and time, as far as asked for";
+        add(asked.needs_neighbours(), Self::MOTION, entry(layers, "px, 1, px/s, m, m/s, s"));
+        add(asked.optical_flow == Some(CorrespondenceFormat::Middlebury), Self::FLOW_FLO, flow.clone());
+        add(asked.optical_flow == Some(CorrespondenceFormat::Kitti), Self::FLOW_PNG, flow);
+        let disparity = asked.disparity.map(|asked| asked.format);
+        add(disparity.is_some(), Self::DISPARITY, entry("disparity, visibility", "px, 1"));
+        let map = entry("disparity; infinite where it is not known", "px");
+        add(disparity == Some(CorrespondenceFormat::Middlebury), Self::DISPARITY_PFM, map);
+        let picture = entry("disparity; 0 where it is not known", "1/256 px");
+        add(disparity == Some(CorrespondenceFormat::Kitti), Self::DISPARITY_PNG, picture);
+        add(asked.boxes, Self::BOXES, entry("boxes of objects in the picture and in space", "px, m"));
+        let ranked = "objects and materials of each pixel by falling coverage, Cryptomatte 1.2";
+        add(asked.cryptomatte, Self::CRYPTOMATTE, entry(ranked, "1"));
+        add(asked.tracks, Self::TRACKS, entry("boxes of objects over all frames, object by object", "px, m, s"));
+    }
+
+    /// The files of photographs.
+    fn of_frames(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
+        let mut files = BTreeMap::new();
+        let mut add = |wanted: bool, name: &str, entry: Value| {
+            if wanted {
+                files.insert(name.to_owned(), entry);
+            }
+        };
+        let twin = p.undistorted.is_some();
+        let format = body.picture_format();
+        let picture = body.development.as_ref().map_or(Value::Null, Self::picture_entry);
+        let video = entry("pictures of all frames, Y'CbCr of BT.709 in limited range, 4:4:4", "8 bits");
+        add(p.video, Self::VIDEO, video);
+        let mut undistorted = picture.clone();
+        undistorted["quantity"] = format!("undistorted {}", picture["quantity"].as_str().unwrap_or_default()).into();
+        for frame in frames.clone() {
+            add(twin && p.picture, &Self::undistorted(&Self::picture(frame, format)), undistorted.clone());
+            add(p.raw, &Self::raw(frame, p.raw_format), entry_of::<DigitalNumber>());
+            add(
+                p.signal_breakdown,
+                &Self::signal_breakdown(frame),
+                entry("causes of the digital number, one layer each", "e"),
+            );
+            add(p.picture, &Self::picture(frame, format), picture.clone());
+        }
+        files
+    }
+}

@@ -1,0 +1,172 @@
+//! Photographs of a camera, frame after frame, as files.
+
+use super::files::Files;
+use super::metadata;
+use super::writer::{Encoder, ResultWriter};
+use etendue_core::Plane;
+use etendue_core::observer::{Message, Observer};
+use etendue_core::quantity::{DigitalNumber, Display};
+use etendue_io::exr::{self, EncodeError};
+use etendue_io::failure::Error;
+use etendue_io::jpeg::encode_jpeg;
+use etendue_io::tiff::{self, DngFacts};
+use etendue_io::{Provenance, png};
+use etendue_pipeline::photograph::{Frame, take, take_with_breakdown};
+use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products, RawFormat};
+use etendue_pipeline::raw_colour::RawColour;
+use etendue_pipeline::rectified::RectifiedCamera;
+use etendue_plan_report::tone_curve::encoding;
+use etendue_sensor::{CaptureLight, FrameAddress, Raw, SensorState, SignalBreakdown, SignalComponent};
+use serde_json::Value;
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// Which photographs are wanted.
+#[derive(Clone, Copy)]
+pub(crate) struct Wanted<'a> {
+    /// What of each frame.
+    pub(crate) products: &'a Products,
+    /// The camera's name, for files that tell it.
+    pub(crate) camera: &'a str,
+    /// The facts of files that tell them.
+    pub(crate) facts: &'a Provenance,
+    /// The twin whose pictures are wanted as well.
+    pub(crate) undistorted: Option<&'a RectifiedCamera>,
+    /// Whether files are made one after the other, for the sake of memory.
+    pub(crate) one_by_one: bool,
+    /// Who is told of pixels without valid light.
+    pub(crate) observer: &'a dyn Observer,
+}
+
+/// The file of a picture that was developed so.
+pub(crate) fn encoded(picture: &Plane<Display>, development: &Development) -> Result<Vec<u8>, EncodeError> {
+    let tone = encoding(&development.processing.tone);
+    match development.format {
+        PictureFormat::Jpeg { quality } => encode_jpeg(picture, quality),
+        PictureFormat::Png { bits: 8 } => png::encode_display(picture, &tone),
+        PictureFormat::Png { bits } => png::encode_display16(picture, bits, &tone),
+    }
+}
+
+/// Frame after frame with its number, as the sensor's state runs through them from `before` on; with what each digital number is made of where `signal_breakdown` is
+/// wanted. Ends where the camera has no electronics.
+pub(crate) fn frames<'a>(
+    body: &'a CameraBody,
+    light: CaptureLight<'a>,
+    (frames, before): (Range<u32>, SensorState),
+    address: impl Fn(u32) -> FrameAddress + 'a,
+    signal_breakdown: bool,
+) -> impl Iterator<Item = (u32, Cow<'a, Frame>)> + 'a {
+    let step = if signal_breakdown { take_with_breakdown } else { take };
+    frames.scan(before, move |state, number| {
+        let (next, frame) = step(body, std::mem::take(state), light, address(number))?;
+        *state = next;
+        Some((number, Cow::Owned(frame)))
+    })
+}
+
+/// Writes what is wanted of frame after frame; none is taken where nothing is. Answers with exposure and gain of each frame.
+pub(crate) fn write_frames<'a>(
+    body: &CameraBody,
+    taken: impl Iterator<Item = (u32, Cow<'a, Frame>)>,
+    address: impl Fn(u32) -> FrameAddress,
+    wanted: Wanted<'_>,
+    writer: &mut ResultWriter<'_>,
+) -> Result<Vec<Value>, Error> {
+    let products = wanted.products;
+    let mut points = Vec::new();
+    if !(products.raw || products.picture || products.signal_breakdown) {
+        return Ok(points);
+    }
+    for (number, mut frame) in taken {
+        // Of a large picture all that is not written goes before files are made.
+        if let (None, Cow::Owned(Frame { picture: Some(picture), .. })) = (wanted.undistorted, &mut frame) {
+            picture.linear = Plane::new(0, 0);
+        }
+        if !frame.raw.invalid.is_empty() {
+            let count = frame.raw.invalid.len();
+            let told = format!("frame {number}: {count} pixels have no valid light; their digital number is 0");
+            wanted.observer.message(Message::Warning(&told));
+        }
+        let file = products.raw.then(|| Files::raw(number, products.raw_format));
+        points.push(metadata::raw_frame(number, file, &frame.raw));
+        write_frame(body, &frame, address(number), wanted, writer)?;
+    }
+    Ok(points)
+}
+
+/// Writes what is wanted of a frame.
+fn write_frame(
+    body: &CameraBody,
+    frame: &Frame,
+    address: FrameAddress,
+    wanted: Wanted<'_>,
+    writer: &mut ResultWriter<'_>,
+) -> Result<(), Error> {
+    let (products, number) = (wanted.products, address.frame);
+    let Frame { raw, signal_breakdown, picture } = frame;
+    let mut files: Vec<(String, Encoder<'_>)> = Vec::new();
+    if products.raw {
+        let name = Files::raw(number, products.raw_format);
+        let encode = || match products.raw_format {
+            RawFormat::Dng => dng(body, raw, wanted.camera),
+            format => encoded_raw(raw, &raw.plane, format),
+        };
+        files.push((name, Box::new(encode)));
+    }
+    if let Some(signal_breakdown) = signal_breakdown {
+        let facts = Provenance { frame: number.into(), ..wanted.facts.clone() };
+        let encode = move || encode_breakdown(signal_breakdown, &facts);
+        files.push((Files::signal_breakdown(number), Box::new(encode)));
+    }
+    if let Some((picture, development)) = picture.as_ref().filter(|_| products.picture).zip(body.development.as_ref()) {
+        let name = Files::picture(number, development.format);
+        files.push((name.clone(), Box::new(|| encoded(&picture.display, development))));
+        if let Some(twin) = wanted.undistorted {
+            let encode = move || {
+                let display = twin.picture(body, &picture.linear, address).expect("a picture was developed");
+                encoded(&display, development)
+            };
+            files.push((Files::undistorted(&name), Box::new(encode)));
+        }
+    }
+    match wanted.one_by_one {
+        true => files.into_iter().try_for_each(|(name, encode)| writer.write(&name, encode())),
+        false => writer.write_together(files),
+    }
+}
+
+/// Digital numbers of a raw without its facts: TIFF or PNG.
+pub(crate) fn encoded_raw(raw: &Raw, plane: &Plane<DigitalNumber>, format: RawFormat) -> Result<Vec<u8>, EncodeError> {
+    match format {
+        RawFormat::Tiff => tiff::encode_raw_tiff(plane, raw.bits),
+        RawFormat::Png | RawFormat::Dng if raw.companding.is_some() => png::encode_companded16(plane),
+        RawFormat::Png | RawFormat::Dng => png::encode_raw16(plane),
+    }
+}
+
+fn encode_breakdown(signal_breakdown: &SignalBreakdown, facts: &Provenance) -> Result<Vec<u8>, EncodeError> {
+    let layers: Vec<_> = SignalComponent::ALL
+        .iter()
+        .map(|cause| (cause.name().to_owned(), exr::Layer::Float(signal_breakdown.layer(*cause).samples())))
+        .collect();
+    let signal = signal_breakdown.layer(SignalComponent::Signal);
+    exr::encode_layers(signal.width(), signal.height(), &layers, facts)
+}
+
+fn dng(body: &CameraBody, raw: &Raw, camera: &str) -> Result<Vec<u8>, EncodeError> {
+    let colour = body.sensor.as_ref().and_then(RawColour::of).expect("a compiled plan asks for DNG where it can be");
+    let area = raw.picture;
+    let facts = DngFacts {
+        camera: camera.to_owned(),
+        software: format!("etendue {}", metadata::VERSION),
+        bits: raw.bits,
+        black_level_dn: raw.black_level_dn,
+        white_level_dn: raw.white_level_dn,
+        tile: colour.tile.map(|(columns, tile)| (columns as u16, tile.into_iter().map(|c| c as u8).collect())),
+        xyz_to_camera: colour.xyz_to_camera,
+        neutral: colour.neutral,
+        active: [area.x, area.y, area.width, area.height].map(|v| v as u32),
+    };
+    tiff::encode_dng(&raw.plane, &facts)
+}

@@ -1,0 +1,114 @@
+//! Weather laid over stored radiance.
+
+use crate::results::metadata;
+use crate::stored_radiance::StoredRadiance;
+use etendue_core::quantity::Variance;
+use etendue_core::{CameraPose, Plane, SpectralCube, TimeInterval};
+use etendue_io::exr::{EncodeError, Lengths, encode_plane, encode_radiance, encode_spectral};
+use etendue_io::failure::Error;
+use etendue_io::source::read_text;
+use etendue_io::{Existing, OutputFolder, load_assets};
+use etendue_pipeline::compile_weather;
+use etendue_pipeline::stored::Stored;
+use etendue_pipeline::weather::{Weather, Weathered};
+use etendue_scene::{asset, load_weather};
+use std::path::{Path, PathBuf};
+
+/// A stored radiance image and what is laid over it.
+#[derive(Clone, Debug)]
+pub struct WeatherRequest {
+    /// A spectral radiance image rendered with `route = "pupil"`.
+    pub radiance: PathBuf,
+    /// The weather file (TOML).
+    pub weather: PathBuf,
+}
+
+/// Radiance as seen through the weather, which can be exposed.
+const RADIANCE: &str = "radiance.exr";
+/// The share of the scene's light that comes through.
+const TRANSMITTANCE: &str = "transmittance.exr";
+/// The radiance that the weather adds.
+const AIRLIGHT: &str = "airlight.exr";
+
+/// The share of each pixel and of the exposure that near drops or flakes cover.
+const COVER: &str = "cover.exr";
+
+/// Lays fog and streaks of rain or snow over a stored radiance image by its distances; writes radiance, transmittance and airlight, and where
+/// something falls cover, into a folder and answers with their paths. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where image or weather cannot be used, or the folder cannot be written.
+pub fn weather(request: &WeatherRequest, (folder, existing): (&Path, Existing)) -> Result<Vec<PathBuf>, Error> {
+    let weather = open(&request.weather)?;
+    let mut stored = StoredRadiance::open(&request.radiance)?;
+    expose(&weather, &mut stored, request)?;
+    let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+    folder.claim([RADIANCE, TRANSMITTANCE, AIRLIGHT]).map_err(Error::input)?;
+    if weather.falling.is_some() {
+        folder.claim([COVER]).map_err(Error::input)?;
+    }
+    let seen = seen(&weather, &stored, &request.radiance)?;
+    for (name, bytes) in files(&seen, &stored) {
+        let bytes = bytes.map_err(|error| Error::Run(format!("{name}: {error}")))?;
+        folder.write(name, &bytes).map_err(Error::run)?;
+    }
+    folder.commit().map_err(Error::run)
+}
+
+/// Notes the exposure of streaks beside the image, as light that depends on time has one. An image that has one must have the same.
+fn expose(weather: &Weather, stored: &mut StoredRadiance, request: &WeatherRequest) -> Result<(), Error> {
+    let Some(falling) = &weather.falling else { return Ok(()) };
+    let exposure_s = falling.exposure_s;
+    if let Some(stored_s) = stored.exposure_s().filter(|stored_s| *stored_s != exposure_s) {
+        return Err(Error::input(format!(
+            "{}: \"exposure_s\" is {exposure_s} s, but the light of {} is the mean over {stored_s} s; give {stored_s}, or an image of light that \
+             does not depend on time",
+            request.weather.display(),
+            request.radiance.display()
+        )));
+    }
+    stored.provenance.further.insert(metadata::EXPOSURE_S.to_owned(), exposure_s.to_string());
+    Ok(())
+}
+
+fn open(file: &Path) -> Result<Weather, Error> {
+    let record = load_weather(file, &read_text).map_err(|f| Error::inputs(f.list()))?;
+    let assets = load_assets(&asset::of_weather(&record)).map_err(Error::inputs)?;
+    compile_weather(&record, &assets).map_err(Error::inputs)
+}
+
+fn seen(weather: &Weather, stored: &StoredRadiance, file: &Path) -> Result<Weathered, Error> {
+    let refuse = |why: &str| Error::input(format!("{}: {why}", file.display()));
+    let pose = stored.provenance.camera_to_world.as_ref().map(CameraPose::from_rows).ok_or_else(|| {
+        refuse("it does not say where its camera stood, which decides what lies before it; render it with a camera that stands still")
+    })?;
+    let moment = TimeInterval::at(stored.provenance.time_s)
+        .ok_or_else(|| refuse("its time is not finite; expected radiance that etendue rendered"))?;
+    let image =
+        Stored { projection: &stored.projection, radiance: &stored.radiance, distance: stored.distance.as_ref() };
+    weather.over(&image, &pose, moment).map_err(|why| refuse(&why.to_string()))
+}
+
+fn files(seen: &Weathered, stored: &StoredRadiance) -> Vec<(&'static str, Result<Vec<u8>, EncodeError>)> {
+    let facts = &stored.provenance;
+    let variance = stored.variance.as_ref().map(|variance| dimmed(variance, seen));
+    let lengths = stored.distance.as_ref().map(|distance| Lengths { distance, depth: &seen.depth });
+    let mut files = vec![
+        (RADIANCE, encode_radiance(&seen.radiance, variance.as_ref(), lengths, facts)),
+        (TRANSMITTANCE, encode_spectral(&seen.transmittance, None, facts)),
+        (AIRLIGHT, encode_spectral(&seen.airlight, None, facts)),
+    ];
+    files.extend(seen.cover.as_ref().map(|cover| (COVER, encode_plane(cover, None, facts))));
+    files
+}
+
+/// Variance goes with the square of what comes through; that of an airlight from the sky is not added.
+fn dimmed(variance: &SpectralCube<Variance>, seen: &Weathered) -> SpectralCube<Variance> {
+    let mut dimmed = variance.clone();
+    for (plane, shares) in dimmed.planes_mut().iter_mut().zip(seen.transmittance.planes()) {
+        let samples: Vec<f32> =
+            plane.samples().iter().zip(shares.samples()).map(|(variance, share)| variance * share * share).collect();
+        *plane = Plane::from_samples(shares.width(), shares.height(), samples).expect("as many samples as pixels");
+    }
+    dimmed
+}
