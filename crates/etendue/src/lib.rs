@@ -44,7 +44,7 @@ pub use etendue_io::failure::{Error, Fault};
 pub use etendue_io::inspect::{Shown, inspect, inspect_showing};
 pub use etendue_io::paths::relative_path;
 pub use etendue_io::{CacheUse, Existing, FileDigest, OutputFolder, TextureMemory, is_decoding};
-pub use etendue_measurement::{ChannelComparison, Comparison, characterise, compare, measure, page, plot, report};
+pub use etendue_measurement::*;
 pub use etendue_pipeline::boxes::WorldObject;
 pub use etendue_pipeline::motion::{MotionTruth, NeighbourTruth};
 pub use etendue_pipeline::photograph::{Frame, Light};
@@ -52,12 +52,6 @@ pub use etendue_pipeline::plan::effects::{EffectGroup, PlannedEffect};
 pub use etendue_pipeline::rays::RayTable;
 pub use etendue_pipeline::truth::GroundTruth;
 pub use etendue_plan_report::{self as plan_report, PlanReport, open_camera};
-pub use etendue_run::{
-    CameraResults, DevelopRequest, ExposeRequest, Files, FilmMemory, FlatRequest, FlatSource, Integrator, Job,
-    JobRequest, LaboratoryRequest, Levels, LightSampling, LightSignal, MAX_FRAMES, MemoryFiles, MemoryLimit,
-    MemoryLimits, PinholeView, Quality, RenderOptions, RenderSettings, Results, SampledLight, SampledPixel,
-    ShardRequest, ShardSpec, StatedRender, Triangles, WeatherRequest, camera_mount, chart, datasheet, develop,
-    display_jpeg, expose, flat, laboratory, merge, open_variations, pinhole_view, weather, write_file,
-};
+pub use etendue_run::*;
 pub use etendue_sensor::TemporalNoise;
 pub use etendue_tracer::accel::Simd;

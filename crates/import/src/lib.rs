@@ -10,13 +10,7 @@ mod moving;
 mod naming;
 mod pbrt;
 mod scenery;
-/// Files of other programs as those programs structure them: directives, elements and prims, each with its place.
-pub mod syntax {
-    pub mod mitsuba;
-    pub mod pbrt;
-    #[cfg(feature = "usd")]
-    pub mod usd;
-}
+pub mod syntax;
 #[cfg(feature = "usd")]
 mod usd;
 mod without;

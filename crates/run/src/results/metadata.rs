@@ -2,11 +2,11 @@
 
 mod frame;
 
+use frame::pose_rows;
 pub(crate) use frame::{
     add_time, check_whole, own_frame, raw_frame, sealed, state_of, time_facts, with_state, without_state,
 };
 
-use etendue_core::CameraPose;
 use etendue_io::Provenance;
 use etendue_optics::{Cube, Face, PupilProjection, View, Window};
 use etendue_pipeline::plan::{CameraPlan, Plan, Route, Settings, TimeDependence};
@@ -223,13 +223,6 @@ fn stated_cube(face_px: usize, text: &str) -> Option<Cube> {
         windows[face] = Some(window);
     }
     Cube::new(face_px, windows).ok().filter(|cube| views_text(cube) == text)
-}
-
-fn pose_rows(pose: &CameraPose) -> [[f64; 4]; 3] {
-    std::array::from_fn(|i| {
-        let row = pose.rotation.row(i);
-        [row.x, row.y, row.z, pose.position_m[i]]
-    })
 }
 
 /// The side-car of a rendered camera, whose first frame it is.

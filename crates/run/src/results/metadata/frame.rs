@@ -1,8 +1,7 @@
 //! What is said of a frame that has a light of its own.
 
-use super::pose_rows;
 use crate::results::levels;
-use etendue_core::ExactTime;
+use etendue_core::{CameraPose, ExactTime};
 use etendue_io::{FileDigest, sidecar};
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence, Timing};
 use etendue_sensor::{ChargeAccount, Raw, SensorState};
@@ -135,4 +134,12 @@ pub(crate) fn add_time(table: &mut Value, timing: &Timing, name: &str, time: Exa
     if let Some(table) = table.as_object_mut() {
         table.extend(time_facts(timing, name, time));
     }
+}
+
+/// Returns the rows of the matrix from camera to world: axes and position, m.
+pub(super) fn pose_rows(pose: &CameraPose) -> [[f64; 4]; 3] {
+    std::array::from_fn(|i| {
+        let row = pose.rotation.row(i);
+        [row.x, row.y, row.z, pose.position_m[i]]
+    })
 }

@@ -1,0 +1,6 @@
+//! Files of other programs as those programs structure them: directives, elements and prims, each with its place.
+
+pub mod mitsuba;
+pub mod pbrt;
+#[cfg(feature = "usd")]
+pub mod usd;
