@@ -5,8 +5,7 @@ use crate::scenes::{ALL, Scene, camera};
 use crate::table::Table;
 use crate::threads::pool;
 use etendue_pipeline::Unobserved;
-use etendue_pipeline::film::Film;
-use etendue_pipeline::render::{Request, layout, light};
+use etendue_pipeline::render::{Request, light};
 
 /// The argument that makes this program a child that measures the scene named next.
 pub const CHILD: &str = "--peak-memory-of";
@@ -31,7 +30,7 @@ pub fn child(scene: &str) -> String {
     let film = pool(2).install(|| light(&plan, camera, Request::default(), &Unobserved));
     std::hint::black_box(film.expect("nobody cancels"));
     let (width, height) = camera.film_size();
-    let film_mb = Film::bytes(width as usize, height as usize, &layout(camera)) as f64 / 1e6;
+    let film_mb = camera.film_layout().bytes(width as usize, height as usize) / 1e6;
     format!("{compiled} {} {film_mb:.0}", peak_mb())
 }
 

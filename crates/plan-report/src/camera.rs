@@ -3,8 +3,9 @@
 use super::effect::EffectReport;
 use etendue_core::Shutter;
 use etendue_pipeline::Plan;
-use etendue_pipeline::plan::{CameraPlan, FrameCost, Route, SpectralGain, TimeDependence};
+use etendue_pipeline::plan::{CameraPlan, Route, SpectralGain, TimeDependence};
 use etendue_pipeline::render::light_counts;
+use etendue_pipeline::report::FrameCost;
 use etendue_tracer::integrator::Level;
 
 /// A camera of a plan.

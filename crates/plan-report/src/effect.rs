@@ -1,7 +1,7 @@
 //! An effect of a camera's plan.
 
 use etendue_core::EffectStatus;
-use etendue_pipeline::plan::effects::{EffectGroup, KnownError, PlannedEffect};
+use etendue_pipeline::report::effects::{EffectGroup, KnownError, PlannedEffect};
 
 /// Whether an effect is modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]

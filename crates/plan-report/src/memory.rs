@@ -1,7 +1,7 @@
 //! The memory of a run in a plan.
 
 use etendue_pipeline::Plan;
-use etendue_pipeline::plan::RunMemory;
+use etendue_pipeline::report::RunMemory;
 
 /// The memory of the whole run on four threads, bytes.
 #[derive(Clone, Debug, serde::Serialize)]
@@ -58,7 +58,7 @@ impl MemoryReport {
 
 #[cfg(test)]
 mod tests {
-    use etendue_pipeline::plan::ROWS_WAITING_BYTES;
+    use etendue_pipeline::report::ROWS_WAITING_BYTES;
 
     /// The pipeline cannot use the constant of `etendue_io`.
     #[test]

@@ -1,7 +1,7 @@
 //! What there is to see.
 
 use etendue_pipeline::Plan;
-use etendue_pipeline::plan::{MeshSize, mesh_sizes};
+use etendue_pipeline::report::{MeshSize, mesh_sizes};
 use etendue_tracer::geometry::Shape;
 
 /// What there is to see.

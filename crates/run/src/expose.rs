@@ -10,7 +10,7 @@ use etendue_io::failure::Error;
 use etendue_io::paths::camera_stem;
 use etendue_io::{Existing, OutputFolder};
 use etendue_optics::{DepthOfField, OpticsError};
-use etendue_pipeline::defocus::{held_margin_px, margin_px};
+use etendue_pipeline::defocus::held_margin_px;
 use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};
 use etendue_pipeline::stored;
@@ -210,7 +210,7 @@ fn warn_of_margin(
     depth_of_field: &DepthOfField,
     observer: &dyn Observer,
 ) -> Result<(), OpticsError> {
-    let wanted = margin_px(depth_of_field, body);
+    let wanted = body.blur_margin_px(depth_of_field);
     let held = held_margin_px(&stored.projection, body, stored.radiance.bands(), depth_of_field)?;
     if held < wanted {
         observer.message(Message::Warning(&format!(

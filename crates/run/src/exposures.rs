@@ -8,7 +8,7 @@ use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::noise_reached::NoiseReached;
 use etendue_pipeline::plan::{CameraPlan, PassAt, TimeDependence};
-use etendue_pipeline::render::{FilmKeeping, Request, Shot, pass, tolerance};
+use etendue_pipeline::render::{FilmKeeping, Request, Shot, pass};
 use etendue_pipeline::tile::{Shard, Tile, tiles};
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
@@ -85,7 +85,7 @@ impl<'a> Exposures<'a> {
 
     /// Where noise decided the samples: how many it took, and whether the limit was reached.
     fn tell_noise(&self, place: &str, camera: &CameraPlan, film: &Film) {
-        let Some((limit, tolerance)) = camera.settings.adaptive.zip(tolerance(camera)) else { return };
+        let Some((limit, tolerance)) = camera.settings.adaptive.zip(camera.tolerance()) else { return };
         let Some(reached) = NoiseReached::of(film, &tolerance, camera.settings.spp) else { return };
         let of = if tolerance.sensor().is_some() { "the sensor's noise" } else { "the pixel's mean" };
         let (fewest, most) = reached.range_spp;

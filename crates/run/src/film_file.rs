@@ -13,7 +13,7 @@ use etendue_io::failure::Error;
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};
-use etendue_pipeline::render::{Shot, layout};
+use etendue_pipeline::render::Shot;
 use etendue_pipeline::tile::{Shard, tiles};
 use std::path::Path;
 
@@ -143,7 +143,7 @@ pub(crate) fn read(path: &Path, origin: &FilmOrigin<'_>, remedy: &str) -> Result
     let camera = origin.camera;
     let (width, height) = camera.film_size();
     // Most of a shard's film is black, and packs well.
-    let most_bytes = Film::bytes(width as usize, height as usize, &layout(camera)) as u64;
+    let most_bytes = camera.film_layout().bytes(width as usize, height as usize) as u64;
     let file = read_exr_within(path, most_bytes).map_err(Error::input)?;
     let facts = file.provenance();
     if let Some(why) = origin.difference(&facts) {
@@ -160,7 +160,7 @@ pub(crate) fn read(path: &Path, origin: &FilmOrigin<'_>, remedy: &str) -> Result
 fn decode(file: &ExrFile, camera: &CameraPlan) -> Option<Film> {
     let (width, height) = camera.film_size();
     let (settings, (width, height)) = (&camera.settings, (width as usize, height as usize));
-    let mut film = Film::new(width, height, &layout(camera), settings.replicates);
+    let mut film = Film::new(width, height, &camera.film_layout(), settings.replicates);
     fill(&mut film.weight, file, "weight")?;
     fill_counts(&mut film.samples, file, "samples")?;
     fill_counts(&mut film.not_finite, file, "not_finite")?;

@@ -3,7 +3,8 @@
 use crate::film_memory;
 use crate::job::Job;
 use etendue_io::failure::Error;
-use etendue_pipeline::plan::{CameraPlan, RunMemory};
+use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::report::RunMemory;
 use std::ops::Range;
 
 impl Job {

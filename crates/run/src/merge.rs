@@ -12,7 +12,7 @@ use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
-use etendue_pipeline::render::{Shot, layout};
+use etendue_pipeline::render::Shot;
 use etendue_pipeline::tile::{Shard, tiles};
 use etendue_tracer::accel::Simd;
 use rayon::prelude::*;
@@ -100,7 +100,7 @@ const AT_ONCE: usize = 4;
 fn joined(plan: &Plan, camera: &CameraPlan, shot: Shot, shards: &[(Manifest, &PathBuf)]) -> Result<Film, Error> {
     let (width, height) = camera.film_size();
     let settings = &camera.settings;
-    let mut film = Film::new(width as usize, height as usize, &layout(camera), settings.replicates);
+    let mut film = Film::new(width as usize, height as usize, &camera.film_layout(), settings.replicates);
     let read = |(manifest, folder): &(Manifest, &PathBuf)| {
         let shard = Shard::new(manifest.index, manifest.count)
             .ok_or_else(|| refuse(folder, "its manifest is damaged; render the shard again"))?;

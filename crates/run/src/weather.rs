@@ -9,8 +9,9 @@ use etendue_io::failure::Error;
 use etendue_io::source::read_text;
 use etendue_io::{Existing, OutputFolder, load_assets};
 use etendue_pipeline::compile_weather;
+use etendue_pipeline::plan::Weather;
 use etendue_pipeline::stored::Stored;
-use etendue_pipeline::weather::{Weather, Weathered};
+use etendue_pipeline::weather::Weathered;
 use etendue_scene::{asset, load_weather};
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! The keys by which a plan says that its effects are left out: each is tried on the jobs that ship.
 
 use etendue_io::{Sandbox, TextureMemory, complete_assets};
-use etendue_pipeline::plan::effects::PlannedEffect;
+use etendue_pipeline::report::effects::PlannedEffect;
 use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::asset::Assets;
 use etendue_scene::{Description, Overrides};

@@ -22,7 +22,7 @@ impl Light {
         stored: &Stored<'_>,
         depth_of_field: &DepthOfField,
     ) -> Result<Self, OpticsError> {
-        front_on_picture(body)?;
+        body.check_front_on_picture()?;
         let seen = defocus::seen(stored, body, depth_of_field)?;
         let mut irradiance = irradiance(&seen, &body.lens, &body.film())?;
         if let Some(shades) = dirt_shades(body) {
@@ -54,14 +54,6 @@ pub(super) fn dirt_shades(body: &CameraBody) -> Option<Vec<f64>> {
 /// Each pixel by its dirt.
 pub(super) fn shaded(plane: &mut Plane<Irradiance>, shades: &[f64]) {
     plane.samples_mut().iter_mut().zip(shades).for_each(|(e, shade)| *e = (f64::from(*e) * shade) as f32);
-}
-
-/// Refuses what cannot be put on a stored radiance image: what bends rays in front of the lens.
-pub(crate) fn front_on_picture(body: &CameraBody) -> Result<(), OpticsError> {
-    match body.front.as_ref().and_then(|front| front.optic()) {
-        None => Ok(()),
-        Some(optic) => Err(OpticsError::FrontNeedsLens { what: optic.name() }),
-    }
 }
 
 /// Electrons of an irradiance; `None` where the camera has no electronics.

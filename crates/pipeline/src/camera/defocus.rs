@@ -8,39 +8,6 @@ use etendue_optics::defocus::{self, Physical};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection, Resampling};
 use rayon::prelude::*;
 
-/// The nearest thing whose blur is followed from wholly outside of the picture, m.
-const NEAREST_M: f64 = 1.0;
-/// The margin at most, as a share of the picture's longer side.
-const MAX_MARGIN: f64 = 0.25;
-
-/// Pixels around the picture that its depth of field needs: as far as things at 1 m and farther blur, and a quarter of the
-/// picture's longer side at most.
-#[must_use]
-pub fn margin_px(depth_of_field: &DepthOfField, body: &CameraBody) -> usize {
-    reach_px(depth_of_field, body).min(most_px(body))
-}
-
-/// How far things at 1 m and farther blur, and the margin that is kept, px, where that is less: light from beyond it counts as the mean of what is within.
-#[must_use]
-pub fn short_margin_px(depth_of_field: &DepthOfField, body: &CameraBody) -> Option<[usize; 2]> {
-    let [reach, most] = [reach_px(depth_of_field, body), most_px(body)];
-    (reach > most).then_some([reach, most])
-}
-
-fn reach_px(depth_of_field: &DepthOfField, body: &CameraBody) -> usize {
-    depth_of_field.reach_px(&body.lens, &body.raster, NEAREST_M)
-}
-
-fn most_px(body: &CameraBody) -> usize {
-    (MAX_MARGIN * body.raster.width().max(body.raster.height()) as f64) as usize
-}
-
-/// Pixels around the picture, columns and rows: those of the effects behind the lens, and `margin_px` for depth of field.
-#[must_use]
-pub fn whole_margin_px(body: &CameraBody, margin_px: usize) -> [usize; 2] {
-    body.effects.margin_px().map(|of_effects| of_effects + margin_px)
-}
-
 /// The margin, up to the one that is needed, that a stored image holds.
 ///
 /// # Errors
@@ -52,10 +19,10 @@ pub fn held_margin_px(
     depth_of_field: &DepthOfField,
 ) -> Result<usize, OpticsError> {
     let holds = |margin: usize| {
-        let margin = whole_margin_px(body, margin);
+        let margin = body.whole_margin_px(margin);
         Resampling::new(*stored, &body.lens, &body.raster, margin, bands).map(|_| ())
     };
-    let wanted = margin_px(depth_of_field, body);
+    let wanted = body.blur_margin_px(depth_of_field);
     if holds(wanted).is_ok() {
         return Ok(wanted);
     }
@@ -83,7 +50,7 @@ pub fn seen(
 ) -> Result<SpectralCube<Radiance>, OpticsError> {
     let method = if stored.distance.is_some() { *depth_of_field } else { DepthOfField::None };
     let margin = held_margin_px(stored.projection, body, stored.radiance.bands(), &method)?;
-    let PinholeImages { radiance, distance } = stored.seen(body, whole_margin_px(body, margin))?;
+    let PinholeImages { radiance, distance } = stored.seen(body, body.whole_margin_px(margin))?;
     let (Some(distance), true) = (distance, method != DepthOfField::None) else { return Ok(radiance) };
     let film = body.film();
     let view = defocus::PinholeView::new(&body.lens, &film, margin, &radiance, &distance)?;

@@ -9,14 +9,14 @@
 //!
 //! Light that is not delivered, and nothing delivered is made of, is not made.
 
-use crate::camera::behind_lens::{dirt_shades, front_on_picture, shaded};
-use crate::camera::defocus::{held_margin_px, whole_margin_px};
+use crate::camera::behind_lens::{dirt_shades, shaded};
+use crate::camera::defocus::held_margin_px;
 use crate::camera::effects::{EffectsOutput, behind, of_band, picture};
 use crate::camera::light::{KeptEstimate, Light};
 use crate::camera::light_error::LightError;
 use crate::camera::plane_cube::PlaneCube;
 use crate::camera::stored::Stored;
-use crate::plan::film_needs::{needs_all_bands, needs_electrons, needs_irradiance};
+use crate::plan::film::{needs_all_bands, needs_electrons, needs_irradiance};
 use crate::plan::{CameraBody, CameraPlan, Route};
 use crate::render::band_views::{OverWeight, PartOfBands};
 use crate::render::film::{Estimate, Film, exposed};
@@ -105,7 +105,7 @@ fn at_pupil(
         let stored = Stored { projection, radiance: &radiance, distance: depth.map(|depth| &depth.distance) };
         return Ok(Light::of_stored(&camera.body, &stored, &camera.depth_of_field)?);
     }
-    front_on_picture(&camera.body)?;
+    camera.body.check_front_on_picture()?;
     let body = &camera.body;
     let film = through_lens(body, (projection, radiance), cube.store())?;
     let output = effects_on((body, body.effects.film_part(false)), (film, None), cube.store())?;
@@ -119,7 +119,7 @@ fn through_lens(
     store: &dyn ScratchStore,
 ) -> Result<KeptCube<Irradiance>, LightError> {
     let (bands, raster) = (radiance.bands(), body.film());
-    let margin = whole_margin_px(body, held_margin_px(projection, body, bands, &DepthOfField::None)?);
+    let margin = body.whole_margin_px(held_margin_px(projection, body, bands, &DepthOfField::None)?);
     let resampling = Resampling::new(*projection, &body.lens, &body.raster, margin, bands)?;
     let etendue = BandEtendue::new(&body.lens, &raster);
     let shades = dirt_shades(body);

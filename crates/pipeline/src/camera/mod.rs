@@ -2,12 +2,12 @@
 //!
 //! # Contract
 //! - [`photograph`] conducts the stages: the effects behind the lens, exposure, the sensor's frames, their development.
-//! - [`stored`], [`defocus`] and [`rectified`] put a lens before stored radiance, or another camera in a camera's place.
+//! - [`stored`], [`defocus`] and `rectified` put a lens before stored radiance, or another camera in a camera's place.
 //! - `disk_light` does for films on the disk what [`photograph`] does for those in memory.
 //! - [`flat`] and [`light_meter`] are closed forms for even light: nothing is traced.
-//! - [`datasheet`] makes a camera file of an EMVA 1288 data sheet; [`raw_colour`] states what a raw reader has to know.
+//! - [`datasheet`] makes a camera file of an EMVA 1288 data sheet.
 
-pub(crate) mod behind_lens;
+mod behind_lens;
 pub mod datasheet;
 pub mod defocus;
 mod disk_light;
@@ -18,8 +18,7 @@ mod light_error;
 pub mod light_meter;
 pub mod photograph;
 mod plane_cube;
-pub mod raw_colour;
-pub mod rectified;
+mod rectified;
 pub mod sampling;
 pub mod stored;
 pub mod weather;

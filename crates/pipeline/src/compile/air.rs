@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use crate::plan::CameraPlan;
-use crate::render::block::Blocks;
+use crate::sizes::block::Blocks;
 use etendue_core::{Ray, TimeInterval};
 use etendue_scene::Description;
 use etendue_tracer::integrator::Level;

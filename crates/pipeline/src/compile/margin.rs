@@ -1,7 +1,6 @@
 //! What is missing beyond the picture, where effects and blur take light from.
 
 use super::context::Context;
-use crate::camera::defocus::short_margin_px;
 use crate::plan::CameraBody;
 use etendue_optics::DepthOfField;
 
@@ -14,7 +13,7 @@ pub(super) fn remark(body: &CameraBody, context: &mut Context<'_>) {
 
 /// Blur that is wider than what is kept around the picture.
 pub(super) fn remark_reach(camera: &str, depth_of_field: &DepthOfField, body: &CameraBody, context: &mut Context<'_>) {
-    if let Some([reach, kept]) = short_margin_px(depth_of_field, body) {
+    if let Some([reach, kept]) = body.short_blur_margin_px(depth_of_field) {
         let text = format!(
             "camera \"{camera}\": things at 1 m and beyond blur over radii of up to {reach} px, and {kept} px are kept around the picture: what lies farther out counts as the \
              mean of what is kept, so that even light is right and a lone lamp out of focus may be far too bright; route = \"lens\" has no such limit"

@@ -12,6 +12,7 @@ mod context;
 mod course;
 mod coverage;
 mod effects;
+mod fingerprint;
 mod frames;
 mod front;
 mod lamp;
@@ -39,6 +40,7 @@ mod scale;
 mod sensor;
 mod settings;
 mod shape;
+pub(crate) mod shared_light;
 mod sky;
 mod spectrum;
 mod surroundings;
@@ -53,10 +55,10 @@ mod world;
 
 pub use choices::{Choices, Quality, Refinement};
 
-use crate::plan::fingerprint::{fingerprint, with_passes};
 use crate::plan::remark::grouped;
-use crate::plan::shared_light;
-use crate::plan::{CameraBody, CameraPasses, CameraPlan, LightOwner, Plan, SourceSpectra, TimeDependence};
+use crate::plan::{
+    CameraBody, CameraPasses, CameraPlan, LightOwner, Plan, SourceSpectra, TimeDependence, hash_with_passes,
+};
 use camera_path::{camera_path, mount};
 use context::Context;
 use etendue_core::{CameraPath, Epoch, TimeInterval};
@@ -67,6 +69,7 @@ use etendue_tracer::accel::World;
 use etendue_tracer::geometry::{Mesh, VertexAnimation};
 use etendue_tracer::lights::spectral_fluxes;
 use etendue_tracer::media::Medium;
+use fingerprint::fingerprint;
 use frames::Frames;
 use material::MaterialTableBuilder;
 use std::sync::Arc;
@@ -146,7 +149,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     }
     let passes: Vec<_> = description.cameras.iter().zip(&cameras).map(camera_passes).collect();
     let described = context.faults.is_empty().then(|| fingerprint(description, context.assets, choices, &passes))?;
-    let hash = with_passes(&described, &passes);
+    let hash = hash_with_passes(&described, &passes);
     Some(Plan {
         world: Arc::new(world),
         material_table: Arc::new(material_table),

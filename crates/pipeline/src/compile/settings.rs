@@ -4,16 +4,11 @@ use super::context::Context;
 use super::margin;
 use super::samples::{Samples, has_variance, samples};
 use super::{Choices, Quality};
-use crate::camera::behind_lens::front_on_picture;
-use crate::camera::defocus::{margin_px, whole_margin_px};
-use crate::camera::raw_colour::RawColour;
-use crate::camera::rectified::RectifiedCamera;
+use crate::plan::raw_colour::RawColour;
+use crate::plan::rectified::RectifiedCamera;
 use crate::plan::{CameraBody, Passes, Products, RawFormat, Route, Settings, WavelengthSampling};
-use crate::render::adaptive::cell_px;
-use crate::render::block::Blocks;
-use crate::render::film::Film;
-use crate::render::gather::Layout;
-use crate::render::truth::depth_has_gaps;
+use crate::sizes::block::Blocks;
+use crate::sizes::film::Layout;
 use etendue_core::Bands;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters, PupilProjection};
@@ -95,7 +90,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
 /// Where depth along the axis means nothing, and what to take there.
 fn remark_depth(products: &Products, body: &CameraBody, context: &mut Context<'_>) {
     let asked = products.ground_truth && !products.camera_space_position || products.depth_png_per_m.is_some();
-    if asked && depth_has_gaps(body) {
+    if asked && body.depth_has_gaps() {
         context.remark(
             "depth along the axis is NaN (0 in depth.png) where the camera looks sideways, back or at a mirror: take distance.Z along the \
              directions of rays = true, or the signed z of camera_space_position = true"
@@ -223,7 +218,7 @@ pub(super) fn settings(
         folded,
         adaptive,
         tile_px: (render.tile_px.as_ref().map_or(TILE_PX, |t| t.value) as u32)
-            .next_multiple_of(if adaptive.is_some() { cell_px(blocks) } else { blocks.tile_px(1) }),
+            .next_multiple_of(if adaptive.is_some() { blocks.cell_px() } else { blocks.tile_px(1) }),
         blocks,
         seed: render.seed.as_ref().map_or(0, |s| s.value),
     };
@@ -290,7 +285,7 @@ fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut C
         Route::Lens => (body.film().width(), body.film().height()),
         Route::Pupil(projection) => (projection.width(), projection.height()),
     };
-    let bytes = Film::bytes(width, height, layout);
+    let bytes = layout.bytes(width, height);
     if bytes <= MAX_FILM {
         return Some(());
     }
@@ -371,9 +366,9 @@ fn route(
     match render.route.as_ref().map(|r| (r.value, &r.place)) {
         None | Some((render::Route::Lens, _)) => Some(Route::Lens),
         Some((render::Route::Pupil, place)) => {
-            context.accept(place, front_on_picture(body))?;
+            context.accept(place, body.check_front_on_picture())?;
             let range_nm = range(render, body, true);
-            let margin = whole_margin_px(body, margin_px(depth_of_field, body));
+            let margin = body.whole_margin_px(body.blur_margin_px(depth_of_field));
             let covering = PupilProjection::covering(&body.lens, &body.raster, margin, range_nm);
             let covering = context.accept(place, covering)?;
             Some(Route::Pupil(covering.overscanned(render.overscan.as_ref().map_or(0.0, |o| o.value))))

@@ -1,10 +1,27 @@
-//! `[render] wavelength_density`: by what the wavelengths of pixels that sum electrons are drawn.
+//! `[render] wavelength_density`: by what the wavelengths of pixels that sum electrons are drawn, and what the source's spectrum in the density
+//! will save.
+//!
+//! A path's N wavelengths are rotations of one number u in the cumulative distribution of the density p. With the light f = R S ρ of a source S
+//! on a surface of reflectance ρ, the path's electrons are h(u) = Σ f(λᵢ)/(N p(λᵢ)), of mean square ∫h² du. The light of a pixel's samples
+//! also differs by the paths' ways, independently of u: with the relative variance v of that and q = ∫h²/(∫h)², the relative variance of a sample
+//! is (1 + v) q − 1. The ratio of q of two densities is what noisy pixels gain; where the light is even (v = 0), it is the
+//! ratio of q − 1, which is more.
 
 use super::context::Context;
+use crate::plan::pixel_density::PixelDensity;
 use crate::plan::{CameraPlan, SourceSpectra, SpectralGain, WavelengthSampling};
-use crate::render::foretold_gain::spectral_gain;
+use etendue_core::WavelengthDensity;
+use etendue_core::maths::f64::{exp, ln};
 use etendue_scene::Description;
-use etendue_scene::record::render::WavelengthDensity;
+use etendue_scene::record::render;
+use etendue_sensor::Sensor;
+use etendue_spectra::{Spectrum, upsample};
+
+/// Numbers of a path's first wavelength times its wavelengths.
+const NUMBERS: usize = 4096;
+
+/// Linear sRGB reflectances of surfaces: grey and three strong colours.
+const SURFACES: [[f32; 3]; 4] = [[0.5, 0.5, 0.5], [0.6, 0.05, 0.05], [0.05, 0.6, 0.05], [0.05, 0.05, 0.6]];
 
 /// Decides it for all cameras, once all light is known.
 pub(super) fn choose(
@@ -17,7 +34,7 @@ pub(super) fn choose(
         let asked = description.cameras[camera.index as usize].render.wavelength_density.as_ref();
         let settings = &camera.settings;
         let Some(sensor) = camera.summing_sensor() else {
-            if let Some(asked) = asked.filter(|asked| asked.value != WavelengthDensity::Auto) {
+            if let Some(asked) = asked.filter(|asked| asked.value != render::WavelengthDensity::Auto) {
                 context
                     .remark_on(&asked.place, "no pixels sum electrons, so wavelengths lie evenly whatever this says");
             }
@@ -25,15 +42,93 @@ pub(super) fn choose(
         };
         let keeps_bands = settings.bands.is_some();
         let gain = spectral_gain(sensor, (sources, settings.range_nm), keeps_bands, settings.wavelengths);
-        camera.settings.wavelength_sampling = match asked.map_or(WavelengthDensity::Auto, |asked| asked.value) {
-            WavelengthDensity::Uniform => WavelengthSampling::Uniform,
-            WavelengthDensity::Response => WavelengthSampling::Response,
-            WavelengthDensity::ResponseAndSource => WavelengthSampling::ResponseAndSource,
-            WavelengthDensity::Auto if !keeps_bands && gain.as_ref().is_some_and(SpectralGain::pays) => {
+        camera.settings.wavelength_sampling = match asked.map_or(render::WavelengthDensity::Auto, |asked| asked.value) {
+            render::WavelengthDensity::Uniform => WavelengthSampling::Uniform,
+            render::WavelengthDensity::Response => WavelengthSampling::Response,
+            render::WavelengthDensity::ResponseAndSource => WavelengthSampling::ResponseAndSource,
+            render::WavelengthDensity::Auto if !keeps_bands && gain.as_ref().is_some_and(SpectralGain::pays) => {
                 WavelengthSampling::ResponseAndSource
             }
-            WavelengthDensity::Auto => WavelengthSampling::Response,
+            render::WavelengthDensity::Auto => WavelengthSampling::Response,
         };
         camera.spectral_gain = gain;
+    }
+}
+
+/// The gain of a sensor's pixels by the source's spectrum in their density over that by the response alone; `None` where no source gives it anything.
+fn spectral_gain(
+    sensor: &Sensor,
+    (sources, range_nm): (&SourceSpectra, (f64, f64)),
+    keeps_bands: bool,
+    wavelengths: u32,
+) -> Option<SpectralGain> {
+    let surfaces = SURFACES.map(upsample::reflectance_spectrum);
+    let rates = sensor.rate_responsivities();
+    let (mut sum, mut sites, mut least, mut most) = (0.0, 0.0, f64::INFINITY, 0.0_f64);
+    for (channel, responsivity) in rates.iter().enumerate() {
+        let places = sensor.parameters().cfa.channels().iter().filter(|of| **of == channel).count() as f64;
+        let density = |sampling| PixelDensity { sampling, sources, range_nm, keeps_bands }.of(responsivity);
+        let with = Draws::of(&density(WavelengthSampling::ResponseAndSource), wavelengths as usize);
+        let without = Draws::of(&density(WavelengthSampling::Response), wavelengths as usize);
+        let lit = sources.lit(responsivity, range_nm);
+        sites += if lit.is_empty() { 0.0 } else { places };
+        for (group, surface) in lit.iter().flat_map(|group| surfaces.iter().map(move |surface| (group, surface))) {
+            let light = group.product.product(surface);
+            let gain = without.mean_square(&light) / with.mean_square(&light);
+            if !gain.is_finite() {
+                continue;
+            }
+            sum += places * group.weight * ln(gain) / surfaces.len() as f64;
+            (least, most) = (least.min(gain), most.max(gain));
+        }
+    }
+    (sites > 0.0 && most > 0.0).then(|| SpectralGain { mean: exp(sum / sites), least, most })
+}
+
+/// Wavelengths by equal steps of the cumulative distribution, with their densities.
+struct Draws {
+    drawn: Vec<(f32, f32)>,
+    wavelengths: usize,
+}
+
+impl Draws {
+    fn of(density: &WavelengthDensity, wavelengths: usize) -> Self {
+        let draw = |i: usize| {
+            let drawn = density.draw::<1>((i as f32 + 0.5) / NUMBERS as f32);
+            (drawn.nm[0], drawn.pdf[0])
+        };
+        Self { drawn: (0..NUMBERS).map(draw).collect(), wavelengths }
+    }
+
+    /// Mean square of a path's estimate of an integral, over its squared mean.
+    fn mean_square(&self, light: &Spectrum) -> f64 {
+        let paths = NUMBERS / self.wavelengths;
+        let value = |(nm, pdf): (f32, f32)| f64::from(light.at(nm)) / f64::from(pdf);
+        let path = |first: usize| (0..self.wavelengths).map(|i| value(self.drawn[first + i * paths])).sum::<f64>();
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for first in 0..paths {
+            let h = path(first);
+            sum += h;
+            squares += h * h;
+        }
+        squares * paths as f64 / (sum * sum)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Light in a quarter of the range, of an even density: one wavelength alone has a mean square of 4, four rotations
+    /// always hit it once, and of eight two do.
+    #[test]
+    fn rotations_hit_a_quarter_of_the_range_once() {
+        let even = WavelengthDensity::new(&[1.0], 400.0, 800.0).expect("a weight");
+        let light = Spectrum::from_fn(|nm| if (500.0..600.0).contains(&nm) { 1.0 } else { 0.0 });
+        for (wavelengths, exact) in [(1, 4.0), (4, 1.0), (8, 1.0)] {
+            let q = Draws::of(&even, wavelengths).mean_square(&light);
+            // The edges of the light are 1 nm wide.
+            assert!((q / exact - 1.0).abs() < 0.01, "{wavelengths}: {q}");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::{medium, precipitation, spectrum};
-use crate::camera::weather::{Airlight, Falling, Weather};
+use crate::plan::{Airlight, Falling, Weather};
 use etendue_core::{Epoch, Motion};
 use etendue_scene::Fault;
 use etendue_scene::asset::Assets;

@@ -1,19 +1,17 @@
 //! A camera of a plan.
 
-use super::development::{Development, PictureFormat};
-use super::mount::Mount;
+use super::camera_body::CameraBody;
 use super::passes::{PassAt, Passes};
 use super::products::Products;
-use super::row_exposure::RowExposure;
 use super::settings::{Route, Settings};
 use super::timing::{TimeDependence, Timing};
 use super::wavelength_sampling::SpectralGain;
+use crate::sizes::film::Layout;
+use crate::sizes::spectrum_spread::SpectrumSpread;
+use crate::sizes::tolerance::Tolerance;
 use etendue_core::{CameraPath, CameraPose};
-use etendue_optics::{DepthOfField, Effects, Front, FrontRay, Lens};
-use etendue_projection::Raster;
-use etendue_scene::Place;
+use etendue_optics::DepthOfField;
 use etendue_sensor::Sensor;
-use glam::DVec2;
 
 /// One camera of a plan.
 #[derive(Clone, Debug)]
@@ -77,76 +75,7 @@ impl CameraPlan {
         let first_s = self.timing.row(0, 0, 0).middle_s();
         [first_s].into_iter().chain(between_s).chain(keys_s.iter().copied()).collect()
     }
-}
 
-/// The camera that a film is rendered for; others of equal light use it too.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LightOwner {
-    /// Its name.
-    pub camera: String,
-    /// Its place in the job, part of the random addresses of the light.
-    pub index: u32,
-}
-
-/// A camera wherever it stands: lens, effects, sensor, processing.
-#[derive(Clone, Debug)]
-pub struct CameraBody {
-    /// Where the description says how large the picture is.
-    pub place: Place,
-    /// The pixel grid.
-    pub raster: Raster,
-    /// Number of pixels of the described sensor in a row and in a column of one pixel: 4 for the scale 1/4.
-    pub scale: u64,
-    /// The lens.
-    pub lens: Lens,
-    /// What stands in front of it; `None` where nothing does.
-    pub front: Option<Front>,
-    /// What becomes of the irradiance behind the lens.
-    pub effects: Effects,
-    /// Side of the photosensitive area, in pixels.
-    pub aperture_px: f64,
-    /// When its rows are exposed.
-    pub exposure: RowExposure,
-    /// The electronics; `None` where no electrons are wanted.
-    pub sensor: Option<Sensor>,
-    /// How raw becomes a picture; `None` where none is wanted.
-    pub development: Option<Development>,
-}
-
-impl CameraBody {
-    /// How its pictures are written.
-    #[must_use]
-    pub fn picture_format(&self) -> PictureFormat {
-        self.development.as_ref().map_or(PictureFormat::Png { bits: 8 }, |development| development.format)
-    }
-}
-
-impl CameraBody {
-    /// The pixels that are rendered: the picture's, and those beyond it that the effects need.
-    #[must_use]
-    pub fn film(&self) -> Raster {
-        self.effects.film(&self.raster)
-    }
-
-    /// The ray by which ground truth looks from a point of the picture (px), and whether it is off the pupil's centre;
-    /// `None` where no light comes.
-    #[must_use]
-    pub fn truth_ray(&self, raster_px: DVec2) -> Option<(FrontRay, bool)> {
-        let sensor_mm = self.raster.sensor_mm(raster_px);
-        match &self.front {
-            Some(front) => front.truth_ray(&self.lens, sensor_mm),
-            None => self.lens.truth_ray(sensor_mm).map(|truth| (FrontRay::bare(truth.ray), truth.off_centre)),
-        }
-    }
-
-    /// Whether a ray or its weight depends on the wavelength.
-    #[must_use]
-    pub fn disperses(&self) -> bool {
-        self.lens.disperses() || self.front.as_ref().is_some_and(Front::disperses)
-    }
-}
-
-impl CameraPlan {
     /// Whether no camera before it in the job has the same light.
     #[must_use]
     pub fn owns_light(&self) -> bool {
@@ -168,4 +97,59 @@ impl CameraPlan {
             Route::Pupil(projection) => (projection.width() as u32, projection.height() as u32),
         }
     }
+
+    /// Returns the planes of its film.
+    #[must_use]
+    pub fn film_layout(&self) -> Layout {
+        let Settings { bands, folded, adaptive, .. } = self.settings;
+        Layout { bands, folded, watched: adaptive.is_some() }
+    }
+
+    /// Returns over what the wavelengths of its samples are spread.
+    #[must_use]
+    pub fn spectrum_spread(&self) -> SpectrumSpread {
+        match (self.settings.bands, self.products.variance) {
+            (None, _) => SpectrumSpread::Drawn,
+            (Some(_), _) if self.settings.adaptive.is_some() => SpectrumSpread::Open,
+            (Some(_), true) => SpectrumSpread::EachReplicate,
+            (Some(_), false) => SpectrumSpread::AllReplicates,
+        }
+    }
+
+    /// Returns its tolerance; `None` unless noise decides its samples.
+    #[must_use]
+    pub fn tolerance(&self) -> Option<Tolerance> {
+        let limit = self.settings.adaptive?;
+        let sensor = self.body.sensor.as_ref().filter(|_| self.settings.route == Route::Lens);
+        let noise = sensor.map(|sensor| match self.light_stays(sensor) {
+            true => sensor.temporal_noise(),
+            false => sensor.temporal_noise().never_white(),
+        });
+        Some(Tolerance::new(limit, noise))
+    }
+
+    /// Whether nothing but a pixel's own number shows how bright it is beyond white: no effect spreads its light, no charge flows over, and
+    /// no spectrum is kept.
+    fn light_stays(&self, sensor: &Sensor) -> bool {
+        self.body.effects.is_idle() && self.settings.bands.is_none() && !sensor.spills()
+    }
+}
+
+/// The frame that carries a camera, and its pose there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mount {
+    /// The frame of the scene; `None` is the world.
+    pub frame: Option<String>,
+    /// From the camera frame (x right, y down, z forward; origin at the centre of the entrance pupil) to that frame, m; `None` where the
+    /// camera moves in it.
+    pub pose: Option<CameraPose>,
+}
+
+/// The camera that a film is rendered for; others of equal light use it too.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LightOwner {
+    /// Its name.
+    pub camera: String,
+    /// Its place in the job, part of the random addresses of the light.
+    pub index: u32,
 }

@@ -1,38 +1,23 @@
 //! The plan: everything that a rendering needs, resolved and checked. Immutable.
 
-mod annotations;
 mod camera;
-mod camera_memory;
-mod development;
-pub mod effects;
-mod film_bytes;
-mod film_cost;
-mod film_limit;
-pub(crate) mod film_needs;
-pub(crate) mod fingerprint;
-mod frame_cost;
-mod frame_memory;
-mod irradiance_effect;
-mod mesh_sizes;
-mod mount;
+pub(crate) mod camera_body;
+pub(crate) mod film;
 mod passes;
-mod path_cost;
-mod precipitation;
+pub mod pixel_density;
 mod products;
+pub mod raw_colour;
+pub mod rectified;
 pub mod remark;
 mod row_exposure;
-mod run_memory;
 mod settings;
-pub(crate) mod shared_light;
 mod source_spectra;
-pub mod summary;
-mod texture_use;
 mod timing;
-mod view_memory;
-mod warnings;
 mod wavelength_sampling;
+mod weather;
 
 use crate::plan::remark::Remark;
+use etendue_core::scratch::ScratchStore;
 use etendue_tracer::accel::World;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::MaterialTable;
@@ -40,26 +25,21 @@ use etendue_tracer::media::Medium;
 use glam::DMat3;
 use std::sync::Arc;
 
-pub use annotations::{Annotations, CorrespondenceFormat, DisparityProduct};
-pub use camera::{CameraBody, CameraPlan, LightOwner};
-pub use camera_memory::{CameraMemory, ROWS_WAITING_BYTES, StageMemory};
-pub use development::{Development, PictureFormat};
-pub use film_bytes::FilmBytes;
-pub use film_cost::Share;
-pub use film_limit::FilmLimit;
-pub use frame_cost::FrameCost;
-pub use mesh_sizes::{MeshSize, mesh_sizes};
-pub use mount::Mount;
-pub(crate) use passes::CameraPasses;
+pub use crate::sizes::tolerance::AdaptiveSampling;
+pub use camera::{CameraPlan, LightOwner, Mount};
+pub use camera_body::CameraBody;
+pub use film::FilmLimit;
+pub(crate) use passes::{CameraPasses, hash_with_passes};
 pub use passes::{MAX_PASSES, PARTS, Pass, PassAt, Passes};
-pub use precipitation::Precipitation;
-pub use products::{Products, RawFormat};
+pub use products::{
+    Annotations, CorrespondenceFormat, Development, DisparityProduct, PictureFormat, Products, RawFormat,
+};
 pub use row_exposure::{CaptureTiming, RowExposure, RowSkipping};
-pub use run_memory::RunMemory;
-pub use settings::{AdaptiveSampling, Route, Settings};
+pub use settings::{Route, Settings};
 pub use source_spectra::SourceSpectra;
 pub use timing::{Jitter, TimeDependence, Timing};
 pub use wavelength_sampling::{SpectralGain, WavelengthSampling};
+pub use weather::{Airlight, Falling, Precipitation, Weather};
 
 /// What a rendering does, for all cameras of a job.
 #[derive(Clone, Debug)]
@@ -163,8 +143,30 @@ impl Plan {
             camera.settings.replicates = plan.passes[camera.index as usize].replicates;
             camera.passes = Some(passes.clone());
         }
-        plan.hash = fingerprint::with_passes(&plan.described, &plan.passes);
+        plan.hash = hash_with_passes(&plan.described, &plan.passes);
         plan
+    }
+
+    /// The cameras by their light, each group in the order of the job: one film serves a group.
+    #[must_use]
+    pub fn by_light(&self) -> Vec<Vec<&CameraPlan>> {
+        let mut groups: Vec<Vec<&CameraPlan>> = Vec::new();
+        for camera in &self.cameras {
+            match groups.iter_mut().find(|group| group[0].light == camera.light) {
+                Some(group) => group.push(camera),
+                None => groups.push(vec![camera]),
+            }
+        }
+        groups
+    }
+
+    /// Where the bands of a camera's film are kept that do not fit into memory; `None` where they do, and where no limit is set.
+    #[must_use]
+    pub fn scratch(&self, camera: &CameraPlan) -> Option<&Arc<dyn ScratchStore>> {
+        let limit = self.film_limit.as_ref()?;
+        let (width, height) = camera.film_size();
+        let bytes = camera.film_layout().cube_bytes(width as usize, height as usize);
+        (bytes > limit.bytes as f64).then_some(&limit.store)
     }
 
     /// The replicates of each camera of the job.

@@ -6,6 +6,7 @@
 //! the part; the next such pass goes on where it ended.
 
 use etendue_core::random::Pixel;
+use sha2::{Digest, Sha256};
 
 /// Parts of the pixels are counted in these: 256ths.
 pub const PARTS: u32 = 256;
@@ -145,6 +146,27 @@ pub(crate) struct CameraPasses {
     pub(crate) is_open: bool,
     /// Its passes; `None`: all samples in one.
     pub(crate) passes: Option<Passes>,
+}
+
+/// The hash of a plan whose description, without what decides the samples of cameras that have passes, has the hash `described`.
+pub(crate) fn hash_with_passes(described: &[u8; 32], cameras: &[CameraPasses]) -> [u8; 32] {
+    if cameras.iter().all(|camera| camera.passes.is_none()) {
+        return *described;
+    }
+    let mut hash = Sha256::new();
+    hash.update(described);
+    for camera in cameras {
+        let passes = camera.passes.as_ref().map_or(&[][..], |passes| passes.list());
+        hash.update((passes.len() as u64).to_le_bytes());
+        if !passes.is_empty() {
+            hash.update(camera.replicates.to_le_bytes());
+        }
+        for Pass { samples, part } in passes {
+            hash.update(samples.to_le_bytes());
+            hash.update(part.to_le_bytes());
+        }
+    }
+    hash.finalize().into()
 }
 
 /// A pass in its place among the others.

@@ -1,6 +1,6 @@
-//! What a camera delivers.
+//! The files that a camera delivers: images and their formats, ground truth between frames, between cameras and of objects.
 
-use super::annotations::Annotations;
+use etendue_isp::{Mosaic, Processing};
 use etendue_sensor::Sensor;
 
 /// File format of digital numbers.
@@ -89,5 +89,102 @@ impl Products {
             || self.depth_png_per_m.is_some()
             || self.rays
             || !self.annotations.is_empty())
+    }
+}
+
+/// How raw becomes a picture.
+#[derive(Clone, Debug)]
+pub struct Development {
+    /// Which pixel measures which colour.
+    pub mosaic: Mosaic,
+    /// Every step.
+    pub processing: Processing,
+    /// How the picture is written.
+    pub format: PictureFormat,
+}
+
+/// How a picture is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// Without loss.
+    Png {
+        /// Bits of a channel: 8, or 10 to 16 in a file of 16.
+        bits: u32,
+    },
+    /// With loss, 8 bits.
+    Jpeg {
+        /// 1 to 100.
+        quality: u8,
+    },
+}
+
+impl PictureFormat {
+    /// The extension of its files.
+    #[must_use]
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Png { .. } => "png",
+            Self::Jpeg { .. } => "jpg",
+        }
+    }
+
+    /// Bits of a channel.
+    #[must_use]
+    pub fn bits(self) -> u32 {
+        match self {
+            Self::Png { bits } => bits,
+            Self::Jpeg { .. } => 8,
+        }
+    }
+}
+
+/// The file that flow or disparity is written to beside the EXR.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CorrespondenceFormat {
+    /// None: the EXR holds it.
+    Exr,
+    /// `.flo` and `.pfm`, all values exact.
+    Middlebury,
+    /// 16-bit PNG: flow in 1/64 px, disparity in 1/256 px.
+    Kitti,
+}
+
+/// Disparity to another camera.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DisparityProduct {
+    /// The other camera's place in the job.
+    pub right: u32,
+    /// The file beside the EXR.
+    pub format: CorrespondenceFormat,
+}
+
+/// What a camera delivers of the ground truth between frames, between cameras and of objects.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Annotations {
+    /// Optical flow to the next frame and the one before, with visibility and image velocity.
+    pub optical_flow: Option<CorrespondenceFormat>,
+    /// Motion in space, to both frames and in the world.
+    pub scene_flow: bool,
+    /// Disparity to a right camera.
+    pub disparity: Option<DisparityProduct>,
+    /// Boxes of objects.
+    pub boxes: bool,
+    /// The boxes of all frames in one file.
+    pub tracks: bool,
+    /// The coverage of objects and materials.
+    pub cryptomatte: bool,
+}
+
+impl Annotations {
+    /// Whether nothing is delivered.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Whether other frames of the camera are looked at.
+    #[must_use]
+    pub fn needs_neighbours(&self) -> bool {
+        self.optical_flow.is_some() || self.scene_flow
     }
 }

@@ -1,7 +1,8 @@
 //! How the light of a camera is found.
 
 use super::wavelength_sampling::WavelengthSampling;
-use crate::render::block::Blocks;
+use crate::sizes::block::Blocks;
+use crate::sizes::tolerance::AdaptiveSampling;
 use etendue_core::Bands;
 use etendue_optics::PupilProjection;
 use etendue_tracer::integrator::{Level, LightSampling};
@@ -14,15 +15,6 @@ pub enum Route {
     Lens,
     /// Radiance at the centre of the entrance pupil in this geometry, then the lens on the picture.
     Pupil(PupilProjection),
-}
-
-/// Samples until noise is below a limit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AdaptiveSampling {
-    /// Greatest standard error over the noise that the sensor adds, or over the pixel's mean where there is none.
-    pub threshold: f64,
-    /// Samples that every pixel gets.
-    pub min_spp: u32,
 }
 
 /// How the light of a camera is found.

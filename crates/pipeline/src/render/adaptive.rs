@@ -10,22 +10,14 @@
 //! mean by which T is told are means of the pixel's own and of those of all pixels of its colour in its cell, as few replicates
 //! know them badly. Errors of stratified samples fall faster than 1/n: then the limit is kept with something to spare.
 
-use crate::render::block::Blocks;
-use crate::render::gather::{Gather, Layout, PixelLight, Sums};
+use crate::render::gather::{Gather, PixelLight, Sums};
 use crate::render::light::{Asked, RenderJob};
 use crate::render::mosaic::Mosaic;
-use crate::render::tile::Tile;
-use crate::render::tolerance::Tolerance;
+use crate::sizes::film::Layout;
+use crate::sizes::tile::Tile;
+use crate::sizes::tolerance::Tolerance;
 use etendue_core::RadianceField;
 use etendue_core::random::Pixel;
-
-/// Least side of a cell, px: where bright light is rare, fewer pixels do not know it together.
-const CELL_PX: u32 = 16;
-/// Side of the cells whose pixels know their noise together, px: they cut no block. Cells lie on a grid of the whole frame.
-#[must_use]
-pub fn cell_px(blocks: Blocks) -> u32 {
-    blocks.tile_px(CELL_PX)
-}
 
 /// The samples of a block so far: sums of each replicate and pixel.
 struct Sampled {
@@ -88,7 +80,7 @@ impl RenderJob<'_> {
         tile: Tile,
         tolerance: &Tolerance,
     ) -> Vec<(Pixel, PixelLight)> {
-        let cells = tile.parts(cell_px(self.blocks));
+        let cells = tile.parts(self.blocks.cell_px());
         cells.flat_map(|cell| self.gather_cell(field, cell, tolerance)).collect()
     }
 
@@ -162,8 +154,8 @@ mod tests {
     use crate::render::film::Film;
     use crate::render::light::{RaySource, RenderJob, Sampling};
     use crate::render::observer::Unobserved;
-    use crate::render::spectrum_spread::SpectrumSpread;
     use crate::render::test_job::{sampling, still_job};
+    use crate::sizes::spectrum_spread::SpectrumSpread;
     use etendue_core::random::Draw;
     use etendue_core::{FieldRay, PupilRay, Spectral, Wavelengths};
     use glam::{DVec2, DVec3};

@@ -1,24 +1,20 @@
 //! Rendering a camera's light.
 
+use crate::plan::pixel_density::PixelDensity;
 use crate::plan::{CameraBody, CameraPlan, PassAt, Plan, Precipitation, Route, Settings};
 use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
-use crate::render::gather::Layout;
 use crate::render::light::{GatherError, RaySource, RenderJob, Sampling};
 use crate::render::mosaic::Mosaic;
 use crate::render::near_precipitation::{near, seen_region};
 use crate::render::observer::Observer;
-use crate::render::pixel_density::PixelDensity;
-use crate::render::spectrum_spread::SpectrumSpread;
-use crate::render::tile::Shard;
-use crate::render::tolerance::Tolerance;
 use crate::render::training::guide;
+use crate::sizes::tile::Shard;
 use etendue_core::PupilRay;
 use etendue_core::maths::f64::atan2;
 use etendue_optics::effects::SampleSpread;
 use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
-use etendue_sensor::Sensor;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::integrator::{PathSettings, PathTracer, SpectralPaths};
 use etendue_tracer::lights::{LightCounts, Lights};
@@ -213,25 +209,6 @@ pub fn change_over(plan: &Plan, camera: &CameraPlan) -> Option<ChangeOver> {
     of.map(|(.., change_over)| change_over)
 }
 
-/// The tolerance of a camera whose samples noise decides.
-#[must_use]
-pub fn tolerance(camera: &CameraPlan) -> Option<Tolerance> {
-    let settings = &camera.settings;
-    let limit = settings.adaptive?;
-    let sensor = camera.body.sensor.as_ref().filter(|_| settings.route == Route::Lens);
-    let noise = sensor.map(|sensor| match light_stays(camera, sensor) {
-        true => sensor.temporal_noise(),
-        false => sensor.temporal_noise().never_white(),
-    });
-    Some(Tolerance::new(limit, noise))
-}
-
-/// Whether nothing but a pixel's own number shows how bright it is beyond white: no effect spreads its light, no charge flows over, and
-/// no spectrum is kept.
-fn light_stays(camera: &CameraPlan, sensor: &Sensor) -> bool {
-    camera.body.effects.is_idle() && camera.settings.bands.is_none() && !sensor.spills()
-}
-
 /// Columns and rows of a camera's film before its picture.
 fn margin_px(camera: &CameraPlan) -> [usize; 2] {
     match camera.settings.route {
@@ -267,7 +244,7 @@ pub(super) fn render_job<'a>(
         width,
         height,
         aperture_px: if settings.route == Route::Lens { camera.body.aperture_px } else { 1.0 },
-        layout: layout(camera),
+        layout: camera.film_layout(),
         mosaic,
         sampling: Sampling {
             pass: PassAt::only(settings.spp),
@@ -277,22 +254,15 @@ pub(super) fn render_job<'a>(
             shot: request.shot,
             low_nm: settings.range_nm.0 as f32,
             high_nm: settings.range_nm.1 as f32,
-            spread: SpectrumSpread::of(camera),
+            spread: camera.spectrum_spread(),
         },
-        tolerance: tolerance(camera),
+        tolerance: camera.tolerance(),
         blocks: settings.blocks,
         tile_px: settings.tile_px,
         shard: request.shard,
         sample_spread: None,
         scratch: None,
     }
-}
-
-/// What a camera's film keeps.
-#[must_use]
-pub fn layout(camera: &CameraPlan) -> Layout {
-    let Settings { bands, folded, adaptive, .. } = camera.settings;
-    Layout { bands, folded, watched: adaptive.is_some() }
 }
 
 /// Angle of a pixel in the middle of the picture, rad, by its tangent.

@@ -1,12 +1,12 @@
 //! Films whose bands are in scratch files, against films in memory.
 
 use super::film::Film;
-use super::gather::Layout;
 use super::light::{GatherError, RaySource, RenderJob};
 use super::observer::Unobserved;
 use super::test_job::{sampling, still_job};
-use super::tile::Shard;
 use crate::plan::{Pass, PassAt, Passes};
+use crate::sizes::film::Layout;
+use crate::sizes::tile::Shard;
 use etendue_core::random::Draw;
 use etendue_core::scratch::{Scratch, ScratchStore};
 use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};

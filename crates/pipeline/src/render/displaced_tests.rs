@@ -1,11 +1,11 @@
 //! Samples that the point spread displaces, on the film of a pattern of light.
 
 use super::film::Film;
-use super::gather::Layout;
 use super::light::{RaySource, RenderJob};
 use super::observer::Unobserved;
 use super::test_job::{sampling, still_job};
 use crate::plan::PassAt;
+use crate::sizes::film::Layout;
 use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::{cos, exp, sin};
 use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};

@@ -1,10 +1,11 @@
 //! The light of a whole frame: f32 means and variances, filled tile by tile by one owner each.
 
 use crate::render::band_views::over;
-use crate::render::gather::{Layout, PixelLight, stored_variance};
-use crate::render::tile::Tile;
+use crate::render::gather::{PixelLight, stored_variance};
 use crate::render::tile_bands::TileBands;
 use crate::render::tiled_cube::TiledCube;
+use crate::sizes::film::Layout;
+use crate::sizes::tile::Tile;
 use etendue_core::kept_cube::BandReader;
 use etendue_core::quantity::{
     ElectronRate, Identity, Irradiance, MeanElectrons, Quantity, Radiance, SolidAngle, Variance, WatchedSignal,
@@ -142,25 +143,6 @@ impl Film {
         }
     }
 
-    /// Bytes that a film of this size and layout takes in memory; a float, for a picture too large to be made must not overflow.
-    #[must_use]
-    pub fn bytes(width: usize, height: usize, layout: &Layout) -> f64 {
-        Self::cube_bytes(width, height, layout) + Self::bytes_beside_cube(width, height, layout)
-    }
-
-    /// Bytes of the bands of a film, in memory.
-    #[must_use]
-    pub fn cube_bytes(width: usize, height: usize, layout: &Layout) -> f64 {
-        plane_bytes(width, height) * (2 * layout.bands.map_or(0, Bands::count)) as f64
-    }
-
-    /// Bytes of all else, which always is in memory.
-    #[must_use]
-    pub fn bytes_beside_cube(width: usize, height: usize, layout: &Layout) -> f64 {
-        let planes = 2 * (usize::from(layout.folded) + usize::from(layout.watched)) + 3;
-        plane_bytes(width, height) * planes as f64
-    }
-
     /// The bands, where they are in memory.
     #[must_use]
     pub fn cube(&self) -> Option<&CubeEstimate<Irradiance>> {
@@ -292,11 +274,6 @@ impl Film {
     pub fn not_finite_samples(&self) -> u64 {
         self.not_finite.samples().iter().map(|n| u64::from(*n)).sum()
     }
-}
-
-/// Bytes of a plane of 32-bit numbers.
-fn plane_bytes(width: usize, height: usize) -> f64 {
-    width as f64 * height as f64 * size_of::<f32>() as f64
 }
 
 fn copy_planes<Q: Quantity>(to: &mut [Plane<Q>], from: &[Plane<Q>], tile: Tile) {

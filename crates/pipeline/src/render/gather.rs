@@ -4,35 +4,9 @@
 //! so the scatter of their means is a fair estimate of the variance of the whole; the scatter of the samples is not
 //! (it overstates the variance of a stratified mean by ten to thousands of times).
 
-use etendue_core::{Bands, Spectral, Wavelengths};
+use crate::sizes::film::Layout;
+use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
-
-/// What every pixel's samples are gathered into.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Layout {
-    /// Spectral bands, where a cube is kept.
-    pub bands: Option<Bands>,
-    /// Whether each pixel folds its own responsivity into electrons.
-    pub folded: bool,
-    /// Whether a limit of noise watches the pixel's light: its electrons where they are folded, else its irradiance over all wavelengths.
-    pub watched: bool,
-}
-
-impl Layout {
-    /// Numbers a pixel: the bands, the pupil's weight, the electrons or the irradiance that is watched in their place.
-    fn slots(&self) -> usize {
-        self.band_count() + 1 + usize::from(self.folded || self.watched)
-    }
-
-    /// The place of what is watched.
-    fn watched_slot(&self) -> usize {
-        self.band_count() + 1
-    }
-
-    fn band_count(&self) -> usize {
-        self.bands.map_or(0, Bands::count)
-    }
-}
 
 /// The running sums of a pixel over the samples of one replicate.
 #[derive(Clone, Debug)]
@@ -226,6 +200,7 @@ impl PixelLight {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etendue_core::Bands;
 
     #[test]
     fn a_constant_radiance_gives_its_band_means_and_electrons() {

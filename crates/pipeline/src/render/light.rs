@@ -1,17 +1,19 @@
 //! The light of a frame: every pixel's samples sent into a radiance field and gathered on the film.
 
 use crate::plan::PassAt;
-use crate::render::block::Blocks;
 use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
-use crate::render::gather::{Gather, Layout, PixelLight, Sums};
+use crate::render::gather::{Gather, PixelLight, Sums};
+use crate::render::heroes::Heroes;
 use crate::render::mosaic::{Mosaic, Site};
 use crate::render::observer::Observer;
-use crate::render::spectrum_spread::{Heroes, SpectrumSpread};
-use crate::render::tile::{Shard, Tile, tiles};
 use crate::render::tile_bands::TileBands;
 use crate::render::tiled_cube::TiledCube;
-use crate::render::tolerance::Tolerance;
+use crate::sizes::block::Blocks;
+use crate::sizes::film::{Layout, has_variance};
+use crate::sizes::spectrum_spread::SpectrumSpread;
+use crate::sizes::tile::{Shard, Tile, tiles};
+use crate::sizes::tolerance::Tolerance;
 use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_core::scratch::ScratchStore;
 use etendue_core::{FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
@@ -132,12 +134,6 @@ pub enum GatherError {
     /// The bands could not be written to the scratch file, or read from it.
     #[error("{0}")]
     Scratch(String),
-}
-
-/// Whether the bands of a film have variances that say something: those of one replicate are unknown, and all are kept of a shard, whose other
-/// tiles are 0.
-pub(crate) fn has_variance(replicates: u32, shard: Shard) -> bool {
-    replicates > 1 || shard != Shard::WHOLE
 }
 
 impl RenderJob<'_> {

@@ -15,7 +15,6 @@
 
 pub mod adaptive;
 pub(crate) mod band_views;
-pub mod block;
 pub mod boxes;
 mod camera_light;
 #[cfg(test)]
@@ -24,9 +23,9 @@ mod disk_tests;
 mod displaced_tests;
 pub mod exposure;
 pub mod film;
-pub mod foretold_gain;
 pub mod frame_view;
 pub mod gather;
+mod heroes;
 pub mod identity_coverage;
 pub mod light;
 mod look_at;
@@ -37,26 +36,21 @@ pub mod noise_reached;
 pub mod observer;
 #[cfg(test)]
 mod pass_tests;
-pub mod pixel_density;
 pub mod pupil_depth;
 pub mod rays;
-pub mod spectrum_spread;
 mod surrounded;
 #[cfg(test)]
 mod test_job;
 #[cfg(test)]
 mod test_scenes;
-pub mod tile;
 pub mod tile_bands;
 pub mod tiled_cube;
-mod tolerance;
 pub mod training;
 pub mod truth;
 pub mod weather_layers;
 
-pub use camera_light::{FilmKeeping, Request, change_over, layout, light, light_counts, pass, tolerance};
+pub use camera_light::{FilmKeeping, Request, change_over, light, light_counts, pass};
 pub use exposure::Shot;
 pub use light::GatherError;
 pub(crate) use near_precipitation::region_of_projection;
 pub(crate) use surrounded::surrounding_object;
-pub use tolerance::Tolerance;

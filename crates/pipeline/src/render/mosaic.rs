@@ -5,7 +5,7 @@
 //! A pixel that folds its responsivity into electrons draws its wavelengths by it ([`PixelDensity`]): electrons are then an estimate with
 //! little spectral noise, and where a spectral cube is kept beside them, every band still gets its share.
 
-use crate::render::pixel_density::PixelDensity;
+use crate::plan::pixel_density::PixelDensity;
 use etendue_core::WavelengthDensity;
 use etendue_core::random::Pixel;
 use etendue_sensor::Sensor;

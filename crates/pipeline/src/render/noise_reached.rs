@@ -1,7 +1,7 @@
 //! How far a film that noise limits has come: samples, errors, and what is short of the limit.
 
 use crate::render::film::Film;
-use crate::render::tolerance::Tolerance;
+use crate::sizes::tolerance::Tolerance;
 
 /// What became of a limit of noise.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! How a caller watches and stops a rendering.
 
 use crate::render::film::Film;
-use crate::render::tile::Tile;
+use crate::sizes::tile::Tile;
 
 /// What a rendering tells its caller, and asks of it. Called from worker threads.
 pub trait Observer: Sync {

@@ -1,11 +1,11 @@
 //! Films of several passes: what joins them, against each pass by itself.
 
 use super::film::Film;
-use super::gather::Layout;
 use super::light::RaySource;
 use super::observer::Unobserved;
 use super::test_job::{sampling, still_job};
 use crate::plan::{Pass, PassAt, Passes};
+use crate::sizes::film::Layout;
 use etendue_core::random::Draw;
 use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
 use glam::{DVec2, DVec3};

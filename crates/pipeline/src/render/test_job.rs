@@ -1,12 +1,12 @@
 //! A job of a camera that stands still, for tests of what gathers its light.
 
-use super::block::Blocks;
 use super::exposure::{FilmExposure, Shot};
-use super::gather::Layout;
 use super::light::{RaySource, RenderJob, Sampling};
-use super::spectrum_spread::SpectrumSpread;
-use super::tile::Shard;
 use crate::plan::PassAt;
+use crate::sizes::block::Blocks;
+use crate::sizes::film::Layout;
+use crate::sizes::spectrum_spread::SpectrumSpread;
+use crate::sizes::tile::Shard;
 use etendue_core::{CameraPath, CameraPose};
 use glam::{DMat3, DVec3};
 use std::sync::LazyLock;

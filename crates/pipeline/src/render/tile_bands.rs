@@ -1,7 +1,7 @@
 //! The bands of a tile of a film: what is written to a scratch file at once.
 
 use crate::render::gather::{PixelLight, stored_variance};
-use crate::render::tile::Tile;
+use crate::sizes::tile::Tile;
 use etendue_core::quantity::{Irradiance, Variance};
 use etendue_core::random::Pixel;
 use etendue_core::{Plane, SpectralCube};

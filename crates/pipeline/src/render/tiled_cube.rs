@@ -4,8 +4,9 @@
 //! the numbers that memory would hold). Tiles follow one another row by row of the film's grid. A band, or rows of it, are read out of all pieces that
 //! hold some of them. A single replicate knows no variance: none is written then, and NaN is read.
 
-use crate::render::tile::Tile;
 use crate::render::tile_bands::TileBands;
+use crate::sizes::film::scratch_planes;
+use crate::sizes::tile::Tile;
 use etendue_core::Bands;
 use etendue_core::kept_cube::BandReader;
 use etendue_core::scratch::{NUMBER_BYTES, Scratch, ScratchStore, read_numbers, write_numbers};
@@ -52,20 +53,13 @@ impl TiledCube {
         [width, height, side]: [u32; 3],
         has_variance: bool,
     ) -> Result<Self, String> {
-        let planes = bands.count() * if has_variance { 2 } else { 1 };
+        let planes = scratch_planes(bands, has_variance);
         let grid = Grid { width: width as usize, height: height as usize, side: side as usize, planes };
         let scratch = store.room(grid.offset(0, grid.height))?;
         let reader = |first| Arc::new(Reader { grid, scratch: Arc::clone(&scratch), first });
         let mean = reader(0);
         let variance: Arc<dyn BandReader> = if has_variance { reader(bands.count()) } else { Arc::new(Unknown) };
         Ok(Self { bands, grid, store: Arc::clone(store), scratch, mean, variance })
-    }
-
-    /// Bytes in the file of a cube of that many pixels.
-    #[must_use]
-    pub fn bytes(pixels: f64, bands: Bands, has_variance: bool) -> f64 {
-        let planes = bands.count() * if has_variance { 2 } else { 1 };
-        pixels * (planes * NUMBER_BYTES) as f64
     }
 
     /// Where there is room for what is made of it.

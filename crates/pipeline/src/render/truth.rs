@@ -1,7 +1,8 @@
 //! Ground truth: what each pixel's principal ray meets. Point-sampled, never filtered: a surface that is cut out by its
 //! opacity is there where at least half of it is.
 
-use crate::plan::{CameraBody, CameraPlan, Plan, TimeDependence};
+use crate::plan::camera_body::has_planar_depth;
+use crate::plan::{CameraPlan, Plan, TimeDependence};
 use crate::render::exposure::{FilmExposure, Shot};
 use etendue_core::quantity::{Identity, Length, Quantity, Vector};
 use etendue_core::{CameraPose, Plane};
@@ -250,22 +251,6 @@ fn is_far(camera: &CameraPlan) -> bool {
 
 fn has_mirror(camera: &CameraPlan) -> bool {
     matches!(camera.body.front.as_ref().and_then(|front| front.optic()), Some(Optic::Mirror(_)))
-}
-
-/// Whether some pixels look sideways, back or at a mirror, where depth along the axis means nothing: of a grid over the picture, its
-/// edges included.
-pub(crate) fn depth_has_gaps(body: &CameraBody) -> bool {
-    const STEPS: usize = 16;
-    let at = |i: usize, size: usize| (i * (size - 1)) as f64 / STEPS as f64 + 0.5;
-    let pixels = (0..=STEPS).flat_map(|y| (0..=STEPS).map(move |x| (x, y)));
-    let mut rays = pixels.filter_map(|(x, y)| {
-        body.truth_ray(DVec2::new(at(x, body.raster.width()), at(y, body.raster.height()))).map(|(front, _)| front)
-    });
-    rays.any(|front| !has_planar_depth(&front))
-}
-
-fn has_planar_depth(front: &FrontRay) -> bool {
-    front.ray.direction.z > 0.0 && front.mirror_m.is_none()
 }
 
 fn look(

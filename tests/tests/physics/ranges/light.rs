@@ -2,7 +2,8 @@
 
 use super::fog::lamps_in_fog;
 use etendue_core::{Bands, Spectral, Wavelengths};
-use etendue_pipeline::render::gather::{Gather, Layout, Sums};
+use etendue_pipeline::render::gather::{Gather, Sums};
+use etendue_pipeline::sizes::film::Layout;
 use etendue_spectra::illuminant;
 use etendue_stats::Moments;
 use etendue_testkit::page::{Row, check, figure, worst};

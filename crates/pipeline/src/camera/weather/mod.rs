@@ -16,46 +16,13 @@ mod streaks;
 mod tests;
 
 use crate::camera::stored::Stored;
-use crate::plan::Precipitation;
+use crate::plan::{Airlight, Weather};
 use etendue_core::maths::f64::exp;
 use etendue_core::quantity::{Cover, Length, Radiance, Transmittance};
 use etendue_core::{Bands, CameraPose, Plane, Ray, SpectralCube, TimeInterval};
-use etendue_spectra::Spectrum;
-use etendue_tracer::media::{Media, Medium};
+use etendue_tracer::media::Media;
 use image::Image;
 use rayon::prelude::*;
-
-/// The radiance of fog without end.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Airlight {
-    /// The same everywhere, W·m⁻²·sr⁻¹·nm⁻¹.
-    Uniform(Spectrum),
-    /// The mean of what the image shows of the sky, from the horizon up to a height, rad.
-    Sky {
-        /// The height.
-        elevation_rad: f64,
-    },
-}
-
-/// What is laid over an image.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Weather {
-    /// The radiance of fog without end.
-    pub airlight: Airlight,
-    /// Fog, of which only the extinction counts, and the medium of what falls.
-    pub media: Vec<Medium>,
-    /// Rain or snow.
-    pub falling: Option<Falling>,
-}
-
-/// Rain or snow over a moment's image.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Falling {
-    /// What falls.
-    pub precipitation: Precipitation,
-    /// How long it is exposed, s.
-    pub exposure_s: f64,
-}
 
 /// An image with weather before it.
 #[derive(Clone, Debug)]

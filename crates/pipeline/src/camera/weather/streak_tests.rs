@@ -1,10 +1,12 @@
 //! Streaks over images of even walls, against closed forms and laws.
 
 use super::*;
+use crate::plan::{Falling, Precipitation};
 use etendue_core::Motion;
 use etendue_core::maths::f64::ln;
 use etendue_optics::PupilProjection;
-use etendue_tracer::media::{Phase, Shape};
+use etendue_spectra::Spectrum;
+use etendue_tracer::media::{Medium, Phase, Shape};
 use etendue_tracer::precipitation::{ChangeOver, Field, SizeLaw};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use rayon::ThreadPoolBuilder;

@@ -8,7 +8,8 @@
 
 use super::image::Image;
 use super::shown_light::ShownLight;
-use super::{Before, Falling, Weathered};
+use super::{Before, Weathered};
+use crate::plan::Falling;
 use crate::render::region_of_projection;
 use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::sin_cos;

@@ -3,7 +3,8 @@
 use super::*;
 use etendue_core::{Bands, Motion};
 use etendue_optics::PupilProjection;
-use etendue_tracer::media::{Noise, Phase, Shape, Unevenness};
+use etendue_spectra::Spectrum;
+use etendue_tracer::media::{Medium, Noise, Phase, Shape, Unevenness};
 use glam::{DAffine3, DMat3};
 use glam::{DVec2, DVec3};
 

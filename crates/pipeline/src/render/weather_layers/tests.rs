@@ -2,8 +2,7 @@
 
 use super::*;
 use crate::camera::stored::Stored;
-use crate::camera::weather::{Airlight, Falling, Weather};
-use crate::plan::Route;
+use crate::plan::{Airlight, Falling, Route, Weather};
 use crate::{Choices, compile};
 use etendue_core::TimeInterval;
 use etendue_core::maths::f64::exp;

@@ -1,0 +1,126 @@
+//! The hash of a plan: of everything that decides its result. No path, no comment, no number of threads, no size of tiles and no
+//! quality of trees is in it.
+//!
+//! A plan is made of a description, of the contents of the files that it names, of the caller's choices, and by a version of the
+//! program with the data and defaults built into it. These are hashed: the description by the bytes that its records give
+//! ([`Table::feed`]), so that a key that can be read cannot be left out, and what is built in by [`RESULTS_REVISION`], because the
+//! description has only words for it (the name of a metal) or nothing (a default).
+//!
+//! The hash is stricter than the result: a default spelt out, an effect of no strength, a material, mesh or texture that
+//! nothing uses, and the quality where every key that it governs is stated make another plan of the same picture. To leave these
+//! out, what has no effect would have to be known here a second time, and a mistake in it would give two pictures one hash.
+//!
+//! Samples that come in passes are the exception: a schedule or a time makes passes that no description says. There the
+//! passes and the replicates are hashed, and the keys that decide samples are not: the same passes have one hash however they came about.
+
+use super::choices::{Choices, Quality};
+use crate::plan::CameraPasses;
+use etendue_scene::asset::Assets;
+use etendue_scene::record::Render;
+use etendue_scene::written::Table;
+use etendue_scene::{CameraSetup, Description};
+use sha2::{Digest, Sha256};
+
+/// Raised whenever the same description gives other bits: with every blessing of golden images and every change of built-in data
+/// or of a default.
+const RESULTS_REVISION: u32 = 10;
+
+/// SHA-256 of all that decides the plan's result, the program's version and revision included. Every file that the description
+/// uses is among the assets.
+pub(super) fn fingerprint(
+    description: &Description,
+    assets: &Assets,
+    choices: &Choices,
+    passes: &[CameraPasses],
+) -> [u8; 32] {
+    // How films are refined is in their passes.
+    let Choices { quality, refinement: _ } = choices;
+    let in_passes = |place: usize| passes.get(place).is_some_and(|camera| camera.passes.is_some());
+    let cameras: Vec<_> =
+        description.cameras.iter().enumerate().map(|(i, setup)| camera(setup, in_passes(i))).collect();
+    let table = Table::new()
+        .with("version", env!("CARGO_PKG_VERSION"))
+        .with("results_revision", RESULTS_REVISION)
+        .with("quality", quality.unwrap_or(Quality::Standard).name())
+        .with("scene", description.scene.to_table())
+        .with("cameras", cameras);
+    let table = match &description.sequence {
+        Some(sequence) => table.with("sequence", sequence.to_table()),
+        None => table,
+    };
+    let mut hash = Sha256::new();
+    table.feed(&|path| assets.hashes(path), &mut |bytes| hash.update(bytes));
+    hash.finalize().into()
+}
+
+/// The size of a tile and the trees do not change the result, nor what stands in the place of passes.
+fn camera(setup: &CameraSetup, in_passes: bool) -> Table {
+    let mut render = Render { tile_px: None, accelerator: None, ..setup.render.clone() };
+    if in_passes {
+        let (spp, replicates, noise_threshold, min_spp, max_spp) = (None, None, None, None, None);
+        let passes = Vec::new();
+        render = Render { spp, passes, replicates, noise_threshold, min_spp, max_spp, ..render };
+    }
+    CameraSetup { render, ..setup.clone() }.to_table()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_scene::Overrides;
+    use etendue_scene::asset::SpectrumAsset;
+    use std::path::{Path, PathBuf};
+
+    const JOB: &str = "format = 1\n[scene]\nmaterials = [{ name = \"m\", type = \"diffuse\", reflectance = { spectrum = \
+                       \"paint.csv\" } }]\n[[cameras]]\nname = \"c\"\nposition_m = [0, 0, 1]\nlook_at_m = [1, 0, 1]\n\
+                       lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 2 }\n\
+                       sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6 }\n[render]\nspp = 4\n";
+
+    /// Of a job in a folder whose paint has this content.
+    fn of(folder: &str, job: &str, sets: &[&str], paint: u8, quality: Option<Quality>) -> [u8; 32] {
+        let read = |_: &Path| Ok(job.to_owned());
+        let file = Path::new(folder).join("job.toml");
+        let description = Description::load(&file, &read, &Overrides::new(sets.iter().copied()));
+        let spectrum = SpectrumAsset { points: vec![(400.0, 0.5)], hash: [paint; 32] };
+        let spectra = [(PathBuf::from(folder).join("paint.csv"), spectrum)].into();
+        let assets = Assets { spectra, ..Assets::default() };
+        fingerprint(
+            &description.unwrap_or_else(|faults| panic!("{faults}")),
+            &assets,
+            &Choices { quality, ..Choices::default() },
+            &[],
+        )
+    }
+
+    #[test]
+    fn one_plan_has_one_hash_however_and_wherever_it_is_written() {
+        let plain = of("", JOB, &[], 1, None);
+        let spaced = JOB.replace(" = ", "  =  ").replace("[render]", "# How.\n\n[render] # so");
+        let turned = JOB.replace("spp = 4", "seed = 3\nspp = 4");
+        let other = JOB.replace("spp = 4", "spp = 4\nseed = 3");
+        assert_eq!(
+            plain,
+            of(
+                "elsewhere",
+                &spaced,
+                &["render.spp=4", "render.tile_px=8", "render.accelerator=best"],
+                1,
+                Some(Quality::Standard)
+            )
+        );
+        assert_eq!(of("", &turned, &[], 1, None), of("", &other, &[], 1, None));
+        assert_ne!(plain, of("", &turned, &[], 1, None));
+    }
+
+    #[test]
+    fn what_is_stated_chosen_or_read_changes_the_hash() {
+        let plain = of("", JOB, &[], 1, None);
+        for set in
+            ["render.spp=8", "output.ghosts=false", "cameras.c.sensor.width_px=9", "cameras.c.position_m=[0, 0, 2]"]
+        {
+            assert_ne!(plain, of("", JOB, &[set], 1, None), "{set}");
+        }
+        assert_ne!(plain, of("", JOB, &[], 2, None), "another content of a file");
+        assert_ne!(plain, of("", JOB, &[], 1, Some(Quality::Draft)), "another preset");
+    }
+}

@@ -1,0 +1,174 @@
+//! Which cameras of a plan see the same light.
+//!
+//! The light of a camera depends on where the camera stands, on its lens and what stands before it, on its film, on how light is
+//! sampled and kept, and, where pixels fold electrons, on their response to a second of light. It does not depend on
+//! the exposure (but where something moves or flickers), noise (but where samples are adaptive), converter, effects behind the lens (but for the margin that they need, and a point spread that displaces samples) or processing. Cameras of equal
+//! light share one film: that of the first of them in the job, whose place is in the random addresses of all.
+
+use crate::plan::{CameraBody, CameraPlan, LightOwner, Passes, Plan, Route, Settings, TimeDependence, Timing};
+use crate::sizes::spectrum_spread::SpectrumSpread;
+use crate::sizes::tolerance::Tolerance;
+use etendue_core::CameraPath;
+use etendue_optics::effects::PointSpread;
+use etendue_optics::{Front, Lens, PupilProjection};
+use etendue_projection::Raster;
+use etendue_sensor::{Cfa, Sensor};
+use etendue_spectra::Spectrum;
+
+/// What, of a camera, its light depends on; the world is the plan's.
+#[derive(Clone, Debug, PartialEq)]
+struct LightKey<'a> {
+    path: &'a CameraPath,
+    /// Where light depends on time.
+    timing: Option<&'a Timing>,
+    optics: OpticsKey<'a>,
+    sampling: SamplingKey,
+    settings: Settings,
+    response: Option<ResponseKey<'a>>,
+    /// Where noise decides the samples.
+    tolerance: Option<Tolerance>,
+}
+
+/// How rays leave the camera.
+#[derive(Clone, Debug, PartialEq)]
+enum OpticsKey<'a> {
+    Lens(Box<LensKey<'a>>),
+    Pupil(&'a PupilProjection),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct LensKey<'a> {
+    lens: &'a Lens,
+    front: Option<&'a Front>,
+    film: Raster,
+    aperture_px: f64,
+    /// The picture itself, over which the pitch of what a mirror shows is taken.
+    mirrored: Option<&'a Raster>,
+    /// What displaces samples, and the film's margin, with which it varies over the film.
+    displacing: Option<(&'a PointSpread, [usize; 2])>,
+}
+
+/// How many samples, of which seed, and whether wavelengths are spread for replicates that tell a variance.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct SamplingKey {
+    spp: u32,
+    passes: Option<Passes>,
+    replicates: u32,
+    seed: u64,
+    spread: SpectrumSpread,
+}
+
+/// Electrons that pixels make of a second of light.
+#[derive(Clone, Debug, PartialEq)]
+struct ResponseKey<'a> {
+    filter: &'a Cfa,
+    pitch_um: f64,
+    fill_factor: f64,
+    efficiencies: Vec<&'a Spectrum>,
+}
+
+impl<'a> LightKey<'a> {
+    fn of(camera: &'a CameraPlan) -> Self {
+        let s = &camera.settings;
+        Self {
+            path: &camera.path,
+            timing: (camera.time != TimeDependence::None).then_some(&camera.timing),
+            optics: OpticsKey::of(camera),
+            sampling: SamplingKey {
+                spp: s.spp,
+                passes: camera.passes.clone(),
+                replicates: s.replicates,
+                seed: s.seed,
+                spread: camera.spectrum_spread(),
+            },
+            // What has its own place in the key, and the size of a tile, which does not change the light.
+            settings: Settings { tile_px: 0, spp: 0, replicates: 0, seed: 0, route: Route::Lens, ..*s },
+            tolerance: camera.tolerance(),
+            response: camera.body.sensor.as_ref().filter(|_| s.folded).map(ResponseKey::of),
+        }
+    }
+
+    /// In what two cameras differ that look at the same things by the same rays; `None` where they do not.
+    fn differences(&self, other: &Self) -> Option<Vec<&'static str>> {
+        if (self.path, &self.optics) != (other.path, &other.optics) {
+            return None;
+        }
+        let samples =
+            |key: &Self| (key.sampling.spp, key.sampling.passes.clone(), key.sampling.replicates, key.sampling.seed);
+        let kept = |s: &Settings| (s.bands, s.folded, s.range_nm);
+        let (a, b) = (&self.settings, &other.settings);
+        let same_kept = Settings { adaptive: b.adaptive, bands: b.bands, folded: b.folded, range_nm: b.range_nm, ..*a };
+        let unlike = [
+            (samples(self) != samples(other), "samples or seed"),
+            (self.timing != other.timing, "the times of exposure"),
+            (kept(a) != kept(b), "what is kept of the spectrum"),
+            (
+                a.bands == b.bands && self.sampling.spread != other.sampling.spread,
+                "variance, for which replicates are independent",
+            ),
+            (self.tolerance != other.tolerance, "the noise that decides the samples"),
+            (same_kept != *b, "how light is followed"),
+            (self.response != other.response && a.folded && b.folded, "the response that pixels fold"),
+        ];
+        Some(unlike.iter().filter(|(unlike, _)| *unlike).map(|(_, name)| *name).collect())
+    }
+}
+
+impl<'a> OpticsKey<'a> {
+    fn of(camera: &'a CameraPlan) -> Self {
+        let CameraBody { lens, front, aperture_px, .. } = &camera.body;
+        match &camera.settings.route {
+            Route::Pupil(projection) => Self::Pupil(projection),
+            Route::Lens => Self::Lens(Box::new(LensKey {
+                lens,
+                front: front.as_ref(),
+                film: camera.body.film(),
+                aperture_px: *aperture_px,
+                mirrored: front.as_ref().map(|_| &camera.body.raster),
+                displacing: camera.body.effects.displacing().map(|psf| (psf, camera.body.effects.margin_px())),
+            })),
+        }
+    }
+}
+
+impl<'a> ResponseKey<'a> {
+    fn of(sensor: &'a Sensor) -> Self {
+        let p = sensor.parameters();
+        Self {
+            filter: &p.cfa,
+            pitch_um: p.pixel.pitch_um,
+            fill_factor: p.pixel.fill_factor,
+            efficiencies: p.channels.iter().map(|channel| &channel.quantum_efficiency).collect(),
+        }
+    }
+}
+
+/// Gives every camera the light of the first that has the same.
+pub(crate) fn share(cameras: &mut [CameraPlan]) {
+    let owners: Vec<LightOwner> = {
+        let mut firsts: Vec<(LightKey<'_>, LightOwner)> = Vec::new();
+        let mut owner = |camera| owner_of(camera, &mut firsts);
+        cameras.iter().map(&mut owner).collect()
+    };
+    cameras.iter_mut().zip(owners).for_each(|(camera, owner)| camera.light = owner);
+}
+
+fn owner_of<'a>(camera: &'a CameraPlan, firsts: &mut Vec<(LightKey<'a>, LightOwner)>) -> LightOwner {
+    let key = LightKey::of(camera);
+    let owner = match firsts.iter().find(|(first, _)| *first == key) {
+        Some((_, owner)) => return owner.clone(),
+        None => LightOwner { camera: camera.name.clone(), index: camera.index },
+    };
+    firsts.push((key, owner.clone()));
+    owner
+}
+
+/// Why a camera has a light of its own although another before it looks at the same things by the same rays: that camera's name
+/// and what differs. `None` where there is no such camera, or the light is shared.
+pub(crate) fn why_apart<'a>(plan: &'a Plan, camera: &CameraPlan) -> Option<(&'a str, Vec<&'static str>)> {
+    let before = plan.cameras.iter().take_while(|other| other.index < camera.index);
+    let owners = before.filter(|other| other.owns_light() && other.light != camera.light);
+    let key = LightKey::of(camera);
+    let apart = owners.filter_map(|other| Some((other.name.as_str(), LightKey::of(other).differences(&key)?)));
+    camera.owns_light().then(|| apart.min_by_key(|(_, unlike)| unlike.len())).flatten()
+}

@@ -1,0 +1,54 @@
+//! The numbers from which the wavelengths of a replicate's samples are drawn.
+
+use crate::sizes::spectrum_spread::SpectrumSpread;
+use etendue_core::random::{Draw, GoldenSequence, PathStream, PixelAddress, ShiftedLattice};
+
+/// The numbers of a replicate's wavelengths.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Heroes {
+    order: Order,
+}
+
+/// How the numbers of a replicate follow each other.
+#[derive(Clone, Copy, Debug)]
+enum Order {
+    Drawn,
+    /// From a place on among those that are spread together.
+    Lattice(ShiftedLattice, u32),
+    Golden(GoldenSequence),
+}
+
+impl Heroes {
+    /// Those of the replicate of `address`, which has `samples` samples, of a pass whose first replicate and number of replicates are
+    /// given.
+    pub(crate) fn new(
+        spread: SpectrumSpread,
+        address: &PixelAddress,
+        samples: u32,
+        (first, replicates): (u32, u32),
+    ) -> Self {
+        let order = match spread {
+            SpectrumSpread::Drawn => Order::Drawn,
+            SpectrumSpread::EachReplicate => Order::Lattice(ShiftedLattice::new(address, samples), 0),
+            SpectrumSpread::AllReplicates => {
+                let all = PixelAddress { replicate: first, ..*address };
+                Order::Lattice(ShiftedLattice::new(&all, samples * replicates), (address.replicate - first) * samples)
+            }
+            SpectrumSpread::Open => Order::Golden(GoldenSequence::new(address)),
+        };
+        Self { order }
+    }
+
+    /// The number from which a sample's `wavelengths` wavelengths are drawn, in [0, 1).
+    pub(crate) fn number(&self, stream: &PathStream, wavelengths: usize) -> f32 {
+        let drawn = stream.one(Draw::Wavelength, 0);
+        let even = match &self.order {
+            Order::Drawn => return drawn,
+            Order::Lattice(lattice, first) => lattice.at(first + stream.sample()),
+            Order::Golden(sequence) => sequence.at(stream.sample()),
+        };
+        let n = wavelengths as f64;
+        let rotation = (f64::from(drawn) * n).floor();
+        (((rotation + even) / n) as f32).min(1.0_f32.next_down())
+    }
+}

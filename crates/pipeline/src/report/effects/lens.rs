@@ -1,0 +1,268 @@
+//! From the scene to the sensor plane.
+
+use super::lens_errors::{blur_px, distortion_px, lateral_colour_px, vignetting_percent};
+use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there, without};
+use crate::plan::{CameraPlan, Plan, Route};
+use crate::report::FrameCost;
+use crate::report::cpu_time::path_cpu_s;
+use etendue_core::EffectStatus;
+use etendue_optics::effects::{Effect, SpreadBy};
+use etendue_optics::front::{Front, Optic};
+use etendue_optics::{DepthOfField, Lens};
+
+const GROUP: EffectGroup = EffectGroup::Lens;
+
+pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
+    let cost = FrameCost::of(plan, camera);
+    let of_lens = vec![
+        distortion(camera),
+        vignetting(camera),
+        rims(camera),
+        defocus(camera),
+        lateral_colour(camera),
+        dispersion(camera),
+        route(camera, &cost),
+    ];
+    let before = [mirror(camera), windscreen(camera), drops(camera), dirt(camera)];
+    let behind = Effect::ALL.map(|effect| on_irradiance(camera, effect, &cost));
+    of_lens.into_iter().chain(before).chain(behind).collect()
+}
+
+fn distortion(camera: &CameraPlan) -> PlannedEffect {
+    let lens = &camera.body.lens;
+    let status = match lens {
+        Lens::Prescription(_) => EffectStatus::Modelled("rays are bent by the lens's surfaces".to_owned()),
+        Lens::RayTransfer(_) => EffectStatus::Modelled("rays leave as the functions say".to_owned()),
+        Lens::Calibrated(_) => EffectStatus::Modelled("each pixel looks where the projection says".to_owned()),
+        _ => where_there(
+            lens.distortion().is_some(),
+            "each sample's point on the sensor is moved before its ray is made",
+            "the lens has none",
+        ),
+    };
+    let effect = PlannedEffect::new(GROUP, "distortion", status).described_by("lens.distortion");
+    match distortion_px(&camera.body) {
+        Some(shift_px) => effect.dropped_by([without(camera, "lens.distortion")]).erring("shift up to", shift_px, "px"),
+        None => effect,
+    }
+}
+
+fn vignetting(camera: &CameraPlan) -> PlannedEffect {
+    let status = where_there(
+        !matches!(camera.body.lens, Lens::Telecentric(_)),
+        "each ray's weight is the solid angle of the pupil as its pixel sees it",
+        "every pixel of a telecentric camera sees the same",
+    );
+    let effect = PlannedEffect::new(GROUP, "vignetting", status).described_by("lens.type");
+    match vignetting_percent(&camera.body) {
+        Some(percent) => effect.erring("corner not darkened by", percent, "%"),
+        None => effect,
+    }
+}
+
+fn rims(camera: &CameraPlan) -> PlannedEffect {
+    let (name, key) = ("mechanical vignetting", "lens.front_aperture");
+    let rims = match &camera.body.lens {
+        Lens::Prescription(_) => {
+            let status = EffectStatus::Modelled("each surface's clear aperture stops rays".to_owned());
+            return PlannedEffect::new(GROUP, name, status).described_by(key);
+        }
+        Lens::RayTransfer(_) => {
+            let status = EffectStatus::Modelled("the functions tell which rays pass".to_owned());
+            return PlannedEffect::new(GROUP, name, status).described_by(key);
+        }
+        Lens::Thick(lens) => [lens.parameters().front_aperture.is_some(), lens.parameters().rear_aperture.is_some()],
+        _ => [false, false],
+    };
+    let status =
+        where_there(rims != [false, false], "rims before and behind the pupil stop rays", "no rim is described");
+    let keys = ["lens.front_aperture", "lens.rear_aperture"].into_iter().zip(rims).filter(|(_, is_there)| *is_there);
+    let effect = PlannedEffect::new(GROUP, name, status).described_by(key);
+    effect.dropped_by(keys.map(|(key, _)| without(camera, key)))
+}
+
+fn defocus(camera: &CameraPlan) -> PlannedEffect {
+    let (body, name) = (&camera.body, "defocus");
+    let blurs = body.lens.entrance_pupil_radius_m() > 0.0;
+    let is_modelled = blurs && (camera.settings.route == Route::Lens || camera.depth_of_field != DepthOfField::None);
+    let (text, key) = match camera.settings.route {
+        Route::Lens => ("each sample has a point of the pupil", "lens.focus_distance_m"),
+        Route::Pupil(_) => ("the stored radiance is spread in the order of depth", "render.depth_of_field"),
+    };
+    let status =
+        where_there(is_modelled, text, if blurs { "depth_of_field = \"none\"" } else { "everything is sharp" });
+    let set = match (&camera.settings.route, &body.lens) {
+        (Route::Pupil(_), _) => vec![of_camera(camera, "render.depth_of_field", "none")],
+        (Route::Lens, Lens::Thin(_) | Lens::Thick(_)) => pinhole(camera),
+        (Route::Lens, Lens::Calibrated(_)) => vec![without(camera, "lens.focus_distance_m")],
+        (Route::Lens, _) => Vec::new(),
+    };
+    let effect = PlannedEffect::new(GROUP, name, status).described_by(key).dropped_by(set);
+    effect.erring("blur at infinity", blur_px(body, f64::INFINITY), "px").erring(
+        "blur at 1 m",
+        blur_px(body, 1.0),
+        "px",
+    )
+}
+
+/// The pinhole of the same image size and brightness on the axis: π τ L/(4 N²) for π τ L/(1 + 4 N²).
+fn pinhole(camera: &CameraPlan) -> Vec<String> {
+    let lens = &camera.body.lens;
+    let working = lens.working_f_number();
+    let f_number = (working * working + 0.25).sqrt();
+    let keys = [
+        ("lens.type", "pinhole".to_owned()),
+        ("lens.focal_length_mm", format!("{:?}", lens.principal_distance_mm())),
+        ("lens.f_number", format!("{f_number:?}")),
+    ];
+    keys.iter().map(|(key, value)| of_camera(camera, key, value)).collect()
+}
+
+fn lateral_colour(camera: &CameraPlan) -> PlannedEffect {
+    let lens = &camera.body.lens;
+    let status = match lens {
+        Lens::RayTransfer(lens) if lens.disperses() => {
+            EffectStatus::Modelled("the functions bend each wavelength differently".to_owned())
+        }
+        Lens::Prescription(_) => EffectStatus::Modelled("glasses bend each wavelength differently".to_owned()),
+        _ => where_there(
+            lens.lateral_colour().is_some(),
+            "the image's size differs by wavelength",
+            "all colours have one image size",
+        ),
+    };
+    let effect = PlannedEffect::new(GROUP, "lateral colour", status).described_by("lens.lateral_colour");
+    match lateral_colour_px(&camera.body, camera.settings.range_nm) {
+        Some(px) => effect.dropped_by([without(camera, "lens.lateral_colour")]).erring("colours apart up to", px, "px"),
+        None => effect,
+    }
+}
+
+fn dispersion(camera: &CameraPlan) -> PlannedEffect {
+    let is_there = camera.body.disperses() && camera.settings.route == Route::Lens;
+    let lack = format!("{} wavelengths share each path, as the lens treats them alike", camera.settings.wavelengths);
+    let text = "each path carries one wavelength, as its ray through the lens is of that one alone";
+    PlannedEffect::new(GROUP, "one wavelength a path", where_there(is_there, text, lack))
+        .described_by("render.wavelengths_per_path")
+}
+
+fn route(camera: &CameraPlan, cost: &FrameCost) -> PlannedEffect {
+    let is_there = matches!(camera.settings.route, Route::Pupil(_));
+    let text = "light is found at the centre of the entrance pupil, and the lens acts on the picture";
+    let status = where_there(is_there, text, "each sample goes through the lens");
+    let effect = PlannedEffect::new(GROUP, "lens on the picture", status).described_by("render.route");
+    PlannedEffect { cpu_s: is_there.then(|| part_s(cost, "the lens on the picture")), ..effect }
+        .dropped_by([of_camera(camera, "render.route", "lens")])
+}
+
+fn part_s(cost: &FrameCost, name: &str) -> f64 {
+    cost.parts.iter().filter(|part| part.name == name).map(|part| part.cpu_s).sum()
+}
+
+fn optic(camera: &CameraPlan) -> Option<&Optic> {
+    camera.body.front.as_ref().and_then(Front::optic)
+}
+
+/// A thing before the lens: the section goes with its last one.
+fn before_the_lens(
+    camera: &CameraPlan,
+    (name, key): (&'static str, &'static str),
+    status: EffectStatus,
+) -> PlannedEffect {
+    let front = camera.body.front.as_ref();
+    let things = front.map_or(0, |front| usize::from(front.dirt().is_some()) + usize::from(front.optic().is_some()));
+    let dropped = if things == 1 { "external_optics" } else { key };
+    PlannedEffect::new(GROUP, name, status).described_by(key).dropped_by([without(camera, dropped)])
+}
+
+fn mirror(camera: &CameraPlan) -> PlannedEffect {
+    let is_there = matches!(optic(camera), Some(Optic::Mirror(_)));
+    let status = where_there(is_there, "each ray is reflected at it", "none is described");
+    before_the_lens(camera, ("mirror before the lens", "external_optics.mirror"), status)
+}
+
+fn windscreen(camera: &CameraPlan) -> PlannedEffect {
+    let is_there = matches!(optic(camera), Some(Optic::Windscreen(_)));
+    let status = where_there(is_there, "each ray is traced through its layers", "none is described");
+    before_the_lens(camera, ("wind-screen", "external_optics.windscreen"), status)
+}
+
+fn drops(camera: &CameraPlan) -> PlannedEffect {
+    let drops = match optic(camera) {
+        Some(Optic::Windscreen(glass)) => glass.drops(),
+        _ => None,
+    };
+    let status = match drops {
+        Some(drops) => {
+            let count = drops.droplets().len();
+            EffectStatus::WhereNeeded(format!("{count} drops, found by a grid where a ray crosses the glass"))
+        }
+        None => EffectStatus::LeftOut("none is described".to_owned()),
+    };
+    let key = "external_optics.windscreen.drops";
+    PlannedEffect::new(GROUP, "drops on the wind-screen", status).described_by(key).dropped_by([without(camera, key)])
+}
+
+fn dirt(camera: &CameraPlan) -> PlannedEffect {
+    let is_there = camera.body.front.as_ref().is_some_and(|front| front.dirt().is_some());
+    let status = where_there(is_there, "each ray is weighted by the mask", "none is described");
+    before_the_lens(camera, ("dirt before the lens", "external_optics.dirt"), status)
+}
+
+/// An effect on the irradiance: the section, with its margin, goes with the last one.
+fn on_irradiance(camera: &CameraPlan, effect: Effect, cost: &FrameCost) -> PlannedEffect {
+    let effects = &camera.body.effects;
+    let described = [
+        (Effect::PointSpread, effects.psf().is_some()),
+        (Effect::Glare, effects.glare().is_some()),
+        (Effect::Ghosts, effects.ghosts().is_some()),
+    ];
+    let is_last = described.iter().filter(|(_, is_there)| *is_there).count() == 1;
+    let (key, own) = match effect {
+        Effect::PointSpread => ("effects.psf", without(camera, "effects.psf")),
+        Effect::Glare => ("effects.glare", without(camera, "effects.glare")),
+        Effect::Ghosts => ("effects.ghosts", of_camera(camera, "effects.ghosts", "false")),
+    };
+    let file =
+        (effect == Effect::Ghosts && camera.products.ghosts).then(|| of_camera(camera, "output.ghosts", "false"));
+    let set = [if is_last { without(camera, "effects") } else { own }].into_iter().chain(file);
+    let cpu_s = part_s(cost, effect.name());
+    let margin_s = if is_last { margin_s(camera, cost) } else { 0.0 };
+    PlannedEffect::new(GROUP, effect.name(), irradiance_effect_status(camera, effect))
+        .described_by(key)
+        .dropped_by(set)
+        .taking(cpu_s)
+        .saving(cpu_s + margin_s)
+}
+
+/// The paths of the margin, s.
+fn margin_s(camera: &CameraPlan, cost: &FrameCost) -> f64 {
+    if camera.settings.route != Route::Lens {
+        return 0.0;
+    }
+    let (film, picture) = (camera.body.film(), &camera.body.raster);
+    let pixels = |width: usize, height: usize| width as f64 * height as f64;
+    let part = 1.0 - pixels(picture.width(), picture.height()) / pixels(film.width(), film.height());
+    cost.paths * path_cpu_s(camera) * part
+}
+
+/// Returns whether a camera has an effect on the irradiance, why, and by what its point spread spreads light.
+pub(in crate::report) fn irradiance_effect_status(camera: &CameraPlan, effect: Effect) -> EffectStatus {
+    match (effect, camera.body.effects.status(effect)) {
+        (Effect::PointSpread, EffectStatus::Modelled(of)) => EffectStatus::Modelled(of + &spread_by(camera)),
+        (_, status) => status,
+    }
+}
+
+/// By what the point spread spreads light, and how much contrast a film would lack or add.
+fn spread_by(camera: &CameraPlan) -> String {
+    let Some((by, width)) = camera.body.effects.spread_by() else { return String::new() };
+    let by = if camera.settings.route == Route::Lens { by } else { SpreadBy::Film };
+    let error = width.film_error;
+    match by {
+        SpreadBy::Samples => {
+            format!(", by displaced samples (by the film contrast would be wrong by up to {error:.2})")
+        }
+        SpreadBy::Film => format!(", by the film (contrast wrong by up to {error:.3})"),
+    }
+}

@@ -1,0 +1,199 @@
+//! How light is followed.
+
+use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there};
+use crate::plan::{CameraPlan, Plan, Settings};
+use crate::render::training;
+use crate::report::FrameCost;
+use crate::report::cpu_time::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, TWO_BOUNCES_CPU_S, branches_share, path_cpu_s};
+use crate::sizes::block::Blocks;
+use etendue_core::EffectStatus;
+use etendue_tracer::integrator::{Level, LightSampling};
+
+const GROUP: EffectGroup = EffectGroup::LightTransport;
+
+pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
+    let paths = FrameCost::of(plan, camera).paths;
+    vec![
+        first_surfaces(paths),
+        shadows(camera, paths),
+        indirect_light(camera, paths),
+        later_bounces(camera, paths),
+        beyond_the_limit(&camera.settings),
+        caustics(camera),
+        regularization(camera),
+        light_sampling(camera),
+        guiding(camera),
+        branches(camera, paths),
+        path_reuse(camera),
+        adaptive_sampling(camera),
+        never("polarisation"),
+        never("fluorescence"),
+    ]
+}
+
+fn first_surfaces(paths: f64) -> PlannedEffect {
+    let status = EffectStatus::Modelled("the first surface of each sample, lit by what it sees".to_owned());
+    let cpu_s = paths * FLAT_PATH_CPU_S;
+    PlannedEffect { cpu_s: Some(cpu_s), ..PlannedEffect::new(GROUP, "first surfaces", status) }
+}
+
+fn shadows(camera: &CameraPlan, paths: f64) -> PlannedEffect {
+    let level = camera.settings.level;
+    let status = where_there(
+        level != Level::Flat,
+        "a ray to each light that is drawn finds what stands before it",
+        "integrator = \"flat\" sends no ray to a light",
+    );
+    let cpu_s = paths * (DIRECT_PATH_CPU_S - FLAT_PATH_CPU_S);
+    let effect = PlannedEffect::new(GROUP, "shadows", status).described_by("render.integrator").taking(cpu_s);
+    effect.dropped_by([of_camera(camera, "render.integrator", "flat")]).saving(saved_by(camera, paths, FLAT_PATH_CPU_S))
+}
+
+fn indirect_light(camera: &CameraPlan, paths: f64) -> PlannedEffect {
+    let settings = &camera.settings;
+    let status = where_there(
+        settings.level == Level::Path && settings.max_bounces > 1,
+        format!("paths go on from surface to surface, {} of them at most", settings.max_bounces),
+        match settings.level {
+            Level::Path => "a path of one bounce meets one surface",
+            Level::Flat | Level::Direct => "integrator = \"path\" would follow it",
+        },
+    );
+    PlannedEffect::new(GROUP, "indirect light", status)
+        .described_by("render.integrator")
+        .dropped_by([of_camera(camera, "render.integrator", "direct")])
+        .taking(paths * (path_cpu_s(camera) - DIRECT_PATH_CPU_S))
+        .saving(saved_by(camera, paths, DIRECT_PATH_CPU_S))
+}
+
+/// What an integrator of so much time a sample would save: branches, and paths that learn before the picture, go with the paths.
+fn saved_by(camera: &CameraPlan, paths: f64, sample_s: f64) -> f64 {
+    paths * path_cpu_s(camera) + branches_cpu_s(camera, paths) - branched_paths(camera, paths) * sample_s
+}
+
+/// A limit of two surfaces: what a lamp lights, and what that lights.
+const FEW_BOUNCES: u32 = 2;
+
+fn later_bounces(camera: &CameraPlan, paths: f64) -> PlannedEffect {
+    let Settings { level, max_bounces, .. } = camera.settings;
+    let status = if level == Level::Path && max_bounces > FEW_BOUNCES {
+        let text = format!("surfaces 3 to {max_bounces} of a path, as far as Russian roulette lets it go on");
+        EffectStatus::WhereNeeded(text)
+    } else {
+        EffectStatus::LeftOut("a path meets two surfaces at most".to_owned())
+    };
+    let of_path_s = path_cpu_s(camera) - TWO_BOUNCES_CPU_S;
+    PlannedEffect::new(GROUP, "bounces beyond the second", status)
+        .described_by("render.max_bounces")
+        .dropped_by([of_camera(camera, "render.max_bounces", "2")])
+        .taking(paths * of_path_s)
+        .saving(of_path_s * (paths + branched_paths(camera, paths) * branches_share(camera)))
+}
+
+fn beyond_the_limit(settings: &Settings) -> PlannedEffect {
+    let lack = format!("light that more than {} surfaces scatter is missing", settings.max_bounces);
+    let effect = PlannedEffect::new(GROUP, "bounces beyond the limit", EffectStatus::LeftOut(lack));
+    effect.described_by("render.max_bounces")
+}
+
+fn caustics(camera: &CameraPlan) -> PlannedEffect {
+    let settings = &camera.settings;
+    let status = if settings.level == Level::Path && settings.caustics {
+        let text = "light of lamps by way of smooth surfaces, for paths that leave a matt one and meet a smooth one";
+        EffectStatus::WhereNeeded(text.to_owned())
+    } else {
+        EffectStatus::LeftOut(match settings.level {
+            Level::Path => "caustics = false leaves out light thrown by smooth surfaces on matt ones, by mirrors on much less glossy ones".to_owned(),
+            Level::Flat | Level::Direct => "they need paths: integrator = \"path\"".to_owned(),
+        })
+    };
+    let effect = PlannedEffect::new(GROUP, "caustics", status).described_by("render.caustics");
+    effect.dropped_by([of_camera(camera, "render.caustics", "false")])
+}
+
+fn regularization(camera: &CameraPlan) -> PlannedEffect {
+    let status = where_there(
+        camera.settings.regularize,
+        "metals, coats, glass and paint that a path meets behind wider lobes are rougher than they are: a bias"
+            .to_owned(),
+        "lobes are as narrow as models say",
+    );
+    let effect = PlannedEffect::new(GROUP, "regularisation", status).described_by("render.regularize");
+    effect.dropped_by([of_camera(camera, "render.regularize", "false")])
+}
+
+fn guiding(camera: &CameraPlan) -> PlannedEffect {
+    let paths = if camera.settings.guiding { training::paths_of(camera) } else { 0 };
+    let status = where_there(
+        paths > 0,
+        format!("directions at matt surfaces follow what {paths} paths before the picture find"),
+        "directions at matt surfaces are drawn by the cosine alone",
+    );
+    let effect = PlannedEffect::new(GROUP, "path guiding", status).described_by("render.guiding");
+    effect.dropped_by([of_camera(camera, "render.guiding", "false")]).taking(paths as f64 * path_cpu_s(camera))
+}
+
+/// Of a camera's paths those that may branch: all but those that learn before the picture.
+fn branched_paths(camera: &CameraPlan, paths: f64) -> f64 {
+    let learning = if camera.settings.guiding { training::paths_of(camera) as f64 } else { 0.0 };
+    (paths - learning).max(0.0)
+}
+
+/// Processor time of all branches beside the first of each path, s.
+fn branches_cpu_s(camera: &CameraPlan, paths: f64) -> f64 {
+    branched_paths(camera, paths) * branches_share(camera) * path_cpu_s(camera)
+}
+
+fn branches(camera: &CameraPlan, paths: f64) -> PlannedEffect {
+    let branches = camera.settings.branches;
+    let status = where_there(
+        branches > 1,
+        format!("{branches} lights are drawn and {branches} paths go on at the first surface of a sample"),
+        "one light is drawn and one path goes on at the first surface of a sample",
+    );
+    let effect = PlannedEffect::new(GROUP, "branched paths", status).described_by("render.branches");
+    effect.dropped_by([of_camera(camera, "render.branches", "1")]).taking(branches_cpu_s(camera, paths))
+}
+
+fn light_sampling(camera: &CameraPlan) -> PlannedEffect {
+    let status = match camera.settings.light_sampling {
+        LightSampling::Gloss => {
+            let text = "at glossy surfaces, lights are drawn by what the surface sends back of them, too";
+            EffectStatus::WhereNeeded(text.to_owned())
+        }
+        LightSampling::Irradiance => EffectStatus::LeftOut(
+            "lights are drawn by their irradiance alone: mirror images of lamps are noisier".to_owned(),
+        ),
+    };
+    let effect = PlannedEffect::new(GROUP, "lights drawn by gloss", status).described_by("render.light_sampling");
+    effect.dropped_by([of_camera(camera, "render.light_sampling", "irradiance")])
+}
+
+fn path_reuse(camera: &CameraPlan) -> PlannedEffect {
+    let blocks = camera.settings.blocks;
+    let status = where_there(
+        blocks != Blocks::SINGLE,
+        format!("{} pixels share the tails of their paths, and errors", blocks.len_px()),
+        "each pixel has paths of its own",
+    );
+    let effect = PlannedEffect::new(GROUP, "path reuse", status).described_by("render.path_reuse_px");
+    effect.dropped_by([of_camera(camera, "render.path_reuse_px", "1")])
+}
+
+fn adaptive_sampling(camera: &CameraPlan) -> PlannedEffect {
+    let (name, key) = ("adaptive sampling", "render.noise_threshold");
+    let Some(limit) = camera.settings.adaptive else {
+        let status = EffectStatus::LeftOut(format!("every pixel gets {} samples", camera.settings.spp));
+        return PlannedEffect::new(GROUP, name, status).described_by(key);
+    };
+    let text = format!("pixels whose error is small enough stop at {} samples", limit.min_spp);
+    PlannedEffect::new(GROUP, name, EffectStatus::WhereNeeded(text)).described_by(key).dropped_by([of_camera(
+        camera,
+        "render.spp",
+        &limit.min_spp.to_string(),
+    )])
+}
+
+fn never(name: &'static str) -> PlannedEffect {
+    PlannedEffect::new(GROUP, name, EffectStatus::LeftOut("not modelled by this program".to_owned()))
+}

@@ -1,0 +1,105 @@
+//! From digital numbers to the picture, step by step.
+
+use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there, without};
+use crate::plan::{CameraPlan, PictureFormat};
+use etendue_core::EffectStatus;
+use etendue_isp::{BlackLevel, ColourMatrix, Processing, ToneCurve, WhiteBalance};
+
+const GROUP: EffectGroup = EffectGroup::Processing;
+
+pub(super) fn effects(camera: &CameraPlan) -> Vec<PlannedEffect> {
+    let Some(development) = &camera.body.development else {
+        let status = EffectStatus::LeftOut("no [isp] is described, so that no picture is made".to_owned());
+        return vec![PlannedEffect::new(GROUP, "development", status).described_by("isp")];
+    };
+    let p = &development.processing;
+    vec![
+        black_level(camera, p),
+        defects(camera, p),
+        step(camera, ("shading correction", "isp.shading"), p.shading.is_some(), "gains of each place of the picture"),
+        white_balance(camera, p),
+        demosaic(p),
+        step(camera, ("noise reduction", "isp.noise_reduction"), p.noise_reduction.is_some(), "smooths like colours"),
+        colour_matrix(camera, p, development.mosaic.channels()),
+        step(camera, ("digital gain", "isp.exposure_gain"), p.exposure_gain != 1.0, "a factor on the linear picture"),
+        step(camera, ("image filters", "isp.image_filters"), !p.image_filters.is_empty(), "filters of the paper"),
+        tone(camera, p),
+        step(camera, ("sharpening", "isp.sharpening"), p.sharpening.is_some(), "an unsharp mask"),
+        quantisation(development.format),
+        never("highlight recovery"),
+        never("local tone mapping"),
+    ]
+}
+
+/// A step that is there only where its key asks for it.
+fn step(camera: &CameraPlan, (name, key): (&'static str, &'static str), is_there: bool, text: &str) -> PlannedEffect {
+    let status = where_there(is_there, text, "not asked for");
+    PlannedEffect::new(GROUP, name, status).described_by(key).dropped_by([without(camera, key)])
+}
+
+fn black_level(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
+    let is_own = p.black_level != BlackLevel::Stated;
+    let text = "a black level other than the sensor states is taken off";
+    let status = where_there(is_own, text, "the sensor's black level is taken off");
+    let key = "isp.black_level";
+    PlannedEffect::new(GROUP, "own black level", status).described_by(key).dropped_by([without(camera, key)])
+}
+
+fn defects(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
+    let status = where_there(!p.defects.is_off(), "pixels of a map, and outliers", "not asked for");
+    let keys = [
+        ("isp.defect_map", !p.defects.map.is_empty()),
+        ("isp.defect_outlier_threshold", p.defects.outlier_threshold.is_some()),
+    ];
+    let set = keys.into_iter().filter(|(_, is_there)| *is_there).map(|(key, _)| without(camera, key));
+    PlannedEffect::new(GROUP, "defect correction", status).described_by("isp.defect_map").dropped_by(set)
+}
+
+fn white_balance(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
+    let balance = p.colour.as_ref().map(|colour| &colour.white_balance);
+    let is_there = match balance {
+        None => false,
+        Some(WhiteBalance::GreyWorld) => true,
+        Some(WhiteBalance::Gains(gains)) => gains.iter().any(|gain| *gain != 1.0),
+    };
+    let text = if matches!(balance, Some(WhiteBalance::GreyWorld)) {
+        "each picture's mean is made grey"
+    } else {
+        "factors on the channels"
+    };
+    step(camera, ("white balance", "isp.white_balance"), is_there, text)
+}
+
+fn demosaic(p: &Processing) -> PlannedEffect {
+    let status = where_there(p.colour.is_some(), "each pixel gets the colours that it did not measure", "monochrome");
+    PlannedEffect::new(GROUP, "demosaic", status).described_by("isp.demosaic")
+}
+
+/// Three channels may be taken for red, green and blue; others need a matrix.
+fn colour_matrix(camera: &CameraPlan, p: &Processing, channels: usize) -> PlannedEffect {
+    let is_there = p.colour.as_ref().is_some_and(|colour| colour.matrix != ColourMatrix::identity());
+    let status = where_there(is_there, "from the sensor's colours to sRGB's", "red, green and blue are the sensor's");
+    let key = "isp.colour_matrix";
+    let effect = PlannedEffect::new(GROUP, "colour matrix", status).described_by(key);
+    effect.dropped_by((channels == 3).then(|| without(camera, key)))
+}
+
+fn tone(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
+    let is_there = p.tone != ToneCurve::Gamma(1.0);
+    let status = where_there(is_there, "linear light is encoded by a curve", "numbers are proportional to light");
+    let key = "isp.tone_curve";
+    PlannedEffect::new(GROUP, "tone curve", status).described_by(key).dropped_by([of_camera(camera, key, "linear")])
+}
+
+fn quantisation(format: PictureFormat) -> PlannedEffect {
+    let text = match format {
+        PictureFormat::Png { bits } => format!("numbers of {bits} bits"),
+        PictureFormat::Jpeg { quality } => format!("8 bits, JPEG of quality {quality}"),
+    };
+    let effect = PlannedEffect::new(GROUP, "picture bits", EffectStatus::Modelled(text));
+    effect.described_by("isp.picture_bits").erring("rounding σ", 1.0 / 12.0_f64.sqrt(), "DN")
+}
+
+fn never(name: &'static str) -> PlannedEffect {
+    PlannedEffect::new(GROUP, name, EffectStatus::LeftOut("not modelled by this program".to_owned()))
+}

@@ -1,0 +1,49 @@
+//! Fog, rain and snow.
+
+use super::planned_effect::{EffectGroup, PlannedEffect, of_camera, where_there};
+use crate::plan::{CameraPlan, Plan};
+use crate::render::change_over;
+use etendue_core::EffectStatus;
+
+const GROUP: EffectGroup = EffectGroup::Weather;
+
+pub(super) fn effects(plan: &Plan, camera: &CameraPlan) -> Vec<PlannedEffect> {
+    vec![media(plan), falling(plan), near(plan, camera)]
+}
+
+/// The layers of weather, which need one: left out with the last.
+fn layers(plan: &Plan, is_last: bool) -> impl Iterator<Item = String> {
+    let asked = plan.cameras.iter().filter(move |camera| is_last && camera.products.weather);
+    asked.map(|camera| of_camera(camera, "output.weather", "false"))
+}
+
+fn media(plan: &Plan) -> PlannedEffect {
+    let count = plan.media.len() - usize::from(plan.precipitation.is_some());
+    let text = format!("{count} between the surfaces: rays draw where they are scattered");
+    let status = where_there(count > 0, text, "the air is clear");
+    let set = std::iter::once("scene.media=null".to_owned()).chain(layers(plan, plan.precipitation.is_none()));
+    PlannedEffect::new(GROUP, "fog and other media", status).described_by("scene.media").dropped_by(set)
+}
+
+fn falling(plan: &Plan) -> PlannedEffect {
+    let text = match &plan.precipitation {
+        Some(precipitation) if precipitation.field.law().is_snow() => "snow is a medium to all rays",
+        _ => "rain is a medium to all rays",
+    };
+    let status = where_there(plan.precipitation.is_some(), text, "nothing falls");
+    let set = std::iter::once("scene.precipitation=null".to_owned()).chain(layers(plan, plan.media.len() == 1));
+    PlannedEffect::new(GROUP, "rain and snow", status).described_by("scene.precipitation").dropped_by(set)
+}
+
+/// Drops or flakes that are resolved.
+fn near(plan: &Plan, camera: &CameraPlan) -> PlannedEffect {
+    let expected = change_over(plan, camera).map_or(0.0, |change_over| change_over.expected);
+    let status = if expected >= 0.5 {
+        EffectStatus::WhereNeeded(format!("about {expected:.0} one by one, met by rays from the camera alone"))
+    } else {
+        EffectStatus::LeftOut("no drop or flake is wide enough in the picture".to_owned())
+    };
+    PlannedEffect::new(GROUP, "near drops and flakes", status)
+        .described_by("scene.precipitation.most")
+        .dropped_by(["scene.precipitation.most=0".to_owned()])
+}

@@ -1,0 +1,96 @@
+//! What each effect of a camera takes, and what dropping it would bring: a table of those that have a figure, lists of the others.
+
+use super::words::seconds;
+use crate::plan::{CameraPlan, Plan};
+use crate::report::FrameCost;
+use crate::report::effects::{EffectGroup, IfDropped, PlannedEffect};
+use etendue_core::EffectStatus;
+use std::fmt::{self, Formatter};
+
+/// Columns of a line of a list.
+const WIDTH: usize = 110;
+/// Where lists begin.
+const INDENT: usize = 17;
+/// Where the last column of the table begins.
+const DROPPED: usize = 62;
+/// What a row takes at least if nothing else is known of it: this share of the frame.
+const LISTED_SHARE: f64 = 0.005;
+
+pub(super) fn effects_table(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let frame_s = FrameCost::of(plan, camera).cpu_s();
+    let effects = plan.effects(camera);
+    let (rows, rest): (Vec<_>, Vec<_>) = effects.iter().partition(|effect| has_figures(effect, frame_s));
+    let (name, need) = ("effect", "");
+    writeln!(f, "  {name:<29} {need:<8} {:>6} {:>5} {:>6}  if dropped", "CPU s", "share", "MB")?;
+    rows.iter().try_for_each(|effect| row(effect, frame_s, f))?;
+    let named = |is_there: fn(&PlannedEffect) -> bool| {
+        let of = rest.iter().filter(move |effect| is_there(effect));
+        of.map(|effect| effect.name).collect::<Vec<_>>()
+    };
+    list("required too", &named(|effect| matches!(effect.status, EffectStatus::Modelled(_))), f)?;
+    list("guarded too", &named(|effect| matches!(effect.status, EffectStatus::WhereNeeded(_))), f)?;
+    list("skipped", &named(|effect| !effect.status.is_modelled() && !is_said_above(effect)), f)
+}
+
+/// Whether the lines of the sensor, of processing and of what is delivered say already that it is left out.
+fn is_said_above(effect: &PlannedEffect) -> bool {
+    matches!(effect.group, EffectGroup::Sensor | EffectGroup::Processing | EffectGroup::Output)
+}
+
+/// Whether a row would say more than the name.
+fn has_figures(effect: &PlannedEffect, frame_s: f64) -> bool {
+    let has_errors = effect.if_dropped.as_ref().is_some_and(|dropped| !dropped.errors.is_empty());
+    let takes = effect.cpu_s.is_some_and(|s| s > LISTED_SHARE * frame_s);
+    effect.status.is_modelled() && (takes || effect.memory_bytes.is_some() || has_errors)
+}
+
+fn row(effect: &PlannedEffect, frame_s: f64, f: &mut Formatter<'_>) -> fmt::Result {
+    let unknown = || "–".to_owned();
+    let cpu = effect.cpu_s.map_or_else(unknown, seconds);
+    let share = effect.cpu_s.filter(|_| frame_s > 0.0);
+    let share = share.map_or_else(unknown, |s| format!("{:.0} %", 100.0 * s / frame_s));
+    let memory = effect.memory_bytes.map_or_else(unknown, |bytes| format!("{:.1}", bytes / 1e6));
+    let need = if matches!(effect.status, EffectStatus::WhereNeeded(_)) { "guarded" } else { "required" };
+    write!(f, "  {:<29} {need:<8} {cpu:>6} {share:>5} {memory:>6}  ", effect.name)?;
+    let parts = effect.if_dropped.as_ref().map_or_else(Vec::new, |dropped| self::dropped(effect.group, dropped));
+    writeln!(f, "{}", wrapped(&parts, DROPPED))
+}
+
+/// What dropping it would bring, part by part; what is not delivered changes nothing else.
+fn dropped(group: EffectGroup, dropped: &IfDropped) -> Vec<String> {
+    let saved = match (&dropped.set, dropped.cpu_saved_s) {
+        (None, _) => Some("no key".to_owned()),
+        (Some(_), Some(s)) => Some(format!("saves {} s", seconds(s))),
+        (Some(_), None) => None,
+    };
+    let is_unknown = dropped.errors.is_empty() && dropped.set.is_some() && group != EffectGroup::Output;
+    let errors = dropped.errors.iter().map(ToString::to_string);
+    saved.into_iter().chain(errors).chain(is_unknown.then(|| "error ?".to_owned())).collect()
+}
+
+/// Parts with commas between, in lines that begin at a column and end within the width.
+fn wrapped(parts: &[String], column: usize) -> String {
+    let (mut text, mut length) = (String::new(), column);
+    for (i, part) in parts.iter().enumerate() {
+        let comma = if i + 1 < parts.len() { "," } else { "" };
+        let columns = part.chars().count() + comma.len();
+        if length > column && length + 1 + columns > WIDTH {
+            text += "\n";
+            text += &" ".repeat(column);
+            length = column;
+        } else if length > column {
+            text += " ";
+            length += 1;
+        }
+        text += part;
+        text += comma;
+        length += columns;
+    }
+    text
+}
+
+/// Names after a word, within the width; nothing where there are none.
+fn list(word: &str, names: &[&str], f: &mut Formatter<'_>) -> fmt::Result {
+    let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
+    if names.is_empty() { Ok(()) } else { writeln!(f, "  {word:<14} {}", wrapped(&names, INDENT)) }
+}

@@ -1,0 +1,182 @@
+//! What a plan says of a lens: figures, distortion, field of view, and what is left out.
+
+use super::{figure, front, line, list};
+use crate::plan::{CameraPlan, Route};
+use etendue_optics::DepthOfField;
+use etendue_optics::effects::Effect;
+use etendue_optics::{Effects, Lens, PupilProjection, PupilStance};
+use etendue_projection::Sense;
+use std::fmt::{self, Formatter};
+
+pub(super) fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let lens = &camera.body.lens;
+    let focus = match lens.focus_distance_m() {
+        None => "everything sharp".to_owned(),
+        Some(m) if m.is_infinite() => "focused at infinity".to_owned(),
+        Some(m) => format!("focused at {m} m"),
+    };
+    let (kind, n, t) = (lens.kind(), figure(lens.f_number()), lens.t_number());
+    let length = match lens {
+        Lens::Telecentric(_) => String::new(),
+        _ => format!(" {} mm", figure(lens.focal_length_mm())),
+    };
+    let wavelength = lens.first_order_nm().map_or_else(String::new, |nm| format!(" at {nm} nm"));
+    line(f, "lens", format!("{kind},{length} f/{n}{wavelength} (T {t:.3}), {focus}, {}", field_of_view(camera)))?;
+    line(f, "distortion", distortion(lens))?;
+    if let Some(colour) = lens.lateral_colour() {
+        let size = |nm: f64| format!("{:.5} at {nm} nm", colour.at(nm));
+        let text = format!(
+            "image size {}, {}, {}: each path carries one wavelength through the lens",
+            size(450.0),
+            size(550.0),
+            size(650.0)
+        );
+        line(f, "lateral colour", text)?;
+    }
+    for (i, text) in camera.body.front.iter().flat_map(front::front).enumerate() {
+        line(f, if i == 0 { "in front" } else { "" }, text)?;
+    }
+    match &camera.settings.route {
+        Route::Lens => line(f, "route", "through the lens: vignetting, defocus and distortion by each sample's ray"),
+        Route::Pupil(p) => {
+            let views = match p {
+                PupilProjection::Rectilinear(_) => String::new(),
+                PupilProjection::Cube(cube) => {
+                    format!(" in {} of a cube's faces of {} px", p.views().count(), cube.face_px())
+                }
+            };
+            let size = format!(
+                "at the pupil: radiance of {} × {} px{views}, then the lens on the picture",
+                p.width(),
+                p.height()
+            );
+            line(f, "route", format!("{size}; {}", depth_of_field(camera)))
+        }
+    }?;
+    line(f, "left out", left_out(lens, &camera.body.effects))
+}
+
+fn left_out(lens: &Lens, effects: &Effects) -> String {
+    let missing = |words: &[&'static str]| {
+        let models = |effect| effects.status(effect).is_modelled();
+        let effect = |word: &str| match word {
+            "glare" => Some(Effect::Glare),
+            "diffraction" => Some(Effect::PointSpread),
+            "ghosts" => Some(Effect::Ghosts),
+            _ => None,
+        };
+        let modelled = |word: &&&str| effect(word).is_some_and(models);
+        list(&words.iter().filter(|word| !modelled(word)).copied().collect::<Vec<_>>())
+    };
+    match lens {
+        Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Calibrated(_) if lens.lateral_colour().is_some() => {
+            format!("{}: not modelled", missing(&["aberrations but lateral colour", "diffraction", "glare", "ghosts"]))
+        }
+        Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Telecentric(_) => {
+            let missing = missing(&["aberrations", "diffraction", "glare", "ghosts"]);
+            format!("{missing}: not modelled; dispersion: the lens has none")
+        }
+        Lens::Prescription(_) => {
+            format!("{}: not modelled", missing(&["diffraction", "glare", "ghosts", "absorption in glass"]))
+        }
+        Lens::RayTransfer(lens) => {
+            let missing = missing(&[
+                "diffraction",
+                "glare",
+                "ghosts",
+                "absorption and reflection by wavelength",
+                "errors of the fit",
+            ]);
+            let colours = if lens.disperses() { "" } else { "; dispersion: the functions know one wavelength" };
+            format!("{missing}: not modelled{colours}")
+        }
+        Lens::Calibrated(lens) => {
+            let pupil = match (lens.parameters().relative_illumination.is_some(), lens.pupil()) {
+                (true, _) => "illumination as measured",
+                (false, PupilStance::Flat) => "illumination of a flat pupil, cos θ dΩ/dA",
+                (false, PupilStance::Turning) => "illumination of a pupil turned to the light, dΩ/dA",
+            };
+            let missing = missing(&["aberrations", "dispersion", "diffraction", "glare", "ghosts"]);
+            format!("{missing}: not modelled; {pupil}")
+        }
+    }
+}
+
+fn field_of_view(camera: &CameraPlan) -> String {
+    if let Lens::Telecentric(lens) = &camera.body.lens {
+        return format!("{} m wide", figure(lens.parameters().metres_per_mm * camera.body.raster.size_mm().x));
+    }
+    match field_of_view_rad(camera) {
+        Some(angle) => format!("{:.2}° wide", angle.to_degrees()),
+        None => "wider than the lens sees".to_owned(),
+    }
+}
+
+/// The angle across the picture in its principal row, rad; `None` where the lens does not see all of it.
+pub(in crate::report) fn field_of_view_rad(camera: &CameraPlan) -> Option<f64> {
+    let size = camera.body.raster.size_mm();
+    let middle = camera.body.raster.principal_px() * camera.body.raster.pitch_mm();
+    let left = glam::DVec2::new(-middle.x, 0.0);
+    let right = glam::DVec2::new(size.x - middle.x, 0.0);
+    let lens = &camera.body.lens;
+    // Beyond a half turn the angle between two directions is not the one across the picture.
+    match lens {
+        Lens::Calibrated(_) => lens
+            .angle_between_rad(left, glam::DVec2::ZERO)
+            .and_then(|half| Some(half + lens.angle_between_rad(glam::DVec2::ZERO, right)?)),
+        _ => lens.angle_between_rad(left, right),
+    }
+}
+
+fn distortion(lens: &Lens) -> String {
+    match (lens.distortion(), lens) {
+        (None, Lens::Prescription(_)) => "that of its surfaces".to_owned(),
+        (None, Lens::RayTransfer(_)) => "that of its functions".to_owned(),
+        (None, Lens::Calibrated(_)) => {
+            "that of its projection; outside of it pixels are dark and without a ray".to_owned()
+        }
+        (None, _) => "none".to_owned(),
+        (Some(d), _) => {
+            let [k1, k2] = d.coefficients();
+            let sense = match d.sense() {
+                Sense::IdealToObserved => "ideal to observed",
+                Sense::ObservedToIdeal => "observed to ideal",
+            };
+            format!("radial, {sense}, k1 {k1}, k2 {k2}, radius in units of {:.4} mm", d.unit_mm())
+        }
+    }
+}
+
+/// What becomes of defocus at the pupil.
+pub(super) fn depth_of_field(camera: &CameraPlan) -> String {
+    match &camera.depth_of_field {
+        DepthOfField::None => format!("defocus is left out ({})", blur(camera)),
+        DepthOfField::Physical => {
+            let margin = camera.body.blur_margin_px(&camera.depth_of_field);
+            format!(
+                "defocus by the pupil's outline, spread in the order of depth ({}; {margin} px around the picture); what lies \
+                 behind edges is guessed from beside them",
+                blur(camera)
+            )
+        }
+        DepthOfField::Fast(blend) => {
+            let p = blend.parameters();
+            format!(
+                "a look of defocus: sharp from {} to {} m, blended with a copy blurred by {} px, wholly before {} m and beyond \
+                 {} m (the lens's own blur: {})",
+                p.sharp_near_m,
+                p.sharp_far_m,
+                p.blur_px,
+                p.blurred_near_m,
+                p.blurred_far_m,
+                blur(camera)
+            )
+        }
+    }
+}
+
+/// The blur of the lens.
+pub(super) fn blur(camera: &CameraPlan) -> String {
+    let pixels = |depth_m: f64| camera.body.lens.circle_of_confusion_mm(depth_m) / camera.body.raster.pitch_mm().x;
+    format!("{:.2} px across at 1 m, {:.2} px at infinity", pixels(1.0), pixels(f64::INFINITY))
+}

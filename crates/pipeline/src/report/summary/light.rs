@@ -1,0 +1,94 @@
+//! The light of a camera: whose it is, why one that looks the same way has its own, and by what its wavelengths are drawn.
+
+use super::list;
+use super::words::ratio;
+use crate::compile::shared_light::why_apart;
+use crate::plan::Settings;
+use crate::plan::pixel_density::UNIFORM_SHARE_WITH_BANDS;
+use crate::plan::{CameraPlan, Plan};
+use crate::plan::{SpectralGain, WavelengthSampling};
+use crate::sizes::spectrum_spread::SpectrumSpread;
+use etendue_core::Bands;
+
+/// The camera of the plan whose film serves this one, where that is another.
+pub(super) fn server<'a>(plan: &'a Plan, camera: &CameraPlan) -> Option<&'a CameraPlan> {
+    plan.cameras.iter().find(|other| other.light == camera.light).filter(|other| other.index != camera.index)
+}
+
+/// What is said of a camera's light; `None` where it is its own and no other camera's is nearly the same.
+pub(super) fn light(plan: &Plan, camera: &CameraPlan) -> Option<String> {
+    if !camera.owns_light() {
+        let owner = &camera.light.camera;
+        return Some(match server(plan, camera) {
+            Some(_) => format!("that of camera {owner}, with its errors: light is equal and rendered once"),
+            None => format!("equal to that of camera {owner} of the job, whose random numbers it has"),
+        });
+    }
+    why_apart(plan, camera)
+        .map(|(other, unlike)| format!("its own: camera {other} looks the same way, but differs in {}", list(&unlike)))
+}
+
+/// The cameras that a film serves beside its own, as a part of a sentence.
+pub(super) fn served(plan: &Plan, camera: &CameraPlan) -> String {
+    let others: Vec<&str> = plan
+        .cameras
+        .iter()
+        .filter(|other| other.light == camera.light && other.index != camera.index)
+        .map(|other| other.name.as_str())
+        .collect();
+    match others.len() {
+        0 => String::new(),
+        1..=4 => format!(", for {} too", list(&others)),
+        n => format!(", for {n} more cameras too: {} to {}", others[0], others[n - 1]),
+    }
+}
+
+/// Returns by what the wavelengths of pixels that sum electrons are drawn, and what the light's spectrum saves there or would; `None` where no
+/// electrons are summed.
+pub(super) fn wavelengths(camera: &CameraPlan) -> Option<String> {
+    camera.summing_sensor()?;
+    let gain = camera.spectral_gain.as_ref();
+    Some(match (camera.settings.wavelength_sampling, gain) {
+        (WavelengthSampling::Uniform, _) => "evenly over the range, as asked".to_owned(),
+        (_, None) => "by the pixel's response".to_owned(),
+        (WavelengthSampling::ResponseAndSource, Some(gain)) => {
+            format!("by the pixel's response and the light's spectrum, which divides {}", saves(gain))
+        }
+        (WavelengthSampling::Response, Some(gain)) => {
+            let why = match (gain.pays(), camera.settings.bands) {
+                (false, _) if gain.is_felt() => "which may cost more than it saves",
+                (false, _) => "too little",
+                (true, Some(_)) => "but bands are kept, too",
+                (true, None) => "but it is left out as asked",
+            };
+            format!("by the pixel's response; the light's spectrum would divide {}, {why}", saves(gain))
+        }
+    })
+}
+
+/// What it does to the variance of pixels whose samples differ much.
+fn saves(gain: &SpectralGain) -> String {
+    let SpectralGain { mean, least, most } = gain;
+    format!("the variance of noisy pixels by {} ({} to {})", ratio(*mean), ratio(*least), ratio(*most))
+}
+
+/// Returns the noise that the choice of wavelengths alone leaves in a band of even light, as a part of a sentence.
+pub(super) fn band_noise(camera: &CameraPlan, bands: Bands) -> String {
+    let s = &camera.settings;
+    // Each pass is spread by itself.
+    if camera.pass_count() > 1 {
+        return String::new();
+    }
+    let of = if s.folded { SpectrumSpread::most_band_noise } else { SpectrumSpread::band_noise };
+    let noise = of(camera.spectrum_spread(), s.spp, s.replicates, s.wavelengths, band_share(s, bands));
+    let Some(noise) = noise else { return String::new() };
+    let most = if s.folded { "up to " } else { "" };
+    format!(", each with {most}{:.1} % of noise in even light by the choice of wavelengths", 100.0 * noise)
+}
+
+/// The least part of the density of wavelengths that falls in a band: where electrons are folded beside bands, half of the
+/// density is by the pixel's response, which may be nothing there.
+fn band_share(settings: &Settings, bands: Bands) -> f64 {
+    let even = bands.width_nm() / (settings.range_nm.1 - settings.range_nm.0);
+    if settings.folded { UNIFORM_SHARE_WITH_BANDS * even } else { even }
+}

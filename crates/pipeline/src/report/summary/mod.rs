@@ -1,0 +1,433 @@
+//! The plan in words: what is modelled, what is left out and why, what it will cost.
+
+mod effects_table;
+mod front;
+pub(super) mod lens;
+mod light;
+mod precipitation;
+mod processing;
+mod time;
+mod words;
+
+use crate::plan::remark::{Weight, grouped};
+use crate::plan::{AdaptiveSampling, CameraPlan, Passes, Plan, Products, RawFormat, Route, Settings, SkyFacts};
+use crate::render::{light_counts, training};
+use crate::report::FrameCost;
+use crate::report::cpu_time::Share;
+use crate::report::effects::lens::irradiance_effect_status;
+use crate::report::memory::TextureUse;
+use crate::report::{FilmBytes, RunMemory};
+use crate::report::{MeshSize, mesh_sizes};
+use crate::sizes::block::Blocks;
+use effects_table::effects_table;
+use etendue_core::{Bands, EffectStatus};
+use etendue_optics::effects::Effect;
+use etendue_sensor::dynamic_range::{DynamicRange, Switch};
+use etendue_sensor::emva1288::db;
+use etendue_tracer::accel::TreeQuality;
+use etendue_tracer::geometry::Shape;
+use etendue_tracer::integrator::Level;
+use std::fmt::{self, Display, Formatter};
+use words::{count, figure, line, list, seconds};
+
+/// Displays a plan for people.
+#[derive(Clone, Copy, Debug)]
+pub struct Summary<'a>(pub &'a Plan);
+
+impl Display for Summary<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let plan = self.0;
+        writeln!(f, "plan {}", &plan.hash_text()[..16])?;
+        world(plan, f)?;
+        for camera in &plan.cameras {
+            writeln!(f)?;
+            self::camera(plan, camera, f)?;
+        }
+        writeln!(f)?;
+        memory(plan, f)?;
+        writeln!(f, "\n{LEGEND}")?;
+        section(f, "warnings", &plan.warnings())?;
+        let notes = grouped(&plan.remarks).into_iter().filter(|remark| remark.weight == Weight::Note);
+        section(f, "remarks", &notes.map(|remark| remark.to_string()).collect::<Vec<_>>())
+    }
+}
+
+/// Writes the memory of the whole run.
+fn memory(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
+    let memory = RunMemory::planned(plan);
+    line(f, "memory", format!("{:.0} MB for the whole run: {}", memory.bytes() / 1e6, memory.parts()))
+}
+
+fn section(f: &mut Formatter<'_>, heading: &str, sentences: &[String]) -> fmt::Result {
+    if !sentences.is_empty() {
+        writeln!(f, "\n{heading}")?;
+    }
+    sentences.iter().try_for_each(|sentence| writeln!(f, "  {sentence}"))
+}
+
+/// What the tables leave open.
+const LEGEND: &str = "no key: nothing leaves it out. error ?: etendue tradeoff JOB --ablate renders with and without it.\n\
+                      Keys, reasons, and all that is skipped: etendue plan JOB --json";
+
+fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(f, "\nscene")?;
+    let stored: usize = plan.world.meshes().iter().map(|m| m.triangles().len()).sum();
+    let (mut seen, mut spheres) = (0, 0);
+    for instance in plan.world.instances() {
+        match instance.shape {
+            Shape::Mesh(id) => seen += plan.world.mesh(id).triangles().len(),
+            Shape::Sphere { .. } => spheres += 1,
+        }
+    }
+    let instances = plan.world.instances().len();
+    let triangles = format!("{} ({stored} stored)", count(seen, "triangle"));
+    let trees = match plan.world.tree_quality() {
+        TreeQuality::Fast => "; trees built fast: rays take longer",
+        TreeQuality::Default => "",
+        TreeQuality::Best => "; trees built with care",
+    };
+    let (instances, spheres) = (count(instances, "instance"), count(spheres, "sphere"));
+    line(f, "geometry", format!("{instances}, {triangles}, {spheres}{trees}"))?;
+    meshes(plan, f)?;
+    let textures = count(plan.material_table.textures().len(), "texture");
+    line(f, "materials", format!("{}, {textures}", plan.materials.len()))?;
+    if let Some(tiles) = TextureUse::of(&plan.material_table).tiles() {
+        line(f, "textures", tiles)?;
+    }
+    if let Some(sky) = &plan.sky {
+        line(f, "sky", self::sky(sky))?;
+    }
+    if let Some(precipitation) = &plan.precipitation {
+        line(f, "weather", precipitation::field(precipitation))?;
+    }
+    let left_out = if plan.media.is_empty() {
+        "air: it is clear; polarisation and fluorescence: not modelled"
+    } else {
+        "polarisation and fluorescence: not modelled"
+    };
+    match time::motion(plan) {
+        None if plan.precipitation.is_some() => {
+            line(f, "left out", format!("motion of objects: none moves; {left_out}"))
+        }
+        None => line(f, "left out", format!("motion: nothing moves; {left_out}")),
+        Some(motion) => {
+            line(f, "motion", motion)?;
+            line(f, "left out", left_out)
+        }
+    }
+}
+
+/// Meshes that are listed at most.
+const LISTED_MESHES: usize = 12;
+
+fn meshes(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
+    let sizes = mesh_sizes(plan);
+    for MeshSize { object, objects, triangles, size_m: [x, y, z] } in sizes.iter().take(LISTED_MESHES) {
+        let of = if *objects > 1 { format!(" ({objects} objects)") } else { String::new() };
+        let (x, y, z) = (figure(*x), figure(*y), figure(*z));
+        line(
+            f,
+            "mesh",
+            format!("{object}{of}: {x} × {y} × {z} m (x forward, y left, z up), {}", count(*triangles, "triangle")),
+        )?;
+    }
+    match sizes.len().saturating_sub(LISTED_MESHES) {
+        0 => Ok(()),
+        more => line(f, "mesh", format!("and {more} more: etendue plan JOB --json")),
+    }
+}
+
+fn sky(sky: &SkyFacts) -> String {
+    let SkyFacts { turbidity, sun_elevation_deg, sun_azimuth_deg, sky_lx, sun_lx } = sky;
+    let lux = |lx: &f64| if *lx >= 100.0 { format!("{lx:.0} lx") } else { format!("{lx:.3} lx") };
+    let sun = match (*sun_lx > 0.0, *sun_elevation_deg <= 0.0) {
+        (true, _) => format!("and {} of the sun", lux(sun_lx)),
+        (false, true) => "and none of the sun, which is down".to_owned(),
+        (false, false) => "and none of the sun, which is left out".to_owned(),
+    };
+    format!(
+        "turbidity {turbidity}, sun at elevation {sun_elevation_deg:.2}° and azimuth {sun_azimuth_deg:.2}°; level ground \
+         gets {} of the sky {sun}",
+        lux(sky_lx)
+    )
+}
+
+fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(f, "camera {}", camera.name)?;
+    if let Some(text) = light::light(plan, camera) {
+        line(f, "light", text)?;
+    }
+    if let Some(frames) = time::frames(camera) {
+        line(f, "frames", frames)?;
+    }
+    if let Some(shutter) = time::shutter(camera) {
+        line(f, "shutter", shutter)?;
+    }
+    if let Some(text) = precipitation::near(plan, camera) {
+        line(f, "weather", text)?;
+    }
+    lights(plan, camera, f)?;
+    light_paths(camera, f)?;
+    lens::lens(camera, f)?;
+    effects(camera, f)?;
+    sensor(camera, f)?;
+    processing::processing(camera, f)?;
+    line(f, "delivers", products(&camera.products))?;
+    cost(plan, camera, f)?;
+    effects_table(plan, camera, f)
+}
+
+fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let counts = light_counts(plan, camera);
+    let counted = [
+        (counts.suns, "sun disc"),
+        (counts.lamps, "lamp"),
+        (counts.openings, "lamp opening"),
+        (counts.triangles, "glowing triangle"),
+        (counts.spheres, "glowing sphere"),
+        (usize::from(counts.image_environment), "surrounding picture"),
+        (usize::from(counts.sky), "clear sky"),
+        (usize::from(counts.uniform_environment), "uniform surrounding"),
+    ];
+    let list: Vec<String> = counted.iter().filter(|(n, _)| *n > 0).map(|(n, name)| count(*n, name)).collect();
+    let over_time = if plan.is_modulated() { "; strengths change over time" } else { "" };
+    let none = "none: the picture will be black".to_owned();
+    line(f, "lights", if list.is_empty() { none } else { list.join(", ") + over_time })
+}
+
+fn samples(camera: &CameraPlan) -> String {
+    let s = &camera.settings;
+    let replicates = count(s.replicates as usize, "replicate");
+    match s.adaptive {
+        None => match camera.passes.as_ref().map(Passes::list) {
+            None => format!("{} a pixel in {replicates}", count(s.spp as usize, "sample")),
+            Some(passes) => {
+                let spp: f64 = passes.iter().map(|pass| pass.number()).sum();
+                let list: Vec<String> = passes.iter().map(|pass| pass.number().to_string()).collect();
+                let each = if passes.len() == 1 { "pass" } else { "passes" };
+                format!("{spp} samples a pixel in {} {each} ({}), each in {replicates}", passes.len(), list.join(", "))
+            }
+        },
+        Some(AdaptiveSampling { threshold, min_spp }) => {
+            let by_sensor = s.route == Route::Lens && camera.body.sensor.is_some();
+            let of = if by_sensor { "the sensor's noise" } else { "its mean" };
+            format!("{min_spp} to {} samples a pixel in {replicates}, until its error is {threshold} of {of}", s.spp)
+        }
+    }
+}
+
+fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let s = &camera.settings;
+    let samples = samples(camera);
+    let alone =
+        if s.wavelengths == 1 && camera.body.disperses() { ", as the lens treats each differently" } else { "" };
+    let carried = count(s.wavelengths as usize, "wavelength");
+    line(f, "sampling", format!("{samples}, seed {}, {carried} a path{alone}", s.seed))?;
+    if let Some(text) = light::wavelengths(camera) {
+        line(f, "wavelengths", text)?;
+    }
+    line(f, "paths", level(s))?;
+    if s.blocks != Blocks::SINGLE {
+        line(f, "shared", format!("tails of the paths of {} pixels, whose errors are alike", s.blocks.len_px()))?;
+    }
+    if !s.caustics {
+        line(f, "left out", "caustics of suns and lamps (light thrown by smooth surfaces on matt ones), as asked")?;
+    }
+    if s.guiding {
+        let paths = count(training::paths_of(camera) as usize, "path");
+        line(f, "guided", format!("directions at matt surfaces, by what {paths} find before the picture"))?;
+    }
+    if s.branches > 1 {
+        line(
+            f,
+            "branched",
+            format!("{0} lights are drawn and {0} paths go on at each sample's first surface", s.branches),
+        )?;
+    }
+    if s.regularize {
+        line(f, "widened", "lobes of metals, coats, glass and paint behind wider ones (a bias), as asked")?;
+    }
+    let cube = |bands: Bands| {
+        let noise = light::band_noise(camera, bands);
+        format!("{} band means of {} nm are kept{noise}", bands.count(), bands.width_nm())
+    };
+    let kept = match (s.bands, s.folded) {
+        (Some(bands), false) => cube(bands),
+        (Some(bands), true) => format!("{}; electrons are summed beside them", cube(bands)),
+        (None, true) => "none is kept: pixels sum electrons directly".to_owned(),
+        (None, false) => "nothing is kept".to_owned(),
+    };
+    line(f, "spectrum", format!("{} to {} nm; {kept}", s.range_nm.0, s.range_nm.1))
+}
+
+fn level(settings: &Settings) -> String {
+    match settings.level {
+        Level::Flat => {
+            "none: local shading of lamps, suns and sky (integrator flat); shadows, reflections and light from \
+                        surface to surface are missing"
+                .to_owned()
+        }
+        Level::Direct => {
+            "none: direct light with its shadows (integrator direct); reflections and light from surface to \
+                          surface are missing"
+                .to_owned()
+        }
+        Level::Path => format!("at most {} bounces (light scattered more often is missing)", settings.max_bounces),
+    }
+}
+
+/// The irradiance effects, each with its need.
+fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let effects = &camera.body.effects;
+    let [columns, rows] = effects.margin_px();
+    let about = match (effects.is_idle(), columns + rows) {
+        (true, _) => "none on the irradiance".to_owned(),
+        (false, 0) => "on the irradiance; nothing comes from beyond the picture".to_owned(),
+        (false, _) => {
+            format!(
+                "on the irradiance, with {columns} columns and {rows} rows beyond each edge of the picture rendered"
+            )
+        }
+    };
+    line(f, "effects", about)?;
+    for effect in Effect::ALL {
+        let status = irradiance_effect_status(camera, effect);
+        line(f, "", format!("{}: {status}: {}", effect.name(), status.reason()))?;
+    }
+    Ok(())
+}
+
+fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let raster = &camera.body.raster;
+    let size = format!("{} × {} px of {} µm", raster.width(), raster.height(), 1000.0 * raster.pitch_mm().x);
+    let size = size + &scale(camera);
+    let Some(sensor) = &camera.body.sensor else {
+        return line(f, "sensor", format!("{size}; no electronics are described, so no electrons are made"));
+    };
+    let p = sensor.parameters();
+    line(
+        f,
+        "sensor",
+        format!(
+            "{size}, {} s, {} bits, {} e⁻ full well",
+            p.exposure.exposure_s, p.read_out.bits, p.charge.full_well.capacity_e
+        ),
+    )?;
+    let (silent, stated): (Vec<_>, Vec<_>) =
+        sensor.effects().into_iter().partition(|(_, status)| *status == EffectStatus::NotDescribed);
+    for (name, status) in stated {
+        line(f, "", format!("{name}: {status}: {}", status.reason()))?;
+    }
+    let silent: Vec<_> = silent.into_iter().map(|(name, _)| name).collect();
+    line(f, "", format!("left out, as not described: {}", silent.join(", ")))?;
+    line(f, "", range(&sensor.dynamic_range()))
+}
+
+/// Returns the scale and the size of the image of the described sensor, if the pixels are larger than described.
+fn scale(camera: &CameraPlan) -> String {
+    let (raster, k) = (&camera.body.raster, camera.body.scale);
+    let (width, height) = (raster.width() as u64 * k, raster.height() as u64 * k);
+    if k == 1 { String::new() } else { format!(" (scale 1/{k} of {width} × {height} px)") }
+}
+
+/// What range of light a frame holds.
+fn range(range: &DynamicRange) -> String {
+    if range.most_e <= range.least_e {
+        return "dynamic range: none; the well or the converter ends below the noise".into();
+    }
+    let switch = |s: &Switch| {
+        format!("; at {:.4e} e⁻ the next capture: S/N {:.1} to {:.1} dB", s.at_e, db(s.before), db(s.after))
+    };
+    let switches: String = range.switches.iter().map(switch).collect();
+    format!("dynamic range: {:.1} dB, {:.4} to {:.4e} e⁻{switches}", range.db(), range.least_e, range.most_e)
+}
+
+fn raw_name(format: RawFormat) -> &'static str {
+    match format {
+        RawFormat::Png => "raw",
+        RawFormat::Tiff => "raw TIFF",
+        RawFormat::Dng => "raw DNG",
+    }
+}
+
+fn products(p: &Products) -> String {
+    let named = [
+        (p.radiance, "radiance"),
+        (p.irradiance, "irradiance"),
+        (p.ghosts, "ghosts"),
+        (p.variance, "variance"),
+        (p.electrons, "electrons"),
+        (p.raw, raw_name(p.raw_format)),
+        (p.signal_breakdown, "signal_breakdown"),
+        (p.picture, "picture"),
+        (p.ground_truth && !p.camera_space_position, "ground truth"),
+        (p.ground_truth && p.camera_space_position, "ground truth with positions in the camera's frame"),
+        (p.weather, "transmittance, airlight and cover"),
+        (p.depth_png_per_m.is_some(), "depth PNG"),
+        (p.rays, "ray table"),
+        (p.undistorted.is_some(), "the undistorted twin of these"),
+        (p.annotations.optical_flow.is_some(), "optical flow"),
+        (p.annotations.scene_flow, "scene flow"),
+        (p.annotations.disparity.is_some(), "disparity"),
+        (p.annotations.boxes, "boxes"),
+        (p.annotations.tracks, "tracks"),
+        (p.annotations.cryptomatte, "Cryptomatte"),
+        (p.video, "video"),
+        (p.calibration_files, "calibration files"),
+    ];
+    let list: Vec<&str> = named.iter().filter(|(wanted, _)| *wanted).map(|(_, name)| *name).collect();
+    if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }
+}
+
+/// What is listed beside the paths: what takes longer than this, s, or more than this share of the whole.
+const LISTED_CPU_S: f64 = 0.5;
+const LISTED_SHARE: f64 = 0.05;
+/// A whole that is too short for shares, s.
+const SHORT_CPU_S: f64 = 1.0;
+
+fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let cost = FrameCost::of(plan, camera);
+    if let Some(server) = light::server(plan, camera) {
+        line(f, "cost", format!("no paths of its own: those of camera {}", server.name))?;
+        return cost_beside(&cost.parts, cost.film_cpu_s(), f);
+    }
+    let upwards = if cost.is_lower_bound { " and more" } else { "" };
+    let served = light::served(plan, camera);
+    line(
+        f,
+        "cost",
+        format!(
+            "{:.1} million paths{upwards}, about {:.0} CPU seconds at the street's rate{served}; film {}",
+            cost.paths / 1e6,
+            cost.paths_cpu_s,
+            film(cost.film)
+        ),
+    )?;
+    cost_beside(&cost.parts, cost.cpu_s(), f)
+}
+
+/// Where a film is.
+fn film(bytes: FilmBytes) -> String {
+    let memory = format!("{:.1} MB", bytes.memory / 1e6);
+    if bytes.disk == 0.0 {
+        return memory;
+    }
+    let read =
+        bytes.all_bands_for.map_or_else(String::new, |what| format!(", read into memory all at once for {what}"));
+    format!("{memory} in memory, its bands {:.1} MB on the disk{read}", bytes.disk / 1e6)
+}
+
+/// What takes time beside the paths, and the whole; nothing where it is little.
+fn cost_beside(shares: &[Share], whole_s: f64, f: &mut Formatter<'_>) -> fmt::Result {
+    let least_s = LISTED_CPU_S.min(LISTED_SHARE * whole_s);
+    let listed = |share: &&Share| whole_s > SHORT_CPU_S && share.cpu_s > least_s;
+    let words = |share: &Share| {
+        let why = if share.holds_for.is_empty() { String::new() } else { format!(" ({})", share.holds_for) };
+        format!("{} {}{why}", share.name, seconds(share.cpu_s))
+    };
+    let list: Vec<String> = shares.iter().filter(|share| share.cpu_s > 0.0).filter(listed).map(words).collect();
+    if list.is_empty() {
+        return Ok(());
+    }
+    line(f, "", format!("on the film: {}; about {} CPU seconds in all", list.join(", "), seconds(whole_s)))
+}

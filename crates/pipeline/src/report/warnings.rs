@@ -1,0 +1,54 @@
+//! What of a plan a rendering repeats: why the picture may not be what was meant.
+
+use crate::plan::remark::{Weight, grouped};
+use crate::plan::{CameraPlan, Plan};
+use crate::render::{light_counts, surrounding_object};
+use crate::report::mesh_sizes;
+use crate::report::summary::lens::field_of_view_rad;
+use etendue_optics::Lens;
+
+impl Plan {
+    /// Warnings that concern the picture, each a sentence without a full stop: those of the remarks, of each camera that nothing gives light, of extreme
+    /// fields of view, of each camera inside an object, and of road users of implausible size.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        let groups = grouped(&self.remarks).into_iter().filter(|group| group.weight == Weight::Warning);
+        let said = groups.map(|group| group.to_string());
+        let extreme = self.cameras.iter().filter_map(extreme_field);
+        let inside = self.cameras.iter().filter_map(|camera| self.inside(camera));
+        said.chain(self.dark_cameras()).chain(extreme).chain(inside).chain(mesh_sizes::warnings(self)).collect()
+    }
+
+    fn inside(&self, camera: &CameraPlan) -> Option<String> {
+        let object = surrounding_object(self, camera)?;
+        Some(format!(
+            "camera {}: it stands inside the object {object} and sees only the inside of its surface",
+            camera.name
+        ))
+    }
+
+    fn dark_cameras(&self) -> Option<String> {
+        let dark = self.cameras.iter().filter(|camera| light_counts(self, camera).is_dark());
+        let names: Vec<&str> = dark.map(|camera| camera.name.as_str()).collect();
+        let told = format!("camera {}: nothing gives light, so that the picture will be black", names.join(", "));
+        (!names.is_empty()).then_some(told)
+    }
+}
+
+/// Fields of view of perspective lenses that are hardly meant, degrees: below the first or above the second.
+const PLAUSIBLE_FIELD_DEG: [f64; 2] = [0.2, 175.0];
+
+/// Warns of a perspective field of view that comes from a focal length or pitch in another unit.
+fn extreme_field(camera: &CameraPlan) -> Option<String> {
+    if !matches!(camera.body.lens, Lens::Pinhole(_) | Lens::Thin(_)) {
+        return None;
+    }
+    let angle_deg = field_of_view_rad(camera)?.to_degrees();
+    let [least, most] = PLAUSIBLE_FIELD_DEG;
+    (angle_deg < least || angle_deg > most).then(|| {
+        let name = &camera.name;
+        format!(
+            "camera {name}: a field of view of {angle_deg:.4}°: check the focal length (mm) and the pixel pitch (µm)"
+        )
+    })
+}
