@@ -1,6 +1,5 @@
 //! What is the same for all samples: cameras, classes, formats; and the file that says so.
 
-use crate::format::topic_name;
 use crate::picture::no_picture;
 use crate::request::DatasetRequest;
 use etendue::{Error, Job, pinhole_view};
@@ -195,6 +194,12 @@ fn unfit_name(name: &str, names: &[&str], formats: &[SetFormat]) -> Option<(SetF
     let alike = |other: &&&str| **other != name && topic_name(other) == topic_name(name);
     let other = names.iter().find(alike).filter(|_| formats.contains(&SetFormat::Mcap))?;
     Some((SetFormat::Mcap, format!("its topics have the names of those of {other}; rename it")))
+}
+
+/// The name of a camera in topics: ROS 2 has letters, digits and underscores there, and no digit in front.
+pub(crate) fn topic_name(camera: &str) -> String {
+    let name = camera.replace('-', "_");
+    if name.starts_with(|c: char| c.is_ascii_digit()) { format!("camera_{name}") } else { name }
 }
 
 #[cfg(test)]

@@ -33,6 +33,7 @@ pub mod calibration;
 pub mod compare;
 pub mod correspondence;
 pub mod emva_descriptor;
+mod encoding;
 pub mod error;
 pub mod escape;
 pub mod exif;

@@ -1,6 +1,6 @@
 //! What the chunks of a PNG say of how its numbers are encoded (PNG specification, third edition, 4.3 and 11.3.2).
 
-use crate::photograph::{Encoding, Stated};
+use crate::encoding::{Encoding, Stated};
 
 /// A power, in units of 1/100 000 of light^power.
 const UNIT: f64 = 100_000.0;

@@ -5,7 +5,7 @@ use etendue_io::load_assets;
 use etendue_io::source::read_text;
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::plan::CameraBody;
-use etendue_scene::{Overrides, asset, load_camera};
+use etendue_scene::{Overrides, load_camera, named_files};
 use std::path::Path;
 
 /// Reads, checks and compiles a camera file, with changes `key=value` of its keys.
@@ -15,6 +15,6 @@ use std::path::Path;
 pub fn open_camera(file: &Path, set: &[String]) -> Result<CameraBody, Error> {
     let overrides = Overrides::new(set);
     let camera = load_camera(file, &read_text, &overrides).map_err(|f| Error::inputs(f.list()))?;
-    let assets = load_assets(&asset::of_camera(&camera)).map_err(Error::inputs)?;
+    let assets = load_assets(&named_files::of_camera(&camera)).map_err(Error::inputs)?;
     compile_camera(&camera, &assets).map_err(Error::inputs)
 }

@@ -14,6 +14,7 @@
 mod calibration;
 mod fit;
 pub mod model;
+mod model_error;
 pub mod plane;
 mod polynomial;
 mod radial;

@@ -1,7 +1,7 @@
 //! Pictures of raws that were taken before, by a camera file's processing.
 
 use crate::raw_file::{Levels, Taken, taken};
-use crate::results::Files;
+use crate::result_files::Files;
 use crate::results::frames::encoded;
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;

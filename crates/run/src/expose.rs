@@ -1,6 +1,6 @@
 //! Another lens and sensor on stored radiance.
 
-use crate::results::Files;
+use crate::result_files::Files;
 use crate::results::frames::{Wanted, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;

@@ -12,22 +12,10 @@ use etendue_io::exr::{ExrFile, ExrImage, Layer, Samples, layers_image, read_exr_
 use etendue_io::failure::Error;
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::{CameraPlan, TimeDependence};
+use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::render::Shot;
 use etendue_pipeline::tile::{Shard, tiles};
 use std::path::Path;
-
-/// How the name of a film ends.
-pub(crate) const FILM: &str = ".film.exr";
-
-/// The name of a camera's film; with frame and capture where each has its own.
-pub(crate) fn film_name(camera: &CameraPlan, shot: Shot) -> String {
-    let Shot { frame, capture } = shot;
-    match camera.time {
-        TimeDependence::None => format!("{}{FILM}", camera.name),
-        TimeDependence::Lights | TimeDependence::Motion => format!("{}.{frame:04}.{capture}{FILM}", camera.name),
-    }
-}
 
 /// A film, to be written.
 pub(crate) fn image<'a>(film: &'a Film, facts: &Provenance) -> ExrImage<'a> {

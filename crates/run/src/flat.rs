@@ -1,6 +1,6 @@
 //! Even light on a camera's bare sensor.
 
-use crate::results::Files;
+use crate::result_files::Files;
 use crate::results::frames::{Wanted, encoded_raw, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;

@@ -30,7 +30,7 @@ use etendue_scene::record::Camera;
 use etendue_scene::record::laboratory::FlatLight as StatedLight;
 use etendue_scene::record::sensor::charge::NonUniformity;
 use etendue_scene::written::File;
-use etendue_scene::{Overrides, asset, load_camera, record};
+use etendue_scene::{Overrides, load_camera, named_files, record};
 use etendue_sensor::Sensor;
 use std::path::{Path, PathBuf};
 
@@ -125,7 +125,7 @@ fn declared(request: &LaboratoryRequest) -> Result<Camera, Error> {
 }
 
 fn compiled(camera: &Camera) -> Result<CameraBody, Error> {
-    let assets = load_assets(&asset::of_camera(camera)).map_err(Error::inputs)?;
+    let assets = load_assets(&named_files::of_camera(camera)).map_err(Error::inputs)?;
     compile_camera(camera, &assets).map_err(Error::inputs)
 }
 

@@ -5,7 +5,8 @@
 
 use crate::delivery::{check_finite, check_frames, shots_of};
 use crate::exposures::Exposures;
-use crate::film_file::{self, FilmOrigin, film_name};
+use crate::film_file::{self, FilmOrigin};
+use crate::film_names::film_name;
 use crate::job::{Job, JobRequest};
 use crate::render_options::MAX_FRAMES;
 use crate::results::Kept;

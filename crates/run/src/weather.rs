@@ -12,7 +12,7 @@ use etendue_pipeline::compile_weather;
 use etendue_pipeline::plan::Weather;
 use etendue_pipeline::stored::Stored;
 use etendue_pipeline::weather::Weathered;
-use etendue_scene::{asset, load_weather};
+use etendue_scene::{load_weather, named_files};
 use std::path::{Path, PathBuf};
 
 /// A stored radiance image and what is laid over it.
@@ -74,7 +74,7 @@ fn expose(weather: &Weather, stored: &mut StoredRadiance, request: &WeatherReque
 
 fn open(file: &Path) -> Result<Weather, Error> {
     let record = load_weather(file, &read_text).map_err(|f| Error::inputs(f.list()))?;
-    let assets = load_assets(&asset::of_weather(&record)).map_err(Error::inputs)?;
+    let assets = load_assets(&named_files::of_weather(&record)).map_err(Error::inputs)?;
     compile_weather(&record, &assets).map_err(Error::inputs)
 }
 

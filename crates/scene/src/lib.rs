@@ -19,6 +19,7 @@ mod fault;
 pub mod limits;
 mod line_index;
 mod load;
+mod numbered_files;
 mod overrides;
 mod place;
 pub mod preset;
@@ -29,6 +30,7 @@ mod suggest;
 pub mod written;
 
 pub use fault::{Fault, Faults, stated};
+pub use load::named_files;
 pub use load::{
     CameraSetup, Description, ReadText, Trigger, Unused, edit, load_camera, load_datasheet, load_laboratory,
     load_variations, load_weather, stated_render_keys,

@@ -8,6 +8,7 @@ pub mod geometry;
 pub mod guiding;
 pub mod integrator;
 pub mod lights;
+mod limit;
 pub mod materials;
 pub mod media;
 pub mod precipitation;

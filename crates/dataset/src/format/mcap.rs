@@ -16,7 +16,7 @@ use super::writer::{Writer, write};
 use crate::picture::Picture;
 use crate::record::SampleRecord;
 use crate::records::Records;
-use crate::set::Set;
+use crate::set::{Set, topic_name};
 use etendue::{Error, OutputFolder};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -49,7 +49,7 @@ impl Writer for Mcap {
         let at = (time_ns, record.camera.as_str());
         let matrix = record.camera_matrix_px.expect("checked for all cameras of the format");
         let size = (record.width_px, record.height_px);
-        let topic = |name: &str| format!("/{}/{name}", ros::topic_name(&record.camera));
+        let topic = |name: &str| format!("/{}/{name}", topic_name(&record.camera));
         let messages = [
             (
                 topic("image/compressed"),

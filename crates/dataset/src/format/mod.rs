@@ -17,7 +17,6 @@ mod yolo;
 use crate::set::Set;
 use etendue::Error;
 use etendue_scene::record::variations::SetFormat;
-pub(crate) use ros::topic_name;
 pub(crate) use writer::Writer;
 
 /// The writers of a set.

@@ -14,12 +14,6 @@ pub(super) const TF_MESSAGE: &str = "tf2_msgs/msg/TFMessage";
 
 const NS: u64 = 1_000_000_000;
 
-/// The name of a camera in topics: ROS 2 has letters, digits and underscores there, and no digit in front.
-pub(crate) fn topic_name(camera: &str) -> String {
-    let name = camera.replace('-', "_");
-    if name.starts_with(|c: char| c.is_ascii_digit()) { format!("camera_{name}") } else { name }
-}
-
 /// When, ns, and in which frame.
 type At<'a> = (u64, &'a str);
 

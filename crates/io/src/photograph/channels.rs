@@ -1,7 +1,7 @@
 //! A photograph in memory, and what its channels are where nothing is said of them.
 
-use super::encoding::{Encoding, Stated};
 use super::raw::RawFacts;
+use crate::encoding::{Encoding, Stated};
 
 /// All kinds of file that are read.
 pub(crate) const KINDS: &str = "PNG, JPEG, TIFF, uncompressed DNG, Radiance HDR, PFM or OpenEXR";

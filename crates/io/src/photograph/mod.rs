@@ -15,7 +15,6 @@
 //! files of cameras, TIFF of several pictures, of separate planes, or in CMYK, Lab or a palette (refused).
 
 mod channels;
-mod encoding;
 mod grid;
 mod pfm;
 mod raw;
@@ -30,9 +29,9 @@ use crate::source::read_bytes;
 use channels::{channel_names, guess, of_floats, separated};
 use std::path::Path;
 
+pub use crate::encoding::{Encoding, Stated};
 pub(crate) use channels::KINDS;
 pub use channels::{Channel, Photograph};
-pub use encoding::{Encoding, Stated};
 pub(crate) use pfm::is_pfm;
 pub use raw::{FilterTile, RawFacts, RawFrame};
 pub(crate) use tiff::is_tiff;

@@ -6,8 +6,8 @@
 //!
 //! Left out: light that the dirt scatters into the picture (a matter of glare), its thickness, its colour.
 
-use super::error::{FrontError, positive};
 use super::{Line, Placement, line};
+use crate::error::front::{FrontError, positive};
 use crate::lens::Lens;
 use crate::wavelength::PRINCIPAL_NM;
 use core::fmt;

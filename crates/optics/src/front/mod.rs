@@ -14,7 +14,6 @@
 mod curve;
 mod dirt;
 mod drops;
-mod error;
 mod front_ray;
 mod line;
 mod mirror;
@@ -30,10 +29,10 @@ use glam::{DVec2, DVec3};
 use line::{line, outgoing};
 use windscreen::Way;
 
+pub use crate::error::FrontError;
 pub use curve::Curve;
 pub use dirt::{Dirt, DirtParameters, Mask};
 pub use drops::{Cap, Course, Droplet, Drops, DropsParameters, Sliding, Wiper};
-pub use error::FrontError;
 pub use front_ray::FrontRay;
 pub(crate) use line::{Fate, Line};
 pub use mirror::{MeshMirror, Mirror, MirrorParameters, MirrorShape, Quadric, QuadricKind, Reflectance};

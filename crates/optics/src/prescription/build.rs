@@ -1,10 +1,10 @@
 //! From what a maker states to a prescription that is open, in focus and checked.
 
 use super::elements;
-use super::error::PrescriptionError;
 use super::indices::IndexTable;
 use super::paraxial::AxialOpening;
 use super::{Prescription, PrescriptionParameters, check, focus, paraxial};
+use crate::error::PrescriptionError;
 
 impl Prescription {
     /// A checked and focused lens.

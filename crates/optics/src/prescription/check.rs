@@ -2,10 +2,10 @@
 
 use super::Prescription;
 use super::coating::Coating;
-use super::error::PrescriptionError;
 use super::paraxial::{AxialOpening, OtherRims};
 use super::surface::{Shape, Surface};
 use super::trace::{LensRay, Loss, Lost, Rims, Way, walk};
+use crate::error::PrescriptionError;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;

@@ -1,9 +1,9 @@
 //! The surfaces of a prescription along its axis, and the media between them.
 
-use super::error::PrescriptionError;
 use super::indices::MAX_MEDIA;
 use super::surface::Surface;
 use super::trace::Element;
+use crate::error::PrescriptionError;
 use etendue_spectra::glass::Dispersion;
 
 /// The different media of a lens, air first, and for each surface its places in that list: before it, and behind it.

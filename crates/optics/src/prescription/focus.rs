@@ -5,11 +5,11 @@
 //! the pupil and changes the focal length (focus breathing), both of which the search takes into account.
 
 use super::elements::elements;
-use super::error::PrescriptionError;
 use super::indices::Media;
 use super::paraxial::{Matrix, Paraxial, entrance, matrix};
 use super::surface::Surface;
 use super::trace::Element;
+use crate::error::PrescriptionError;
 use etendue_spectra::glass::Dispersion;
 
 /// Millimetres in a metre.

@@ -14,7 +14,6 @@ mod check;
 pub mod clear_apertures;
 pub mod coating;
 mod elements;
-mod error;
 pub mod filter;
 mod focus;
 pub mod ghost;
@@ -30,7 +29,7 @@ use indices::{IndexTable, Media};
 use paraxial::{AxialOpening, Paraxial};
 use trace::{Element, Fullness, LensRay, Lost, Rims, Through, Way, walk};
 
-pub use error::PrescriptionError;
+pub use crate::error::PrescriptionError;
 pub use focus::Focus;
 pub use paraxial::OtherRims;
 pub use surface::Surface;

@@ -8,8 +8,8 @@ use core::f64::consts::PI;
 use etendue_core::maths::f64::{atan2, sin_cos};
 
 use super::ModelError;
-use super::error::finite;
 use super::profile::{Edge, Profile};
+use crate::model_error::finite;
 
 /// The division model.
 #[derive(Clone, Copy, Debug, PartialEq)]

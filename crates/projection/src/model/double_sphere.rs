@@ -10,8 +10,8 @@
 use etendue_core::maths::f64::{acos, atan2, sin_cos};
 
 use super::ModelError;
-use super::error::legal;
 use super::profile::{Edge, Profile};
+use crate::model_error::legal;
 
 /// The double sphere model.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,8 +5,8 @@
 use etendue_core::maths::f64::{atan2, sin_cos, tan};
 
 use super::ModelError;
-use super::error::legal;
 use super::profile::{Edge, Profile};
+use crate::model_error::legal;
 
 /// The FOV model.
 #[derive(Clone, Copy, Debug, PartialEq)]

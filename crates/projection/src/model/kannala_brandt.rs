@@ -6,8 +6,8 @@
 //! nothing. The asymmetrical terms of the paper are left out, as in all those programs.
 
 use super::ModelError;
-use super::error::finite_list;
 use super::profile::{Edge, Profile};
+use crate::model_error::finite_list;
 use crate::root::{first_sign_change, increasing};
 
 /// Coefficients of the longest polynomial.

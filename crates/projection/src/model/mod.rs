@@ -29,7 +29,6 @@
 
 mod division;
 mod double_sphere;
-mod error;
 mod extended_unified;
 mod f_theta;
 mod field_of_view;
@@ -47,11 +46,10 @@ mod unified;
 
 use glam::{DVec2, DVec3};
 
+pub use crate::model_error::ModelError;
 use crate::radial::RadialDistortion;
 pub use division::Division;
 pub use double_sphere::DoubleSphere;
-pub use error::ModelError;
-pub(crate) use error::finite_list;
 pub use extended_unified::ExtendedUnified;
 pub use f_theta::{FTheta, FThetaSense};
 pub use field_of_view::FieldOfView;

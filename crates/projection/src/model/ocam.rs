@@ -11,9 +11,9 @@
 use etendue_core::maths::f64::atan2;
 
 use super::ModelError;
-use super::error::{finite_list, legal};
 use super::profile::{Edge, Profile, Projection};
 use super::staged::Stretched;
+use crate::model_error::{finite_list, legal};
 use crate::plane::Affine;
 use crate::root::{derivative, first_sign_change, increasing, polynomial};
 

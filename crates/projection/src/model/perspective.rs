@@ -10,8 +10,8 @@ use etendue_core::maths::f64::atan;
 use glam::{DVec2, DVec3};
 
 use super::ModelError;
-use super::error::{finite_list, legal};
 use super::profile::{Edge, Projection, Sight};
+use crate::model_error::{finite_list, legal};
 use crate::plane::{Distortion, DistortionTerms, Tilt};
 
 /// A perspective camera with the distortion of OpenCV.

@@ -7,8 +7,8 @@
 use core::f64::consts::PI;
 
 use super::ModelError;
-use super::error::legal;
 use super::profile::{Edge, Profile};
+use crate::model_error::legal;
 use crate::root::{first_sign_change, increasing};
 
 /// A projection by a table.

@@ -9,9 +9,9 @@
 use etendue_core::maths::f64::{acos, atan2, sin_cos};
 
 use super::ModelError;
-use super::error::legal;
 use super::profile::{Edge, Profile, Projection};
 use super::staged::Distorted;
+use crate::model_error::legal;
 use crate::plane::{Distortion, DistortionTerms};
 
 /// The unified model.

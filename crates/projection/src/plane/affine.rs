@@ -5,7 +5,7 @@
 
 use glam::{DMat2, DVec2};
 
-use crate::model::ModelError;
+use crate::model_error::ModelError;
 
 /// The stretch c, d, e; 1, 0, 0 is none.
 #[derive(Clone, Copy, Debug, PartialEq)]

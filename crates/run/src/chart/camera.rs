@@ -7,7 +7,7 @@ use etendue_io::paths::relative_path;
 use etendue_io::source::read_text;
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::plan::CameraBody;
-use etendue_scene::{Overrides, asset, load_camera};
+use etendue_scene::{Overrides, load_camera, named_files};
 use std::path::{Path, PathBuf};
 
 /// Camera files that need no other.
@@ -56,7 +56,7 @@ impl ChartCamera {
             _ => read_text(file),
         };
         let camera = load_camera(&path, &read, &Overrides::new(changes)).map_err(|f| Error::inputs(f.list()))?;
-        let assets = load_assets(&asset::of_camera(&camera)).map_err(Error::inputs)?;
+        let assets = load_assets(&named_files::of_camera(&camera)).map_err(Error::inputs)?;
         Ok(Self { body: compile_camera(&camera, &assets).map_err(Error::inputs)?, source })
     }
 

@@ -3,7 +3,8 @@
 //! A file a film, named as a shard's and replaced as a whole after each pass, whose header says of which plan it is and which passes it
 //! holds. A run that is killed at any moment finds the last whole pass; at the end of a run there is no state.
 
-use crate::film_file::{self, FILM, FilmOrigin, film_name};
+use crate::film_file::{self, FilmOrigin};
+use crate::film_names::{FILM, STATE_FOLDER, film_name, holds_state};
 use crate::results::writer::write_exr;
 use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
@@ -12,11 +13,7 @@ use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, Passes};
 use etendue_pipeline::render::Shot;
 use etendue_pipeline::tile::Shard;
-use std::fs::DirEntry;
 use std::path::Path;
-
-/// The folder of the state, no name of a camera.
-const FOLDER: &str = ".progress";
 
 /// Facts of a film of a state.
 const PASSES: &str = "passes_done";
@@ -38,14 +35,7 @@ pub(crate) struct KeptFilm {
 
 /// The name, within an output folder, of the state of a film.
 pub(crate) fn name(camera: &CameraPlan, shot: Shot) -> String {
-    format!("{FOLDER}/{}", film_name(camera, shot))
-}
-
-/// Whether an output folder holds a state. A link in the place of its folder holds none.
-pub(crate) fn is_in(folder: &Path) -> bool {
-    let state = folder.join(FOLDER);
-    let is_film = |file: DirEntry| file.file_name().to_string_lossy().ends_with(FILM);
-    !state.is_symlink() && state.read_dir().into_iter().flatten().flatten().any(is_film)
+    format!("{STATE_FOLDER}/{}", film_name(camera, shot))
 }
 
 /// Removes the state in an output folder: the films, and their folder where nothing else is in it.
@@ -53,19 +43,19 @@ pub(crate) fn is_in(folder: &Path) -> bool {
 /// # Errors
 /// Where a link is in the place of the folder, or a film cannot be removed.
 pub(crate) fn remove(folder: &OutputFolder) -> Result<(), etendue_io::Error> {
-    let films = folder.files_in(FOLDER)?;
+    let films = folder.files_in(STATE_FOLDER)?;
     folder.remove(films.iter().map(String::as_str).filter(|name| name.ends_with(FILM)))
 }
 
 /// Refuses a folder that holds the state of another run, where the run may neither go on with it nor replace it, and a link in the place of the state.
 pub(crate) fn check(folder: &OutputFolder, existing: Existing) -> Result<(), Error> {
-    folder.files_in(FOLDER).map_err(Error::input)?;
-    if existing != Existing::Refuse || !is_in(folder.path()) {
+    folder.files_in(STATE_FOLDER).map_err(Error::input)?;
+    if existing != Existing::Refuse || !holds_state(folder.path()) {
         return Ok(());
     }
     Err(Error::input(format!(
         "{}: a run that was interrupted left its state here; go on with --resume, or begin anew with --overwrite",
-        folder.path().join(FOLDER).display()
+        folder.path().join(STATE_FOLDER).display()
     )))
 }
 

@@ -3,8 +3,8 @@
 use super::boxes::boxes_json;
 use super::camera::CameraResults;
 use super::cryptomatte::cryptomatte_image_of;
-use super::files::Files;
 use super::writer::{Encoder, ResultWriter};
+use crate::result_files::Files;
 use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, Identity};
 use etendue_io::Provenance;

@@ -1,8 +1,8 @@
 //! Frames that an interrupted run has written, so that the next one goes on after them.
 
-use super::files::Files;
 use super::metadata;
 use super::sequence::Sequence;
+use crate::result_files::Files;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::Error;
 use etendue_io::read_regular;

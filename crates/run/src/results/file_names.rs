@@ -1,6 +1,6 @@
 //! The names of all files of a run.
 
-use super::files::Files;
+use crate::result_files::Files;
 use crate::rig::asked_files;
 use etendue_pipeline::plan::{CameraPlan, Plan};
 use std::ops::Range;

@@ -1,8 +1,8 @@
 //! Photographs of a camera, frame after frame, as files.
 
-use super::files::Files;
 use super::metadata;
 use super::writer::{Encoder, ResultWriter};
+use crate::result_files::Files;
 use etendue_core::Plane;
 use etendue_core::observer::{Message, Observer};
 use etendue_core::quantity::{DigitalNumber, Display};

@@ -1,6 +1,6 @@
 //! What a run that fails, is cancelled or panics leaves in its folder: told to the caller on the way out.
 
-use crate::refine::state;
+use crate::film_names::holds_state;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::OutputFolder;
 use std::cell::Cell;
@@ -37,7 +37,7 @@ impl<'a> Kept<'a> {
             1 => Some("1 frame that is whole".to_owned()),
             n => Some(format!("{n} frames that are whole")),
         };
-        let light = state::is_in(&self.root).then(|| "the light of the last whole pass".to_owned());
+        let light = holds_state(&self.root).then(|| "the light of the last whole pass".to_owned());
         let kept: Vec<String> = frames.into_iter().chain(light).collect();
         let folder = self.root.display();
         match kept.is_empty() {

@@ -2,11 +2,11 @@
 
 use super::camera::CameraResults;
 use super::file_names::file_names;
-use super::files::Files;
 use super::frames::{Wanted, write_frames};
 use super::metadata;
 use super::sequence::Sequence;
 use super::writer::ResultWriter;
+use crate::result_files::Files;
 use crate::rig;
 use etendue_core::observer::Observer;
 use etendue_core::quantity::Radiance;

@@ -1,12 +1,12 @@
 //! The results of cameras as they are written, and at the end each camera's side-car.
 
 use super::camera::CameraResults;
-use super::files::Files;
 use super::levels;
 use super::metadata;
 use super::tracks::write_tracks;
 use super::video::write_video;
 use super::writer::ResultWriter;
+use crate::result_files::Files;
 use etendue_core::observer::Observer;
 use etendue_io::exr::{ExrImage, rays_image};
 use etendue_io::failure::Error;

@@ -1,7 +1,7 @@
 //! The boxes of a camera's frames once more in one file, object by object, made of their files when all are there.
 
-use super::files::Files;
 use super::writer::ResultWriter;
+use crate::result_files::Files;
 use etendue_io::failure::Error;
 use etendue_io::{OutputFolder, read_regular};
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};

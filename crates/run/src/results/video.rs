@@ -1,6 +1,6 @@
 //! The pictures of a camera's frames as one video, made of their files when all are there.
 
-use super::files::Files;
+use crate::result_files::Files;
 use etendue_io::OutputFolder;
 use etendue_io::failure::Error;
 use etendue_io::picture::read_picture;

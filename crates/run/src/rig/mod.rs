@@ -12,7 +12,7 @@ mod view;
 
 pub use view::{PinholeView, camera_mount, pinhole_view};
 
-use crate::results::files::Files;
+use crate::result_files::Files;
 use etendue_core::CameraPose;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::OutputFolder;

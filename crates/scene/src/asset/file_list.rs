@@ -30,7 +30,7 @@ impl<T: NamesFiles> NamesFiles for Option<T> {
 }
 
 impl FileList {
-    pub(super) fn into_requests(self) -> Vec<AssetRequest> {
+    pub(crate) fn into_requests(self) -> Vec<AssetRequest> {
         self.0
     }
 

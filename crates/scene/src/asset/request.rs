@@ -42,7 +42,7 @@ impl Covered {
     }
 
     /// What both cover.
-    pub(super) fn and(self, other: Self) -> Self {
+    pub(crate) fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::All, covered) | (covered, Self::All) => covered,
             (Self::Slots(a), Self::Slots(b)) => Self::Slots(a.intersection(&b).cloned().collect()),

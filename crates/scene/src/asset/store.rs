@@ -9,8 +9,8 @@ use super::{
     LensQuantity, LensTableAsset, MeshAsset, MeshFrameAsset, NumbersAsset, PhotometryAsset, PointSpreadAsset,
     PrescriptionAsset, RayTransferAsset, RetroTableAsset, SpectrumAsset, TexelStore, TrajectoryAsset,
 };
+use crate::numbered_files::is_numbered;
 use crate::place::Place;
-use crate::record::is_numbered;
 
 /// Everything that was read for a description.
 ///

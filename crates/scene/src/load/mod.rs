@@ -4,15 +4,17 @@ mod base;
 mod check;
 mod edit;
 mod files;
+pub mod named_files;
 mod names;
 mod read_text;
 mod usage;
 
 use std::path::{Path, PathBuf};
 
-use crate::asset::{AssetRequest, requests};
+use crate::asset::AssetRequest;
 use crate::document::Node;
 pub use edit::edit;
+use named_files::requests;
 pub use read_text::ReadText;
 pub use usage::Unused;
 

@@ -66,4 +66,3 @@ pub use shape::Shape;
 pub use texture::Texture;
 pub use transform::Transform;
 pub use vertex_animation::VertexAnimation;
-pub(crate) use vertex_animation::is_numbered;

@@ -2,9 +2,10 @@
 
 use etendue_core::{Cycle, Epoch, ExactTime};
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::fault::Faults;
+use crate::numbered_files::{numbered, parts};
 use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, path, record, time, whole};
 
@@ -92,33 +93,6 @@ impl VertexAnimation {
     }
 }
 
-/// Where the number stands in the name of numbered files: what is before it, its digits (0 for as many as it has), what is behind it.
-/// `None` unless there is one such place.
-fn parts(name: &str) -> Option<(&str, usize, &str)> {
-    let (before, rest) = name.split_once('%')?;
-    let (digits, behind) = rest.split_once('d')?;
-    let is_width = digits.is_empty() || (digits.len() == 2 && digits.starts_with('0') && !digits.ends_with('0'));
-    let width = digits.parse().unwrap_or(0);
-    (is_width && digits.bytes().all(|b| b.is_ascii_digit()) && !behind.contains('%')).then_some((before, width, behind))
-}
-
-/// The file of a number.
-fn numbered(files: &Path, number: u64) -> PathBuf {
-    let name = files.file_name().unwrap_or_default().to_string_lossy();
-    match parts(&name) {
-        Some((before, width, behind)) => files.with_file_name(format!("{before}{number:0width$}{behind}")),
-        None => files.to_owned(),
-    }
-}
-
-/// Whether a file is one of numbered files.
-pub(crate) fn is_numbered(files: &Path, file: &Path) -> bool {
-    let [name, own] = [files, file].map(|path| path.file_name().unwrap_or_default().to_string_lossy());
-    let Some((before, _, behind)) = parts(&name).filter(|_| files.parent() == file.parent()) else { return false };
-    let number = own.strip_prefix(before).and_then(|rest| rest.strip_suffix(behind));
-    number.and_then(|number| number.parse().ok()).is_some_and(|number| numbered(files, number) == file)
-}
-
 fn check(animation: &VertexAnimation, faults: &mut Faults) {
     let name = animation.files.value.file_name().unwrap_or_default().to_string_lossy();
     if parts(&name).is_none() {
@@ -154,15 +128,6 @@ mod tests {
     use super::*;
     use crate::place::Place;
 
-    #[test]
-    fn a_number_stands_once_in_a_name() {
-        assert_eq!(parts("walk_%03d.obj"), Some(("walk_", 3, ".obj")));
-        assert_eq!(parts("%d.obj"), Some(("", 0, ".obj")));
-        for name in ["walk.obj", "%x.obj", "%3d.obj", "%00d.obj", "%0d.obj", "%d-%d.obj", "%+3d.obj", "%012d.obj"] {
-            assert_eq!(parts(name), None, "{name}");
-        }
-    }
-
     /// A loop of 0.4 s that began at 0 s is in the same phase after any number of periods, and one that holds is long over.
     #[test]
     fn loops_keep_their_phase_at_unix_times() {
@@ -182,17 +147,5 @@ mod tests {
         // Sums and differences with whole seconds below 2^31 round to 2^-53 of a second each.
         assert!(near.len() == far.len() && near.iter().zip(&far).all(|(a, b)| (a - b).abs() < 1e-15), "{far:?}");
         assert_eq!(animation(FrameRepeat::Hold).frame_times_s(epoch)[0], -1.7e9);
-    }
-
-    #[test]
-    fn files_are_numbered_and_known_again() {
-        let files = Path::new("a/walk_%03d.obj");
-        assert_eq!(numbered(files, 7), Path::new("a/walk_007.obj"));
-        assert_eq!(numbered(files, 12_345), Path::new("a/walk_12345.obj"));
-        assert_eq!(numbered(Path::new("%d.obj"), 7), Path::new("7.obj"));
-        let is = |file: &str| is_numbered(files, Path::new(file));
-        assert!(is("a/walk_007.obj") && is("a/walk_12345.obj"));
-        assert!(!is("a/walk_7.obj") && !is("b/walk_007.obj") && !is("a/walk_00x.obj") && !is("a/walk_%03d.obj"));
-        assert!(!is_numbered(Path::new("a/walk.obj"), Path::new("a/walk.obj")));
     }
 }

@@ -5,9 +5,9 @@
 //! is an instance of the world and moves as such. What the choice among clusters of lights knows of a lamp holds for the whole
 //! interval; what the lamp by itself counts is that of the receiver's time.
 
-use super::lamp::{LampIrradiance, LampLight};
-use super::light_sample::{LightHit, LightSample};
-use super::opening::OpeningLight;
+use super::lamp::LampLight;
+use super::light_sample::{LampIrradiance, LightHit, LightSample};
+use super::opening_light::OpeningLight;
 use super::sample_context::LightSampleContext;
 use super::tree::LightBounds;
 use super::way::Way;

@@ -9,7 +9,7 @@
 //! surroundings no more often than that. Figures are in `docs/decisions/light-choice.md`.
 
 use super::LightSampleContext;
-use super::lamp::LampIrradiance;
+use super::light_sample::LampIrradiance;
 use super::sun::Sun;
 use super::tree::{LightBounds, LightTree, MATT_SHARE, Start, TreeQuery};
 use crate::ALL_EFFECTS;

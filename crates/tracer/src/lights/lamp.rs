@@ -15,6 +15,7 @@ use etendue_core::{Motion, Spectral, TimeInterval, Waveform, Wavelengths, maths}
 use etendue_spectra::Spectrum;
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 
+use super::light_sample::LampIrradiance;
 use super::opening::Opening;
 use super::profile::Profile;
 use super::tree::LightBounds;
@@ -58,15 +59,6 @@ pub enum LampError {
         /// At its brightest, W·m⁻²·sr⁻¹·nm⁻¹.
         radiance: f32,
     },
-}
-
-/// Irradiance of a lamp at a receiver, the mean over the wavelengths that lights are chosen by, W·m⁻²·nm⁻¹.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct LampIrradiance {
-    /// That of the receiver's surface, or of one facing the lamp where light counts from every side.
-    pub(super) plain: f32,
-    /// The same, raised by the receiver's gloss.
-    pub(super) raised: f32,
 }
 
 /// A lamp. Intensity and profile are shared between lamps of a kind.

@@ -3,7 +3,7 @@
 use super::carried::CarriedLamp;
 use super::lamp::LampLight;
 use super::moving::MovingLight;
-use super::opening::OpeningLight;
+use super::opening_light::OpeningLight;
 use super::sphere::SphereLight;
 use super::triangle::TriangleLight;
 

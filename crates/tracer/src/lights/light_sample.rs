@@ -31,6 +31,15 @@ impl<const N: usize> LightSample<N> {
     }
 }
 
+/// Irradiance of a lamp at a receiver, the mean over the wavelengths that lights are chosen by, W·m⁻²·nm⁻¹.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LampIrradiance {
+    /// That of the receiver's surface, or of one facing the lamp where light counts from every side.
+    pub(super) plain: f32,
+    /// The same, raised by the receiver's gloss.
+    pub(super) raised: f32,
+}
+
 /// Light from infinity that was met by chance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistantLight<const N: usize> {

@@ -7,7 +7,7 @@ use super::material::Material;
 use super::mix::Mix;
 use super::parameter::Parameter;
 use super::texture_check::TextureCheck;
-use crate::lights::BRIGHTEST;
+use crate::limit::BRIGHTEST;
 use crate::textures::ImageTexture;
 
 /// Checks material `index` of `materials`.

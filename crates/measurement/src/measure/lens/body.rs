@@ -11,7 +11,7 @@ use etendue_optics::Lens;
 use etendue_pipeline::compile_camera_with_remarks;
 use etendue_pipeline::plan::CameraBody;
 use etendue_scene::asset::{LensFields, PrescriptionAsset};
-use etendue_scene::{Overrides, asset, load_camera};
+use etendue_scene::{Overrides, load_camera, named_files};
 use glam::DVec3;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -55,7 +55,7 @@ fn compiled(request: &LensRequest, file: &Path, made: Option<String>) -> Result<
         _ => read_text(path),
     };
     let camera = load_camera(file, &read, &overrides).map_err(|f| Error::inputs(f.list()))?;
-    let assets = load_assets(&asset::of_camera(&camera)).map_err(Error::inputs)?;
+    let assets = load_assets(&named_files::of_camera(&camera)).map_err(Error::inputs)?;
     compile_camera_with_remarks(&camera, &assets).map_err(Error::inputs)
 }
 

@@ -2,7 +2,7 @@
 
 use super::sliding::Sliding;
 use super::wiper::Wiper;
-use crate::front::error::{FrontError, positive};
+use crate::error::front::{FrontError, positive};
 
 /// What changes drops over time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -32,7 +32,7 @@ pub use parameters::DropsParameters;
 pub use sliding::Sliding;
 pub use wiper::Wiper;
 
-use super::error::FrontError;
+use crate::error::FrontError;
 use cap::reach_factor;
 use glam::{DVec2, DVec3};
 use grid::Grid;

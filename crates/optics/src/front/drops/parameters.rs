@@ -1,8 +1,8 @@
 //! What drops on glass are made of.
 
 use super::course::Course;
+use crate::error::front::{FrontError, positive};
 use crate::front::curve::Curve;
-use crate::front::error::{FrontError, positive};
 use core::f64::consts::PI;
 use glam::DVec2;
 

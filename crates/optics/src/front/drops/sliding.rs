@@ -10,7 +10,7 @@
 //! radius a₁ that falls. Larger ones, which have joined, are faster. Left out: wind along the glass, trails, paths that wind.
 
 use super::droplet::Droplet;
-use crate::front::error::{FrontError, positive};
+use crate::error::front::{FrontError, positive};
 use glam::DVec2;
 
 /// How drops slide.

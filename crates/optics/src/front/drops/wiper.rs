@@ -4,7 +4,7 @@
 //! touches is gone. Left out: the wiper itself, which is not seen, the film that it leaves, and drops that it pushes on.
 
 use super::droplet::Droplet;
-use crate::front::error::{FrontError, positive};
+use crate::error::front::{FrontError, positive};
 use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::{atan2, sin_cos};
 use glam::DVec2;

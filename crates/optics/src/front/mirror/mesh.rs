@@ -6,9 +6,9 @@
 //! both sides and belongs to both, so nothing leaks between.
 
 use super::super::Line;
-use super::super::error::FrontError;
 use super::Touch;
 use super::tree::Tree;
+use crate::error::FrontError;
 use core::fmt;
 use glam::DVec3;
 

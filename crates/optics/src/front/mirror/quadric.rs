@@ -6,8 +6,8 @@
 //! −R/(e − 1) outside: a ray towards the one is reflected as if it came from the other.
 
 use super::super::Line;
-use super::super::error::{FrontError, positive};
 use super::Touch;
+use crate::error::front::{FrontError, positive};
 use core::f64::consts::PI;
 use etendue_core::maths::f64::tan;
 use glam::DVec3;

@@ -1,7 +1,7 @@
 //! How much light a mirror reflects.
 
 use super::super::Curve;
-use super::super::error::FrontError;
+use crate::error::FrontError;
 use etendue_spectra::metal::ComplexIndex;
 
 /// The share of light that a mirror reflects.

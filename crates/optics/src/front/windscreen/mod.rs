@@ -23,8 +23,8 @@ use parameters::check;
 pub use parameters::{Layer, Tint, WindscreenParameters};
 
 use super::drops::{Drops, DropsParameters};
-use super::error::FrontError;
 use super::{Fate, Line};
+use crate::error::FrontError;
 use crate::prescription::coating::Coating;
 use crate::wavelength::PRINCIPAL_NM;
 use face::Face;

@@ -1,8 +1,8 @@
 //! What a wind-screen is made of.
 
+use crate::error::front::{FrontError, positive};
 use crate::front::Placement;
 use crate::front::curve::Curve;
-use crate::front::error::{FrontError, positive};
 use crate::prescription::coating::Coating;
 
 /// A layer of a wind-screen.

@@ -120,7 +120,7 @@ impl Opening {
     }
 
     /// The axis across a flat opening.
-    pub(super) fn flat_axis(&self) -> Option<usize> {
+    pub(in crate::lights) fn flat_axis(&self) -> Option<usize> {
         (0..3).find(|axis| self.half_m[*axis] == 0.0)
     }
 
@@ -149,7 +149,7 @@ impl Opening {
     }
 
     /// Radius of the sphere about the lamp's place that holds it, m.
-    pub(super) fn reach_m(&self) -> f64 {
+    pub(in crate::lights) fn reach_m(&self) -> f64 {
         match self.body {
             OpeningBody::Ellipsoid => self.half_m.max_element(),
             OpeningBody::Box => self.half_m.length(),

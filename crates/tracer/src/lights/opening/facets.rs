@@ -19,7 +19,7 @@ const MOST: usize = SIDES as usize + 2;
 
 /// The facets of an opening in the render frame.
 #[derive(Clone, Debug)]
-pub(super) struct Facets {
+pub(in crate::lights) struct Facets {
     facets: Vec<Facet>,
     /// How many parallelograms there are, which come first.
     parallelograms: usize,
@@ -53,10 +53,10 @@ struct Polygon {
 }
 
 /// A point that was drawn, and how far the accelerator may see it elsewhere: off its plane, and before it along the ray.
-pub(super) struct Drawn {
-    pub(super) surface: SurfaceSample,
-    pub(super) error_m: f32,
-    pub(super) early_m: f32,
+pub(in crate::lights) struct Drawn {
+    pub(in crate::lights) surface: SurfaceSample,
+    pub(in crate::lights) error_m: f32,
+    pub(in crate::lights) early_m: f32,
 }
 
 /// What each facet counts for a receiver.
@@ -67,7 +67,12 @@ struct Weights {
 
 impl Facets {
     /// The facets of an opening's mesh; `None` where rounding leaves one no area.
-    pub(super) fn new(opening: &Opening, mesh: &Mesh, to_render: &DAffine3, material: MaterialId) -> Option<Self> {
+    pub(in crate::lights) fn new(
+        opening: &Opening,
+        mesh: &Mesh,
+        to_render: &DAffine3,
+        material: MaterialId,
+    ) -> Option<Self> {
         let parallelograms = opening.parallelograms();
         let of_two = |k: usize| {
             let light = TriangleLight::of_two(mesh, [2 * k, 2 * k + 1], to_render, material)?;
@@ -87,7 +92,7 @@ impl Facets {
     }
 
     /// How many triangles the mesh of these facets has.
-    pub(super) fn triangles(&self) -> usize {
+    pub(in crate::lights) fn triangles(&self) -> usize {
         2 * self.parallelograms + SIDES as usize * (self.facets.len() - self.parallelograms)
     }
 
@@ -105,7 +110,7 @@ impl Facets {
     }
 
     /// A point for a receiver; `None` where no facet faces it.
-    pub(super) fn sample(&self, from: Vec3, u: Vec2) -> Option<Drawn> {
+    pub(in crate::lights) fn sample(&self, from: Vec3, u: Vec2) -> Option<Drawn> {
         let weights = self.weights(from);
         let (chosen, within) = weights.fall(u.x)?;
         let facet = &self.facets[chosen];
@@ -115,7 +120,7 @@ impl Facets {
     }
 
     /// Density by which [`Facets::sample`] gives the direction to a point that was met, 1/sr.
-    pub(super) fn pdf(&self, met: &LightHit<'_>) -> f32 {
+    pub(in crate::lights) fn pdf(&self, met: &LightHit<'_>) -> f32 {
         let weights = self.weights(met.receiver.position);
         let facet = self.facet_of(met.point.primitive as usize);
         let share = weights.share(facet);

@@ -14,10 +14,9 @@
 mod body;
 mod facets;
 mod mesh;
-mod opening_light;
 
 #[cfg(test)]
 mod tests;
 
 pub use body::{Opening, OpeningBody, OpeningError};
-pub(super) use opening_light::OpeningLight;
+pub(super) use facets::{Drawn, Facets};

@@ -12,7 +12,7 @@ use super::falling::{draw, share};
 use super::light_tree::{LightTree, Slot, TreeQuery, mix};
 use super::node::{GlossyWeights, LANES, Node};
 use crate::lights::ReceiverGloss;
-use crate::lights::lamp::LampIrradiance;
+use crate::lights::light_sample::LampIrradiance;
 
 /// Nodes opened at most.
 const OPENED: usize = 16;

@@ -1,7 +1,7 @@
 //! The tree itself: nodes, where what hangs, and what a node's children count for a receiver.
 
 use super::node::{GlossyWeights, LANES, Lanes, Node};
-use crate::lights::lamp::LampIrradiance;
+use crate::lights::light_sample::LampIrradiance;
 use crate::lights::{LightSampleContext, ReceiverGloss};
 
 /// Where a light or a node hangs.

@@ -34,7 +34,7 @@ use falling::{draw, share};
 use light_tree::Slot;
 use node::LANES;
 
-use crate::lights::lamp::LampIrradiance;
+use crate::lights::light_sample::LampIrradiance;
 
 pub(super) use bounds::LightBounds;
 pub(super) use light_tree::{LightTree, MATT_SHARE, TreeQuery};

@@ -4,7 +4,7 @@ use super::cut::Cut;
 use super::falling::{draw, share};
 use super::light_tree::{LightTree, Slot, TreeQuery};
 use super::node::LANES;
-use crate::lights::lamp::LampIrradiance;
+use crate::lights::light_sample::LampIrradiance;
 
 /// What a receiver chooses from first.
 #[expect(

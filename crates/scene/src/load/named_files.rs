@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::file_list::{FileList, NamesFiles as _};
-use super::lens_table::LensQuantity;
-use super::request::{AssetKind, AssetRequest, Covered, Values};
-use crate::load::Unused;
+use super::usage::Unused;
+use crate::asset::file_list::{FileList, NamesFiles as _};
+use crate::asset::{AssetKind, AssetRequest, Covered, LensQuantity, Values};
 use crate::record::effects::ModulationSource;
 use crate::record::front::mirror::{Finish, MirrorShape};
 use crate::record::lens::calibrated::{IlluminationSource, View};

@@ -97,7 +97,7 @@ pub enum FrontError {
 }
 
 /// `value` where it is finite and above 0.
-pub(super) fn positive(name: &'static str, value: f64) -> Result<f64, FrontError> {
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, FrontError> {
     let right = value.is_finite() && value > 0.0;
     if right { Ok(value) } else { Err(FrontError::Number { name, value, range: "finite and above 0" }) }
 }

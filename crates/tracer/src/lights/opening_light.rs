@@ -3,17 +3,17 @@
 use etendue_core::{Spectral, TimeInterval, Wavelengths};
 use glam::{DAffine3, Vec2, Vec3};
 
-use super::body::Opening;
-use super::facets::{Drawn, Facets};
+use super::opening::{Drawn, Facets, Opening};
 use crate::geometry::{Mesh, SurfacePoint};
-use crate::lights::lamp::{LampIrradiance, LampLight};
+use crate::lights::lamp::LampLight;
+use crate::lights::light_sample::LampIrradiance;
 use crate::lights::sphere::SphereLight;
 use crate::lights::tree::LightBounds;
 use crate::lights::{LightHit, LightSample, LightSampleContext, ROUNDING};
 
 /// A lamp that shines from a surface.
 #[derive(Clone, Debug)]
-pub(in crate::lights) struct OpeningLight {
+pub(super) struct OpeningLight {
     lamp: LampLight,
     opening: Opening,
     surface: Surface,
@@ -31,7 +31,7 @@ enum Surface {
 
 impl OpeningLight {
     /// The light of a lamp whose opening is this `mesh`, placed by `to_render`; `None` where rounding leaves it no area.
-    pub(in crate::lights) fn of_mesh(
+    pub(super) fn of_mesh(
         lamp: LampLight,
         opening: Opening,
         (mesh, to_render): (&Mesh, &DAffine3),
@@ -42,7 +42,7 @@ impl OpeningLight {
     }
 
     /// The light of a lamp whose opening is a sphere or an ellipsoid.
-    pub(in crate::lights) fn of_sphere(lamp: LampLight, opening: Opening, sphere: SphereLight) -> Self {
+    pub(super) fn of_sphere(lamp: LampLight, opening: Opening, sphere: SphereLight) -> Self {
         Self::new(lamp, opening, Surface::Sphere(Box::new(sphere)))
     }
 
@@ -52,12 +52,12 @@ impl OpeningLight {
     }
 
     /// The same light where its points are moved and rounded anew, within `farthest_m` of the origin.
-    pub(in crate::lights) fn carried_within(self, farthest_m: f32) -> Self {
+    pub(super) fn carried_within(self, farthest_m: f32) -> Self {
         Self { room_m: ROUNDING * farthest_m, ..self }
     }
 
     /// How many primitives its surface has.
-    pub(in crate::lights) fn primitives(&self) -> usize {
+    pub(super) fn primitives(&self) -> usize {
         match &self.surface {
             Surface::Sphere(_) => 1,
             Surface::Facets(facets) => facets.triangles(),
@@ -65,13 +65,13 @@ impl OpeningLight {
     }
 
     /// For the choice among lights.
-    pub(in crate::lights) fn bounds(&self) -> LightBounds {
+    pub(super) fn bounds(&self) -> LightBounds {
         let lamp = self.lamp.bounds();
         LightBounds { low: lamp.low - self.reach_m, high: lamp.high + self.reach_m, radius: self.reach_m, ..lamp }
     }
 
     /// Mean irradiance at a receiver as if the lamp had no extent, but for receivers close by.
-    pub(in crate::lights) fn irradiance(&self, receiver: &LightSampleContext) -> LampIrradiance {
+    pub(super) fn irradiance(&self, receiver: &LightSampleContext) -> LampIrradiance {
         self.lamp.irradiance_of_extent(receiver, self.reach_m)
     }
 
@@ -87,7 +87,7 @@ impl OpeningLight {
     }
 
     /// What a ray of unit `direction` finds at a point of the opening.
-    pub(in crate::lights) fn met<const N: usize>(
+    pub(super) fn met<const N: usize>(
         &self,
         point: &SurfacePoint,
         direction: Vec3,
@@ -96,7 +96,7 @@ impl OpeningLight {
         self.leaves(point.geometric_normal, -direction).then(|| self.radiance(-direction, asked))
     }
 
-    pub(in crate::lights) fn sample<const N: usize>(
+    pub(super) fn sample<const N: usize>(
         &self,
         from: Vec3,
         u: Vec2,
@@ -119,7 +119,7 @@ impl OpeningLight {
         })
     }
 
-    pub(in crate::lights) fn pdf(&self, met: &LightHit<'_>) -> f32 {
+    pub(super) fn pdf(&self, met: &LightHit<'_>) -> f32 {
         match &self.surface {
             Surface::Sphere(sphere) => sphere.pdf(met),
             Surface::Facets(facets) => facets.pdf(met),

@@ -1,7 +1,11 @@
 //! Why a lens cannot be, or cannot serve a picture.
 
-use crate::front::FrontError;
-use crate::prescription::PrescriptionError;
+pub(crate) mod front;
+mod prescription;
+
+pub use front::FrontError;
+pub use prescription::PrescriptionError;
+
 use crate::ray_transfer::RayTransferError;
 use etendue_projection::{CalibrationError, DistortionError};
 
