@@ -8,7 +8,7 @@ use etendue_io::load_assets;
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, Stack};
 use etendue_pipeline::plan::CameraBody;
-use etendue_scene::{Overrides, asset, load_camera};
+use etendue_scene::{Overrides, load_camera, named_files};
 use etendue_sensor::{FrameAddress, Sensor, SensorState};
 use serde_json::Value;
 use std::path::Path;
@@ -252,7 +252,7 @@ impl Bench {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("oracles/figures/emva/{name}.toml"));
         let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
         let camera = load_camera(&file, &read, &Overrides::default()).expect("a camera");
-        let assets = load_assets(&asset::of_camera(&camera)).expect("its files");
+        let assets = load_assets(&named_files::of_camera(&camera)).expect("its files");
         let body = flat::bare(&compile_camera(&camera, &assets).expect("it compiles")).expect("electronics");
         let series = flat::photon_transfer(body.sensor.as_ref().expect("electronics"), 525.0, LEVELS as u32, 100);
         Self { series: series.expect("linear"), body }

@@ -2,6 +2,7 @@
 //! shared by two files stands in a third below them.
 
 mod components;
+mod folders;
 mod house;
 mod source;
 mod tokens;
@@ -10,7 +11,7 @@ use std::collections::BTreeMap;
 
 use house::{Arrows, House};
 
-/// The only circles: files (or folders), and why they may stand in one.
+/// The only circles: files, and why they may stand in one. Those of folders are circles of these files alone.
 const EXCEPTIONS: &[(&[&str], &str)] = &[
     (&["crates/scene/src/load/base.rs", "crates/scene/src/load/files.rs"], "a file names its base, which is a file"),
     (
@@ -57,6 +58,23 @@ fn no_files_import_each_other_in_a_circle() {
     assert!(faults.is_empty(), "files that import each other in a circle:{faults}");
 }
 
+#[test]
+fn no_folders_import_each_other_in_a_circle() {
+    let mut faults = String::new();
+    for (folder, files) in crates() {
+        let arrows = House::new(&folder, &files).arrows();
+        for (parent, arrows) in folders::arrows_by_folder(&arrows) {
+            for circle in components::circles(&arrows) {
+                let files: Vec<String> = circle.iter().map(|child| format!("{parent}{child}.rs")).collect();
+                if !is_allowed(&files) {
+                    faults.push_str(&format!("\n{parent} {}:{}", circle.join(" and "), ties(&circle, &arrows)));
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "folders that import each other in a circle:{faults}");
+}
+
 /// Arrows of a small crate, to see that the test sees.
 fn small(files: &[(&str, &str)]) -> Arrows {
     let files: Vec<(String, String)> = files.iter().map(|(p, t)| ((*p).to_owned(), (*t).to_owned())).collect();
@@ -80,4 +98,41 @@ fn a_module_that_only_hands_on_is_no_part_of_a_circle() {
     let arrows = small(&files);
     assert!(components::circles(&arrows).is_empty(), "{arrows:?}");
     assert!(arrows["tree/child.rs"].contains_key("tree/stem.rs"), "{arrows:?}");
+}
+
+/// The circles of a small crate's folders, each after the folder that it stands in.
+fn small_folder_circles(files: &[(&str, &str)]) -> Vec<(String, Vec<String>)> {
+    let folders = folders::arrows_by_folder(&small(files));
+    let circles = |(folder, arrows): (String, Arrows)| {
+        components::circles(&arrows).into_iter().map(move |circle| (folder.clone(), circle))
+    };
+    folders.into_iter().flat_map(circles).collect()
+}
+
+/// No two files import each other, but one file of each folder uses one of the other.
+#[test]
+fn folders_whose_files_use_each_other_are_a_circle() {
+    let files = [
+        ("lib.rs", "mod plan; mod render;"),
+        ("plan/mod.rs", "pub mod data; mod cost;"),
+        ("plan/data.rs", "pub struct Data;"),
+        ("plan/cost.rs", "use crate::render::Film;"),
+        ("render/mod.rs", "use crate::plan::data::Data; pub struct Film(Data);"),
+    ];
+    assert!(components::circles(&small(&files)).is_empty());
+    let names = ["plan", "render"].map(str::to_owned).to_vec();
+    assert_eq!(small_folder_circles(&files), [(String::new(), names)]);
+}
+
+#[test]
+fn folders_within_a_folder_and_a_file_beside_its_folder_are_seen() {
+    let files = [
+        ("lib.rs", "mod camera;"),
+        ("camera/mod.rs", "mod lens; mod front;"),
+        ("camera/lens.rs", "pub mod error; use super::front::Front;"),
+        ("camera/lens/error.rs", "pub struct LensError;"),
+        ("camera/front.rs", "use super::lens::error::LensError; pub struct Front;"),
+    ];
+    let names = ["front", "lens"].map(str::to_owned).to_vec();
+    assert_eq!(small_folder_circles(&files), [("camera/".to_owned(), names)]);
 }
