@@ -85,7 +85,8 @@ fn camera(plan: &Plan, keys: &str, at_pupil: bool) -> CameraPlan {
     let mut camera = plan.cameras[0].clone();
     let range_nm = (400.0, 700.0);
     if at_pupil {
-        let projection = PupilProjection::covering(&body.lens, &body.raster, [0, 0], range_nm).expect("a wide camera");
+        let projection =
+            PupilProjection::covering(&body.lens, &body.raster, [0, 0], range_nm.into()).expect("a wide camera");
         camera.settings.route = Route::Pupil(projection);
     }
     camera.body = body;

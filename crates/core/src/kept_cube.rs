@@ -52,7 +52,7 @@ impl<Q: Quantity> From<SpectralCube<Q>> for KeptCube<Q> {
 impl CubeOnDisk {
     /// A cube of `width` × `height` pixels that `reader` reads.
     #[must_use]
-    pub fn new(bands: Bands, (width, height): (usize, usize), reader: Arc<dyn BandReader>) -> Self {
+    pub fn new(bands: Bands, width: usize, height: usize, reader: Arc<dyn BandReader>) -> Self {
         Self { bands, width, height, reader }
     }
 
@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn a_cube_reads_alike_from_both_places() {
         let bands = Bands::new(400.0, 50.0, 2).expect("two bands");
-        let disk = KeptCube::<Radiance>::Disk(CubeOnDisk::new(bands, (3, 4), Arc::new(Numbers)));
+        let disk = KeptCube::<Radiance>::Disk(CubeOnDisk::new(bands, 3, 4, Arc::new(Numbers)));
         let memory = KeptCube::Memory(disk.clone().load().expect("read"));
         assert!(disk.in_memory().is_none() && memory.in_memory().is_some());
         for cube in [&disk, &memory] {

@@ -52,5 +52,5 @@ pub use shutter::{RowTiming, Shutter};
 pub use time_interval::TimeInterval;
 pub use track::Track;
 pub use waveform::Waveform;
-pub use wavelength::{Bands, Spectral, Wavelengths};
+pub use wavelength::{Bands, Spectral, WavelengthRange, Wavelengths};
 pub use wavelength_density::WavelengthDensity;

@@ -153,6 +153,35 @@ impl<const N: usize> MulAssign for Spectral<N> {
     }
 }
 
+/// An interval of wavelengths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WavelengthRange {
+    /// Shortest wavelength, nm.
+    pub low_nm: f64,
+    /// Longest wavelength, nm.
+    pub high_nm: f64,
+}
+
+impl WavelengthRange {
+    /// Returns the interval from `low_nm` to `high_nm`.
+    #[must_use]
+    pub const fn new(low_nm: f64, high_nm: f64) -> Self {
+        Self { low_nm, high_nm }
+    }
+
+    /// Returns its width, nm.
+    #[must_use]
+    pub fn width_nm(self) -> f64 {
+        self.high_nm - self.low_nm
+    }
+}
+
+impl From<(f64, f64)> for WavelengthRange {
+    fn from((low_nm, high_nm): (f64, f64)) -> Self {
+        Self { low_nm, high_nm }
+    }
+}
+
 /// Adjoining wavelength bands of equal width: the bins of a spectral image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bands {
@@ -195,6 +224,12 @@ impl Bands {
     #[must_use]
     pub fn high_nm(self) -> f64 {
         self.low_nm + self.width_nm * self.count as f64
+    }
+
+    /// Returns the interval from the lower edge of the first band to the upper edge of the last.
+    #[must_use]
+    pub fn range(self) -> WavelengthRange {
+        WavelengthRange::new(self.low_nm(), self.high_nm())
     }
 
     /// Width of a band, nm.

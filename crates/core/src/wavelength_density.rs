@@ -52,7 +52,7 @@ impl WavelengthDensity {
             sum += f64::from(*weight);
             let end = (sum / total * GRID).round() / GRID;
             if end > begin {
-                pieces.push(Piece::new((begin, end), (edge_nm(i), edge_nm(i + 1))));
+                pieces.push(Piece::new(begin, end, edge_nm(i), edge_nm(i + 1)));
                 begin = end;
             }
         }
@@ -93,7 +93,7 @@ impl WavelengthDensity {
 }
 
 impl Piece {
-    fn new((begin, end): (f64, f64), (low_nm, next_nm): (f32, f32)) -> Self {
+    fn new(begin: f64, end: f64, low_nm: f32, next_nm: f32) -> Self {
         let width_nm = f64::from(next_nm) - f64::from(low_nm);
         Self {
             begin: begin as f32,

@@ -93,18 +93,18 @@ impl Motion {
 
     fn bounds_of_points(&self, interval: TimeInterval, points: &[DVec3]) -> (DVec3, DVec3) {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for piece in self.pieces(interval) {
-            let parts = self.parts(piece);
-            let end_s = |i: u32| {
-                if i == parts { piece.1 } else { piece.0 + (piece.1 - piece.0) * f64::from(i) / f64::from(parts) }
+        for (start_s, end_s) in self.pieces(interval) {
+            let parts = self.parts(start_s, end_s);
+            let part_start_s = |i: u32| {
+                if i == parts { end_s } else { start_s + (end_s - start_s) * f64::from(i) / f64::from(parts) }
             };
-            let mut before = self.at(piece.0);
+            let mut before = self.at(start_s);
             for part in 0..parts {
-                let times_s = (end_s(part), end_s(part + 1));
-                let after = self.at(times_s.1);
+                let (from_s, to_s) = (part_start_s(part), part_start_s(part + 1));
+                let after = self.at(to_s);
                 for point in points {
                     let (a, b) = (before.transform_point3(*point), after.transform_point3(*point));
-                    let stray = DVec3::splat(self.stray(times_s, *point));
+                    let stray = DVec3::splat(self.stray(from_s, to_s, *point));
                     low = low.min(a.min(b) - stray);
                     high = high.max(a.max(b) + stray);
                 }
@@ -132,17 +132,17 @@ impl Motion {
         ends_s.windows(2).map(|pair| (pair[0], pair[1])).collect()
     }
 
-    fn parts(&self, piece: (f64, f64)) -> u32 {
-        let rate: f64 = self.links().iter().map(|link| link.turning_rate(piece)).sum();
-        if piece.0 == piece.1 { 1 } else { (rate * (piece.1 - piece.0) / TURN).ceil().max(PARTS.0).min(PARTS.1) as u32 }
+    fn parts(&self, start_s: f64, end_s: f64) -> u32 {
+        let rate: f64 = self.links().iter().map(|link| link.turning_rate(start_s, end_s)).sum();
+        if start_s == end_s { 1 } else { (rate * (end_s - start_s) / TURN).ceil().max(PARTS.0).min(PARTS.1) as u32 }
     }
 
     /// How far a point's path strays at most from the chord between its places at two times between which no key lies, with room
     /// for the rounding of places and of times.
-    fn stray(&self, (start_s, end_s): (f64, f64), point: DVec3) -> f64 {
+    fn stray(&self, start_s: f64, end_s: f64, point: DVec3) -> f64 {
         let own = Bend { distance: point.length(), ..Bend::default() };
         let links = self.links();
-        let bend = links.iter().rev().fold(own, |inner, link| link.bend((start_s, end_s), &inner));
+        let bend = links.iter().rev().fold(own, |inner, link| link.bend(start_s, end_s, &inner));
         let step_s = end_s - start_s;
         let timing = bend.speed * TIME_ROUNDING * (start_s.abs().max(end_s.abs()) + step_s);
         bend.acceleration * (step_s * step_s / 8.0) + bend.distance * ROUNDING * links.len() as f64 + timing

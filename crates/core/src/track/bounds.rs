@@ -141,8 +141,8 @@ impl Keyed {
         let mut room = DVec3::ZERO;
         let mut hold = |a: DVec3, b: DVec3| (low, high) = (low.min(a), high.max(b));
         let mut is_held = true;
-        for (span, parts) in self.during(interval) {
-            span.each_box(&points, parts, &mut hold);
+        for (span, (u0, u1)) in self.during(interval) {
+            span.each_box(&points, u0, u1, &mut hold);
             room = room.max(span.magnitude(most));
             is_held = false;
         }

@@ -81,23 +81,25 @@ impl Track {
 
     /// Bounds, from `start_s` to `end_s` between which no key lies, for a point whose motion in the moved frame has the bounds
     /// `inner`.
-    pub(crate) fn bend(&self, times_s: (f64, f64), inner: &Bend) -> Bend {
+    pub(crate) fn bend(&self, start_s: f64, end_s: f64, inner: &Bend) -> Bend {
         match &self.0 {
             Kind::Still(transform) => inner.moved(transform),
             Kind::Moving(keyed) => {
                 let inner = inner.moved(&keyed.first);
-                match keyed.part_of(times_s) {
-                    Some((span, parts, length_s)) => span.bend(parts, length_s, &inner),
-                    None => inner.moved(&keyed.pose(times_s.0).transform()),
+                match keyed.part_of(start_s, end_s) {
+                    Some((span, (u0, u1), length_s)) => span.bend(u0, u1, length_s, &inner),
+                    None => inner.moved(&keyed.pose(start_s).transform()),
                 }
             }
         }
     }
 
     /// A bound of the rate, rad/s, by which it turns from `start_s` to `end_s`, between which no key lies.
-    pub(crate) fn turning_rate(&self, times_s: (f64, f64)) -> f64 {
+    pub(crate) fn turning_rate(&self, start_s: f64, end_s: f64) -> f64 {
         let Kind::Moving(keyed) = &self.0 else { return 0.0 };
-        keyed.part_of(times_s).map_or(0.0, |(span, (u0, u1), length_s)| span.turn.most_rates(u0, u1).0 / length_s)
+        keyed
+            .part_of(start_s, end_s)
+            .map_or(0.0, |(span, (u0, u1), length_s)| span.turn.most_rates(u0, u1).0 / length_s)
     }
 }
 
@@ -109,7 +111,7 @@ impl Keyed {
     }
 
     /// The span between whose keys two times lie, the parts of it that have passed, and its length, s.
-    fn part_of(&self, (start_s, end_s): (f64, f64)) -> Option<(&Span, (f64, f64), f64)> {
+    fn part_of(&self, start_s: f64, end_s: f64) -> Option<(&Span, (f64, f64), f64)> {
         let span = self.span_at(start_s + 0.5 * (end_s - start_s))?;
         let length_s = self.times_s[span + 1] - self.times_s[span];
         Some((&self.spans[span], (self.part(span, start_s), self.part(span, end_s)), length_s))
@@ -134,7 +136,7 @@ impl Keyed {
 impl Span {
     /// Bounds from u0 to u1 of a span of `length_s` seconds. With R the rotation and S the scale, |d(R S)/du| ≤ |Ṙ| |S| + |Ṡ| and
     /// |d²(R S)/du²| ≤ |R̈| |S| + 2 |Ṙ| |Ṡ| + |S̈|.
-    fn bend(&self, (u0, u1): (f64, f64), length_s: f64, inner: &Bend) -> Bend {
+    fn bend(&self, u0: f64, u1: f64, length_s: f64, inner: &Bend) -> Bend {
         let most = |range: (DVec3, DVec3)| range.0.abs().max(range.1.abs());
         let (rate, second) = self.turn.most_rates(u0, u1);
         let scale = [

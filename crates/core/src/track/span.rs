@@ -45,7 +45,7 @@ impl Span {
     }
 
     /// Calls `hold` with boxes that hold where `points` come to, together with all between them, from u0 to u1.
-    pub(super) fn each_box(&self, points: &[DVec3], (u0, u1): (f64, f64), mut hold: impl FnMut(DVec3, DVec3)) {
+    pub(super) fn each_box(&self, points: &[DVec3], u0: f64, u1: f64, mut hold: impl FnMut(DVec3, DVec3)) {
         let moves_straight = self.position.is_straight() && self.scale.is_straight() && self.turn.is_constant();
         let parts = if moves_straight || u0 == u1 { 1 } else { PARTS };
         let end = |part: usize| u0 + (u1 - u0) * (part as f64 / parts as f64);

@@ -14,7 +14,7 @@ use super::spread_by::SpreadBy;
 use super::spread_width::SpreadWidth;
 use crate::ghosts::GhostSettings;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
-use etendue_core::{Bands, EffectStatus, Plane};
+use etendue_core::{Bands, EffectStatus, Plane, WavelengthRange};
 use etendue_projection::Raster;
 
 /// The widest margin that is chosen without being asked for, as a share of the picture's width and height.
@@ -120,8 +120,8 @@ impl Effects {
 
     /// By what samples are displaced that come through the lens to the film of a picture; `None` where the film spreads all light.
     #[must_use]
-    pub fn sample_spread(&self, picture: &Raster, range_nm: (f64, f64)) -> Option<SampleSpread> {
-        self.displacing()?.sample_spread(&Canvas::new(picture, self.margin_px), range_nm)
+    pub fn sample_spread(&self, picture: &Raster, range: WavelengthRange) -> Option<SampleSpread> {
+        self.displacing()?.sample_spread(&Canvas::new(picture, self.margin_px), range)
     }
 
     /// The function that samples through the lens are displaced by, where they are.
@@ -174,10 +174,10 @@ impl Effects {
     /// The effects made ready for a picture and a range of wavelengths (nm), with this part of the point-spread function: what does not depend
     /// on the band.
     #[must_use]
-    pub fn prepared(&self, picture: &Raster, range_nm: (f64, f64), part: FilmPart) -> Prepared {
+    pub fn prepared(&self, picture: &Raster, range: WavelengthRange, part: FilmPart) -> Prepared {
         let canvas = Canvas::new(picture, self.margin_px);
         let glare = self.needs_glare().map(|glare| Spread::new(&glare.kernel(&canvas), &canvas));
-        let psf = self.psf.as_ref().map(|psf| psf.ready(&canvas, range_nm, part));
+        let psf = self.psf.as_ref().map(|psf| psf.ready(&canvas, range, part));
         Prepared { canvas, psf, glare }
     }
 }
@@ -195,26 +195,26 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// The picture's irradiance in the band from `band_nm.0` to `band_nm.1`, of the film's; and its variance, of the film's.
+    /// The picture's irradiance in the band from `band.low_nm` to `band.high_nm`, of the film's; and its variance, of the film's.
     ///
     /// A pixel of the film that is not finite makes others so: none that holds a number has met it.
     #[must_use]
     pub fn apply(
         &self,
-        band_nm: (f64, f64),
+        band: WavelengthRange,
         film: &Plane<Irradiance>,
         variance: Option<&Plane<Variance>>,
     ) -> (Plane<Irradiance>, Option<Plane<Variance>>) {
         // One replicate knows no variance.
         let known = variance.filter(|plane| plane.samples().iter().all(|v| !v.is_nan())).map(field);
-        let (mean, spread) = self.spread(band_nm, field(film), known);
+        let (mean, spread) = self.spread(band, field(film), known);
         let variance = variance.map(|_| spread.map_or_else(|| self.unknown(), |v| self.cut(&v)));
         (self.cut(&mean), variance)
     }
 
-    fn spread(&self, band_nm: (f64, f64), mut light: Field, mut variance: Option<Field>) -> (Field, Option<Field>) {
+    fn spread(&self, band: WavelengthRange, mut light: Field, mut variance: Option<Field>) -> (Field, Option<Field>) {
         if let Some(psf) = &self.psf {
-            (light, variance) = psf.apply(band_nm, &light, variance.as_ref());
+            (light, variance) = psf.apply(band, &light, variance.as_ref());
         }
         if let Some(glare) = &self.glare {
             (light, variance) = glare.apply(&light, variance.as_ref());

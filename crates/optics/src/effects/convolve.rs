@@ -77,7 +77,11 @@ impl Convolver {
     pub(crate) fn apply(&self, picture: &Field) -> Field {
         let mut result = Field::zeros(self.region.x.len(), self.region.y.len());
         match &self.method {
-            Method::Direct(taps) => taps.iter().for_each(|tap| self.add_tap(picture, *tap, &mut result)),
+            Method::Direct(taps) => {
+                for (dx, dy, tap) in taps {
+                    self.add_tap(picture, *dx, *dy, *tap, &mut result);
+                }
+            }
             Method::Fourier { plan, spectrum, blocks } => {
                 for pair in blocks.chunks(2) {
                     let grid = through(plan, spectrum, pair, picture);
@@ -88,7 +92,7 @@ impl Convolver {
         result
     }
 
-    fn add_tap(&self, picture: &Field, (dx, dy, tap): (isize, isize, f64), result: &mut Field) {
+    fn add_tap(&self, picture: &Field, dx: isize, dy: isize, tap: f64, result: &mut Field) {
         let (height, width) = (picture.height(), picture.width);
         for y in self.region.y.clone() {
             let Some(from) = y.checked_add_signed(-dy).filter(|from| *from < height) else { continue };

@@ -10,7 +10,7 @@ use super::spread_image::{ReadyImage, SpreadImage};
 use super::spread_table::{ReadyTable, SpreadTable};
 use super::spread_width::SpreadWidth;
 use core::fmt;
-use etendue_core::{Bands, EffectStatus};
+use etendue_core::{Bands, EffectStatus, WavelengthRange};
 use glam::DVec2;
 
 /// Where it is told how narrow a function is, nm.
@@ -67,20 +67,20 @@ impl PointSpread {
     }
 
     /// The function made ready for a film and the wavelengths of a range.
-    pub(super) fn ready(&self, canvas: &Canvas, range_nm: (f64, f64), part: FilmPart) -> ReadySpread {
+    pub(super) fn ready(&self, canvas: &Canvas, range: WavelengthRange, part: FilmPart) -> ReadySpread {
         match self {
-            Self::Aperture(psf) => ReadySpread::Aperture(Box::new(psf.ready(canvas, range_nm, part))),
+            Self::Aperture(psf) => ReadySpread::Aperture(Box::new(psf.ready(canvas, range, part))),
             Self::Image(image) => ReadySpread::Image(Box::new(image.ready(canvas, part))),
             Self::Table(table) => ReadySpread::Table(Box::new(ReadyTable::new(table.clone(), canvas, part))),
         }
     }
 
     /// The cores by which samples are displaced, for the wavelengths of a range; `None` where no light is in them.
-    pub(super) fn sample_spread(&self, canvas: &Canvas, range_nm: (f64, f64)) -> Option<SampleSpread> {
+    pub(super) fn sample_spread(&self, canvas: &Canvas, range: WavelengthRange) -> Option<SampleSpread> {
         match self {
-            Self::Aperture(psf) => psf.sample_spread(canvas, range_nm),
-            Self::Image(image) => image.sample_spread(canvas, range_nm),
-            Self::Table(table) => table.sample_spread(canvas, range_nm),
+            Self::Aperture(psf) => psf.sample_spread(canvas, range),
+            Self::Image(image) => image.sample_spread(canvas, range),
+            Self::Table(table) => table.sample_spread(canvas, range),
         }
     }
 
@@ -111,11 +111,16 @@ pub(super) enum ReadySpread {
 
 impl ReadySpread {
     /// The film's light and variance in a band.
-    pub(super) fn apply(&self, band_nm: (f64, f64), light: &Field, variance: Option<&Field>) -> (Field, Option<Field>) {
+    pub(super) fn apply(
+        &self,
+        band: WavelengthRange,
+        light: &Field,
+        variance: Option<&Field>,
+    ) -> (Field, Option<Field>) {
         match self {
-            Self::Aperture(ready) => ready.apply(band_nm, light, variance),
-            Self::Image(ready) => ready.apply(band_nm, light, variance),
-            Self::Table(ready) => ready.apply(band_nm, light, variance),
+            Self::Aperture(ready) => ready.apply(band, light, variance),
+            Self::Image(ready) => ready.apply(band, light, variance),
+            Self::Table(ready) => ready.apply(band, light, variance),
         }
     }
 }

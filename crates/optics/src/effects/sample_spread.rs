@@ -39,11 +39,7 @@ pub struct SampleSpread {
 
 impl SampleSpread {
     /// Of patches' tables, row by row, which each have wavelengths in equal steps of `step_nm` from `low_nm` on.
-    pub(super) fn new(
-        [columns, rows]: [Vec<Hat>; 2],
-        (low_nm, step_nm): (f64, f64),
-        tables: Vec<Vec<CoreTable>>,
-    ) -> Self {
+    pub(super) fn new([columns, rows]: [Vec<Hat>; 2], low_nm: f64, step_nm: f64, tables: Vec<Vec<CoreTable>>) -> Self {
         Self { low_nm, step_nm, columns, rows, tables }
     }
 

@@ -19,11 +19,11 @@ use super::error::{EffectsError, positive};
 use super::film_part::{FilmPart, KernelBuilder};
 use super::kernel::Kernel;
 use super::operation_counts::{OperationCounts, Uses};
-use super::psf::{MAX_PX, MM_PER_UM, VISIBLE_NM};
+use super::psf::{MAX_PX, MM_PER_UM, VISIBLE};
 use super::sample_spread::SampleSpread;
 use super::spread::Spread;
 use core::fmt;
-use etendue_core::{Bands, EffectStatus};
+use etendue_core::{Bands, EffectStatus, WavelengthRange};
 use etendue_projection::Raster;
 use glam::DVec2;
 
@@ -94,7 +94,7 @@ impl SpreadImage {
     }
 
     fn check_size(&self, pitch_mm: DVec2) -> Result<(), EffectsError> {
-        let (step_mm, pixel_mm) = (self.step_mm(VISIBLE_NM.1), pitch_mm.min_element());
+        let (step_mm, pixel_mm) = (self.step_mm(VISIBLE.high_nm), pitch_mm.min_element());
         if step_mm > WIDEST_STEP_PX * pixel_mm {
             return Err(EffectsError::Coarse { step_um: step_mm / MM_PER_UM, pixel_um: pixel_mm / MM_PER_UM });
         }
@@ -122,7 +122,7 @@ impl SpreadImage {
 
     /// Columns and rows that light is spread over.
     pub(super) fn reach_px(&self, pitch_mm: DVec2) -> [usize; 2] {
-        self.reach_px_at(VISIBLE_NM.1, pitch_mm)
+        self.reach_px_at(VISIBLE.high_nm, pitch_mm)
     }
 
     fn reach_px_at(&self, nm: f64, pitch_mm: DVec2) -> [usize; 2] {
@@ -150,35 +150,35 @@ impl SpreadImage {
     }
 
     /// The kernel of a band, its sum one.
-    fn kernel(&self, band_nm: (f64, f64), pitch_mm: DVec2, part: FilmPart) -> Kernel {
-        let mut kernel = KernelBuilder::new(part, self.reach_px_at(band_nm.1, pitch_mm));
-        for nm in mid_wavelengths(band_nm) {
+    fn kernel(&self, band: WavelengthRange, pitch_mm: DVec2, part: FilmPart) -> Kernel {
+        let mut kernel = KernelBuilder::new(part, self.reach_px_at(band.high_nm, pitch_mm));
+        for nm in mid_wavelengths(band) {
             self.deposit(pitch_mm, nm, |offset_px, light| kernel.deposit(offset_px, light));
         }
         kernel.kernel()
     }
 
     /// The cores by which samples are displaced, for the wavelengths of a range.
-    pub(super) fn sample_spread(&self, canvas: &Canvas, range_nm: (f64, f64)) -> Option<SampleSpread> {
+    pub(super) fn sample_spread(&self, canvas: &Canvas, range: WavelengthRange) -> Option<SampleSpread> {
         // The same at all wavelengths: one table.
-        let parts = self.parameters.wavelength_nm.map_or(1, |_| mid_wavelengths(range_nm).count());
-        let step_nm = (range_nm.1 - range_nm.0) / parts as f64;
+        let parts = self.parameters.wavelength_nm.map_or(1, |_| mid_wavelengths(range).count());
+        let step_nm = (range.width_nm()) / parts as f64;
         let core = |part: usize| {
             let mut builder = CoreBuilder::default();
-            let nm = range_nm.0 + (part as f64 + 0.5) * step_nm;
+            let nm = range.low_nm + (part as f64 + 0.5) * step_nm;
             self.deposit(canvas.pitch_mm(), nm, |offset_px, light| builder.deposit(offset_px, light));
             builder.table()
         };
         let tables = (0..parts).map(core).collect::<Option<Vec<_>>>()?;
-        Some(SampleSpread::new([Vec::new(), Vec::new()], (range_nm.0, step_nm), vec![tables]))
+        Some(SampleSpread::new([Vec::new(), Vec::new()], range.low_nm, step_nm, vec![tables]))
     }
 
     /// What it has to do on so many pictures a band.
     pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         let count = bands.count() as f64;
-        let of_band = (bands.low_nm(), bands.low_nm() + bands.width_nm());
+        let of_band = WavelengthRange::new(bands.low_nm(), bands.low_nm() + bands.width_nm());
         let (kernels, of_kernel) = match self.parameters.wavelength_nm {
-            None => (1.0, VISIBLE_NM),
+            None => (1.0, VISIBLE),
             Some(_) => (count, of_band),
         };
         let points = mid_wavelengths(of_kernel).count() * self.parameters.light.len();
@@ -191,7 +191,7 @@ impl SpreadImage {
     /// The function made ready for a film.
     pub(super) fn ready(&self, canvas: &Canvas, part: FilmPart) -> ReadyImage {
         let shared = self.parameters.wavelength_nm.is_none();
-        let shared = shared.then(|| Spread::new(&self.kernel(VISIBLE_NM, canvas.pitch_mm(), part), canvas));
+        let shared = shared.then(|| Spread::new(&self.kernel(VISIBLE, canvas.pitch_mm(), part), canvas));
         ReadyImage { image: self.clone(), canvas: *canvas, part, shared }
     }
 }
@@ -219,11 +219,16 @@ pub(super) struct ReadyImage {
 
 impl ReadyImage {
     /// The film's light and variance in a band.
-    pub(super) fn apply(&self, band_nm: (f64, f64), light: &Field, variance: Option<&Field>) -> (Field, Option<Field>) {
+    pub(super) fn apply(
+        &self,
+        band: WavelengthRange,
+        light: &Field,
+        variance: Option<&Field>,
+    ) -> (Field, Option<Field>) {
         match &self.shared {
             Some(shared) => shared.apply(light, variance),
             None => {
-                let kernel = self.image.kernel(band_nm, self.canvas.pitch_mm(), self.part);
+                let kernel = self.image.kernel(band, self.canvas.pitch_mm(), self.part);
                 Spread::new(&kernel, &self.canvas).apply(light, variance)
             }
         }

@@ -55,7 +55,7 @@ pub fn layer(
         FarSource { angle, outward: at_mm.normalize_or(DVec2::X), spectrum: source.spectrum, share: source.share }
     };
     let sources: Vec<FarSource> = image.sources().into_iter().map(seen).collect();
-    Ok(Scattering::new(lens, raster, settings, bands, (&sources, field.greatest())).layer(&sources))
+    Ok(Scattering::new(lens, raster, settings, bands, &sources, field.greatest()).layer(&sources))
 }
 
 /// Light from a direction.
@@ -66,6 +66,13 @@ struct FarSource {
     outward: DVec2,
     spectrum: Vec<f32>,
     share: f64,
+}
+
+/// The ghost that a pair of surfaces makes of a source.
+struct Splat<'a> {
+    source: &'a FarSource,
+    pair: usize,
+    laid: Laid,
 }
 
 /// A lens's ghosts, ready to be laid down.
@@ -86,11 +93,12 @@ impl<'a> Scattering<'a> {
         raster: &'a Raster,
         settings: GhostSettings,
         bands: Bands,
-        (sources, greatest): (&[FarSource], f64),
+        sources: &[FarSource],
+        greatest_angle: f64,
     ) -> Self {
         let wanted: Vec<f64> = sources.iter().map(|source| source.angle).collect();
         let range_nm = [bands.low_nm(), bands.high_nm()];
-        let response = Response::new(lens, settings, range_nm, greatest, &wanted);
+        let response = Response::new(lens, settings, range_nm, greatest_angle, &wanted);
         let colours = response.pairs.iter().map(|pair| Colour::new(lens, *pair, &response.knots_nm, bands)).collect();
         Self { lens, raster, settings, bands, response, levels: Level::of(raster), colours }
     }
@@ -101,22 +109,24 @@ impl<'a> Scattering<'a> {
         for batch in sources.chunks(BATCH) {
             let jobs: Vec<_> =
                 batch.iter().flat_map(|s| (0..self.response.pairs.len()).map(move |pair| (s, pair))).collect();
-            let laid: Vec<_> = jobs.into_par_iter().filter_map(|(source, pair)| self.lay(source, pair)).collect();
+            let splats: Vec<_> = jobs.into_par_iter().filter_map(|(source, pair)| self.splat(source, pair)).collect();
             canvas.par_iter_mut().enumerate().for_each(|(band, levels)| {
-                laid.iter().for_each(|laid| self.add(levels, band, laid));
+                splats.iter().for_each(|splat| self.add(levels, band, splat));
             });
         }
         let planes = canvas.par_iter().map(|levels| self.picture(levels)).collect();
         SpectralCube::from_planes(self.bands, planes).expect("a plane a band, all of the raster's size")
     }
 
-    fn lay<'s>(&self, source: &'s FarSource, pair: usize) -> Option<(&'s FarSource, usize, Laid)> {
+    fn splat<'s>(&self, source: &'s FarSource, pair: usize) -> Option<Splat<'s>> {
         let footprints = self.response.at(source.angle, pair)?;
-        lay(&footprints, source.outward, source.share, &self.levels).map(|laid| (source, pair, laid))
+        let laid = lay(&footprints, source.outward, source.share, &self.levels)?;
+        Some(Splat { source, pair, laid })
     }
 
     /// Adds a ghost to the levels of a band.
-    fn add(&self, levels: &mut [Vec<f32>], band: usize, (source, pair, laid): &(&FarSource, usize, Laid)) {
+    fn add(&self, levels: &mut [Vec<f32>], band: usize, splat: &Splat<'_>) {
+        let Splat { source, pair, laid } = splat;
         let rear = self.response.pairs[*pair].rear;
         let filtered = self.lens.filtered(self.bands.centre_nm(band), laid.cosine);
         // Light that the sensor mirrors passes the filter before it on all three ways.

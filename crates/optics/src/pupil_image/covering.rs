@@ -14,6 +14,7 @@ use super::survey::Survey;
 use super::view::Face;
 use crate::error::OpticsError;
 use crate::lens::Lens;
+use etendue_core::WavelengthRange;
 use etendue_projection::Raster;
 use glam::DVec2;
 
@@ -30,12 +31,12 @@ impl PupilProjection {
         lens: &Lens,
         raster: &Raster,
         margin_px: [usize; 2],
-        range_nm: (f64, f64),
+        range: WavelengthRange,
     ) -> Result<Self, OpticsError> {
         serves(lens)?;
         lens.check(raster)?;
         let raster = raster.widened(margin_px);
-        let survey = Survey::new(lens, &raster, range_nm);
+        let survey = Survey::new(lens, &raster, range);
         if survey.looks.is_empty() {
             return Err(OpticsError::SeesNothing);
         }

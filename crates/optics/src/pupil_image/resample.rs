@@ -72,7 +72,7 @@ impl<'a> Resampling<'a> {
         serves(lens)?;
         lens.check(raster)?;
         let raster = raster.widened(margin_px);
-        let survey = Survey::new(lens, &raster, (bands.low_nm(), bands.high_nm()));
+        let survey = Survey::new(lens, &raster, bands.range());
         check_covers(&stored, &survey)?;
         let widest = survey
             .looks

@@ -5,6 +5,7 @@ use super::view::Face;
 use crate::lens::Lens;
 use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::PI;
+use etendue_core::WavelengthRange;
 use etendue_core::maths::f64::atan2;
 use etendue_projection::Raster;
 use glam::{DVec2, DVec3};
@@ -42,11 +43,11 @@ pub(super) struct Survey {
 }
 
 impl Survey {
-    /// Of a lens and a raster, at the wavelengths of a range (nm) where they matter.
-    pub(super) fn new(lens: &Lens, raster: &Raster, range_nm: (f64, f64)) -> Self {
+    /// Of a lens and a raster, at the wavelengths of a range where they matter.
+    pub(super) fn new(lens: &Lens, raster: &Raster, range: WavelengthRange) -> Self {
         let step_px = raster.width().max(raster.height()).div_ceil(SAMPLES);
         let mut survey = Self { looks: Vec::new(), step_px, dark: false };
-        for nm in wavelengths(lens, range_nm) {
+        for nm in wavelengths(lens, range) {
             let aim = Aim::new(lens, raster.max_radius_mm() * REACH, nm);
             points(raster, step_px).for_each(|px| survey.add(&aim, raster, px));
         }
@@ -75,11 +76,11 @@ impl Survey {
 pub(super) const REACH: f64 = 1.02;
 
 /// The wavelengths whose chief rays differ.
-fn wavelengths(lens: &Lens, (low, high): (f64, f64)) -> Vec<f64> {
+fn wavelengths(lens: &Lens, range: WavelengthRange) -> Vec<f64> {
     if !lens.spreads_colours() {
         return vec![PRINCIPAL_NM];
     }
-    (0..WAVELENGTHS).map(|i| low + (high - low) * i as f64 / (WAVELENGTHS - 1) as f64).collect()
+    (0..WAVELENGTHS).map(|i| range.low_nm + range.width_nm() * i as f64 / (WAVELENGTHS - 1) as f64).collect()
 }
 
 /// Pixel corners: a lattice inside the picture, all along its border.

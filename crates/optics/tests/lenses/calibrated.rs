@@ -1,6 +1,7 @@
 //! Calibrated and telecentric cameras: what the contract of all lenses promises.
 
 use core::f64::consts::PI;
+use etendue_core::WavelengthRange;
 use etendue_core::maths::f64::{atan2, cos, sin};
 use etendue_optics::{
     CalibratedParameters, Falloff, Lens, OpticsError, PinholeParameters, PupilProjection, PupilStance,
@@ -176,7 +177,7 @@ fn what_cannot_be_is_refused() {
     assert!(matches!(lens.check(&raster), Err(OpticsError::CalibratedSize { width: 640, .. })));
     let parallel = Lens::telecentric(TelecentricParameters { metres_per_mm: 1.0, f_number: 4.0, transmittance: 1.0 });
     assert!(matches!(
-        PupilProjection::covering(&parallel.expect("legal"), &raster, [0, 0], (400.0, 700.0)),
+        PupilProjection::covering(&parallel.expect("legal"), &raster, [0, 0], WavelengthRange::new(400.0, 700.0)),
         Err(OpticsError::NoPupilRoute { .. })
     ));
     let folding = KannalaBrandt::new([-0.3, 0.0, 0.0, 0.0]).expect("finite");

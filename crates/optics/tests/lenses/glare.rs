@@ -1,6 +1,7 @@
 //! Veiling glare against closed forms.
 
 use etendue_core::Plane;
+use etendue_core::WavelengthRange;
 use etendue_core::quantity::{Irradiance, Variance};
 use etendue_optics::effects::{FilmPart, Glare, GlareParameters};
 use etendue_optics::{Effects, EffectsError, EffectsParameters};
@@ -23,7 +24,10 @@ fn picture(effects: &Effects, raster: &Raster, light: impl Fn(usize, usize) -> f
     let film = effects.film(raster);
     let samples = (0..film.width() * film.height()).map(|i| light(i % film.width(), i / film.width())).collect();
     let film = Plane::from_samples(film.width(), film.height(), samples).expect("a sample a pixel");
-    effects.prepared(raster, (500.0, 600.0), FilmPart::Whole).apply((500.0, 600.0), &film, None).0
+    effects
+        .prepared(raster, WavelengthRange::new(500.0, 600.0), FilmPart::Whole)
+        .apply(WavelengthRange::new(500.0, 600.0), &film, None)
+        .0
 }
 
 #[test]
@@ -98,15 +102,21 @@ fn variances_go_through_the_squared_kernel() {
     let one = |i: usize| f32::from(u8::from(i == 20 * 41 + 20));
     let film = Plane::from_samples(41, 41, (0..41 * 41).map(one).collect()).expect("a sample a pixel");
     let variance: Plane<Variance> = film.map(|v| v);
-    let (mean, variance) =
-        effects.prepared(&raster, (500.0, 600.0), FilmPart::Whole).apply((500.0, 600.0), &film, Some(&variance));
+    let (mean, variance) = effects.prepared(&raster, WavelengthRange::new(500.0, 600.0), FilmPart::Whole).apply(
+        WavelengthRange::new(500.0, 600.0),
+        &film,
+        Some(&variance),
+    );
     let variance = variance.expect("given");
     for (m, v) in mean.samples().iter().zip(variance.samples()) {
         assert!((m * m - v).abs() < 1e-7, "{m} {v}");
     }
     let unknown = Plane::filled(41, 41, f32::NAN);
-    let (_, variance) =
-        effects.prepared(&raster, (500.0, 600.0), FilmPart::Whole).apply((500.0, 600.0), &film, Some(&unknown));
+    let (_, variance) = effects.prepared(&raster, WavelengthRange::new(500.0, 600.0), FilmPart::Whole).apply(
+        WavelengthRange::new(500.0, 600.0),
+        &film,
+        Some(&unknown),
+    );
     assert!(variance.expect("given").samples().iter().all(|v| v.is_nan()));
 }
 

@@ -1,6 +1,7 @@
 //! The point-spread function on a film.
 
 use etendue_core::Plane;
+use etendue_core::WavelengthRange;
 use etendue_core::quantity::{Irradiance, Variance};
 use etendue_optics::effects::{FilmPart, PointSpread, Psf, PsfParameters};
 use etendue_optics::effects::{Zernike, ZernikeTerm};
@@ -39,7 +40,7 @@ fn point(raster: &Raster, x: usize, y: usize) -> Plane<Irradiance> {
     film
 }
 
-const BAND: (f64, f64) = (540.0, 560.0);
+const BAND: WavelengthRange = WavelengthRange::new(540.0, 560.0);
 
 fn centroid(picture: &Plane<Irradiance>) -> DVec2 {
     let place = |i: usize| DVec2::new((i % picture.width()) as f64, (i / picture.width()) as f64);
@@ -169,7 +170,7 @@ fn the_pattern_of_a_pinhole_is_an_airy_disc() {
 fn diffraction_has_the_modulation_of_a_circle_along_rows_and_columns() {
     use core::f64::consts::{PI, TAU};
     use etendue_core::maths::f64::{acos, cos};
-    let band = (549.0, 551.0);
+    let band = WavelengthRange::new(549.0, 551.0);
     for (pitch_mm, f_number) in [(0.003, 2.0), (0.003, 2.8), (0.0083, 2.8), (0.0083, 8.0), (0.0014, 2.8)] {
         let raster = Raster::centred(301, 301, pitch_mm).expect("legal");
         let effects = effects(PsfParameters { patches: Some([1, 1]), ..round() }, &lens(50.0, f_number), &raster);

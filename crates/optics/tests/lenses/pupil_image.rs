@@ -1,5 +1,6 @@
 //! The at-the-pupil route against what it must keep.
 
+use etendue_core::WavelengthRange;
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::Radiance;
 use etendue_core::wavelength::Bands;
@@ -21,7 +22,7 @@ fn distorted(sense: Sense, k1: f64) -> Lens {
     lens().with_distortion(RadialDistortion::new(sense, k1, 0.01, 4.0).expect("legal")).expect("a paraxial lens")
 }
 
-const RANGE_NM: (f64, f64) = (400.0, 700.0);
+const RANGE: WavelengthRange = WavelengthRange::new(400.0, 700.0);
 
 fn raster() -> Raster {
     Raster::new(64, 48, DVec2::splat(0.05), DVec2::new(30.25, 25.5)).expect("legal")
@@ -46,7 +47,7 @@ fn cube(geometry: &PupilProjection, value: impl Fn(DVec2) -> f64) -> SpectralCub
 #[test]
 fn without_distortion_the_stored_pixels_are_the_picture_s() {
     let (lens, raster) = (lens(), raster());
-    let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
+    let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
     assert_eq!((geometry.width(), geometry.height()), (64, 48));
     let stored = cube(&geometry, |t| if (t.x * 80.0).floor() % 2.0 == 0.0 { 1.0 } else { 3.0 });
     let picture =
@@ -63,7 +64,7 @@ fn without_distortion_the_stored_pixels_are_the_picture_s() {
 fn uniform_radiance_stays_uniform_and_becomes_the_etendue() {
     for lens in [distorted(Sense::IdealToObserved, -0.15), distorted(Sense::ObservedToIdeal, -0.08)] {
         let raster = raster();
-        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
         let picture = Resampling::new(geometry, &lens, &raster, [0, 0], bands())
             .expect("covered")
             .apply(&cube(&geometry, |_| 7.0))
@@ -83,7 +84,7 @@ fn uniform_radiance_stays_uniform_and_becomes_the_etendue() {
 fn a_gradient_lands_where_the_lens_looks() {
     for lens in [distorted(Sense::IdealToObserved, -0.15), distorted(Sense::ObservedToIdeal, -0.08)] {
         let raster = raster();
-        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
         let stored = cube(&geometry, |t| 5.0 + 2.0 * t.x - 3.0 * t.y);
         let picture =
             Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered").apply(&stored).expect("size");
@@ -103,18 +104,18 @@ fn a_gradient_lands_where_the_lens_looks() {
 fn overscan_grows_with_barrel_and_the_pixels_are_fine_enough() {
     let raster = raster();
     let barrel =
-        PupilProjection::covering(&distorted(Sense::IdealToObserved, -0.15), &raster, [0, 0], RANGE_NM).expect("legal");
+        PupilProjection::covering(&distorted(Sense::IdealToObserved, -0.15), &raster, [0, 0], RANGE).expect("legal");
     assert!(barrel.width() > 66 && barrel.height() > 50, "{barrel:?}");
     assert!(barrel.pitch_tan() <= 0.05 / 4.0);
     let pincushion =
-        PupilProjection::covering(&distorted(Sense::ObservedToIdeal, -0.08), &raster, [0, 0], RANGE_NM).expect("legal");
+        PupilProjection::covering(&distorted(Sense::ObservedToIdeal, -0.08), &raster, [0, 0], RANGE).expect("legal");
     assert!(pincushion.pitch_tan() < 0.05 / 4.0, "pincushion magnifies the corners");
 }
 
 #[test]
 fn a_picture_that_looks_beyond_the_stored_image_is_refused_with_the_angle() {
     let raster = raster();
-    let geometry = PupilProjection::covering(&lens(), &raster, [0, 0], RANGE_NM).expect("legal");
+    let geometry = PupilProjection::covering(&lens(), &raster, [0, 0], RANGE).expect("legal");
     assert!(Resampling::new(geometry, &lens(), &raster, [0, 0], bands()).is_ok());
     let wider = Raster::new(68, 48, DVec2::splat(0.05), DVec2::new(34.25, 25.5)).expect("legal");
     let refused =
@@ -133,7 +134,7 @@ fn a_picture_that_looks_beyond_the_stored_image_is_refused_with_the_angle() {
 #[test]
 fn an_image_of_another_size_is_refused() {
     let (lens, raster) = (lens(), raster());
-    let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
+    let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
     let other = SpectralCube::<Radiance>::new(10, 10, bands());
     let resampling = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered");
     assert!(matches!(resampling.apply(&other), Err(OpticsError::Size { got_width: 10, .. })));

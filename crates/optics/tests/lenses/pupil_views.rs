@@ -1,6 +1,7 @@
 //! The at-the-pupil route in six views, and for every lens that has one viewpoint.
 
 use core::f64::consts::PI;
+use etendue_core::WavelengthRange;
 use etendue_core::maths::f64::{atan2, cos, sin};
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::{Length, Radiance};
@@ -17,7 +18,7 @@ use etendue_spectra::{Outside, Spectrum};
 use glam::{DVec2, DVec3};
 
 const PITCH_MM: f64 = 0.01;
-const RANGE_NM: (f64, f64) = (500.0, 600.0);
+const RANGE: WavelengthRange = WavelengthRange::new(500.0, 600.0);
 
 fn bands() -> Bands {
     Bands::new(500.0, 50.0, 2).expect("legal")
@@ -107,7 +108,7 @@ fn centres(raster: &Raster) -> impl Iterator<Item = (usize, usize, DVec2)> {
 fn uniform_radiance_stays_uniform_whatever_the_lens() {
     for (name, lens, raster) in cameras() {
         for margin_px in [0, 5] {
-            let geometry = PupilProjection::covering(&lens, &raster, [margin_px; 2], RANGE_NM).expect(name);
+            let geometry = PupilProjection::covering(&lens, &raster, [margin_px; 2], RANGE).expect(name);
             let resampling = Resampling::new(geometry, &lens, &raster, [margin_px; 2], bands()).expect(name);
             let picture = resampling.apply(&stored(&geometry, |_| 7.0)).expect(name);
             let mut seen = 0;
@@ -137,7 +138,7 @@ fn smooth(d: DVec3) -> f64 {
 #[test]
 fn a_smooth_radiance_has_no_seams() {
     for (name, lens, raster) in cameras() {
-        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect(name);
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect(name);
         let resampling = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect(name);
         let picture = resampling.apply(&stored(&geometry, smooth)).expect(name);
         for (x, y, at) in centres(&raster) {
@@ -163,7 +164,7 @@ fn a_smooth_radiance_has_no_seams() {
 #[test]
 fn narrow_pictures_take_one_view_and_wide_ones_only_the_faces_they_see() {
     let views = |(lens, raster): (Lens, Raster)| {
-        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
         (matches!(geometry, PupilProjection::Cube(_)), geometry.views().count())
     };
     assert_eq!(views(camera(Model::Perspective(Perspective::pinhole()), 80.0, [96, 64])), (false, 1));
@@ -177,8 +178,7 @@ fn narrow_pictures_take_one_view_and_wide_ones_only_the_faces_they_see() {
 #[test]
 fn stored_pixels_are_no_wider_than_the_picture_s() {
     let (lens, raster) = equidistant(PI);
-    let PupilProjection::Cube(cube) = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal")
-    else {
+    let PupilProjection::Cube(cube) = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal") else {
         panic!("six views")
     };
     // π/96 rad a pixel; the finest of the survey's differences may round below it.
@@ -232,7 +232,7 @@ fn pixels_belong_to_one_view_and_look_where_they_are_found() {
 #[test]
 fn a_wider_picture_than_the_stored_views_is_refused_and_overscan_helps() {
     let (narrow, small) = equidistant(PI);
-    let geometry = PupilProjection::covering(&narrow, &small, [0, 0], RANGE_NM).expect("legal");
+    let geometry = PupilProjection::covering(&narrow, &small, [0, 0], RANGE).expect("legal");
     let (wide, large) = limited(Model::Ideal(Ideal::Equidistant), 96.0 / PI, [104, 104], 0.5 * PI * 104.0 / 96.0);
     let refused = Resampling::new(geometry, &wide, &large, [0, 0], bands()).expect_err("8.5° more on each side");
     assert!(matches!(refused, OpticsError::MissingDirections { .. }), "{refused}");
@@ -246,7 +246,7 @@ fn a_wider_picture_than_the_stored_views_is_refused_and_overscan_helps() {
 #[test]
 fn distances_are_taken_and_never_averaged() {
     let (lens, raster) = equidistant(PI);
-    let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
+    let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect("legal");
     // The inside of a box about the pupil, with a hole to the sky.
     let distance = |d: DVec3| if d.y < -0.8 { f64::INFINITY } else { 2.0 / d.abs().max_element() };
     let cube = stored(&geometry, distance);
@@ -276,7 +276,7 @@ fn distances_are_taken_and_never_averaged() {
 fn a_prescription_is_resampled_by_its_own_chief_rays() {
     for (name, radius_mm) in [("double-gauss", 21.6), ("fisheye", 12.75)] {
         let (lens, raster) = prescription(name, radius_mm);
-        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect(name);
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE).expect(name);
         // A radiance that is the field angle itself, which a linear interpolation keeps.
         let angle = |d: DVec3| atan2(d.truncate().length(), d.z);
         let picture = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect(name);
@@ -319,8 +319,8 @@ fn lateral_colour_moves_each_band_as_its_rays_are_moved() {
     ];
     for (lens, raster) in cameras {
         assert!(lens.disperses() && lens.spreads_colours());
-        let range_nm = (bands().low_nm(), bands().high_nm());
-        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], range_nm).expect("legal");
+        let range = bands().range();
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], range).expect("legal");
         let resampling = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered");
         let picture = resampling.apply(&stored(&geometry, smooth)).expect("size");
         let mut apart = 0.0_f64;

@@ -2,6 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 use etendue_core::Plane;
+use etendue_core::WavelengthRange;
 use etendue_core::maths::f64::{acos, cos, exp};
 use etendue_core::quantity::Irradiance;
 use etendue_core::random::Pixel;
@@ -13,7 +14,7 @@ use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens, ThinParamet
 use etendue_projection::Raster;
 use glam::DVec2;
 
-const RANGE_NM: (f64, f64) = (400.0, 720.0);
+const RANGE: WavelengthRange = WavelengthRange::new(400.0, 720.0);
 const PITCH_UM: f64 = 4.0;
 /// Draws along each axis of the square.
 const DRAWS: usize = 160;
@@ -93,8 +94,8 @@ fn of_film_on(raster: &Raster, effects: &Effects, part: FilmPart, nm: f64, frequ
     let (x, y) = (raster.width() / 2, raster.height() / 2);
     let mut film: Plane<Irradiance> = Plane::new(raster.width(), raster.height());
     film.set(x, y, 1.0);
-    let band_nm = (nm - 1.0, nm + 1.0);
-    let (spread, _) = effects.prepared(raster, band_nm, part).apply(band_nm, &film, None);
+    let band = WavelengthRange::new(nm - 1.0, nm + 1.0);
+    let (spread, _) = effects.prepared(raster, band, part).apply(band, &film, None);
     let wave = |(i, v): (usize, &f32)| {
         let at = DVec2::new((i % raster.width()) as f64 - x as f64, (i / raster.width()) as f64 - y as f64);
         let phase = TAU * frequency.dot(at);
@@ -116,7 +117,7 @@ fn directions() -> [DVec2; 3] {
 fn narrow_gaussians_keep_their_contrast() {
     for sigma_px in [0.1, 0.2, 0.4, 0.6] {
         let effects = effects(gaussian(sigma_px), Some(SpreadBy::Samples)).expect("narrow");
-        let spread = effects.sample_spread(&raster(), RANGE_NM).expect("samples");
+        let spread = effects.sample_spread(&raster(), RANGE).expect("samples");
         for f in [0.125, 0.25, 0.5] {
             for along in directions() {
                 let [(weight, found), ..] = drawn(&spread, [450.0f32, 550.0, 600.0, 700.0], along * f);
@@ -135,7 +136,7 @@ fn narrow_gaussians_keep_their_contrast() {
 fn diffraction_keeps_its_contrast_at_each_of_a_path_s_wavelengths() {
     for f_number in [2.0, 4.0, 8.0] {
         let effects = effects(aperture(f_number, Vec::new()), Some(SpreadBy::Samples)).expect("narrow");
-        let spread = effects.sample_spread(&raster(), RANGE_NM).expect("samples");
+        let spread = effects.sample_spread(&raster(), RANGE).expect("samples");
         let nm = [425.0f32, 505.0, 585.0, 665.0];
         for (f, along) in [0.125, 0.25, 0.5].into_iter().flat_map(|f| directions().map(|along| (f, along))) {
             for ((weight, found), nm) in drawn(&spread, nm, along * f).into_iter().zip(nm.map(f64::from)) {
@@ -157,7 +158,7 @@ fn light_lands_on_the_side_where_a_finer_film_puts_it() {
     let coma = ZernikeTerm { zernike: Zernike::noll(8).expect("known"), field_mm: Vec::new(), rms_um: vec![0.08] };
     let psf = || aperture(2.8, vec![coma.clone()]);
     let effects = effects(psf(), Some(SpreadBy::Samples)).expect("narrow");
-    let spread = effects.sample_spread(&raster(), (540.0, 560.0)).expect("samples");
+    let spread = effects.sample_spread(&raster(), WavelengthRange::new(540.0, 560.0)).expect("samples");
     let [(_, found)] = drawn(&spread, [550.0f32], DVec2::X * 0.125);
     let found = product(found, of_film(&effects, FilmPart::Tails, 550.0, DVec2::X * 0.125));
     let fine = EffectsParameters { psf: Some(psf()), margin: Some(0.0), ..Default::default() };
@@ -180,7 +181,7 @@ fn what_is_chosen_follows_the_width() {
     let told = effects(gaussian(3.0), Some(SpreadBy::Samples)).expect_err("wide").to_string();
     assert!(told.contains("of the light falls near enough"), "{told}");
     let film = effects(gaussian(0.4), Some(SpreadBy::Film)).expect("legal");
-    assert!(film.sample_spread(&raster(), RANGE_NM).is_none());
+    assert!(film.sample_spread(&raster(), RANGE).is_none());
     assert_eq!((film.film_part(true), film.film_part(false)), (FilmPart::Whole, FilmPart::Whole));
     let samples = effects(gaussian(0.4), None).expect("legal");
     assert_eq!((samples.film_part(true), samples.film_part(false)), (FilmPart::Tails, FilmPart::Whole));

@@ -1,13 +1,14 @@
 //! Point-spread functions from pictures on a film.
 
 use etendue_core::Plane;
+use etendue_core::WavelengthRange;
 use etendue_core::quantity::{Irradiance, Variance};
 use etendue_optics::effects::{FilmPart, PointSpread, SpreadImage, SpreadImageParameters};
 use etendue_optics::{Effects, EffectsError, EffectsParameters};
 use etendue_projection::Raster;
 use glam::DVec2;
 
-const BAND: (f64, f64) = (545.0, 555.0);
+const BAND: WavelengthRange = WavelengthRange::new(545.0, 555.0);
 const PIXEL_UM: f64 = 4.0;
 
 fn raster() -> Raster {
@@ -20,14 +21,14 @@ fn image(width: usize, light: &[f32], pitch_um: f64, wavelength_nm: Option<f64>)
 
 fn spread(
     parameters: SpreadImageParameters,
-    band_nm: (f64, f64),
+    band: WavelengthRange,
     film: &Plane<Irradiance>,
     variance: Option<&Plane<Variance>>,
 ) -> (Plane<Irradiance>, Option<Plane<Variance>>) {
     let image = SpreadImage::new(parameters, &raster()).expect("legal");
     let psf = Some(PointSpread::Image(image));
     let effects = Effects::new(EffectsParameters { psf, margin: Some(0.0), ..Default::default() }, &raster());
-    effects.expect("legal").prepared(&raster(), band_nm, FilmPart::Whole).apply(band_nm, film, variance)
+    effects.expect("legal").prepared(&raster(), band, FilmPart::Whole).apply(band, film, variance)
 }
 
 fn film() -> Plane<Irradiance> {
@@ -97,17 +98,17 @@ fn sum_and_centroid_are_those_of_the_picture_whatever_its_size_and_pitch() {
 
 #[test]
 fn the_picture_grows_with_the_wavelength_where_one_is_stated() {
-    let two = |band_nm, at| {
+    let two = |band, at| {
         let mut light = [0.0; 9];
         (light[0], light[8]) = (1.0, 1.0);
-        moments(&spread(image(9, &light, 2.0, at), band_nm, &point(), None).0).2
+        moments(&spread(image(9, &light, 2.0, at), band, &point(), None).0).2
     };
     // Two samples 8 steps of 2 µm apart, 4 px: at ±2 px, whose variance is 4; at ±3 px at one and a half times the wavelength.
-    let narrow = |nm: f64| (nm - 1e-6, nm + 1e-6);
+    let narrow = |nm: f64| WavelengthRange::new(nm - 1e-6, nm + 1e-6);
     assert!((two(narrow(500.0), Some(500.0)) - 4.0).abs() < 1e-5);
     assert!((two(narrow(750.0), Some(500.0)) - 9.0).abs() < 1e-5);
-    for band_nm in [narrow(500.0), narrow(750.0)] {
-        assert!((two(band_nm, None) - 4.0).abs() < 1e-5);
+    for band in [narrow(500.0), narrow(750.0)] {
+        assert!((two(band, None) - 4.0).abs() < 1e-5);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Point-spread functions over the field from tables, on a film.
 
 use etendue_core::Plane;
+use etendue_core::WavelengthRange;
 use etendue_core::maths::f64::{exp, sin_cos};
 use etendue_core::quantity::{Irradiance, Variance};
 use etendue_core::random::Pixel;
@@ -11,7 +12,7 @@ use etendue_optics::{Effects, EffectsError, EffectsParameters};
 use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
 
-const BAND: (f64, f64) = (545.0, 555.0);
+const BAND: WavelengthRange = WavelengthRange::new(545.0, 555.0);
 const PIXEL_MM: f64 = 0.004;
 const SIZE: [usize; 2] = [601, 401];
 /// Samples of a table: an eighth of a mm in steps of 1.25 µm.
@@ -207,7 +208,7 @@ fn between_wavelengths_functions_are_mixed_and_beyond_them_held() {
         assert!((found - expected).abs() < 1e-5, "{nm}: {found} for {expected}");
         // The film's band of 10 nm about it, by what becomes of a point.
         let effects = effects(table.clone(), Some(SpreadBy::Film));
-        let band = (nm - 5.0, nm + 5.0);
+        let band = WavelengthRange::new(nm - 5.0, nm + 5.0);
         let mut film: Plane<Irradiance> = Plane::new(SIZE[0], SIZE[1]);
         film.set(300, 200, 1.0);
         let picture = effects.prepared(&raster(), band, FilmPart::Whole).apply(band, &film, None).0;
@@ -231,7 +232,7 @@ fn samples_are_displaced_by_narrow_functions_and_wide_ones_are_refused() {
     };
     let narrow = table((0..=6).map(|i| narrow(0.25 * f64::from(i))).collect(), Some([5, 5])).expect("legal");
     let of_samples = effects(narrow, Some(SpreadBy::Samples));
-    let cores = of_samples.sample_spread(&raster(), (500.0, 600.0)).expect("it is narrow");
+    let cores = of_samples.sample_spread(&raster(), WavelengthRange::new(500.0, 600.0)).expect("it is narrow");
     for (pixel, outwards) in [([580, 200], DVec2::X), ([300, 10], DVec2::NEG_Y)] {
         let draws = 40_000;
         let draw = |i: u32| {

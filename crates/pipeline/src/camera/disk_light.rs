@@ -165,7 +165,7 @@ fn by_band(
     store: &dyn ScratchStore,
 ) -> Result<KeptOutput, String> {
     let bands = film.bands();
-    let prepared = body.effects.prepared(&body.raster, (bands.low_nm(), bands.high_nm()), part);
+    let prepared = body.effects.prepared(&body.raster, bands.range(), part);
     let room = || PlaneCube::new(store, bands, (body.raster.width(), body.raster.height()));
     let (means, variances) = (room()?, variance.map(|_| room()).transpose()?);
     for band in 0..bands.count() {
@@ -206,7 +206,7 @@ fn kept<Q: Quantity>(cube: &TiledCube, reader: &Arc<dyn BandReader>) -> KeptCube
 }
 
 fn of_size<Q: Quantity>(bands: Bands, size: (usize, usize), reader: Arc<dyn BandReader>) -> KeptCube<Q> {
-    KeptCube::Disk(CubeOnDisk::new(bands, size, reader))
+    KeptCube::Disk(CubeOnDisk::new(bands, size.0, size.1, reader))
 }
 
 /// Bands of a film over the pupil's weight.

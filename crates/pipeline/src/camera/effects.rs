@@ -2,7 +2,7 @@
 
 use crate::plan::CameraBody;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
-use etendue_core::{Bands, Plane, SpectralCube};
+use etendue_core::{Bands, Plane, SpectralCube, WavelengthRange};
 use etendue_optics::effects::{FilmPart, Prepared};
 use etendue_optics::{Lens, ghosts};
 use rayon::prelude::*;
@@ -29,7 +29,7 @@ pub(crate) fn behind(
     }
     let ghosts = ghosts(body, &film);
     let bands = film.bands();
-    let prepared = body.effects.prepared(&body.raster, (bands.low_nm(), bands.high_nm()), part);
+    let prepared = body.effects.prepared(&body.raster, bands.range(), part);
     let of_band = |band: usize| {
         let variance = variance.as_ref().map(|cube| &cube.planes()[band]);
         of_band(&prepared, (bands, band), &film.planes()[band], variance)
@@ -67,7 +67,7 @@ pub(crate) fn of_band(
     variance: Option<&Plane<Variance>>,
 ) -> (Plane<Irradiance>, Option<Plane<Variance>>) {
     let low_nm = bands.low_nm() + band as f64 * bands.width_nm();
-    prepared.apply((low_nm, low_nm + bands.width_nm()), film, variance)
+    prepared.apply(WavelengthRange::new(low_nm, low_nm + bands.width_nm()), film, variance)
 }
 
 /// The picture of a film, without its margin.

@@ -31,7 +31,7 @@ impl PlaneCube {
     /// What was written.
     pub(super) fn kept<Q: Quantity>(self) -> KeptCube<Q> {
         let (bands, size) = (self.bands, self.size);
-        KeptCube::Disk(CubeOnDisk::new(bands, size, Arc::new(self)))
+        KeptCube::Disk(CubeOnDisk::new(bands, size.0, size.1, Arc::new(self)))
     }
 
     /// Where a row of a band begins, bytes.

@@ -369,7 +369,7 @@ fn route(
             context.accept(place, body.check_front_on_picture())?;
             let range_nm = range(render, body, true);
             let margin = body.whole_margin_px(body.blur_margin_px(depth_of_field));
-            let covering = PupilProjection::covering(&body.lens, &body.raster, margin, range_nm);
+            let covering = PupilProjection::covering(&body.lens, &body.raster, margin, range_nm.into());
             let covering = context.accept(place, covering)?;
             Some(Route::Pupil(covering.overscanned(render.overscan.as_ref().map_or(0.0, |o| o.value))))
         }

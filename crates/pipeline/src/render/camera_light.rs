@@ -184,7 +184,7 @@ where
 fn sample_spread(camera: &CameraPlan) -> Option<SampleSpread> {
     let CameraPlan { body, settings, .. } = camera;
     let through_lens = settings.route == Route::Lens;
-    through_lens.then(|| body.effects.sample_spread(&body.raster, settings.range_nm)).flatten()
+    through_lens.then(|| body.effects.sample_spread(&body.raster, settings.range_nm.into())).flatten()
 }
 
 /// How the wavelengths of a camera's pixels are drawn.

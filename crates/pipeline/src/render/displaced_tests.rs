@@ -53,7 +53,7 @@ fn spread(psf: PointSpread) -> SampleSpread {
     let spread_by = Some(SpreadBy::Samples);
     let parameters = EffectsParameters { psf: Some(psf), spread_by, margin: Some(0.0), ..Default::default() };
     let effects = Effects::new(parameters, &raster).expect("legal");
-    effects.sample_spread(&raster, (400.0, 700.0)).expect("narrow enough for samples")
+    effects.sample_spread(&raster, (400.0, 700.0).into()).expect("narrow enough for samples")
 }
 
 fn raster() -> Raster {

@@ -2,6 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 use etendue_core::Plane;
+use etendue_core::WavelengthRange;
 use etendue_core::maths::f64::{cos, exp};
 use etendue_core::quantity::Irradiance;
 use etendue_core::random::Pixel;
@@ -14,7 +15,7 @@ use glam::DVec2;
 const PITCH_UM: f64 = 4.0;
 /// Draws along each axis of the square.
 const DRAWS: usize = 160;
-const RANGE_NM: (f64, f64) = (500.0, 600.0);
+const RANGE: WavelengthRange = WavelengthRange::new(500.0, 600.0);
 
 /// A picture of so many pixels a side behind a Gaussian of `sigma_px`, sampled `per_px` times a pixel.
 fn behind_gaussian((side, margin): (usize, f64), sigma_px: f64, per_px: f64, spread_by: SpreadBy) -> (Raster, Effects) {
@@ -39,7 +40,7 @@ fn behind_gaussian((side, margin): (usize, f64), sigma_px: f64, per_px: f64, spr
 /// The contrast that displaced samples leave to bars of so many cycles a pixel.
 fn contrast_of_samples(sigma_px: f64, cycles: f64) -> f64 {
     let (raster, effects) = behind_gaussian((64, 0.0), sigma_px, 24.0, SpreadBy::Samples);
-    let spread = effects.sample_spread(&raster, RANGE_NM).expect("narrow enough for samples");
+    let spread = effects.sample_spread(&raster, RANGE).expect("narrow enough for samples");
     let wave = |i: usize| {
         // A lattice, with a golden-ratio sequence for the choice.
         let choice = (0.618_033_988_75 * i as f64).fract();
@@ -58,7 +59,7 @@ const SIDE: usize = 16;
 fn even_light_behind_a_wide_one() -> f64 {
     let (raster, effects) = behind_gaussian((SIDE, 0.0), WIDE_PX, 1.0, SpreadBy::Film);
     let even = Plane::<Irradiance>::filled(SIDE, SIDE, 1.0);
-    let (spread, _) = effects.prepared(&raster, RANGE_NM, FilmPart::Whole).apply(RANGE_NM, &even, None);
+    let (spread, _) = effects.prepared(&raster, RANGE, FilmPart::Whole).apply(RANGE, &even, None);
     let shares: Vec<f64> = (0..SIDE).map(share_from_the_picture).collect();
     let pixels = spread.samples().iter().zip(0..);
     worst(pixels.map(|(v, i)| (f64::from(*v) / (shares[i % SIDE] * shares[i / SIDE]) - 1.0).abs()))

@@ -21,7 +21,8 @@ impl Hat {
     /// The patch `index` of `count` over the pixels `picture` of a film of `size`.
     pub(super) fn new(
         stand: Stand,
-        (index, count): (usize, usize),
+        index: usize,
+        count: usize,
         picture: &core::ops::Range<usize>,
         size: usize,
     ) -> Self {

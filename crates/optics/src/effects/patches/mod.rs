@@ -26,8 +26,8 @@ impl Patches {
     /// So many across and down.
     pub(super) fn new([across, down]: [usize; 2], stand: Stand, canvas: &Canvas) -> Self {
         let (region, size) = (canvas.picture(), canvas.size());
-        let columns = (0..across).map(|i| Hat::new(stand, (i, across), &region.x, size[0])).collect();
-        let rows = (0..down).map(|i| Hat::new(stand, (i, down), &region.y, size[1])).collect();
+        let columns = (0..across).map(|i| Hat::new(stand, i, across, &region.x, size[0])).collect();
+        let rows = (0..down).map(|i| Hat::new(stand, i, down, &region.y, size[1])).collect();
         Self { columns, rows, size }
     }
 

@@ -29,7 +29,7 @@ use super::operation_counts::{OperationCounts, Uses};
 use super::patches::{Patches, Stand};
 use super::sample_spread::SampleSpread;
 use crate::lens::Lens;
-use etendue_core::{Bands, EffectStatus};
+use etendue_core::{Bands, EffectStatus, WavelengthRange};
 use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
 use outline::Outline;
@@ -41,7 +41,7 @@ pub(super) use patterns::{MAX_PX, Ready};
 
 pub(super) const MM_PER_UM: f64 = 1e-3;
 /// Wavelengths for which the pupil's lattice must hold the wavefront, nm.
-pub(super) const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
+pub(super) const VISIBLE: WavelengthRange = WavelengthRange::new(380.0, 780.0);
 /// Steps of the pattern in λN, or in px where that is more, of what samples are displaced by.
 const CORE_STEPS: f64 = 16.0;
 /// Patches where the function varies and nothing is said.
@@ -169,8 +169,8 @@ impl Psf {
 
     /// Columns and rows that light is spread over.
     pub(super) fn reach_px(&self, pitch_mm: DVec2) -> [usize; 2] {
-        let fineness = self.fineness(VISIBLE_NM.1, pitch_mm.min_element());
-        let reach = self.extent(fineness).reach_px(VISIBLE_NM.1, pitch_mm.min_element(), 1.0);
+        let fineness = self.fineness(VISIBLE.high_nm, pitch_mm.min_element());
+        let reach = self.extent(fineness).reach_px(VISIBLE.high_nm, pitch_mm.min_element(), 1.0);
         [reach, reach]
     }
 
@@ -200,7 +200,7 @@ impl Psf {
     /// The pattern is held to [`MAX_PX`] pixels, beyond which a fraction of about 0.2/ρ of the light falls, ρ in units of λN, and the lattice has
     /// fewer cells over the pupil the more pixels λN has: at the limit ρ is 8, 2.5 % are lost and the pupil is 16 cells wide.
     fn check_width(&self, pitch_mm: f64) -> Result<(), EffectsError> {
-        let most = MAX_LAMBDA_N_PX * pitch_mm / (VISIBLE_NM.1 * MM_PER_NM);
+        let most = MAX_LAMBDA_N_PX * pitch_mm / (VISIBLE.high_nm * MM_PER_NM);
         if self.f_number <= most {
             return Ok(());
         }
@@ -213,7 +213,7 @@ impl Psf {
 
     /// Rays must land within the pattern at all visible wavelengths.
     fn check_slope(&self, pitch_mm: f64) -> Result<(), EffectsError> {
-        let limit_um = 0.25 * CELLS as f64 / self.fineness(VISIBLE_NM.1, pitch_mm) * VISIBLE_NM.0 / NM_PER_UM;
+        let limit_um = 0.25 * CELLS as f64 / self.fineness(VISIBLE.high_nm, pitch_mm) * VISIBLE.low_nm / NM_PER_UM;
         let radii: Vec<f64> = self.parameters.wavefront.iter().flat_map(|t| t.field_mm.clone()).chain([0.0]).collect();
         let slope_um = radii.iter().map(|r| self.slope_um(*r)).fold(0.0, f64::max);
         if slope_um < limit_um { Ok(()) } else { Err(EffectsError::Slope { slope_um, limit_um }) }
@@ -243,14 +243,14 @@ impl Psf {
     pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         let half_nm = 0.5 * bands.width_nm();
         let middle_nm = bands.low_nm() + half_nm * bands.count() as f64;
-        let band_nm = (middle_nm - half_nm, middle_nm + half_nm);
+        let band = WavelengthRange::new(middle_nm - half_nm, middle_nm + half_nm);
         let pitch_mm = canvas.pitch_mm().min_element();
         let fineness = self.fineness(bands.high_nm(), pitch_mm);
-        let parts = mid_wavelengths(band_nm).count() as f64;
+        let parts = mid_wavelengths(band).count() as f64;
         let places = self.places(canvas);
         let patch = |i: usize| {
             let widest = self.stretch(canvas.sensor_mm(places.middle_px(i)).length())[0];
-            let reach = self.extent(fineness).reach_px(band_nm.1, pitch_mm, widest);
+            let reach = self.extent(fineness).reach_px(band.high_nm, pitch_mm, widest);
             let region = places.region(i);
             let uses = Uses { ready: pictures, applied: pictures };
             let kernel = OperationCounts {
@@ -268,8 +268,8 @@ impl Psf {
     }
 
     /// The function made ready for a film and the wavelengths of a range.
-    pub(super) fn ready(&self, canvas: &Canvas, range_nm: (f64, f64), part: FilmPart) -> Ready {
-        let fineness = self.fineness(range_nm.1, canvas.pitch_mm().min_element());
+    pub(super) fn ready(&self, canvas: &Canvas, range: WavelengthRange, part: FilmPart) -> Ready {
+        let fineness = self.fineness(range.high_nm, canvas.pitch_mm().min_element());
         Ready { part, patterns: self.patterns(canvas, fineness) }
     }
 
@@ -292,15 +292,15 @@ impl Psf {
     }
 
     /// The cores by which samples are displaced, for the wavelengths of a range.
-    pub(super) fn sample_spread(&self, canvas: &Canvas, range_nm: (f64, f64)) -> Option<SampleSpread> {
+    pub(super) fn sample_spread(&self, canvas: &Canvas, range: WavelengthRange) -> Option<SampleSpread> {
         let pitch_mm = canvas.pitch_mm().min_element();
-        let widest_px = range_nm.1 * MM_PER_NM * self.f_number / pitch_mm * self.stretch(canvas.max_radius_mm())[0];
+        let widest_px = range.high_nm * MM_PER_NM * self.f_number / pitch_mm * self.stretch(canvas.max_radius_mm())[0];
         let patterns = self.patterns(canvas, CORE_STEPS * widest_px.ceil().max(1.0) * self.outline().radius());
-        let wavelengths: Vec<f64> = mid_wavelengths(range_nm).collect();
+        let wavelengths: Vec<f64> = mid_wavelengths(range).collect();
         let of_patch = |patch| wavelengths.par_iter().map(|nm| patterns.core(*nm, patch)).collect::<Option<Vec<_>>>();
         let tables = patterns.patches.iter().map(of_patch).collect::<Option<Vec<_>>>()?;
-        let step_nm = (range_nm.1 - range_nm.0) / wavelengths.len() as f64;
-        Some(SampleSpread::new(patterns.places.into_hats(), (range_nm.0, step_nm), tables))
+        let step_nm = (range.width_nm()) / wavelengths.len() as f64;
+        Some(SampleSpread::new(patterns.places.into_hats(), range.low_nm, step_nm, tables))
     }
 
     fn patch(&self, point: DVec2, pupil: &Pupil) -> Patch {

@@ -8,6 +8,7 @@ use crate::effects::core_table::{CORE_PX, CoreBuilder, CoreTable};
 use crate::effects::film_part::{FilmPart, KernelBuilder};
 use crate::effects::kernel::Kernel;
 use crate::effects::patches::Patches;
+use etendue_core::WavelengthRange;
 use glam::{DMat2, DVec2};
 
 /// A part of the picture with a function of its own.
@@ -98,20 +99,20 @@ impl Ready {
     /// The film's light and variance in a band.
     pub(in crate::effects) fn apply(
         &self,
-        band_nm: (f64, f64),
+        band: WavelengthRange,
         light: &Field,
         variance: Option<&Field>,
     ) -> (Field, Option<Field>) {
         let Patterns { places, patches, .. } = &self.patterns;
-        places.apply(light, variance, |index| self.kernel(band_nm, &patches[index]))
+        places.apply(light, variance, |index| self.kernel(band, &patches[index]))
     }
 
     /// The kernel of a patch, its sum one.
-    fn kernel(&self, band_nm: (f64, f64), patch: &Patch) -> Kernel {
+    fn kernel(&self, band: WavelengthRange, patch: &Patch) -> Kernel {
         let Patterns { extent, canvas, .. } = &self.patterns;
-        let reach = extent.reach_px(band_nm.1, canvas.pitch_mm().min_element(), patch.widest);
+        let reach = extent.reach_px(band.high_nm, canvas.pitch_mm().min_element(), patch.widest);
         let mut kernel = KernelBuilder::new(self.part, [reach, reach]);
-        for nm in mid_wavelengths(band_nm) {
+        for nm in mid_wavelengths(band) {
             self.patterns.deposit(nm, patch, f64::INFINITY, |offset_px, share| kernel.deposit(offset_px, share));
         }
         kernel.kernel()

@@ -9,11 +9,11 @@ use crate::effects::core_table::{CoreBuilder, CoreTable};
 use crate::effects::error::EffectsError;
 use crate::effects::operation_counts::{OperationCounts, Uses};
 use crate::effects::patches::{Patches, Stand};
-use crate::effects::psf::VISIBLE_NM;
+use crate::effects::psf::VISIBLE;
 use crate::effects::sample_spread::SampleSpread;
 use crate::effects::spread_width::SpreadWidth;
 use etendue_core::maths::f64::sin_cos;
-use etendue_core::{Bands, EffectStatus};
+use etendue_core::{Bands, EffectStatus, WavelengthRange};
 use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
@@ -179,7 +179,7 @@ impl SpreadTable {
             })
         };
         let wavelengths = self.wavelengths_nm();
-        let every = if wavelengths.is_empty() { vec![VISIBLE_NM.0] } else { wavelengths };
+        let every = if wavelengths.is_empty() { vec![VISIBLE.low_nm] } else { wavelengths };
         let share = 1.0 / every.len() as f64;
         let (centroid, moments) = every
             .iter()
@@ -225,13 +225,13 @@ impl SpreadTable {
     }
 
     /// The cores by which samples are displaced, for the wavelengths of a range; `None` where no light is in them.
-    pub(in crate::effects) fn sample_spread(&self, canvas: &Canvas, range_nm: (f64, f64)) -> Option<SampleSpread> {
+    pub(in crate::effects) fn sample_spread(&self, canvas: &Canvas, range: WavelengthRange) -> Option<SampleSpread> {
         let places = self.places(canvas);
-        let parts = if self.varies_by_wavelength() { mid_wavelengths(range_nm).count() } else { 1 };
-        let step_nm = (range_nm.1 - range_nm.0) / parts as f64;
+        let parts = if self.varies_by_wavelength() { mid_wavelengths(range).count() } else { 1 };
+        let step_nm = (range.width_nm()) / parts as f64;
         let core = |patch: usize, part: usize| -> Option<CoreTable> {
             let mut builder = CoreBuilder::default();
-            let nm = range_nm.0 + (part as f64 + 0.5) * step_nm;
+            let nm = range.low_nm + (part as f64 + 0.5) * step_nm;
             let pitch_mm = canvas.pitch_mm();
             self.deposit(nm, canvas.sensor_mm(places.middle_px(patch)), |offset, share| {
                 builder.deposit(offset / pitch_mm, share);
@@ -240,7 +240,7 @@ impl SpreadTable {
         };
         let of_patch = |patch: usize| (0..parts).map(|part| core(patch, part)).collect::<Option<Vec<_>>>();
         let tables = (0..places.count()).into_par_iter().map(of_patch).collect::<Option<Vec<_>>>()?;
-        Some(SampleSpread::new(places.into_hats(), (range_nm.0, step_nm), tables))
+        Some(SampleSpread::new(places.into_hats(), range.low_nm, step_nm, tables))
     }
 
     /// What it has to do on so many pictures a band: all bands as the middle one.
@@ -249,7 +249,8 @@ impl SpreadTable {
         let count = bands.count() as f64;
         let uses = Uses { ready: pictures * count, applied: pictures * count };
         let kernels = if self.varies_by_wavelength() { count } else { 1.0 };
-        let parts = mid_wavelengths((bands.low_nm(), bands.low_nm() + bands.width_nm())).count() as f64;
+        let parts =
+            mid_wavelengths(WavelengthRange::new(bands.low_nm(), bands.low_nm() + bands.width_nm())).count() as f64;
         let (mixed, parts) = if self.varies_by_wavelength() { (4.0, parts) } else { (2.0, 1.0) };
         let samples = self.functions().map(Function::samples).max().unwrap_or(0) as f64;
         let kernel = OperationCounts { shared: kernels * parts * mixed * samples, ..OperationCounts::default() };
@@ -258,8 +259,8 @@ impl SpreadTable {
     }
 
     /// The wavelengths that stand for a band.
-    pub(super) fn wavelengths_of(&self, band_nm: (f64, f64)) -> Vec<f64> {
-        if self.varies_by_wavelength() { mid_wavelengths(band_nm).collect() } else { vec![VISIBLE_NM.0] }
+    pub(super) fn wavelengths_of(&self, band: WavelengthRange) -> Vec<f64> {
+        if self.varies_by_wavelength() { mid_wavelengths(band).collect() } else { vec![VISIBLE.low_nm] }
     }
 }
 

@@ -25,20 +25,20 @@ pub(super) fn at(p: &DropsParameters, course: &Course, time_s: f64, down: DVec2)
     let moment = |step: u64| course.start_s + step as f64 * STEP_S;
     let mut step = 0;
     while moment(step + 1) <= time_s {
-        advance(&mut drops, (p, course), [moment(step), moment(step + 1)], down);
+        advance(&mut drops, p, course, [moment(step), moment(step + 1)], down);
         step += 1;
     }
     if moment(step) < time_s {
-        advance(&mut drops, (p, course), [moment(step), time_s], down);
+        advance(&mut drops, p, course, [moment(step), time_s], down);
     }
     drops
 }
 
 /// Drops a little later.
-fn advance(drops: &mut Vec<Droplet>, (p, course): (&DropsParameters, &Course), [from_s, to_s]: [f64; 2], down: DVec2) {
+fn advance(drops: &mut Vec<Droplet>, p: &DropsParameters, course: &Course, [from_s, to_s]: [f64; 2], down: DVec2) {
     let [_, greatest_mm] = p.radius_mm;
     let passed_s = to_s - from_s;
-    let mut touches = arrive(drops, (p, course), [from_s, to_s]);
+    let mut touches = arrive(drops, p, course, [from_s, to_s]);
     if let Some(drying_s) = course.drying_s {
         let less = greatest_mm * greatest_mm * passed_s / drying_s;
         drops.retain_mut(|drop| {
@@ -64,7 +64,7 @@ fn advance(drops: &mut Vec<Droplet>, (p, course): (&DropsParameters, &Course), [
 }
 
 /// Drops that fall after one time and no later than another; whether there are any.
-fn arrive(drops: &mut Vec<Droplet>, (p, course): (&DropsParameters, &Course), [from_s, to_s]: [f64; 2]) -> bool {
+fn arrive(drops: &mut Vec<Droplet>, p: &DropsParameters, course: &Course, [from_s, to_s]: [f64; 2]) -> bool {
     if course.arrivals_hz == 0.0 {
         return false;
     }

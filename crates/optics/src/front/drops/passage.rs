@@ -36,7 +36,8 @@ impl Drops {
     /// comes this way; `None` where it ends in the glass or goes on too long. `normal` is the glass's where the ray left it, outwards.
     pub(in crate::front) fn leave(
         &self,
-        (mut line, normal): (Line, DVec3),
+        mut line: Line,
+        normal: DVec3,
         mut inside: Option<usize>,
         nm: f64,
     ) -> Option<(Line, f64)> {

@@ -34,14 +34,14 @@ impl Windscreen {
 
     fn beyond(&self, drops: Option<&Drops>, line: Line, nm: f64, way: Way) -> Fate {
         let placement = &self.parameters.placement;
-        match through((self, drops), placement.inward(line), nm, way) {
+        match through(self, drops, placement.inward(line), nm, way) {
             Fate::On(out, share) => Fate::On(placement.outward(out), share),
             other => other,
         }
     }
 }
 
-fn through((glass, drops): (&Windscreen, Option<&Drops>), line: Line, nm: f64, way: Way) -> Fate {
+fn through(glass: &Windscreen, drops: Option<&Drops>, line: Line, nm: f64, way: Way) -> Fate {
     let outer = glass.faces.len() - 1;
     let mut passage = Passage { glass, drops, wet: None, nm, line, medium: 0, share: 1.0, path_mm: 0.0 };
     if glass.faces[0].crossed(&line, 1.0).is_none() {
@@ -64,7 +64,7 @@ impl Passage<'_> {
         }
         let normal = self.refract(outer, 1.0)?;
         let Some(drops) = self.drops else { return Some(()) };
-        let (line, share) = drops.leave((self.line, normal), self.wet, self.nm)?;
+        let (line, share) = drops.leave(self.line, normal, self.wet, self.nm)?;
         self.line = line;
         self.share *= share;
         Some(())
