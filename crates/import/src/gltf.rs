@@ -31,7 +31,7 @@ pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
         still_name = names.take(&stem, "model");
         names.take("still", "still");
     }
-    let moving = add_moving(&mut scene, &motion, (file, folder), &mut names, &mut files, &mut report)
+    let moving = add_moving(&mut scene, &motion, file, folder, &mut names, &mut files, &mut report)
         .map_err(|told| Error::input(format!("{}: {told}", file.display())))?;
     match (mesh.is_some(), still, motion.movers.is_empty()) {
         (false, ..) => report.push("it has no meshes".to_owned()),
@@ -42,7 +42,7 @@ pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
         }
         (true, true, false) => {
             let part = "meshes/still.gltf".to_owned();
-            files.push((part.clone(), part_of(&motion, None, (file, folder))));
+            files.push((part.clone(), part_of(&motion, None, file, folder)));
             add_still(&mut scene, &still_name, &part, &mut report);
         }
     }
@@ -116,7 +116,7 @@ fn light_of(light: &GltfLight, held: &Held<'_>, names: &mut Names, report: &mut 
             report.push(note("spot, whose edge falls by our own curve between the same angles", "cd"));
             // 90° in 32 bits may lie above it.
             let half_deg = [inner_rad, outer_rad].map(|rad| rad.to_degrees().min(90.0));
-            lamps::spot(&name, (position, ahead), half_deg, level, colour)
+            lamps::spot(&name, position, ahead, half_deg, level, colour)
         }
         GltfLightKind::Directional => {
             report.push(note("directional: a sun's disc of 0.01°", "lx"));

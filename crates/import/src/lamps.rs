@@ -17,7 +17,8 @@ pub(super) fn point(name: &str, position: DVec3, candela: f64, colour: LightColo
 /// A cone about a unit vector from `position` in the world, m: `candela` within its inner half angle, none outside its outer one; degrees.
 pub(super) fn spot(
     name: &str,
-    (position, ahead): (DVec3, DVec3),
+    position: DVec3,
+    ahead: DVec3,
     [inner_deg, outer_deg]: [f64; 2],
     candela: f64,
     colour: LightColour,

@@ -42,7 +42,8 @@ impl Moving {
 pub(super) fn add_moving(
     scene: &mut Scene,
     motion: &GltfMotion,
-    (source, folder): (&Path, &Path),
+    source: &Path,
+    folder: &Path,
     names: &mut Names,
     files: &mut Vec<(String, Vec<u8>)>,
     report: &mut Vec<String>,
@@ -69,7 +70,7 @@ pub(super) fn add_moving(
         if mover.has_mesh {
             let own = if mover.scale.is_some() { DVec3::ONE } else { mover.rest.2 };
             let part = format!("meshes/{name}.gltf");
-            let bytes = part_of(motion, Some((number, (whole * own).to_array())), (source, folder));
+            let bytes = part_of(motion, Some((number, (whole * own).to_array())), source, folder);
             files.push((part.clone(), bytes));
             scene.meshes.push(Mesh::new(name.as_str(), part.as_str()));
             let body = Body::Mesh(name.as_str().into());
@@ -88,11 +89,7 @@ pub(super) fn add_moving(
 }
 
 /// A part as a file in `meshes/`.
-pub(super) fn part_of(
-    motion: &GltfMotion,
-    mover: Option<(usize, [f64; 3])>,
-    (source, folder): (&Path, &Path),
-) -> Vec<u8> {
+pub(super) fn part_of(motion: &GltfMotion, mover: Option<(usize, [f64; 3])>, source: &Path, folder: &Path) -> Vec<u8> {
     let beside = source.parent().unwrap_or(Path::new(""));
     let way = |name: &str| path_between(&folder.join("meshes"), &beside.join(name)).to_string_lossy().into_owned();
     motion.parts.part(mover, BLOB, &way)

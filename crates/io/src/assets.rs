@@ -81,7 +81,8 @@ fn large_pictures(assets: &mut Assets, requests: &[AssetRequest], memory: &Textu
     let is_texture = |request: &&AssetRequest| request.kind == AssetKind::Texture;
     let heads: Vec<_> =
         requests.iter().map(|request| Some(request).filter(is_texture).and_then(|r| head(&r.path))).collect();
-    let bytes: Vec<u64> = heads.iter().map(|head| head.map_or(0, pyramid_bytes)).collect();
+    let bytes: Vec<u64> =
+        heads.iter().map(|head| head.map_or(0, |head| pyramid_bytes(head.width, head.height, head.format))).collect();
     let large = memory.large(&bytes);
     if large.contains(&true) {
         let held: u64 = bytes.iter().zip(&large).filter(|(_, is_large)| !**is_large).map(|(bytes, _)| bytes).sum();

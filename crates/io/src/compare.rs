@@ -82,7 +82,7 @@ pub fn read_pair(a: &Path, b: &Path) -> Result<Pair, Error> {
 }
 
 fn of_exr(path: &Path, a: &ExrFile, b: &ExrFile) -> Result<Pair, Error> {
-    check_size(path, (a.width, a.height), (b.width, b.height))?;
+    check_size(path, [a.width, a.height], [b.width, b.height])?;
     check_stated(path, a, b)?;
     check_channels(path, &names(a), &names(b))?;
     let channels = names(a).into_iter().filter(|name| !name.starts_with(VARIANCE) && !is_preview(a, name));
@@ -175,18 +175,18 @@ fn channel(path: &Path, a: &ExrFile, b: &ExrFile, name: &str) -> Result<Channel,
     Ok(Channel { name: name.to_owned(), content })
 }
 
-fn check_size(path: &Path, a: (usize, usize), b: (usize, usize)) -> Result<(), Error> {
+fn check_size(path: &Path, a: [usize; 2], b: [usize; 2]) -> Result<(), Error> {
     if a == b {
         return Ok(());
     }
-    let what = format!("is {} × {} pixels, the other {} × {}; compare pictures of one size", b.0, b.1, a.0, a.1);
+    let what = format!("is {} × {} pixels, the other {} × {}; compare pictures of one size", b[0], b[1], a[0], a[1]);
     Err(Error::new(path, what))
 }
 
 fn of_pictures(a: &Path, b: &Path) -> Result<Pair, Error> {
     let (x, y) = (read_picture(a)?, read_picture(b)?);
     let (width, height) = (x.width as usize, x.height as usize);
-    check_size(b, (width, height), (y.width as usize, y.height as usize))?;
+    check_size(b, [width, height], [y.width as usize, y.height as usize])?;
     if kind(&x.pixels) != kind(&y.pixels) {
         let what = format!("holds {}, the other {}; compare pictures of one kind", kind(&y.pixels), kind(&x.pixels));
         return Err(Error::new(b, what));

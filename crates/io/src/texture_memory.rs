@@ -43,7 +43,7 @@ impl TextureMemory {
 }
 
 /// Bytes of the texels of a picture at all resolutions: what its file has, and a third as many texels of three floats.
-pub(crate) fn pyramid_bytes((width, height, format): (u32, u32, PixelFormat)) -> u64 {
+pub(crate) fn pyramid_bytes(width: u32, height: u32, format: PixelFormat) -> u64 {
     let texel = if format.is_bytes() { 3 } else { 12 };
     u64::from(width) * u64::from(height) * (texel + 4)
 }
@@ -61,6 +61,6 @@ mod tests {
         assert_eq!(large(100, &[30, 100, 10, 11]), [true, true, false, false], "51 of 50");
         assert_eq!(large(1, &[30, 100]), [true, true]);
         assert_eq!(large(1, &[]), [false; 0]);
-        assert_eq!(pyramid_bytes((8192, 8192, PixelFormat::Rgb8)), 7 << 26);
+        assert_eq!(pyramid_bytes(8192, 8192, PixelFormat::Rgb8), 7 << 26);
     }
 }

@@ -51,7 +51,7 @@ fn add_mesh(files: &mut MemoryFiles, folder: &Path, name: &str, mesh: &Bound<'_,
         )));
     }
     let array = |key: &str| match given.get_item(key)? {
-        Some(array) if !array.is_none() => Ok(Some((array, format!("meshes[{name:?}][{key:?}]")))),
+        Some(array) if !array.is_none() => Ok(Some(NamedArray { array, told: format!("meshes[{name:?}][{key:?}]") })),
         _ => Ok::<_, PyErr>(None),
     };
     let needed = |key: &str| {
@@ -65,15 +65,21 @@ fn add_mesh(files: &mut MemoryFiles, folder: &Path, name: &str, mesh: &Bound<'_,
     files.add_mesh(folder.join(name), &mesh).map_err(|error| exception(given.py(), error))
 }
 
+/// An array of a dict, and its place in words.
+struct NamedArray<'py> {
+    array: Bound<'py, PyAny>,
+    told: String,
+}
+
 /// Rows of `N` numbers.
-fn floats<const N: usize>((array, told): (Bound<'_, PyAny>, String)) -> PyResult<Vec<[f32; N]>> {
+fn floats<const N: usize>(NamedArray { array, told }: NamedArray<'_>) -> PyResult<Vec<[f32; N]>> {
     let array = rows(&array, N, "fiu", "numbers", &told)?;
     let bytes = bytes(&array, "float32")?;
     Ok(bytes.as_chunks::<4>().0.iter().map(|b| f32::from_ne_bytes(*b)).collect::<Vec<_>>().as_chunks().0.to_vec())
 }
 
 /// Rows of three indices.
-fn indices((array, told): (Bound<'_, PyAny>, String)) -> PyResult<Vec<[u32; 3]>> {
+fn indices(NamedArray { array, told }: NamedArray<'_>) -> PyResult<Vec<[u32; 3]>> {
     let array = rows(&array, 3, "iu", "whole numbers", &told)?;
     if array.getattr("size")?.extract::<usize>()? > 0 {
         let legal = |method: &str| array.call_method0(method)?.extract::<i128>().map(|i| u32::try_from(i).is_ok());

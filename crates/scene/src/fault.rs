@@ -111,13 +111,7 @@ impl Faults {
 
     /// Notes that `key`, which stands at `place`, has no effect for what stands at `cause`: a fault, but not where the
     /// command line says the cause and a file the key. What the command line says supersedes what it makes meaningless.
-    pub(crate) fn add_idle(
-        &mut self,
-        (key, place): (&str, &Place),
-        cause: Option<&Place>,
-        problem: String,
-        remedy: &str,
-    ) {
+    pub(crate) fn add_idle(&mut self, key: &str, place: &Place, cause: Option<&Place>, problem: String, remedy: &str) {
         match cause {
             Some(by) if by.is_command_line() && !place.is_command_line() => {
                 let superseded = Superseded { by: by.clone(), key: key.to_owned(), place: place.clone() };

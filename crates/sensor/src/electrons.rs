@@ -20,7 +20,7 @@ impl Sensor {
         let weights = self.band_weights(irradiance.bands());
         if width > 0 {
             plane.samples_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-                self.electrons_of_row(irradiance, &weights, (y, y), row);
+                self.electrons_of_row(irradiance, &weights, y, y, row);
             });
         }
         plane
@@ -40,7 +40,7 @@ impl Sensor {
                 let first = strip * STRIP_ROWS;
                 let light = irradiance.rows(first..first + samples.len() / width)?;
                 for (y, row) in samples.chunks_mut(width).enumerate() {
-                    self.electrons_of_row(&light, &weights, (first + y, y), row);
+                    self.electrons_of_row(&light, &weights, first + y, y, row);
                 }
                 Ok::<(), String>(())
             })?;
@@ -53,12 +53,13 @@ impl Sensor {
         &self,
         light: &SpectralCube<Irradiance>,
         weights: &[Vec<f64>],
-        (y, place): (usize, usize),
+        y: usize,
+        stored_row: usize,
         row: &mut [f32],
     ) {
         let width = row.len();
         for (x, electrons) in row.iter_mut().enumerate() {
-            *electrons = weighted_sum(light, &weights[self.channel_at(x, y)], place * width + x);
+            *electrons = weighted_sum(light, &weights[self.channel_at(x, y)], stored_row * width + x);
         }
     }
 

@@ -222,7 +222,7 @@ impl Layout {
     }
 
     /// Where pixel (x, y) of the array is found in the raw; `None` where it is not read.
-    pub(crate) fn raw_of_array(&self, cfa: &Cfa, (x, y): (usize, usize)) -> Option<(usize, usize)> {
+    pub(crate) fn raw_of_array(&self, cfa: &Cfa, x: usize, y: usize) -> Option<(usize, usize)> {
         let along = |i: usize, tile: usize, n: usize| i / (tile * n) * tile + i % tile;
         let (n, m) = self.steps();
         let is_first = |i: usize, tile: usize, n: usize| i % (tile * n) < tile;
@@ -359,10 +359,10 @@ mod tests {
         for (i, x) in [0, 1, 4, 5].into_iter().enumerate() {
             for (j, y) in [0, 1, 6, 7].into_iter().enumerate() {
                 assert_eq!(read.at(i, j), whole.at(x, y));
-                assert_eq!(p.read_out.layout.raw_of_array(&p.cfa, (x, y)), Some((i, j)));
+                assert_eq!(p.read_out.layout.raw_of_array(&p.cfa, x, y), Some((i, j)));
             }
         }
-        assert_eq!(p.read_out.layout.raw_of_array(&p.cfa, (2, 1)), None);
+        assert_eq!(p.read_out.layout.raw_of_array(&p.cfa, 2, 1), None);
         let region = Region { x: 4, y: 6, width: 4, height: 6 };
         p.read_out.layout.region = Some(region);
         let part = run(&p, &means, ADDRESS).plane;

@@ -117,7 +117,7 @@ impl Sphere {
         let mut angles: Vec<_> = cosines.iter().map(|cos| Angle::new(*cos)).collect();
         for (j, pair) in (1_u32..).zip(&self.coefficients) {
             let order = f64::from(j);
-            angles.iter_mut().for_each(|angle| angle.add(order, pair));
+            angles.iter_mut().for_each(|angle| angle.add(order, pair.0, pair.1));
         }
         angles.iter().map(|angle| 0.5 * (angle.s1.norm2() + angle.s2.norm2())).collect()
     }
@@ -138,7 +138,7 @@ impl Angle {
     }
 
     #[inline(always)]
-    fn add(&mut self, order: f64, (a, b): &(Complex, Complex)) {
+    fn add(&mut self, order: f64, a: Complex, b: Complex) {
         let [before, pi] = self.pi;
         let factor = (2.0 * order + 1.0) / (order * (order + 1.0));
         let tau = (order * self.cos * pi - (order + 1.0) * before) * factor;

@@ -35,7 +35,7 @@ pub(super) fn scene(drawing: &Drawing, light: &Light) -> String {
 }
 
 fn texture(texture: &Texture, drawing: &Drawing) -> record::Texture {
-    let (scale, offset) = mapping(drawing.panels[texture.panel].sheet.size_mm, texture.place_mm);
+    let (scale, offset) = mapping(drawing.panels[texture.panel].sheet.size_mm, texture.place_mm.0, texture.place_mm.1);
     record::Texture {
         wrap: Some(Wrap::Mirror.into()),
         uv_scale: Some(scale.into()),
@@ -57,7 +57,7 @@ fn object(panel: &Panel, drawing: &Drawing) -> Object {
 }
 
 /// How often a picture stands along a sheet's u and v, and where in the picture the sheet's lower left corner lies.
-fn mapping(size_mm: DVec2, (low, high): (DVec2, DVec2)) -> ([f64; 2], [f64; 2]) {
+fn mapping(size_mm: DVec2, low: DVec2, high: DVec2) -> ([f64; 2], [f64; 2]) {
     let scale = size_mm / (high - low);
     // The sheet's left and lower edges, from the picture's left and lower ones; y runs down.
     let corner = DVec2::new(-size_mm.x / 2.0 - low.x, high.y - size_mm.y / 2.0);

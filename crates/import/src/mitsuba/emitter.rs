@@ -85,7 +85,14 @@ impl<'a> Importer<'a> {
         let name = self.name(element);
         let ahead = (self.scenery.to_ours * to_world.matrix3.z_axis).normalize_or(DVec3::X);
         let pose = (self.scenery.to_ours * to_world.translation, ahead);
-        self.scenery.scene.lights.push(lamps::spot(&name, pose, [inner_deg, outer_deg], candela, unit.colour));
+        self.scenery.scene.lights.push(lamps::spot(
+            &name,
+            pose.0,
+            pose.1,
+            [inner_deg, outer_deg],
+            candela,
+            unit.colour,
+        ));
         Ok(())
     }
 

@@ -65,7 +65,7 @@ impl Scenery {
         let Some(candela) = self.lit("spot", "cd", candela) else { return Ok(()) };
         let name = self.names.take("spot", "spot");
         let pose = (self.to_ours * from, ahead);
-        self.scene.lights.push(lamps::spot(&name, pose, [inner_deg, outer_deg], candela, unit.colour));
+        self.scene.lights.push(lamps::spot(&name, pose.0, pose.1, [inner_deg, outer_deg], candela, unit.colour));
         Ok(())
     }
 

@@ -138,7 +138,7 @@ impl<'a> Importer<'a> {
         let name = self.scenery.names.take(prim.name(), "light");
         let ahead = (self.scenery.to_ours * -state.to_world.matrix3.z_axis).normalize_or(DVec3::X);
         let position = self.scenery.to_ours * state.to_world.translation;
-        self.scenery.scene.lights.push(lamps::spot(&name, (position, ahead), cone, candela, colour));
+        self.scenery.scene.lights.push(lamps::spot(&name, position, ahead, cone, candela, colour));
     }
 
     fn note_dark_point(&mut self) {

@@ -105,7 +105,7 @@ impl<'a> Importer<'a> {
         if self.plain_number(shader, "inputs:useSpecularWorkflow").unwrap_or(0.0) != 0.0 {
             return self.specular(shader, base, alpha);
         }
-        let coated = self.coated(base, ("ior", stated), &alpha);
+        let coated = self.coated(base, "ior", stated, &alpha);
         if matches!(&metallic, Factor::Number(m) if m.value == 0.0) {
             return Ok(coated);
         }
@@ -135,11 +135,11 @@ impl<'a> Importer<'a> {
         if grey(colour).is_none() {
             self.scenery.report.note("the colour of highlights (specularColor) is white of its luminance");
         }
-        Ok(self.coated(base, ("specularColor", index_of(share)), &alpha))
+        Ok(self.coated(base, "specularColor", index_of(share), &alpha))
     }
 
     /// A base under a coat. Within its range an index is as stated; one of 1 reflects nothing, and leaves the base alone.
-    fn coated(&mut self, base: Reflectance, (name, index): (&str, f64), alpha: &Factor) -> Surface {
+    fn coated(&mut self, base: Reflectance, name: &str, index: f64, alpha: &Factor) -> Surface {
         if index == 1.0 {
             return Surface::Diffuse(Diffuse::new(base));
         }

@@ -40,8 +40,10 @@ const PANORAMA: (&str, usize) = ("EQUIRECTANGULAR", 2);
 
 pub(super) fn read(text: &str, camera: Option<&str>) -> Read<Found> {
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
-    let cameras: Vec<Line<'_>> =
-        lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')).map(Line::read).collect::<Read<_>>()?;
+    let cameras: Vec<Line<'_>> = lines
+        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
+        .map(|(number, line)| Line::read(number, line))
+        .collect::<Read<_>>()?;
     let line = chosen(&cameras, camera)?;
     let (model, matrix) = line.camera()?;
     let calibration = Calibration::new(model, matrix, line.size_px).map_err(of_camera(line.number))?;
@@ -70,7 +72,7 @@ fn chosen<'a, 'b>(cameras: &'b [Line<'a>], camera: Option<&str>) -> Read<&'b Lin
 }
 
 impl<'a> Line<'a> {
-    fn read((number, text): (usize, &'a str)) -> Read<Self> {
+    fn read(number: usize, text: &'a str) -> Read<Self> {
         let mut words = text.split_whitespace();
         let mut word = |what: &str| {
             words.next().ok_or_else(|| {

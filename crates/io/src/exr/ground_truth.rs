@@ -78,7 +78,8 @@ pub trait GroundTruthRows: Send + Sync {
 /// The same file of `width` × `height` pixels, to be written, of rows that are found when they are. `has_gaps` says whether the depth of some pixel is NaN.
 #[must_use]
 pub fn ground_truth_image<'a>(
-    (width, height): (usize, usize),
+    width: usize,
+    height: usize,
     has_gaps: bool,
     rows: impl GroundTruthRows + 'a,
     provenance: &Provenance,

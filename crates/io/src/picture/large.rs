@@ -19,10 +19,15 @@ use crate::{Error, hash, unpacked};
 /// Pixels that are handed over at a time, about.
 const STRIP_PIXELS: usize = 1 << 17;
 
-/// Columns, rows and format.
-pub(crate) type PictureHead = (u32, u32, PixelFormat);
+/// What the head of a picture states: its size, px, and the format of its pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PictureHead {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) format: PixelFormat,
+}
 
-/// Columns, rows and format of a picture, from its head; `None` where the head cannot be read, which reading the picture explains.
+/// Reads the head of a picture; `None` where the head cannot be read, which reading the picture explains.
 pub(crate) fn head(file: &Path) -> Option<PictureHead> {
     if !std::fs::metadata(file).ok()?.is_file() {
         return None;
@@ -33,8 +38,8 @@ pub(crate) fn head(file: &Path) -> Option<PictureHead> {
 fn head_unguarded(file: &Path) -> Option<PictureHead> {
     let mut magic = [0; EXR_MAGIC.len()];
     std::io::Read::read_exact(&mut File::open(file).ok()?, &mut magic).ok()?;
-    let (width, height, format) = if magic == EXR_MAGIC { exr_head(file)? } else { raster_head(file)? };
-    (width > 0 && height > 0).then_some((width, height, format))
+    let head = if magic == EXR_MAGIC { exr_head(file)? } else { raster_head(file)? };
+    (head.width > 0 && head.height > 0).then_some(head)
 }
 
 fn exr_head(file: &Path) -> Option<PictureHead> {
@@ -42,7 +47,8 @@ fn exr_head(file: &Path) -> Option<PictureHead> {
     let [header] = &meta.headers[..] else { return None };
     let has_opacity = header.channels.list.iter().any(|channel| channel.name == *"A");
     let format = if has_opacity { PixelFormat::Rgba32F } else { PixelFormat::Rgb32F };
-    Some((u32::try_from(header.layer_size.width()).ok()?, u32::try_from(header.layer_size.height()).ok()?, format))
+    let size = header.layer_size;
+    Some(PictureHead { width: u32::try_from(size.width()).ok()?, height: u32::try_from(size.height()).ok()?, format })
 }
 
 /// What makes the colours of an EXR those of Rec. 709; `None` where they are, and of other pictures.
@@ -65,11 +71,12 @@ fn raster_head(file: &Path) -> Option<PictureHead> {
     let (width, height) = decoder.dimensions();
     let format = stored_format(decoder.color_type());
     let packed = std::fs::metadata(file).ok()?.len() as usize;
-    (Kept::Stored.bytes(&decoder) <= unpacked::most(packed)).then_some((width, height, format))
+    (Kept::Stored.bytes(&decoder) <= unpacked::most(packed)).then_some(PictureHead { width, height, format })
 }
 
 /// A picture whose head has been read.
-pub(crate) fn large_picture(file: &Path, (width, height, format): PictureHead) -> Result<LargeImage, Error> {
+pub(crate) fn large_picture(file: &Path, head: PictureHead) -> Result<LargeImage, Error> {
+    let PictureHead { width, height, format } = head;
     let bytes = read_bytes(file, "picture")?;
     let (hash, to_rec_709) = (hash::of_bytes(&bytes), exr_colours(file, &bytes)?);
     let size = (width, height);
@@ -92,7 +99,7 @@ impl PixelRows for PictureFile {
         if hash::of_bytes(&bytes) != self.hash {
             return Err(Error::new(&self.path, "the file was changed while it was read; run again").to_string());
         }
-        if let Some(rows) = guarded(&self.path, || Ok(PngRows::new(&bytes, self.size))).ok().flatten() {
+        if let Some(rows) = guarded(&self.path, || Ok(PngRows::new(&bytes, self.size.0, self.size.1))).ok().flatten() {
             match rows.read(&self.path, take) {
                 Ok(()) => return Ok(()),
                 Err(Stop::Taker(error)) => return Err(error),
@@ -141,7 +148,7 @@ struct PngRows<'a> {
 
 impl<'a> PngRows<'a> {
     /// `None` of what is no such PNG.
-    fn new(bytes: &'a [u8], size: (u32, u32)) -> Option<Self> {
+    fn new(bytes: &'a [u8], width: u32, height: u32) -> Option<Self> {
         let mut decoder = png::Decoder::new(Cursor::new(bytes));
         // As the decoder of small pictures does: palettes as colours, less than 8 bits as 8.
         decoder.set_transformations(png::Transformations::EXPAND);
@@ -150,7 +157,11 @@ impl<'a> PngRows<'a> {
         let info = reader.info();
         let is_plain = bits == png::BitDepth::Eight && !info.interlaced && info.animation_control.is_none();
         let colours = Some(colours).filter(|colours| *colours != png::ColorType::Indexed)?;
-        (is_plain && (info.width, info.height) == size).then_some(Self { reader, colours, size })
+        (is_plain && (info.width, info.height) == (width, height)).then_some(Self {
+            reader,
+            colours,
+            size: (width, height),
+        })
     }
 
     fn read(mut self, file: &Path, take: TakeRows<'_>) -> Result<(), Stop> {
@@ -241,7 +252,7 @@ mod tests {
             let file = place.path().join("t.png");
             picture.save_with_format(&file, ImageFormat::Png).expect("writable");
             let (whole, strips) = (read_picture(&file).expect("readable"), rows(&file).expect("readable"));
-            assert_eq!(head(&file), Some((w, h, format(&whole.pixels))));
+            assert_eq!(head(&file), Some(PictureHead { width: w, height: h, format: format(&whole.pixels) }));
             assert_eq!(
                 strips.len() > 1,
                 picture.color().bits_per_pixel() / u16::from(picture.color().channel_count()) == 8
@@ -281,7 +292,7 @@ mod tests {
         let file = place.path().join("t.exr");
         for (channels, format) in [(&["R", "G", "B"][..], PixelFormat::Rgb32F), (&["Y", "A"], PixelFormat::Rgba32F)] {
             std::fs::write(&file, crate::exr::tests_support::picture(3, 2, channels, 0.5)).expect("write");
-            assert_eq!(head(&file), Some((3, 2, format)));
+            assert_eq!(head(&file), Some(PictureHead { width: 3, height: 2, format }));
             assert_eq!(rows(&file).expect("readable"), [read_picture(&file).expect("readable").pixels]);
         }
     }

@@ -52,11 +52,14 @@ impl PrivateGlasses {
                 "a private glass with {found} indices; expected one for each of {expected} wavelengths of PWL"
             )));
         }
-        let points: Vec<(f64, f64)> = self.wavelengths_nm.iter().copied().zip(indices).collect();
+        let points = self.wavelengths_nm.iter().zip(indices).map(|(nm, index)| IndexSample { nm: *nm, index });
+        let points: Vec<IndexSample> = points.collect();
         let (first, middle, last) = (points[0], points[points.len() / 2], points[points.len() - 1]);
         let curve = cauchy(first, middle, last).filter(|curve| points.len() > 1 && curve.abbe() > 0.0);
-        Ok(curve
-            .map_or(GlassAsset::Index(middle.1), |c| GlassAsset::Abbe { index: c.index(LINE_D_NM), abbe: c.abbe() }))
+        Ok(curve.map_or(GlassAsset::Index(middle.index), |c| GlassAsset::Abbe {
+            index: c.index(LINE_D_NM),
+            abbe: c.abbe(),
+        }))
     }
 }
 
@@ -64,12 +67,19 @@ fn plain(name: &str) -> String {
     name.trim_matches(['\'', '"']).to_ascii_uppercase()
 }
 
+/// A refractive index at a wavelength.
+#[derive(Clone, Copy, PartialEq)]
+struct IndexSample {
+    nm: f64,
+    index: f64,
+}
+
 /// Cauchy's curve through three points, or through two where the middle one is an end.
-fn cauchy(a: (f64, f64), m: (f64, f64), b: (f64, f64)) -> Option<Dispersion> {
-    let x = |point: (f64, f64)| 1e6 / (point.0 * point.0);
-    let slope = |p: (f64, f64), q: (f64, f64)| (q.1 - p.1) / (x(q) - x(p));
+fn cauchy(a: IndexSample, m: IndexSample, b: IndexSample) -> Option<Dispersion> {
+    let x = |point: IndexSample| 1e6 / (point.nm * point.nm);
+    let slope = |p: IndexSample, q: IndexSample| (q.index - p.index) / (x(q) - x(p));
     let bend = if m == a || m == b { 0.0 } else { (slope(m, b) - slope(a, m)) / (x(b) - x(a)) };
     let linear = slope(a, b) - bend * (x(a) + x(b));
-    let curve = Dispersion::Cauchy { a: a.1 - linear * x(a) - bend * x(a) * x(a), b_um2: linear, c_um4: bend };
+    let curve = Dispersion::Cauchy { a: a.index - linear * x(a) - bend * x(a) * x(a), b_um2: linear, c_um4: bend };
     (a != b && linear.is_finite()).then_some(curve)
 }

@@ -12,7 +12,7 @@ use etendue_io::emva_descriptor::DescribedLevel;
 use etendue_io::failure::Error;
 use etendue_metrology::patch_statistics::patch_statistics;
 use etendue_metrology::photon_transfer::{
-    FEWEST, Figures, Nonuniformity, Outliers, Pattern, dead_pixels, hot_pixels, nonuniformity,
+    DarkStack, FEWEST, Figures, Nonuniformity, Outliers, Pattern, dead_pixels, hot_pixels, nonuniformity,
 };
 
 /// Pixels at the border have fewer neighbours to exchange light with.
@@ -134,8 +134,9 @@ fn outliers(laboratory: &Laboratory, groups: &[Group], found: &Found) -> (Option
     let dark = || groups.iter().filter(|group| group.level.photons == 0.0);
     let by_time = |a: &&Group, b: &&Group| a.level.exposure_s.total_cmp(&b.level.exposure_s);
     let hot = dark().min_by(by_time).zip(dark().max_by(by_time)).and_then(|(short, long)| {
-        let [long, short] = [long, short].map(|group| (&group.stack, group.level.exposure_s));
-        hot_pixels(long, short, found.figures.gain_dn_per_e.value, laboratory.camera.white_level_dn)
+        let [long, short] =
+            [long, short].map(|group| DarkStack { frames: &group.stack, exposure_s: group.level.exposure_s });
+        hot_pixels(&long, &short, found.figures.gain_dn_per_e.value, laboratory.camera.white_level_dn)
     });
     (hot, found.fixed.as_ref().map(|fixed| dead_pixels(&fixed.dark, &fixed.bright)))
 }

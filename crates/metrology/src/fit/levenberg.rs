@@ -108,7 +108,7 @@ pub fn fit<P: Problem>(problem: &P, start: &[f64]) -> Result<Fit, FitError> {
     let mut lambda = 1e-3;
     for _ in 0..STEPS {
         let (normal, gradient) = normal_equations(problem, &at, &residuals).ok_or(FitError::BadInitialGuess)?;
-        let Some(better) = improved(problem, &at, &residuals, (&normal, &gradient), &mut lambda) else {
+        let Some(better) = improved(problem, &at, &residuals, &normal, &gradient, &mut lambda) else {
             return Ok(finished(at, residuals, &normal, count));
         };
         let settled = squares(&residuals) - squares(&better.1) <= GAIN * squares(&residuals);
@@ -142,7 +142,8 @@ fn improved<P: Problem>(
     problem: &P,
     at: &[f64],
     residuals: &[Vec<f64>],
-    (normal, gradient): (&Matrix, &[f64]),
+    normal: &Matrix,
+    gradient: &[f64],
     lambda: &mut f64,
 ) -> Option<Point> {
     const LARGEST: f64 = 1e12;

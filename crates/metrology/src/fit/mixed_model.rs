@@ -63,8 +63,7 @@ pub fn fit_mixed_model(design: &Matrix, values: &[f64], free: usize) -> Result<M
     let normal = design.gram();
     let right = transposed_times(design, values);
     let size = dot(values, values);
-    let rungs =
-        (0..RUNGS).filter_map(|i| rung(&normal, &right, (size, free, freedom), exp2(2.0 * f64::from(FIRST + i))));
+    let rungs = (0..RUNGS).filter_map(|i| rung(&normal, &right, size, free, freedom, exp2(2.0 * f64::from(FIRST + i))));
     let rungs: Vec<Rung> = rungs.collect();
     let best = rungs.iter().map(|r| r.unlikely).reduce(f64::min).ok_or_else(few)?;
     let weight = |r: &Rung| exp(0.5 * (best - r.unlikely));
@@ -74,7 +73,7 @@ pub fn fit_mixed_model(design: &Matrix, values: &[f64], free: usize) -> Result<M
     Ok(mean(&kept, freedom))
 }
 
-fn rung(normal: &Matrix, right: &[f64], (size, free, freedom): (f64, usize, f64), lambda: f64) -> Option<Rung> {
+fn rung(normal: &Matrix, right: &[f64], size: f64, free: usize, freedom: f64, lambda: f64) -> Option<Rung> {
     let count = right.len();
     let mut matrix = normal.clone();
     (free..count).for_each(|i| *matrix.at_mut(i, i) += 1.0 / lambda);

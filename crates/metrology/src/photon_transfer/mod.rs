@@ -38,7 +38,7 @@ pub use data::{Level, TransferData};
 pub use defects::Deviations;
 pub use figures::{Figures, SnrPoint, model_snr};
 pub use nonuniformity::{Nonuniformity, nonuniformity};
-pub use outliers::{FEWEST, Outliers, dead_pixels, hot_pixels};
+pub use outliers::{DarkStack, FEWEST, Outliers, dead_pixels, hot_pixels};
 pub use spatial::{Parts, Pattern};
 pub use stack::{LevelStatistics, Stack};
 

@@ -36,15 +36,25 @@ pub struct Outliers {
     pub spread_e_s: f64,
 }
 
+/// Frames without light of one exposure.
+#[derive(Clone, Copy, Debug)]
+pub struct DarkStack<'a> {
+    /// The frames.
+    pub frames: &'a Stack,
+    /// Their exposure, s.
+    pub exposure_s: f64,
+}
+
 /// Hot pixels, by the averages of stacks without light of a long and a short exposure, s.
 #[must_use]
 pub fn hot_pixels(
-    (long, long_s): (&Stack, f64),
-    (short, short_s): (&Stack, f64),
+    long: &DarkStack<'_>,
+    short: &DarkStack<'_>,
     gain_dn_per_e: f64,
     full_scale_dn: Option<f64>,
 ) -> Option<Outliers> {
-    let per_dn = 1.0 / (gain_dn_per_e * (long_s - short_s));
+    let per_dn = 1.0 / (gain_dn_per_e * (long.exposure_s - short.exposure_s));
+    let (long, short) = (long.frames, short.frames);
     if !(per_dn.is_finite() && per_dn > 0.0) || long.width() != short.width() || long.height() != short.height() {
         return None;
     }
@@ -148,6 +158,10 @@ mod tests {
         stack
     }
 
+    fn dark(frames: &Stack, exposure_s: f64) -> DarkStack<'_> {
+        DarkStack { frames, exposure_s }
+    }
+
     #[test]
     fn hot_pixels_have_their_share_and_mean_although_some_are_saturated() {
         const COUNT: usize = 40_000;
@@ -161,7 +175,8 @@ mod tests {
             if i.is_multiple_of(100) { usual + quantile(i / 100) } else { usual }
         };
         let long: Vec<f64> = (0..COUNT).map(|i| (64.0 + current(i)).min(4095.0)).collect();
-        let found = hot_pixels((&stack(&long, WIDTH), 2.5), (&stack(&[64.0; COUNT], WIDTH), 0.5), 0.5, Some(4095.0));
+        let found =
+            hot_pixels(&dark(&stack(&long, WIDTH), 2.5), &dark(&stack(&[64.0; COUNT], WIDTH), 0.5), 0.5, Some(4095.0));
         let found = found.expect("two exposures");
         // Those below the limit of about 10 e⁻/s are added: 0.5 % of 400.
         assert!((390..=HOT).contains(&found.places.len()) && found.places[0] == [40, 1], "{:?}", &found.places[..2]);
@@ -179,7 +194,7 @@ mod tests {
         [5, 99, 430, 931, 1900].iter().for_each(|i| long[*i] = 800.0);
         [990, 1010, 1030].iter().for_each(|i| long[*i] = 4095.0);
         [(950, 700.0), (970, 1500.0), (1050, 2300.0)].iter().for_each(|(i, v)| long[*i] = *v);
-        let found = hot_pixels((&stack(&long, 20), 2.5), (&stack(&[64.0; 2000], 20), 0.5), 0.5, Some(4095.0));
+        let found = hot_pixels(&dark(&stack(&long, 20), 2.5), &dark(&stack(&[64.0; 2000], 20), 0.5), 0.5, Some(4095.0));
         let found = found.expect("two exposures");
         assert_eq!(found.places, [[5, 0], [19, 4], [10, 21], [11, 46], [10, 50], [0, 95]]);
         // The charge is there, wherever it was made.

@@ -42,7 +42,7 @@ impl Covariance {
         let scaled = |power: fn(f64) -> f64| residuals.iter().enumerate().map(|(i, e)| e / power(free(i))).collect();
         let shared = (!shifts.is_empty()).then(|| {
             let residuals: Vec<f64> = scaled(|f| f);
-            let near = |i: usize| shifts.iter().filter_map(|s| neighbours.of(samples[i].pixel, *s)).collect();
+            let near = |i: usize| shifts.iter().filter_map(|s| neighbours.of(samples[i].pixel, s.0, s.1)).collect();
             sandwich(rows, &residuals, near, inverse)
         });
         let residuals: Vec<f64> = scaled(f64::sqrt);
@@ -92,7 +92,7 @@ impl Neighbours {
         Self { width: image.width() as isize, samples: places }
     }
 
-    fn of(&self, pixel: usize, (dx, dy): (isize, isize)) -> Option<usize> {
+    fn of(&self, pixel: usize, dx: isize, dy: isize) -> Option<usize> {
         let at = pixel as isize;
         let column = at % self.width + dx;
         let place = usize::try_from(at + dy * self.width + dx).ok()?;
@@ -105,7 +105,7 @@ impl Neighbours {
         let range = || -FARTHEST..=FARTHEST;
         let shifts = range().flat_map(|dy| range().map(move |dx| (dx, dy))).filter(|shift| *shift != (0, 0));
         let counts = |shift: &(isize, isize)| {
-            let pair = |p: &usize| Some(residuals[self.samples[*p]?] * residuals[self.of(*p, *shift)?]);
+            let pair = |p: &usize| Some(residuals[self.samples[*p]?] * residuals[self.of(*p, shift.0, shift.1)?]);
             let (mut sum, mut squares) = (0.0, 0.0);
             pixels.iter().filter_map(pair).for_each(|product| {
                 sum += product;

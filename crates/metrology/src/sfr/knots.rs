@@ -100,13 +100,15 @@ impl Knots {
             terms.push((k, above - next));
             above = next;
         }
-        self.sides().into_iter().for_each(|side| self.coarse_terms(side, distance, &mut terms));
+        self.sides()
+            .into_iter()
+            .for_each(|(sign, end, levels)| self.coarse_terms(sign, end, levels, distance, &mut terms));
         terms.retain(|(_, value)| *value != 0.0);
         Row(terms)
     }
 
     /// The coarse levels of a side, and what the first step takes from the fine splines' end.
-    fn coarse_terms(&self, (sign, end, levels): (f64, usize, usize), distance: f64, terms: &mut Vec<(usize, f64)>) {
+    fn coarse_terms(&self, sign: f64, end: usize, levels: usize, distance: f64, terms: &mut Vec<(usize, f64)>) {
         let Some(first) = self.coarse.first() else { return };
         let u = (sign * distance - first) / COARSE_STEP_PX;
         let half = 0.5 * SUPPORT as f64;

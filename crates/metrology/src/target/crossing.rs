@@ -46,7 +46,7 @@ pub(super) fn fitted(image: &Image, start: DVec2, steps: [DVec2; 2], radius: f64
     let (mut normal, mut squares) = equations(&pixels, &at);
     let mut lambda = 1e-3;
     for _ in 0..STEPS {
-        let Some(next) = moved(&at, &normal, lambda) else {
+        let Some(next) = moved(&at, &normal.0, &normal.1, lambda) else {
             lambda *= 10.0;
             continue;
         };
@@ -206,7 +206,7 @@ fn equations(pixels: &[(DVec2, f64)], at: &Numbers) -> ((Matrix, Numbers), f64) 
     ((Matrix::from_rows(COUNT, (0..COUNT).map(row)), gradient), squares)
 }
 
-fn moved(at: &Numbers, (normal, gradient): &(Matrix, Numbers), lambda: f64) -> Option<Numbers> {
+fn moved(at: &Numbers, normal: &Matrix, gradient: &Numbers, lambda: f64) -> Option<Numbers> {
     let mut damped = normal.clone();
     (0..COUNT).for_each(|i| *damped.at_mut(i, i) *= 1.0 + lambda);
     let step = Cholesky::of(&damped, 1e-14)?.solve(&gradient.map(|g| -g));

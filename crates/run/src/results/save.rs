@@ -233,7 +233,7 @@ impl exr::GroundTruthRows for RowsOfFile<'_> {
 }
 
 fn truth_image<'a>(rows: &'a TruthRows<'a>, facts: &etendue_io::Provenance) -> exr::ExrImage<'a> {
-    ground_truth_image(rows.size(), rows.has_gaps(), RowsOfFile(rows), facts)
+    ground_truth_image(rows.size().0, rows.size().1, rows.has_gaps(), RowsOfFile(rows), facts)
 }
 
 fn sampling_image<'a>(sampling: &'a SamplingPlanes, facts: &etendue_io::Provenance) -> exr::ExrImage<'a> {

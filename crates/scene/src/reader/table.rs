@@ -292,7 +292,7 @@ impl<'t> Reader<'t> {
             }
             let problem = format!("\"{}\" has no effect here, it belongs to {}", entry.key, owners.join(" or "));
             let told = owners.iter().filter_map(|mark| mark.split_once(" = ")).find_map(|(tag, _)| self.table.get(tag));
-            faults.add_idle((&entry.key, &entry.place), told.map(|node| &node.place), problem, "remove it");
+            faults.add_idle(&entry.key, &entry.place, told.map(|node| &node.place), problem, "remove it");
         }
     }
 }

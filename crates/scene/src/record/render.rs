@@ -375,7 +375,7 @@ pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone
             if !cameras.clone().any(|r| traces(r) && r.states(place)) {
                 let problem = format!("\"{key}\" has no effect here, it belongs to integrator = \"path\"");
                 let cause = render.integrator.as_ref().map(|i| &i.place);
-                faults.add_idle((key, place), cause, problem, "remove it, or change the integrator");
+                faults.add_idle(key, place, cause, problem, "remove it, or change the integrator");
             }
         }
     }
@@ -387,7 +387,7 @@ fn check_branches(render: &Render, faults: &mut Faults) {
     let mut idle = |(key, of): (&str, &Placed<u64>), (other, cause): (&str, &Placed<u64>)| {
         let problem =
             format!("\"{key}\" and \"{other}\" = {} exclude each other: paths that branch share no tails", cause.value);
-        faults.add_idle((key, &of.place), Some(&cause.place), problem, "give one of the two, or 1 for the other");
+        faults.add_idle(key, &of.place, Some(&cause.place), problem, "give one of the two, or 1 for the other");
     };
     if render.reuse_counts() {
         idle(("branches", branches), ("path_reuse_px", reuse));
@@ -418,7 +418,7 @@ pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
     for (key, place, remedy) in keys {
         if let Some(place) = place {
             let problem = format!("\"{key}\" has no effect here, it belongs to route = \"pupil\"");
-            faults.add_idle((key, place), render.route.as_ref().map(|route| &route.place), problem, remedy);
+            faults.add_idle(key, place, render.route.as_ref().map(|route| &route.place), problem, remedy);
         }
     }
 }

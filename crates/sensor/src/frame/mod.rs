@@ -242,7 +242,7 @@ impl Sensor {
             signal_breakdown = signal_breakdown.map(|c| c.mapped(|layer| part.of(layer)));
         }
         let invalid = invalid_pixels(array);
-        let places = invalid.iter().filter_map(|i| layout.raw_of_array(&p.cfa, (i.x as usize, i.y as usize)));
+        let places = invalid.iter().filter_map(|i| layout.raw_of_array(&p.cfa, i.x as usize, i.y as usize));
         for (x, y) in places.collect::<Vec<_>>() {
             numbers.set(x, y, 0);
         }

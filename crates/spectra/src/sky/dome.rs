@@ -132,7 +132,7 @@ impl SkyModel {
             let cos_zenith = ((ring as f64 + 0.5) / RINGS as f64).sqrt();
             for sector in 0..SECTORS {
                 let azimuth = PI * (sector as f64 + 0.5) / SECTORS as f64;
-                let values = self.band_radiances(cos_zenith, cos_between(cos_zenith, sun, azimuth));
+                let values = self.band_radiances(cos_zenith, cos_between(cos_zenith, sun.0, sun.1, azimuth));
                 (0..BANDS).for_each(|b| sums[b] += values[b]);
             }
         }
@@ -147,7 +147,7 @@ impl SkyModel {
 }
 
 /// Cosine of the angle between a direction and the Sun, whose elevation has the sine and cosine given.
-fn cos_between(cos_zenith: f64, (sun_sin, sun_cos): (f64, f64), azimuth: f64) -> f64 {
+fn cos_between(cos_zenith: f64, sun_sin: f64, sun_cos: f64, azimuth: f64) -> f64 {
     let sin_zenith = (1.0 - cos_zenith * cos_zenith).max(0.0).sqrt();
     cos_zenith * sun_sin + sin_zenith * sun_cos * maths::f64::cos(azimuth)
 }
@@ -234,7 +234,7 @@ mod tests {
             let (sin, cos) = maths::f64::sin_cos(FRAC_PI_2 * (f64::from(ring) + 0.5) / f64::from(rings));
             for sector in 0..sectors {
                 let azimuth = PI * (f64::from(sector) + 0.5) / f64::from(sectors);
-                sum += sin * cos * sky.bands()[6].radiance(cos, cos_between(cos, sun, azimuth));
+                sum += sin * cos * sky.bands()[6].radiance(cos, cos_between(cos, sun.0, sun.1, azimuth));
             }
         }
         let fine = 2.0 * PI * FRAC_PI_2 * sum / f64::from(rings * sectors);

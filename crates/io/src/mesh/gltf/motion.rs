@@ -86,7 +86,7 @@ fn read(file: &Path, bytes: &[u8]) -> Result<GltfMotion, String> {
         mover_of[node] = above[node].and_then(|parent| mover_of[parent]);
         let own = std::mem::take(&mut tracks[node]);
         if own.is_some() {
-            match mover(&root, node, (mover_of[node], &movers), above[node], &to_file, own) {
+            match mover(&root, node, mover_of[node], &movers, above[node], &to_file, own) {
                 Ok(mover) => {
                     mover_of[node] = Some(movers.len());
                     movers.push(mover);
@@ -154,7 +154,7 @@ fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result
             let sampler = sampler.ok_or_else(|| told("a channel names a sampler that is not there".to_owned()))?;
             let node = tracks.get_mut(channel.target.node.value());
             let node = node.ok_or_else(|| told("a channel names a node that is not there".to_owned()))?;
-            if !add(root, buffers, (channel, sampler), node, &mut keys).map_err(told)? {
+            if !add(root, buffers, channel, sampler, node, &mut keys).map_err(told)? {
                 let what = called(root, channel.target.node.value());
                 let note = match channel.target.path {
                     Checked::Valid(Property::MorphTargetWeights) => format!("morph targets of {what} are not used"),
@@ -173,7 +173,8 @@ fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result
 fn add(
     root: &Root,
     buffers: &Buffers,
-    (channel, sampler): (&Channel, &Sampler),
+    channel: &Channel,
+    sampler: &Sampler,
     node: &mut Tracks,
     keys: &mut u64,
 ) -> Result<bool, String> {
@@ -195,7 +196,7 @@ fn add(
     let times: Vec<f64> = times.into_iter().map(|[time]| time).collect();
     let cubic = matches!(interpolation, Interpolation::CubicSpline);
     let steps = matches!(interpolation, Interpolation::Step);
-    let of = |what: &'static str| (root, buffers, sampler.output, what);
+    let of = |what: &'static str| Values { root, buffers, accessor: sampler.output, what };
     match channel.target.path {
         Checked::Valid(Property::Rotation) => {
             let rotation = track(times, of("rotations"), cubic, steps)?;
@@ -208,22 +209,24 @@ fn add(
     Ok(true)
 }
 
-type Values<'a> = (&'a Root, &'a Buffers, gltf::json::Index<gltf::json::Accessor>, &'static str);
+/// The values of a channel in a file, and what they are in words.
+struct Values<'a> {
+    root: &'a Root,
+    buffers: &'a Buffers,
+    accessor: gltf::json::Index<gltf::json::Accessor>,
+    what: &'static str,
+}
 
-fn track<const N: usize>(
-    times: Vec<f64>,
-    (root, buffers, index, what): Values<'_>,
-    cubic: bool,
-    steps: bool,
-) -> Result<GltfTrack<N>, String> {
-    let values = finite(numbers::<N>(root, buffers, index, what)?, what)?;
+fn track<const N: usize>(times: Vec<f64>, of: Values<'_>, cubic: bool, steps: bool) -> Result<GltfTrack<N>, String> {
+    let values = finite(numbers::<N>(of.root, of.buffers, of.accessor, of.what)?, of.what)?;
     tracks::track(times, values, cubic, steps)
 }
 
 fn mover(
     root: &Root,
     number: usize,
-    (parent, movers): (Option<usize>, &[GltfMover]),
+    parent: Option<usize>,
+    movers: &[GltfMover],
     above: Option<usize>,
     to_file: &[DAffine3],
     tracks: Tracks,

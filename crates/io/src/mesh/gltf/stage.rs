@@ -109,10 +109,10 @@ fn read(bytes: &[u8]) -> Result<GltfStage, String> {
         let node_name = node.name.clone().unwrap_or_default();
         stage.mesh_nodes.extend(node.mesh.map(|_| number));
         if let Some(light) = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()) {
-            stage.lights.push(light_of(&root, light.light.value(), (number, node_name.clone()), to_file)?);
+            stage.lights.push(light_of(&root, light.light.value(), number, node_name.clone(), to_file)?);
         }
         if let Some(camera) = node.camera {
-            stage.cameras.push(camera_of(&root, camera.value(), (number, node_name), to_file)?);
+            stage.cameras.push(camera_of(&root, camera.value(), number, node_name, to_file)?);
         }
     }
     Ok(stage)
@@ -121,7 +121,8 @@ fn read(bytes: &[u8]) -> Result<GltfStage, String> {
 fn light_of(
     root: &Root,
     number: usize,
-    (node, node_name): (usize, String),
+    node: usize,
+    node_name: String,
     to_file: DAffine3,
 ) -> Result<GltfLight, String> {
     let lights = root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
@@ -165,7 +166,8 @@ fn kind_of(light: &Light) -> Result<GltfLightKind, String> {
 fn camera_of(
     root: &Root,
     number: usize,
-    (node, node_name): (usize, String),
+    node: usize,
+    node_name: String,
     to_file: DAffine3,
 ) -> Result<GltfCamera, String> {
     let camera = root

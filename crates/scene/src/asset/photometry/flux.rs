@@ -37,12 +37,12 @@ impl PhotometryAsset {
 /// ∫ f cos t dt over a grid in degrees.
 fn latitudes(grid_deg: &[f64], value: impl Fn(usize) -> f64, latitude_deg: impl Fn(f64) -> f64) -> f64 {
     let at = |i: usize| (latitude_deg(grid_deg[i]).to_radians(), value(i));
-    (1..grid_deg.len()).map(|i| piece(at(i - 1), at(i))).sum()
-}
-
-fn piece((t0, f0): (f64, f64), (t1, f1): (f64, f64)) -> f64 {
-    let slope = (f1 - f0) / (t1 - t0);
-    (f1 * sin(t1) + slope * cos(t1)) - (f0 * sin(t0) + slope * cos(t0))
+    let piece = |i: usize| {
+        let ((t0, f0), (t1, f1)) = (at(i - 1), at(i));
+        let slope = (f1 - f0) / (t1 - t0);
+        (f1 * sin(t1) + slope * cos(t1)) - (f0 * sin(t0) + slope * cos(t0))
+    };
+    (1..grid_deg.len()).map(piece).sum()
 }
 
 /// ∫ f dt over a grid in degrees.
