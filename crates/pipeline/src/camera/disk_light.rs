@@ -12,8 +12,8 @@
 use crate::camera::behind_lens::{dirt_shades, shaded};
 use crate::camera::defocus::held_margin_px;
 use crate::camera::effects::{EffectsOutput, behind, of_band, picture};
+use crate::camera::light::LightError;
 use crate::camera::light::{KeptEstimate, Light};
-use crate::camera::light_error::LightError;
 use crate::camera::plane_cube::PlaneCube;
 use crate::camera::stored::Stored;
 use crate::plan::film::{needs_all_bands, needs_electrons, needs_irradiance};

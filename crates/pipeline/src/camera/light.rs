@@ -4,6 +4,7 @@ use crate::plan::RowExposure;
 use crate::render::film::CubeEstimate;
 use etendue_core::quantity::{Irradiance, MeanElectrons, Quantity, Radiance, Variance};
 use etendue_core::{KeptCube, Plane};
+use etendue_optics::OpticsError;
 use etendue_sensor::CaptureLight;
 
 /// A spectral cube of means and their variances, in memory or on the disk.
@@ -75,4 +76,15 @@ fn scale_rows<Q: Quantity<Sample = f32>>(plane: &mut Plane<Q>, by: impl Fn(usize
         let by = by(row);
         values.iter_mut().for_each(|value| *value = (f64::from(*value) * by) as f32);
     }
+}
+
+/// Why a film does not become light.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LightError {
+    /// The lens cannot be put on the film.
+    #[error(transparent)]
+    Optics(#[from] OpticsError),
+    /// A scratch file cannot be written or read.
+    #[error("{0}")]
+    Scratch(String),
 }

@@ -14,7 +14,6 @@ mod disk_light;
 mod effects;
 pub mod flat;
 mod light;
-mod light_error;
 pub mod light_meter;
 pub mod photograph;
 mod plane_cube;

@@ -3,8 +3,8 @@
 use crate::camera::behind_lens::electrons;
 use crate::camera::disk_light;
 use crate::camera::effects::{EffectsOutput, behind, picture};
+pub use crate::camera::light::LightError;
 pub use crate::camera::light::{KeptEstimate, Light};
-pub use crate::camera::light_error::LightError;
 use crate::camera::stored::Stored;
 use crate::plan::{CameraBody, CameraPlan, Development, Route, RowExposure};
 use crate::render::film::{CubeEstimate, Film, FilmCube};

@@ -1,4 +1,4 @@
-//! A camera wherever it stands: lens, effects, sensor, processing.
+//! A camera wherever it stands (lens, effects, sensor, processing), and what is refused and remarked of a camera.
 
 use super::context::Context;
 use super::effects::effects;
@@ -8,8 +8,9 @@ use super::processing::development;
 use super::row_exposure::row_exposure;
 use super::scale;
 use super::sensor::{fill_factor, sensor};
-use crate::plan::CameraBody;
-use etendue_scene::record::Camera;
+use crate::plan::{CameraBody, CameraPlan, PictureFormat};
+use etendue_optics::DepthOfField;
+use etendue_scene::record::{Camera, Output};
 
 /// The camera's models; `None` with the faults noted.
 pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraBody> {
@@ -32,4 +33,73 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
     let exposure = row_exposure(&camera.sensor, sensor.as_ref(), &raster, context);
     let body = CameraBody { place, raster, lens, front, effects, aperture_px, exposure, sensor, development, scale };
     (context.faults.len() == before).then_some(body)
+}
+
+/// Light from beyond the picture that the lens does not give.
+pub(super) fn remark_margin(body: &CameraBody, context: &mut Context<'_>) {
+    if let (Ok(()), Err(error)) = (body.lens.check(&body.raster), body.lens.check(&body.film())) {
+        context.warn(format!("beyond the picture, where the effects take light from, some is missing: {error}"));
+    }
+}
+
+/// Blur that is wider than what is kept around the picture.
+pub(super) fn remark_reach(camera: &str, depth_of_field: &DepthOfField, body: &CameraBody, context: &mut Context<'_>) {
+    if let Some([reach, kept]) = body.short_blur_margin_px(depth_of_field) {
+        let text = format!(
+            "camera \"{camera}\": things at 1 m and beyond blur over radii of up to {reach} px, and {kept} px are kept around the picture: what lies farther out counts as the \
+             mean of what is kept, so that even light is right and a lone lamp out of focus may be far too bright; route = \"lens\" has no such limit"
+        );
+        context.warn(text);
+    }
+}
+
+/// Rounding from which on it is said, m.
+const NOTICED_M: f64 = 1e-3;
+
+/// Says what the positions of cameras far from the world's origin lose.
+pub(super) fn remark_positions(cameras: &[CameraPlan], context: &mut Context<'_>) {
+    for camera in cameras.iter().filter(|c| c.products.ground_truth && !c.products.camera_space_position) {
+        let farthest = camera.path.at(camera.timing.frame_start_s(0)).position_m.abs().max_element();
+        let rounding = f64::from(f32::EPSILON) * 0.5 * farthest;
+        if rounding > NOTICED_M {
+            context.remark_on(format!("camera \"{}\"", camera.name), format!(
+                "positions of the ground truth are 32-bit floats, {farthest:.0} m from the world's origin \
+                 rounded by up to {rounding:.1e} m; depth, distance and normals are not: ask for \"camera_space_position\" and add the \
+                 side-car's pose"
+            ));
+        }
+    }
+}
+
+/// Refuses a video of pictures that are not written, have other bits or loss, or follow each other at no stated rate.
+pub(super) fn check_video(output: &Output, camera: &CameraPlan, context: &mut Context<'_>) {
+    let Some(key) = &output.video else { return };
+    let mut refuse = |lack: String, remedy: &str| {
+        let problem = format!("\"video\" is asked for, but {lack}");
+        context.fault(&key.place, problem, format!("{remedy}, or remove the key"));
+    };
+    if camera.body.development.is_none() {
+        return refuse("the camera has no [isp], which makes pictures".to_owned(), "add it");
+    }
+    if !camera.products.picture {
+        return refuse("no pictures are, of which it is made".to_owned(), "ask for \"picture\"");
+    }
+    match camera.body.picture_format() {
+        PictureFormat::Png { bits: 8 } => {}
+        PictureFormat::Png { bits } => {
+            refuse(format!("the pictures have {bits} bits, and its samples have 8"), "write pictures of 8 bits");
+        }
+        PictureFormat::Jpeg { .. } => {
+            refuse(
+                "the pictures are JPEG, which has lost what it would repeat".to_owned(),
+                "write the pictures as PNG",
+            );
+        }
+    }
+    if camera.timing.period_s.is_none() {
+        refuse(
+            "nothing says how fast frames follow each other".to_owned(),
+            "add [sequence] with \"frame_rate_hz\" to the job",
+        );
+    }
 }

@@ -3,10 +3,10 @@
 use super::context::Context;
 use super::frames::Frames;
 use super::lamp_motion::lamp_motions;
-use super::linear_picture::linear;
 use super::modulation;
-use super::open_lamp::OpenLamp;
+use super::opening::OpenLamp;
 use super::opening::opening;
+use super::picture::linear;
 use super::spectrum::{bright, powered, relative};
 use etendue_core::{Motion, Waveform};
 use etendue_scene::Place;

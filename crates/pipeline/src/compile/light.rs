@@ -3,8 +3,8 @@
 use super::context::Context;
 use super::frames::Frames;
 use super::lamp::Lamps;
-use super::linear_picture::linear;
-use super::open_lamp::OpenLamp;
+use super::opening::OpenLamp;
+use super::picture::linear;
 use super::spectrum::{bright, emitted, powered, relative};
 use super::{lamp, sky};
 use crate::plan::SkyFacts;

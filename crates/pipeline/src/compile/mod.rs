@@ -19,19 +19,15 @@ mod lamp;
 mod lamp_motion;
 mod lens;
 mod light;
-mod linear_picture;
-mod margin;
 mod material;
 mod medium;
 mod modulation;
 #[cfg(test)]
 mod motion_tests;
 mod object_motion;
-mod open_lamp;
 mod opening;
 mod picture;
 mod point_spread_files;
-mod positions;
 mod precipitation;
 mod processing;
 mod row_exposure;
@@ -43,12 +39,12 @@ mod shape;
 pub(crate) mod shared_light;
 mod sky;
 mod spectrum;
+mod stated;
 mod surroundings;
 #[cfg(test)]
 mod tests;
 mod timing;
 mod vertex_animation;
-mod video;
 mod wavelengths;
 mod weather;
 mod world;
@@ -134,7 +130,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     shared_light::share(&mut cameras);
     air::layers(description, &mut cameras, (!media.is_empty(), precipitation.is_some()), context);
     air::remark(&cameras, &media, context);
-    positions::remark(&cameras, context);
+    camera::remark_positions(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
     surroundings::warn_of_enclosed(scene, &frames, &world, &material_table, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
@@ -201,7 +197,7 @@ fn camera_plan(
     let body = camera::body(&setup.camera, context)?;
     let mut products = settings::products(&setup.output, &body, context);
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
-    margin::remark_reach(&setup.name, &depth_of_field, &body, context);
+    camera::remark_reach(&setup.name, &depth_of_field, &body, context);
     let delivered = (&setup.output, &mut products);
     let (settings, passes) = settings::settings(&setup.render, &body, &depth_of_field, delivered, choices, context)?;
     effects::check_spread_by(setup.camera.effects.as_ref(), &settings.route, context);
@@ -228,6 +224,6 @@ fn camera_plan(
         depth_of_field,
         products,
     };
-    video::check(&setup.output, &camera, context);
+    camera::check_video(&setup.output, &camera, context);
     Some(camera)
 }

@@ -2,7 +2,6 @@
 
 use super::context::Context;
 use super::material::MaterialTableBuilder;
-use super::open_lamp::OpenLamp;
 use crate::plan::Identity;
 use etendue_scene::Place;
 use etendue_scene::asset::{OpeningShape, PhotometryAsset, PhotometryAxes};
@@ -106,4 +105,12 @@ pub(super) fn placed(
         }
     }
     lamps
+}
+
+/// A lamp with an opening, everywhere where it stands.
+pub(super) struct OpenLamp {
+    /// By the names of its places.
+    pub(super) alike: Vec<(String, Lamp)>,
+    pub(super) opening: Opening,
+    pub(super) place: Place,
 }

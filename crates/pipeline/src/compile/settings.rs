@@ -1,7 +1,7 @@
 //! `[render]` and `[output]`: what is delivered, and how the light is found.
 
+use super::camera::remark_margin;
 use super::context::Context;
-use super::margin;
 use super::samples::{Samples, has_variance, samples};
 use super::{Choices, Quality};
 use crate::plan::raw_colour::RawColour;
@@ -190,7 +190,7 @@ pub(super) fn settings(
     let bands = if cube { Some(bands(render, range_nm, context)?) } else { None };
     check_size(body, &route, &Layout { bands, folded, watched: adaptive.is_some() }, context)?;
     remark_losses(products, &route, folded, body, context);
-    margin::remark(body, context);
+    remark_margin(body, context);
     remark_bands(render, cube, context);
     let level = level(render);
     let is_watched = adaptive.is_some() && route == Route::Lens;

@@ -4,7 +4,7 @@ use super::context::Context;
 use super::frames::Frames;
 use super::material::{MaterialTableBuilder, has_picture};
 use super::object_motion::placements;
-use super::open_lamp::OpenLamp;
+use super::opening::OpenLamp;
 use super::{opening, shape, vertex_animation};
 use crate::plan::Identity;
 use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface};

@@ -1,7 +1,6 @@
 //! Whether the figures of a data sheet fit each other.
 
 use super::digits::Span;
-use super::{LOOSE, largest_dn};
 use etendue_core::maths::f64::pow;
 use etendue_scene::record::DataSheet;
 use etendue_scene::{Fault, Placed};
@@ -174,4 +173,22 @@ fn converter(sheet: &DataSheet, capacity_dn: Span, found: &mut Found) {
     } else {
         found.faults.push(Fault::new(place, problem, "correct the capacity, the gain or the bits"));
     }
+}
+
+/// Relative difference (of amplitudes) up to which figures of a data sheet are told to differ and are taken.
+pub const LOOSE: f64 = 0.05;
+
+/// The figures that a camera is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Figures {
+    /// K, DN/e⁻.
+    pub(super) gain_dn_e: f64,
+    /// σ_d, e⁻, without quantisation.
+    pub(super) dark_noise_e: f64,
+    /// Digital number of no signal.
+    pub(super) black_level_dn: f64,
+}
+
+pub(super) fn largest_dn(sheet: &DataSheet) -> f64 {
+    f64::from((1_u32 << sheet.bits.value) - 1)
 }

@@ -8,11 +8,10 @@
 
 mod consistency;
 mod digits;
-mod figures;
 mod write;
 
-pub use figures::LOOSE;
-use figures::{Figures, largest_dn};
+pub use consistency::LOOSE;
+use consistency::{Figures, largest_dn};
 
 use etendue_scene::Fault;
 use etendue_scene::record::DataSheet;

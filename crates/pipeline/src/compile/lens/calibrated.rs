@@ -2,7 +2,8 @@
 
 use super::super::context::Context;
 use super::super::scale::{divisor, full_raster};
-use super::{focus_m, projection, transmittance};
+use super::projection;
+use crate::compile::stated::{focus_m, transmittance};
 use etendue_optics::{CalibratedParameters, Falloff, FalloffBy, Lens, OpticsError, PupilStance};
 use etendue_projection::{Calibration, Raster};
 use etendue_scene::Place;

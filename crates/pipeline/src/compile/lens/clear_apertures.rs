@@ -1,6 +1,6 @@
 //! Clear semi-apertures that a lens program's file leaves to be found: as large as the light of its field points needs.
 
-use super::file_surface::of_file;
+use super::lens_file::of_file;
 use super::lens_file::{Stated, narrow_beside, reference_nm};
 use etendue_optics::prescription::clear_apertures::{FieldBundle, FieldPoint, clear_apertures_mm, provisional_mm};
 use etendue_optics::prescription::{Focus, Surface};

@@ -3,11 +3,12 @@
 //! The file governs where the description says nothing. What the description changes, and what the file leaves open, is remarked.
 
 use super::super::context::Context;
-use super::focus_m;
+use crate::compile::stated::focus_m;
 use etendue_optics::prescription::{Focus, Surface};
 use etendue_optics::{PRINCIPAL_NM, Prescription, PrescriptionError, PrescriptionParameters};
-use etendue_scene::asset::{LensOpening, PrescriptionAsset};
+use etendue_scene::asset::{GlassAsset, LensOpening, PrescriptionAsset, SurfaceAsset};
 use etendue_scene::record::lens::prescription as record;
+use etendue_spectra::glass::{self, Dispersion, GlassError};
 
 /// How much of its own opening the stop has while first-order quantities are found: nothing else clips then.
 const NARROW: f64 = 1e-4;
@@ -160,4 +161,23 @@ fn tell_image(
         )),
         _ => {}
     }
+}
+
+/// A surface of a file.
+///
+/// # Errors
+/// Where its glass is none.
+pub(super) fn of_file(surface: &SurfaceAsset, semi_aperture_mm: f64) -> Result<Surface, GlassError> {
+    let glass = match &surface.glass {
+        GlassAsset::Air => Dispersion::AIR,
+        GlassAsset::Named(name) => glass::named(name)?.dispersion,
+        GlassAsset::Index(n) => Dispersion::Constant { n: *n }.checked()?,
+        GlassAsset::Abbe { index, abbe } => Dispersion::of_abbe(*index, *abbe)?,
+    };
+    Ok(Surface {
+        conic: surface.conic,
+        asphere: surface.asphere,
+        stop: surface.stop,
+        ..Surface::sphere(surface.radius_mm, surface.thickness_mm, glass, semi_aperture_mm)
+    })
 }

@@ -2,17 +2,14 @@
 
 mod calibrated;
 mod clear_apertures;
-mod file_surface;
 mod lens_file;
 mod prescription;
 mod projection;
-mod projection_table;
 mod ray_transfer;
-mod stated;
 #[cfg(test)]
 mod tests;
 
-use stated::{focus_m, transmittance};
+use super::stated::{focus_m, transmittance};
 
 use super::context::Context;
 use super::effects::widest_film;

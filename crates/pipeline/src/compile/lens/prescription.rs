@@ -3,9 +3,9 @@
 use super::super::context::Context;
 use super::super::spectrum::from_file;
 use super::clear_apertures;
-use super::file_surface::of_file;
-use super::focus_m;
+use super::lens_file::of_file;
 use super::lens_file::{self, Stated};
+use crate::compile::stated::focus_m;
 use etendue_optics::prescription::coating::Coating;
 use etendue_optics::prescription::filter::InterferenceFilter;
 use etendue_optics::prescription::published::{LENSES, named};

@@ -1,15 +1,16 @@
 //! From a projection's numbers to a calibration.
 
 use super::super::context::Context;
-use super::projection_table;
+use etendue_core::maths::f64::tan;
 use etendue_projection::model::{
     Division, DoubleSphere, ExtendedUnified, FTheta, FThetaSense, FieldOfView, Ideal, KannalaBrandt, ModelError, Ocam,
     Panorama, Perspective, Tabulated, ThinPrismFisheye, Unified,
 };
 use etendue_projection::plane::{Affine, DistortionTerms};
 use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Raster, Sense};
+use etendue_scene::asset::{LensNumbers, LensQuantity, Undistorted};
 use etendue_scene::record::lens::Direction;
-use etendue_scene::record::lens::projection::{self as record, Centre, Matrix, Projection, Scale};
+use etendue_scene::record::lens::projection::{self as record, Centre, Matrix, Projection, Scale, Table, TableSource};
 use etendue_scene::{Place, Placed};
 use glam::{DVec2, DVec3};
 
@@ -21,7 +22,7 @@ pub(super) fn calibration(
     context: &mut Context<'_>,
 ) -> Option<Calibration> {
     let points = match record {
-        Projection::Table(table) => projection_table::points(table, context)?,
+        Projection::Table(table) => points(table, context)?,
         _ => Vec::new(),
     };
     let model = context.accept(place, model(record, &points))?;
@@ -196,4 +197,31 @@ fn of_field(angle: &Placed<f64>, model: &Model, raster: &Raster, context: &mut C
         context.fault(&angle.place, problem, format!("give less than {edge:.3}°, near which its picture has no end"));
     }
     Some(0.5 * raster.width() as f64 / reach?)
+}
+
+/// Field angle, rad, and radius, mm, without the axis; of a file with what was made of it remarked.
+pub(super) fn points(table: &Table, context: &mut Context<'_>) -> Option<Vec<(f64, f64)>> {
+    let file = match &table.source {
+        TableSource::Angles(angles) => {
+            let points = angles.iter().zip(table.radius_mm.iter().flatten());
+            return Some(points.map(|(angle, radius)| (angle.value.to_radians(), radius.value)).collect());
+        }
+        TableSource::File(file) => file,
+    };
+    let assets = context.assets;
+    let asset = assets.lens_tables.get(&(file.value.clone(), LensQuantity::Distortion))?;
+    asset.notes.iter().for_each(|note| context.remark_on(file.value.display(), note));
+    let LensNumbers::Distortion { beside, focal_length_mm: own } = asset.numbers else { return None };
+    let stated = table.focal_length_mm.as_ref().map(|mm| mm.value);
+    let Some(f) = stated.or(own) else {
+        let problem = "does not say for which focal length its distortion is stated";
+        context.fault(&file.place, problem, "add \"focal_length_mm\"");
+        return None;
+    };
+    let ideal = |angle: f64| match beside {
+        Undistorted::Tangent => f * tan(angle),
+        Undistorted::Angle => f * angle,
+    };
+    let beyond = asset.points.iter().filter(|(field, _)| *field > 0.0);
+    Some(beyond.map(|(field, ratio)| (field.to_radians(), ratio * ideal(field.to_radians()))).collect())
 }

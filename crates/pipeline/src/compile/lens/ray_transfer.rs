@@ -1,7 +1,7 @@
 //! A lens known by its ray-transfer functions alone.
 
 use super::super::context::Context;
-use super::{focus_m, transmittance};
+use crate::compile::stated::{focus_m, transmittance};
 use etendue_optics::ray_transfer::{
     PassCircle, PassEllipse, PassRegion, Polynomial, RayPass, RayTransfer, RayTransferError, Term, Transfer,
 };

@@ -5,14 +5,12 @@ mod compiler;
 mod large_picture;
 mod layers;
 mod metal;
-mod number;
 mod picture;
 mod road;
 mod share;
 mod slot;
 mod surface;
 mod texels;
-mod texture;
 
 pub(super) use builder::MaterialTableBuilder;
 pub(super) use metal::complex_index;

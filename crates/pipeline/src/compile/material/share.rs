@@ -4,7 +4,7 @@ use super::super::context::Context;
 use super::super::modulation;
 use super::super::spectrum::{emitted, from_file};
 use super::compiler::MaterialCompiler;
-use super::texture::Use;
+use super::compiler::Use;
 use etendue_scene::record::material::Sides;
 use etendue_scene::record::{self, Colour, SurfaceEmission};
 use etendue_spectra::{Outside, Spectrum, colour, reflectance, upsample};

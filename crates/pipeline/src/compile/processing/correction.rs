@@ -1,13 +1,12 @@
 //! Black level, defects and shading.
 
 use super::super::context::Context;
-use super::Delivered;
 use etendue_isp::{BlackLevel, Defects, Shading};
-use etendue_scene::Placed;
+use etendue_projection::Raster;
 use etendue_scene::asset::NumbersAsset;
-use etendue_scene::record;
 use etendue_scene::record::processing as description;
 use etendue_scene::record::processing::correction::{BlackLevelRule, ShadingTable};
+use etendue_scene::{Placed, record};
 use etendue_sensor::Sensor;
 use std::path::PathBuf;
 
@@ -111,4 +110,21 @@ pub(super) fn table<'a>(
     let problem = format!("the table has {} columns; expected {columns}: {of}", table.columns);
     context.fault(&file.place, problem, "correct the file");
     None
+}
+
+/// The picture that a sensor delivers: its region, binned.
+pub(super) struct Delivered {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    /// Where the optical axis meets it, px.
+    pub(super) principal_px: [f64; 2],
+    /// Number of pixels of the described sensor in a row and in a column of one pixel.
+    pub(super) scale: u64,
+}
+
+impl Delivered {
+    pub(super) fn of(sensor: &Sensor, raster: &Raster, scale: u64) -> Self {
+        let (width, height) = sensor.picture_size(raster.width(), raster.height());
+        Self { width, height, principal_px: sensor.in_picture(raster.principal_px().to_array()), scale }
+    }
 }

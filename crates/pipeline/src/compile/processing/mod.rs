@@ -2,11 +2,10 @@
 
 mod colour;
 mod correction;
-mod delivered;
 mod filter;
 mod tone;
 
-use delivered::Delivered;
+use correction::Delivered;
 
 use super::context::Context;
 use crate::plan::{Development, PictureFormat};

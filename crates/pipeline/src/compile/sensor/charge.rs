@@ -1,6 +1,6 @@
 //! What happens to charge in its pixel.
 
-use super::stated::or;
+use crate::compile::stated::or;
 use etendue_scene::record;
 use etendue_scene::record::sensor::charge as description;
 use etendue_sensor::ChargeEffects;

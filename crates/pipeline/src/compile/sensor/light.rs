@@ -1,6 +1,6 @@
 //! What light meets before it is counted, and its time.
 
-use super::stated::or;
+use crate::compile::stated::or;
 use etendue_scene::record;
 use etendue_scene::record::sensor::charge as description;
 use etendue_scene::record::sensor::exposure::{self, AutoExposure, Exchange};

@@ -2,9 +2,63 @@
 
 mod channels;
 mod charge;
-mod electronics;
 mod light;
 mod read_out;
-mod stated;
 
-pub(super) use electronics::{fill_factor, sensor};
+use crate::compile::context::Context;
+use channels::{cfa, channels};
+use etendue_scene::record::sensor::read_out::OpticalBlack;
+use etendue_scene::{Placed, record};
+use etendue_sensor::{Pixel, Sensor, SensorError, SensorParameters};
+
+/// The sensor with its electronics, `exit_pupil_mm` behind its lens's exit pupil; `None` where the record has none or they are
+/// faulty.
+pub(in super::super) fn sensor(
+    record: &record::Sensor,
+    exit_pupil_mm: f64,
+    context: &mut Context<'_>,
+) -> Option<Sensor> {
+    let electronics = record.electronics.as_ref()?;
+    refuse_no_shield(electronics.optical_black.as_ref(), context);
+    let channels = channels(electronics, context)?;
+    let specimen = electronics.non_uniformity.as_ref().and_then(|n| n.seed.as_ref());
+    let parameters = SensorParameters {
+        pixel: Pixel { pitch_um: record.pixel_pitch_um.value, fill_factor: fill_factor(record) },
+        cfa: cfa(&electronics.cfa, context)?,
+        channels,
+        exposure: light::exposure(electronics),
+        specimen: specimen.map(|seed| seed.value),
+        light: light::light(record, electronics, exit_pupil_mm),
+        charge: charge::charge(electronics),
+        voltage: read_out::voltage(electronics),
+        read_out: read_out::read_out(electronics),
+        hdr: read_out::hdr(electronics),
+        noise: electronics.noise.as_ref().is_none_or(|n| n.value),
+    };
+    let sensor = Sensor::new(parameters).map_err(|errors| refuse(record, &errors, context)).ok()?;
+    let misfits = sensor.misfits(record.width_px.value as usize, record.height_px.value as usize);
+    refuse(record, &misfits, context);
+    misfits.is_empty().then_some(sensor)
+}
+
+/// Optical black of no pixels says nothing.
+fn refuse_no_shield(record: Option<&OpticalBlack>, context: &mut Context<'_>) {
+    let none = |key: Option<&Placed<u64>>| key.is_none_or(|k| k.value == 0);
+    if let Some(dark) = record.filter(|d| none(d.rows_px.as_ref()) && none(d.columns_px.as_ref())) {
+        let problem = "\"optical_black\" has neither rows nor columns";
+        context.fault(&dark.place, problem, "give \"rows_px\" or \"columns_px\", or remove it");
+    }
+}
+
+/// Each refusal stands where its key does, or the innermost table around it that is stated.
+fn refuse(record: &record::Sensor, errors: &[SensorError], context: &mut Context<'_>) {
+    let table = record.to_table();
+    for error in errors {
+        context.fault(table.place_of(error.key()).unwrap_or(&record.place), error.to_string(), "");
+    }
+}
+
+/// Fraction of a pixel's area that is sensitive.
+pub(in super::super) fn fill_factor(record: &record::Sensor) -> f64 {
+    record.fill_factor.as_ref().map_or(1.0, |f| f.value)
+}

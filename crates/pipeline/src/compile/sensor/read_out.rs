@@ -1,7 +1,7 @@
 //! From charge to digital numbers: voltage, converter, layout, captures.
 
 use super::light::neighbours;
-use super::stated::or;
+use crate::compile::stated::or;
 use etendue_scene::record;
 use etendue_scene::record::sensor::charge::NonUniformity;
 use etendue_scene::record::sensor::{hdr as of_hdr, read_out as description};

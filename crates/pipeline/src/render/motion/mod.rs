@@ -14,7 +14,6 @@
 mod correspondence;
 mod image_point;
 mod neighbour;
-mod planes;
 mod surface_path;
 #[cfg(test)]
 mod tests;
@@ -31,7 +30,7 @@ use etendue_core::quantity::{Disparity, Identity, ImageVelocity, Time, Vector};
 use etendue_tracer::accel::Simd;
 use glam::DVec2;
 use neighbour::Neighbour;
-use planes::plane;
+use neighbour::plane;
 use rayon::prelude::*;
 pub(crate) use surface_path::OwnPoint;
 use surface_path::SurfacePath;

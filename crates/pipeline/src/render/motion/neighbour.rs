@@ -2,13 +2,12 @@
 
 use super::correspondence::{Correspondence, Sight, correspondence};
 use super::image_point::Target;
-use super::planes::plane;
 use super::surface_path::SurfacePath;
 use crate::plan::Plan;
 use crate::render::frame_view::FrameView;
 use crate::render::look_at::LookAt;
 use etendue_core::Plane;
-use etendue_core::quantity::{Identity, OpticalFlow, Vector};
+use etendue_core::quantity::{Identity, OpticalFlow, Quantity, Vector};
 use etendue_tracer::accel::Simd;
 use glam::DVec2;
 
@@ -113,4 +112,9 @@ impl<'a> Neighbour<'a> {
         };
         if hidden { Visibility::Hidden } else { Visibility::Seen }
     }
+}
+
+/// A plane of one property of `pixels`, `width` a row.
+pub(super) fn plane<T, Q: Quantity>(pixels: &[T], width: usize, of: impl Fn(&T) -> Q::Sample) -> Plane<Q> {
+    Plane::from_samples(width, pixels.len() / width, pixels.iter().map(of).collect()).expect("one sample a pixel")
 }

@@ -1,4 +1,4 @@
-//! Numbers that all kinds of lenses state alike.
+//! Numbers of keys that may be left out, and those that all kinds of lenses state alike.
 
 use etendue_scene::Placed;
 use etendue_scene::record::lens as description;
@@ -12,4 +12,9 @@ pub(super) fn focus_m(focus: &description::FocusDistance) -> f64 {
         description::FocusDistance::Metres(m) => m.value,
         description::FocusDistance::Infinity => f64::INFINITY,
     }
+}
+
+/// A key's number, or what stands for its absence.
+pub(super) fn or(key: Option<&Placed<f64>>, default: f64) -> f64 {
+    key.map_or(default, |k| k.value)
 }
