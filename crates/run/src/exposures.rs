@@ -77,7 +77,7 @@ impl<'a> Exposures<'a> {
         });
         let tiles = Tiles { heading: &heading, frame, film: (camera, shot), before: self.done, run: self };
         let request = Request { shot, simd: self.simd, shard: self.shard, keeping: FilmKeeping::Planned };
-        let film = pass(self.plan, camera, request, (number, before), &tiles);
+        let film = pass(self.plan, camera, request, number, before, &tiles);
         self.done += tile_count(camera, self.shard);
         check_textures(self.plan)?;
         film.map_err(|cause| Error::Run(cause.to_string()))

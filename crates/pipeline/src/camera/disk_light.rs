@@ -71,7 +71,7 @@ pub(super) fn seen(
     drop(weight);
     match &camera.settings.route {
         Route::Pupil(projection) => {
-            let made = needs_irradiance(camera).then(|| at_pupil(camera, (projection, &radiance.mean), cube, depth));
+            let made = needs_irradiance(camera).then(|| at_pupil(camera, projection, &radiance.mean, cube, depth));
             Ok(Light { radiance: Some(radiance), ..made.transpose()?.unwrap_or_default() })
         }
         Route::Lens => {
@@ -79,12 +79,12 @@ pub(super) fn seen(
             let of_picture = |mean, variance| KeptEstimate { mean: part(body, mean), variance: part(body, variance) };
             let radiance = products.radiance.then(|| of_picture(mean, variance));
             let variance = (products.irradiance && products.variance).then(|| kept(cube, cube.variance()));
-            let film = (kept(cube, cube.mean()), variance);
+            let film = kept(cube, cube.mean());
             let light = Light { radiance, ..folded(camera, electron_rate) };
             match needs_irradiance(camera) {
                 true => with_irradiance(
                     camera,
-                    effects_on((body, body.effects.film_part(true)), film, cube.store())?,
+                    effects_on(body, body.effects.film_part(true), film, variance, cube.store())?,
                     light,
                 ),
                 false => Ok(light),
@@ -96,7 +96,8 @@ pub(super) fn seen(
 /// The light behind the lens of a radiance at the pupil (its radiance itself is not repeated).
 fn at_pupil(
     camera: &CameraPlan,
-    (projection, radiance): (&PupilProjection, &KeptCube<Radiance>),
+    projection: &PupilProjection,
+    radiance: &KeptCube<Radiance>,
     cube: &TiledCube,
     depth: Option<&PupilDepth>,
 ) -> Result<Light, LightError> {
@@ -107,15 +108,16 @@ fn at_pupil(
     }
     camera.body.check_front_on_picture()?;
     let body = &camera.body;
-    let film = through_lens(body, (projection, radiance), cube.store())?;
-    let output = effects_on((body, body.effects.film_part(false)), (film, None), cube.store())?;
+    let film = through_lens(body, projection, radiance, cube.store())?;
+    let output = effects_on(body, body.effects.film_part(false), film, None, cube.store())?;
     with_irradiance(camera, output, Light::default())
 }
 
 /// The irradiance on the film of a radiance at the pupil without depth of field, some bands after the other.
 fn through_lens(
     body: &CameraBody,
-    (projection, radiance): (&PupilProjection, &KeptCube<Radiance>),
+    projection: &PupilProjection,
+    radiance: &KeptCube<Radiance>,
     store: &dyn ScratchStore,
 ) -> Result<KeptCube<Irradiance>, LightError> {
     let (bands, raster) = (radiance.bands(), body.film());
@@ -123,7 +125,7 @@ fn through_lens(
     let resampling = Resampling::new(*projection, &body.lens, &body.raster, margin, bands)?;
     let etendue = BandEtendue::new(&body.lens, &raster);
     let shades = dirt_shades(body);
-    let film = PlaneCube::new(store, bands, (raster.width(), raster.height())).map_err(LightError::Scratch)?;
+    let film = PlaneCube::new(store, bands, raster.width(), raster.height()).map_err(LightError::Scratch)?;
     let group = (GROUP_BYTES / (radiance.width() * radiance.height() * size_of::<f32>()).max(1)).max(1);
     for first in (0..bands.count()).step_by(group) {
         let of_group = first..(first + group).min(bands.count());
@@ -142,8 +144,10 @@ fn through_lens(
 
 /// What the effects of a camera leave of a film.
 fn effects_on(
-    (body, part): (&CameraBody, FilmPart),
-    (film, variance): (KeptCube<Irradiance>, Option<KeptCube<Variance>>),
+    body: &CameraBody,
+    part: FilmPart,
+    film: KeptCube<Irradiance>,
+    variance: Option<KeptCube<Variance>>,
     store: &dyn ScratchStore,
 ) -> Result<KeptOutput, LightError> {
     if body.effects.is_idle() {
@@ -154,23 +158,24 @@ fn effects_on(
         let variance = variance.map(KeptCube::load).transpose().map_err(LightError::Scratch)?;
         return Ok(behind(body, part, film, variance).into());
     }
-    by_band((body, part), &film, variance.as_ref(), store).map_err(LightError::Scratch)
+    by_band(body, part, &film, variance.as_ref(), store).map_err(LightError::Scratch)
 }
 
 /// Effects that take band after band.
 fn by_band(
-    (body, part): (&CameraBody, FilmPart),
+    body: &CameraBody,
+    part: FilmPart,
     film: &KeptCube<Irradiance>,
     variance: Option<&KeptCube<Variance>>,
     store: &dyn ScratchStore,
 ) -> Result<KeptOutput, String> {
     let bands = film.bands();
     let prepared = body.effects.prepared(&body.raster, bands.range(), part);
-    let room = || PlaneCube::new(store, bands, (body.raster.width(), body.raster.height()));
+    let room = || PlaneCube::new(store, bands, body.raster.width(), body.raster.height());
     let (means, variances) = (room()?, variance.map(|_| room()).transpose()?);
     for band in 0..bands.count() {
         let of_variance = variance.map(|cube| cube.plane(band)).transpose()?;
-        let (mean, of_variance) = of_band(&prepared, (bands, band), &*film.plane(band)?, of_variance.as_deref());
+        let (mean, of_variance) = of_band(&prepared, bands, band, &*film.plane(band)?, of_variance.as_deref());
         means.write(band, &mean)?;
         if let (Some(to), Some(plane)) = (&variances, &of_variance) {
             to.write(band, plane)?;
@@ -202,11 +207,12 @@ fn folded(camera: &CameraPlan, rate: Option<Estimate<ElectronRate>>) -> Light {
 
 /// Bands of a film as they are.
 fn kept<Q: Quantity>(cube: &TiledCube, reader: &Arc<dyn BandReader>) -> KeptCube<Q> {
-    of_size(cube.bands(), cube.size(), Arc::clone(reader))
+    let (width, height) = cube.size();
+    of_size(cube.bands(), width, height, Arc::clone(reader))
 }
 
-fn of_size<Q: Quantity>(bands: Bands, size: (usize, usize), reader: Arc<dyn BandReader>) -> KeptCube<Q> {
-    KeptCube::Disk(CubeOnDisk::new(bands, size.0, size.1, reader))
+fn of_size<Q: Quantity>(bands: Bands, width: usize, height: usize, reader: Arc<dyn BandReader>) -> KeptCube<Q> {
+    KeptCube::Disk(CubeOnDisk::new(bands, width, height, reader))
 }
 
 /// Bands of a film over the pupil's weight.
@@ -217,7 +223,8 @@ fn over_weight<Q: Quantity>(
     divisor: fn(f32) -> f32,
 ) -> KeptCube<Q> {
     let view = OverWeight { of: Arc::clone(reader), weight: Arc::clone(weight), divisor };
-    of_size(cube.bands(), cube.size(), Arc::new(view))
+    let (width, height) = cube.size();
+    of_size(cube.bands(), width, height, Arc::new(view))
 }
 
 /// The picture's part of a film.
@@ -230,7 +237,7 @@ fn part<Q: Quantity<Sample = f32>>(body: &CameraBody, film: KeptCube<Q>) -> Kept
             let (width, height) = (body.raster.width(), body.raster.height());
             let of = Arc::clone(cube.reader());
             let part = PartOfBands { of, whole_width, first: body.effects.margin_px(), width };
-            of_size(bands, (width, height), Arc::new(part))
+            of_size(bands, width, height, Arc::new(part))
         }
     }
 }

@@ -32,7 +32,7 @@ pub(crate) fn behind(
     let prepared = body.effects.prepared(&body.raster, bands.range(), part);
     let of_band = |band: usize| {
         let variance = variance.as_ref().map(|cube| &cube.planes()[band]);
-        of_band(&prepared, (bands, band), &film.planes()[band], variance)
+        of_band(&prepared, bands, band, &film.planes()[band], variance)
     };
     let (means, variances): (Vec<_>, Vec<_>) = (0..film.planes().len()).into_par_iter().map(of_band).unzip();
     let mut irradiance = SpectralCube::from_planes(bands, means).expect("planes of one picture");
@@ -62,7 +62,8 @@ fn add(sum: &mut Plane<Irradiance>, plane: &Plane<Irradiance>) {
 /// What effects leave of a band and its variance.
 pub(crate) fn of_band(
     prepared: &Prepared,
-    (bands, band): (Bands, usize),
+    bands: Bands,
+    band: usize,
     film: &Plane<Irradiance>,
     variance: Option<&Plane<Variance>>,
 ) -> (Plane<Irradiance>, Option<Plane<Variance>>) {

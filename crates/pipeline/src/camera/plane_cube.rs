@@ -17,9 +17,9 @@ pub(super) struct PlaneCube {
 
 impl PlaneCube {
     /// Room for the bands of `width` × `height` pixels.
-    pub(super) fn new(store: &dyn ScratchStore, bands: Bands, size: (usize, usize)) -> Result<Self, String> {
-        let scratch = store.room((size.0 * size.1 * bands.count() * NUMBER_BYTES) as u64)?;
-        Ok(Self { bands, size, scratch })
+    pub(super) fn new(store: &dyn ScratchStore, bands: Bands, width: usize, height: usize) -> Result<Self, String> {
+        let scratch = store.room((width * height * bands.count() * NUMBER_BYTES) as u64)?;
+        Ok(Self { bands, size: (width, height), scratch })
     }
 
     /// Writes a band.

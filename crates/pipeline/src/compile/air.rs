@@ -23,7 +23,8 @@ const MAX_BOUNCES: f64 = 1024.0;
 pub(super) fn layers(
     description: &Description,
     cameras: &mut [CameraPlan],
-    (has_media, falls): (bool, bool),
+    has_media: bool,
+    falls: bool,
     context: &mut Context<'_>,
 ) {
     for setup in &description.cameras {

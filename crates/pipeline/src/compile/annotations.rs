@@ -63,12 +63,7 @@ fn disparity(
     let Some(key) = &output.disparity_to else {
         if let Some(format) = &output.disparity_format {
             let problem = "\"disparity_format\" has no effect without \"disparity_to\"";
-            context.idle(
-                ("disparity_format", &format.place),
-                None,
-                problem,
-                "name the right camera, or remove the key",
-            );
+            context.idle("disparity_format", &format.place, None, problem, "name the right camera, or remove the key");
         }
         return None;
     };

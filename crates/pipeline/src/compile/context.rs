@@ -52,7 +52,8 @@ impl<'a> Context<'a> {
     /// command line says the cause and a file the key. What the command line says supersedes what it makes meaningless.
     pub(super) fn idle(
         &mut self,
-        (key, place): (&str, &Place),
+        key: &str,
+        place: &Place,
         cause: Option<&Place>,
         problem: impl Into<String>,
         remedy: &str,

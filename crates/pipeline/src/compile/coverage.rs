@@ -1,54 +1,60 @@
 //! Which wavelengths tables cover, and which of them are rendered.
 
+use etendue_core::WavelengthRange;
 use etendue_spectra::Outside;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// First and last wavelength, nm.
-type RangeNm = (f64, f64);
+/// The wavelengths that a table covers.
+#[derive(Debug)]
+struct CoveredRange {
+    range: WavelengthRange,
+    /// The values beyond them.
+    outside: Outside,
+}
 
 /// The tables over the wavelength that are used, each once.
 #[derive(Debug, Default)]
 pub(super) struct Coverage {
-    tables: BTreeMap<PathBuf, (RangeNm, Outside)>,
+    tables: BTreeMap<PathBuf, CoveredRange>,
 }
 
 /// Tables that are told one by one; more are counted.
 const TOLD: usize = 4;
 
-/// The range around both.
-pub(super) fn around(a: RangeNm, b: RangeNm) -> RangeNm {
-    (a.0.min(b.0), a.1.max(b.1))
+/// Returns the range around both.
+pub(super) fn around(a: WavelengthRange, b: WavelengthRange) -> WavelengthRange {
+    WavelengthRange::new(a.low_nm.min(b.low_nm), a.high_nm.max(b.high_nm))
 }
 
 impl Coverage {
     /// Notes a table.
-    pub(super) fn add(&mut self, file: &Path, range_nm: RangeNm, outside: Outside) {
-        self.tables.insert(file.to_path_buf(), (range_nm, outside));
+    pub(super) fn add(&mut self, file: &Path, range: WavelengthRange, outside: Outside) {
+        self.tables.insert(file.to_path_buf(), CoveredRange { range, outside });
     }
 
     /// What is to be told of tables that do not cover the wavelengths that are rendered; `None` where all do.
-    pub(super) fn remark(&self, rendered_nm: RangeNm) -> Option<String> {
-        let short =
-            |table: &(&PathBuf, &(RangeNm, Outside))| table.1.0.0 > rendered_nm.0 || table.1.0.1 < rendered_nm.1;
-        let tables: Vec<_> = self.tables.iter().filter(short).collect();
+    pub(super) fn remark(&self, rendered: WavelengthRange) -> Option<String> {
+        let is_short = |range: &WavelengthRange| range.low_nm > rendered.low_nm || range.high_nm < rendered.high_nm;
+        let tables: Vec<_> = self.tables.iter().filter(|(_, table)| is_short(&table.range)).collect();
         let told: Vec<String> = tables.iter().take(TOLD).map(|(file, table)| words(file, table)).collect();
         let more = match tables.len().saturating_sub(TOLD) {
             0 => String::new(),
             n => format!("; and {n} more"),
         };
-        let (first, last) = rendered_nm;
+        let WavelengthRange { low_nm, high_nm } = rendered;
         (!told.is_empty())
-            .then(|| format!("{first} to {last} nm are rendered, and tables end before: {}{more}", told.join("; ")))
+            .then(|| format!("{low_nm} to {high_nm} nm are rendered, and tables end before: {}{more}", told.join("; ")))
     }
 }
 
-fn words(file: &Path, ((first, last), outside): &(RangeNm, Outside)) -> String {
-    let beyond = match outside {
+fn words(file: &Path, table: &CoveredRange) -> String {
+    let WavelengthRange { low_nm, high_nm } = table.range;
+    let beyond = match table.outside {
         Outside::Zero => "zero",
         Outside::Hold => "its end values",
     };
-    format!("{} ({first} to {last} nm, beyond that {beyond})", file.display())
+    format!("{} ({low_nm} to {high_nm} nm, beyond that {beyond})", file.display())
 }
 
 #[cfg(test)]
@@ -58,13 +64,18 @@ mod tests {
     #[test]
     fn only_tables_that_end_within_what_is_rendered_are_told_and_in_one_remark() {
         let mut coverage = Coverage::default();
-        (0..28).for_each(|i| coverage.add(Path::new(&format!("{i:02}.csv")), (380.0, 780.0), Outside::Hold));
-        assert_eq!(coverage.remark((390.0, 710.0)), None);
-        coverage.add(Path::new("led.csv"), (400.0, 700.0), Outside::Zero);
+        (0..28).for_each(|i| {
+            coverage.add(Path::new(&format!("{i:02}.csv")), WavelengthRange::new(380.0, 780.0), Outside::Hold);
+        });
+        assert_eq!(coverage.remark(WavelengthRange::new(390.0, 710.0)), None);
+        coverage.add(Path::new("led.csv"), WavelengthRange::new(400.0, 700.0), Outside::Zero);
         let told = "390 to 710 nm are rendered, and tables end before: led.csv (400 to 700 nm, beyond that zero)";
-        assert_eq!(coverage.remark((390.0, 710.0)).as_deref(), Some(told));
-        let all = coverage.remark((300.0, 1100.0)).expect("all are short");
+        assert_eq!(coverage.remark(WavelengthRange::new(390.0, 710.0)).as_deref(), Some(told));
+        let all = coverage.remark(WavelengthRange::new(300.0, 1100.0)).expect("all are short");
         assert!(all.ends_with("03.csv (380 to 780 nm, beyond that its end values); and 25 more"), "{all}");
-        assert_eq!(around((400.0, 700.0), (390.0, 650.0)), (390.0, 700.0));
+        assert_eq!(
+            around(WavelengthRange::new(400.0, 700.0), WavelengthRange::new(390.0, 650.0)),
+            WavelengthRange::new(390.0, 700.0)
+        );
     }
 }

@@ -68,7 +68,7 @@ fn point(lamp: &PointLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Op
         file: None,
         place: &lamp.place,
     };
-    placed(&kind, (intensity, profile), frames, context)
+    placed(&kind, intensity, profile, frames, context)
 }
 
 fn spot(lamp: &SpotLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Lamps> {
@@ -89,7 +89,7 @@ fn spot(lamp: &SpotLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Opti
         file: None,
         place: &lamp.place,
     };
-    placed(&kind, (intensity, profile), frames, context)
+    placed(&kind, intensity, profile, frames, context)
 }
 
 fn measured(lamp: &MeasuredLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Lamps> {
@@ -123,7 +123,7 @@ fn measured(lamp: &MeasuredLamp, frames: &Frames<'_>, context: &mut Context<'_>)
         file: Some(asset),
         place: &lamp.place,
     };
-    placed(&kind, (intensity, profile), frames, context)
+    placed(&kind, intensity, profile, frames, context)
 }
 
 fn head_lamp(lamp: &HeadLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Lamps> {
@@ -146,7 +146,7 @@ fn head_lamp(lamp: &HeadLamp, frames: &Frames<'_>, context: &mut Context<'_>) ->
         file: None,
         place: &lamp.place,
     };
-    placed(&kind, (intensity, profile), frames, context)
+    placed(&kind, intensity, profile, frames, context)
 }
 
 /// A profile behind its mask.
@@ -208,7 +208,8 @@ fn of_candela(
 /// A lamp everywhere where it stands.
 fn placed(
     kind: &Kind<'_>,
-    (intensity, profile): (Spectrum, Profile),
+    intensity: Spectrum,
+    profile: Profile,
     frames: &Frames<'_>,
     context: &mut Context<'_>,
 ) -> Option<Lamps> {
@@ -216,7 +217,7 @@ fn placed(
         None => None,
         Some(record) => Some(opening(record, kind.main, kind.file, &profile, context)?),
     };
-    let motions = lamp_motions(kind.placement, (kind.main, kind.turn), frames, context)?;
+    let motions = lamp_motions(kind.placement, kind.main, kind.turn, frames, context)?;
     let (intensity, profile) = (Arc::new(intensity), Arc::new(profile));
     let attenuation = kind.placement.attenuation_per_m.as_ref().map_or(0.0, |a| a.value);
     let waveform = match kind.modulation {

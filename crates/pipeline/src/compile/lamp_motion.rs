@@ -14,7 +14,8 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 /// where one is faulty.
 pub(super) fn lamp_motions(
     placement: &LampPlacement,
-    (main, turn): (MainAxis, DMat3),
+    main: MainAxis,
+    turn: DMat3,
     frames: &Frames<'_>,
     context: &mut Context<'_>,
 ) -> Option<Vec<Motion>> {

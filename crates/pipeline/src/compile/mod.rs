@@ -57,7 +57,7 @@ use crate::plan::{
 };
 use camera_path::{camera_path, mount};
 use context::Context;
-use etendue_core::{CameraPath, Epoch, TimeInterval};
+use etendue_core::{CameraPath, Epoch, TimeInterval, WavelengthRange};
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
@@ -111,9 +111,9 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let (mut sources, open_lamps, sky) = light::sources(scene, &frames, context);
     let mut media = medium::media(scene, &frames, context);
     let precipitation = precipitation::precipitation(scene.precipitation.as_ref(), &mut media, context);
-    let setups = description.cameras.iter().enumerate();
-    let mut cameras: Vec<_> =
-        setups.filter_map(|setup| camera_plan(setup, (description, &frames), choices, context)).collect();
+    let setups = (0..).zip(&description.cameras);
+    let mut camera = |(index, setup)| camera_plan(index, setup, description, &frames, choices, context);
+    let mut cameras: Vec<_> = setups.filter_map(&mut camera).collect();
     let (world, identities, opened) = world::world(description, open_lamps, &frames, &mut builder, context)?;
     sources.lamps.extend(opened);
     for setup in &description.cameras {
@@ -124,18 +124,19 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let is_modulated = sources.is_modulated() || material_table.is_modulated();
     annotations::resolve(description, &mut cameras, context);
     let air_moves = precipitation.is_some() || media.iter().any(Medium::moves);
-    timing::depend(&mut cameras, &world, (&sources, is_modulated), air_moves, context);
+    timing::depend(&mut cameras, &world, &sources, is_modulated, air_moves, context);
     let source_spectra = SourceSpectra::of(spectral_fluxes(&world, &material_table, &sources));
     wavelengths::choose(&mut cameras, &source_spectra, description, context);
     shared_light::share(&mut cameras);
-    air::layers(description, &mut cameras, (!media.is_empty(), precipitation.is_some()), context);
+    air::layers(description, &mut cameras, !media.is_empty(), precipitation.is_some(), context);
     air::remark(&cameras, &media, context);
     camera::remark_positions(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
     surroundings::warn_of_enclosed(scene, &frames, &world, &material_table, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
     let rendered = cameras.iter().map(|camera| camera.settings.range_nm);
-    if let Some(remark) = rendered.reduce(coverage::around).and_then(|range_nm| context.coverage.remark(range_nm)) {
+    let rendered = rendered.map(WavelengthRange::from);
+    if let Some(remark) = rendered.reduce(coverage::around).and_then(|range| context.coverage.remark(range)) {
         context.remark(remark);
     }
     let remarks = std::mem::take(&mut context.remarks);
@@ -143,7 +144,8 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     if context.faults.is_empty() {
         unread(description, context);
     }
-    let passes: Vec<_> = description.cameras.iter().zip(&cameras).map(camera_passes).collect();
+    let setups = description.cameras.iter().zip(&cameras);
+    let passes: Vec<_> = setups.map(|(setup, camera)| camera_passes(setup, camera)).collect();
     let described = context.faults.is_empty().then(|| fingerprint(description, context.assets, choices, &passes))?;
     let hash = hash_with_passes(&described, &passes);
     Some(Plan {
@@ -168,7 +170,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
 }
 
 /// How the samples of a camera come.
-fn camera_passes((setup, camera): (&CameraSetup, &CameraPlan)) -> CameraPasses {
+fn camera_passes(setup: &CameraSetup, camera: &CameraPlan) -> CameraPasses {
     let is_open = setup.render.replicates.as_ref().is_none_or(|given| !given.place.is_command_line());
     CameraPasses { replicates: camera.settings.replicates, is_open, passes: camera.passes.clone() }
 }
@@ -189,8 +191,10 @@ fn whole_motion(world: &World, camera: &CameraPath) -> TimeInterval {
 }
 
 fn camera_plan(
-    (index, setup): (usize, &CameraSetup),
-    (description, frames): (&Description, &Frames<'_>),
+    index: u32,
+    setup: &CameraSetup,
+    description: &Description,
+    frames: &Frames<'_>,
     choices: &Choices,
     context: &mut Context<'_>,
 ) -> Option<CameraPlan> {
@@ -198,12 +202,11 @@ fn camera_plan(
     let mut products = settings::products(&setup.output, &body, context);
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
     camera::remark_reach(&setup.name, &depth_of_field, &body, context);
-    let delivered = (&setup.output, &mut products);
-    let (settings, passes) = settings::settings(&setup.render, &body, &depth_of_field, delivered, choices, context)?;
+    let (settings, passes) =
+        settings::settings(&setup.render, &body, &depth_of_field, &setup.output, &mut products, choices, context)?;
     effects::check_spread_by(setup.camera.effects.as_ref(), &settings.route, context);
-    let index = index as u32;
     let path = camera_path(&setup.pose, frames, context)?;
-    let timing = timing::timing((index, setup), description.sequence.as_ref(), &body, settings.seed, context);
+    let timing = timing::timing(index, setup, description.sequence.as_ref(), &body, settings.seed, context);
     let name = setup.name.value.clone();
     let light = LightOwner { camera: name.clone(), index };
     let time = TimeDependence::None;

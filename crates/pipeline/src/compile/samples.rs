@@ -124,7 +124,7 @@ fn deciding(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
     }
     let problem = format!("\"noise_threshold\" needs replicates that decide of each other, and found {}", given.value);
     let remedy = format!("give {LEAST_DECIDING} or more, or none: {DECIDING_REPLICATES}");
-    context.idle(("replicates", &given.place), Some(&threshold.place), problem, &remedy);
+    context.idle("replicates", &given.place, Some(&threshold.place), problem, &remedy);
     DECIDING_REPLICATES
 }
 
@@ -144,7 +144,7 @@ fn even(render: &Render, choices: &Choices, context: &mut Context<'_>) -> (u32, 
             context.notice(format!("--quality supersedes {}", stated("replicates", &replicates.place)));
         } else {
             let cause = render.spp.as_ref().map(|spp| &spp.place);
-            context.idle(("replicates", &replicates.place), cause, problem, remedy);
+            context.idle("replicates", &replicates.place, cause, problem, remedy);
         }
     }
     let most = [REPLICATES, 2, 1].into_iter().find(|r| u64::from(spp) % r == 0).unwrap_or(1);

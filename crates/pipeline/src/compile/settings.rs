@@ -9,8 +9,8 @@ use crate::plan::rectified::RectifiedCamera;
 use crate::plan::{CameraBody, Passes, Products, RawFormat, Route, Settings, WavelengthSampling};
 use crate::sizes::block::Blocks;
 use crate::sizes::film::Layout;
-use etendue_core::Bands;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+use etendue_core::{Bands, WavelengthRange};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters, PupilProjection};
 use etendue_scene::record::output::{self, DepthScale};
 use etendue_scene::record::render::{self, Accumulate, DepthMethod};
@@ -55,7 +55,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         };
         let problem = "\"depth_png_scale\" has no effect without depth_png = true";
         let cause = output.depth_png.as_ref().map(|key| &key.place);
-        context.idle(("depth_png_scale", place), cause, problem, "add it, or remove the scale");
+        context.idle("depth_png_scale", place, cause, problem, "add it, or remove the scale");
     }
     let products = Products {
         radiance: said(&output.radiance, !electronics),
@@ -106,7 +106,7 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
         if let Some(scale) = scale {
             let problem = "\"undistorted_scale\" has no effect without undistorted = true";
             let cause = output.undistorted.as_ref().map(|key| &key.place);
-            context.idle(("undistorted_scale", &scale.place), cause, problem, "add it, or remove the scale");
+            context.idle("undistorted_scale", &scale.place, cause, problem, "add it, or remove the scale");
         }
         return None;
     };
@@ -132,7 +132,7 @@ fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> 
     if body.sensor.is_none() || output.raw.as_ref().is_some_and(|raw| !raw.value) {
         let cause = output.raw.as_ref().map(|raw| &raw.place);
         let problem = "\"raw_format\" has no effect without raw";
-        context.idle(("raw_format", &key.place), cause, problem, "ask for \"raw\", or remove it");
+        context.idle("raw_format", &key.place, cause, problem, "ask for \"raw\", or remove it");
     }
     let format = match key.value {
         output::RawFormat::Png => RawFormat::Png,
@@ -178,7 +178,8 @@ pub(super) fn settings(
     render: &Render,
     body: &CameraBody,
     depth_of_field: &DepthOfField,
-    (output, products): (&Output, &mut Products),
+    output: &Output,
+    products: &mut Products,
     choices: &Choices,
     context: &mut Context<'_>,
 ) -> Option<(Settings, Option<Passes>)> {
@@ -187,7 +188,7 @@ pub(super) fn settings(
     let route = route(render, body, depth_of_field, context)?;
     let (cube, folded) = accumulation(render, body, products, &route, context);
     let range_nm = range(render, body, cube);
-    let bands = if cube { Some(bands(render, range_nm, context)?) } else { None };
+    let bands = if cube { Some(bands(render, range_nm.into(), context)?) } else { None };
     check_size(body, &route, &Layout { bands, folded, watched: adaptive.is_some() }, context)?;
     remark_losses(products, &route, folded, body, context);
     remark_margin(body, context);
@@ -272,8 +273,9 @@ fn blocks(level: Level, render: &Render, body: &CameraBody, by_colour: bool) -> 
         return Blocks::SINGLE;
     }
     let filter = body.sensor.as_ref().filter(|_| by_colour).map(|sensor| &sensor.parameters().cfa);
-    let stride = filter.map_or((1, 1), |cfa| (cfa.width() as u32, (cfa.channels().len() / cfa.width()) as u32));
-    Blocks::new(render.path_reuse_in_force() as u32, stride)
+    let (columns, rows) =
+        filter.map_or((1, 1), |cfa| (cfa.width() as u32, (cfa.channels().len() / cfa.width()) as u32));
+    Blocks::new(render.path_reuse_in_force() as u32, columns, rows)
 }
 
 /// The most that a film may take, bytes.
@@ -426,14 +428,14 @@ fn range(render: &Render, body: &CameraBody, cube: bool) -> (f64, f64) {
     (((low / step).floor() * step).max(SHORTEST_NM), ((high / step).ceil() * step).min(MAX_NM))
 }
 
-fn bands(render: &Render, range_nm: (f64, f64), context: &mut Context<'_>) -> Option<Bands> {
+fn bands(render: &Render, range: WavelengthRange, context: &mut Context<'_>) -> Option<Bands> {
     let width_nm = render.band_width_nm.as_ref().map_or(BAND_WIDTH_NM, |w| w.value);
-    let bands = Bands::covering(range_nm.0, range_nm.1, width_nm);
+    let WavelengthRange { low_nm, high_nm } = range;
+    let bands = Bands::covering(low_nm, high_nm, width_nm);
     if bands.is_none() {
         let place = render.band_width_nm.as_ref().map_or_else(|| range_place(render), |w| &w.place);
         let problem = format!(
-            "{} to {} nm is not a whole number of bands of {width_nm} nm within {SHORTEST_NM} to {MAX_NM} nm",
-            range_nm.0, range_nm.1
+            "{low_nm} to {high_nm} nm is not a whole number of bands of {width_nm} nm within {SHORTEST_NM} to {MAX_NM} nm"
         );
         context.fault(place, problem, "change \"band_width_nm\" or \"wavelength_range_nm\"");
     }

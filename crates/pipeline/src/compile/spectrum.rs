@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use core::f64::consts::FRAC_1_PI;
+use etendue_core::WavelengthRange;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_scene::record::{Curve, Emission, Level, LightColour};
 use etendue_scene::{Place, Placed};
@@ -23,7 +24,7 @@ pub(super) fn from_file(file: &Placed<PathBuf>, outside: Outside, context: &mut 
         return None;
     };
     if let (Some(first), Some(last)) = (asset.points.first(), asset.points.last()) {
-        context.coverage.add(&file.value, (first.0, last.0), outside);
+        context.coverage.add(&file.value, WavelengthRange::new(first.0, last.0), outside);
     }
     context.accept(&file.place, Spectrum::from_points(&asset.points, outside))
 }

@@ -22,7 +22,8 @@ pub(super) fn epoch(sequence: Option<&Sequence>) -> Epoch {
 
 /// The timing of a camera of a job.
 pub(super) fn timing(
-    (index, setup): (u32, &CameraSetup),
+    index: u32,
+    setup: &CameraSetup,
     sequence: Option<&Sequence>,
     body: &CameraBody,
     seed: u64,
@@ -47,7 +48,8 @@ pub(super) fn timing(
 pub(super) fn depend(
     cameras: &mut [CameraPlan],
     world: &World,
-    (sources, is_modulated): (&Sources, bool),
+    sources: &Sources,
+    is_modulated: bool,
     air_moves: bool,
     context: &mut Context<'_>,
 ) {

@@ -39,8 +39,14 @@ pub(super) fn mesh(
     Some(Weld::new(&found, asset).mesh(record, asset, context.epoch))
 }
 
-/// A corner of a face: its part, and its number in it.
-type Corner = (usize, usize);
+/// A corner of a face.
+#[derive(Clone, Copy)]
+struct Corner {
+    /// The part of the mesh.
+    part: usize,
+    /// The number of the corner in the part.
+    corner: usize,
+}
 
 /// What tells vertices apart: part, vertex, texture coordinates, and the normal in each file, or the triangle where a normal is missing.
 type Key = (usize, u32, u32, Vec<u32>);
@@ -69,7 +75,8 @@ impl<'a> Weld<'a> {
         };
         let first = files[0];
         let parts = first.parts.iter().enumerate();
-        let corners: Vec<Corner> = parts.flat_map(|(part, p)| (0..p.vertices.len()).map(move |i| (part, i))).collect();
+        let corners: Vec<Corner> =
+            parts.flat_map(|(part, p)| (0..p.vertices.len()).map(move |corner| Corner { part, corner })).collect();
         for (triangle, own) in first.triangles.iter().zip(&asset.triangles) {
             let places = triangle.map(|corner| corners[corner as usize]);
             let uvs = own.map(|v| asset.uvs.get(v as usize).copied().map(Vec2::from));
@@ -88,10 +95,11 @@ impl<'a> Weld<'a> {
     }
 
     /// The vertex of a corner; where a file gives it no usable normal, of this triangle alone, which faces `facing` in each file.
-    fn vertex(&mut self, (part, corner): Corner, uv: Option<Vec2>, facing: &[Vec3]) -> u32 {
+    fn vertex(&mut self, place: Corner, uv: Option<Vec2>, facing: &[Vec3]) -> u32 {
+        let Corner { part, corner } = place;
         let own = &self.files[0].parts[part];
         let normals: Vec<Option<Vec3>> = match self.has_normals {
-            true => self.files.iter().map(|file| normal(file, (part, corner))).collect(),
+            true => self.files.iter().map(|file| normal(file, place)).collect(),
             false => Vec::new(),
         };
         let is_shared = normals.iter().all(Option::is_some);
@@ -105,13 +113,14 @@ impl<'a> Weld<'a> {
         let next = self.frames[0].positions.len() as u32; // no more than corners, which are counted
         let vertex = *self.known.entry(key).or_insert(next);
         if vertex == next {
-            self.add((part, corner), &normals, facing);
+            self.add(place, &normals, facing);
             self.uvs.extend(uv);
         }
         vertex
     }
 
-    fn add(&mut self, (part, corner): Corner, normals: &[Option<Vec3>], facing: &[Vec3]) {
+    fn add(&mut self, corner: Corner, normals: &[Option<Vec3>], facing: &[Vec3]) {
+        let Corner { part, corner } = corner;
         for (number, (frame, file)) in self.frames.iter_mut().zip(self.files).enumerate() {
             let part = &file.parts[part];
             let place = DVec3::from_array(part.positions[part.vertices[corner] as usize]);
@@ -136,7 +145,8 @@ impl<'a> Weld<'a> {
 }
 
 /// The normal that a file gives a corner; `None` where it gives none, or one of no length.
-fn normal(file: &MeshFrameAsset, (part, corner): Corner) -> Option<Vec3> {
+fn normal(file: &MeshFrameAsset, corner: Corner) -> Option<Vec3> {
+    let Corner { part, corner } = corner;
     let part = &file.parts[part];
     let normal = part.normals[*part.normal_indices.get(corner)? as usize];
     (normal != [0.0; 3]).then_some(Vec3::from(normal))
@@ -144,7 +154,7 @@ fn normal(file: &MeshFrameAsset, (part, corner): Corner) -> Option<Vec3> {
 
 /// The unit normal of a triangle in a file; z without area.
 fn facing(file: &MeshFrameAsset, corners: [Corner; 3]) -> Vec3 {
-    let [a, b, c] = corners.map(|(part, corner)| {
+    let [a, b, c] = corners.map(|Corner { part, corner }| {
         let part = &file.parts[part];
         DVec3::from_array(part.positions[part.vertices[corner] as usize])
     });

@@ -39,7 +39,7 @@ pub(super) fn world(
         assembly.add_mesh(mesh, context);
     }
     for object in &scene.objects {
-        assembly.add_object(object, (scene, frames), material_table, context);
+        assembly.add_object(object, scene, frames, material_table, context);
     }
     let Assembly { mut builder, mut identities, .. } = assembly;
     let lamps = opening::placed(open_lamps, &mut builder, &mut identities, material_table, context);
@@ -108,7 +108,8 @@ impl Assembly {
     fn add_object(
         &mut self,
         object: &Object,
-        (scene, frames): (&Scene, &Frames<'_>),
+        scene: &Scene,
+        frames: &Frames<'_>,
         material_table: &mut MaterialTableBuilder,
         context: &mut Context<'_>,
     ) {
@@ -134,7 +135,7 @@ impl Assembly {
                 semantic_id: class,
             };
             self.share_flux(&mut instance, object, material_table, context);
-            delay_light(&mut instance, (object, number), material_table, context);
+            delay_light(&mut instance, object, number, material_table, context);
             self.builder.add_instance(instance);
         }
     }
@@ -225,7 +226,8 @@ impl Assembly {
 /// The light of an object's place goes up and down later by what that place says.
 fn delay_light(
     instance: &mut Instance,
-    (object, number): (&Object, usize),
+    object: &Object,
+    number: usize,
     material_table: &mut MaterialTableBuilder,
     context: &mut Context<'_>,
 ) {

@@ -11,7 +11,7 @@
 //! that reflect evenly; twice 1 − u of it where bands are kept).
 
 use crate::plan::{SourceSpectra, WavelengthSampling};
-use etendue_core::WavelengthDensity;
+use etendue_core::{WavelengthDensity, WavelengthRange};
 use etendue_spectra::Spectrum;
 
 /// Width of the response's steps, nm, at most.
@@ -68,7 +68,7 @@ impl PixelDensity<'_> {
     /// Weights of the response's steps, 1 in the mean.
     fn by_response(&self, responsivity: &Spectrum) -> Vec<f64> {
         let uniform_share = self.uniform_share();
-        match Means::of(responsivity, self.range_nm, self.steps()) {
+        match Means::of(responsivity, self.range_nm.into(), self.steps()) {
             Some(Means { steps, mean }) => {
                 steps.iter().map(|m| uniform_share + (1.0 - uniform_share) * m / mean).collect()
             }
@@ -78,8 +78,8 @@ impl PixelDensity<'_> {
 
     /// Weights of the fine steps, 1 in the mean; `None` where no source gives the pixel anything.
     fn by_source(&self, responsivity: &Spectrum) -> Option<Vec<f64>> {
-        let lit = self.sources.lit(responsivity, self.range_nm);
-        let response = Means::of(responsivity, self.range_nm, self.steps()).filter(|_| !lit.is_empty())?;
+        let lit = self.sources.lit(responsivity, self.range_nm.into());
+        let response = Means::of(responsivity, self.range_nm.into(), self.steps()).filter(|_| !lit.is_empty())?;
         let uniform = self.uniform_share() * if self.keeps_bands { 1.0 } else { DEFENSIVE_SHARE };
         let by_response = (1.0 - self.uniform_share()) * DEFENSIVE_SHARE;
         let by_source = 1.0 - uniform - by_response;
@@ -87,7 +87,7 @@ impl PixelDensity<'_> {
         let mut weights: Vec<f64> =
             (0..count).map(|i| uniform + by_response * response.steps[i / FINE_STEPS] / response.mean).collect();
         for group in &lit {
-            let light = Means::of(&group.product, self.range_nm, count)?;
+            let light = Means::of(&group.product, self.range_nm.into(), count)?;
             let add = |(weight, m): (&mut f64, f64)| *weight += by_source * group.weight * m / light.mean;
             weights.iter_mut().zip(light.steps).for_each(add);
         }
@@ -103,7 +103,8 @@ struct Means {
 
 impl Means {
     /// `None` where the spectrum is nothing there.
-    fn of(spectrum: &Spectrum, (low_nm, high_nm): (f64, f64), count: usize) -> Option<Self> {
+    fn of(spectrum: &Spectrum, range: WavelengthRange, count: usize) -> Option<Self> {
+        let WavelengthRange { low_nm, high_nm } = range;
         let count_f = count as f64;
         let edge = |i: f64| low_nm + (high_nm - low_nm) * i / count_f;
         let steps: Vec<f64> = (0..count).map(|i| spectrum.band_mean(edge(i as f64), edge(i as f64 + 1.0))).collect();

@@ -1,5 +1,6 @@
 //! The spectra of the sources of a scene's light, those of one shape taken together.
 
+use etendue_core::WavelengthRange;
 use etendue_spectra::Spectrum;
 
 /// Cosine of the angle between two spectra, as vectors of their values, from which on they count as one.
@@ -53,7 +54,8 @@ impl SourceSpectra {
     /// The draws are shared by the roots of what the groups give. A pixel that a group lights alone has, where spectra do not
     /// overlap, a mean square of 1/w in units of the squared mean, w being the group's share of the draws; if pixels are lit by one group each, so many by
     /// each as it gives light (c), the sum of c/w is least for w ∝ √c.
-    pub(crate) fn lit(&self, responsivity: &Spectrum, (low_nm, high_nm): (f64, f64)) -> Vec<LitResponse> {
+    pub(crate) fn lit(&self, responsivity: &Spectrum, range: WavelengthRange) -> Vec<LitResponse> {
+        let WavelengthRange { low_nm, high_nm } = range;
         let given = |flux: &Spectrum| {
             let product = responsivity.product(flux);
             let integral = product.integral(low_nm, high_nm);
@@ -97,12 +99,12 @@ mod tests {
     fn sources_of_one_shape_are_one_group_and_share_draws_by_the_root_of_what_they_give() {
         let fluxes = vec![line(500.0, 1.0), line(600.0, 16.0), Spectrum::constant(0.0), line(500.0, 3.0)];
         let spectra = SourceSpectra::of(fluxes);
-        let lit = spectra.lit(&Spectrum::constant(2.0), (400.0, 700.0));
+        let lit = spectra.lit(&Spectrum::constant(2.0), WavelengthRange::new(400.0, 700.0));
         let weights: Vec<f64> = lit.iter().map(|group| group.weight).collect();
         // 4 and 16 parts of light: a third and two thirds of the draws.
         assert_eq!(weights.len(), 2);
         assert!((weights[0] - 1.0 / 3.0).abs() < 1e-9 && (weights[1] - 2.0 / 3.0).abs() < 1e-9, "{weights:?}");
-        let blind = spectra.lit(&line(450.0, 1.0), (400.0, 700.0));
+        let blind = spectra.lit(&line(450.0, 1.0), WavelengthRange::new(400.0, 700.0));
         assert!(blind.is_empty() && !spectra.is_dark() && SourceSpectra::default().is_dark());
     }
 
@@ -111,7 +113,7 @@ mod tests {
         let fluxes: Vec<_> = (0..60).map(|i| line(400.0 + 5.0 * f64::from(i), 1e-30)).collect();
         let spectra = SourceSpectra::of(fluxes);
         assert_eq!(spectra.fluxes.len(), MAX_GROUPS);
-        let lit = spectra.lit(&Spectrum::constant(1.0), (300.0, 1100.0));
+        let lit = spectra.lit(&Spectrum::constant(1.0), WavelengthRange::new(300.0, 1100.0));
         // Nothing of 60 lines of 9 nm is lost.
         let sum: f64 = lit.iter().map(|group| group.integral).sum();
         assert!((sum / (60.0 * 9.0 * 1e-30) - 1.0).abs() < 1e-5, "{sum}");

@@ -117,7 +117,7 @@ impl RenderJob<'_> {
         asked: &mut Asked<N>,
     ) {
         for (replicate, (sums, to)) in sampled.replicates.iter_mut().zip(to).enumerate() {
-            self.add_replicate(field, (&sampled.block, replicate as u32), from..*to, asked, sums);
+            self.add_replicate(field, &sampled.block, replicate as u32, from..*to, asked, sums);
         }
     }
 

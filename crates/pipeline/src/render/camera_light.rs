@@ -58,9 +58,9 @@ impl Default for Request {
 /// # Errors
 /// Where the observer asked to stop, or bands cannot be kept on the disk.
 pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn Observer) -> Result<Film, GatherError> {
-    let mut film = pass(plan, camera, request, (camera.pass(0), None), observer)?;
+    let mut film = pass(plan, camera, request, camera.pass(0), None, observer)?;
     for number in 1..camera.pass_count() {
-        film = pass(plan, camera, request, (camera.pass(number), Some(&film)), observer)?;
+        film = pass(plan, camera, request, camera.pass(number), Some(&film), observer)?;
     }
     Ok(film)
 }
@@ -73,7 +73,8 @@ pub fn pass(
     plan: &Plan,
     camera: &CameraPlan,
     request: Request,
-    (pass, before): (PassAt, Option<&Film>),
+    pass: PassAt,
+    before: Option<&Film>,
     observer: &dyn Observer,
 ) -> Result<Film, GatherError> {
     with_source(camera, request.shot, LightJob { plan, camera, request, pass, before, observer })
@@ -144,7 +145,7 @@ fn through(job: &LightJob<'_>, source: &dyn RaySource) -> Result<Film, GatherErr
     let lights = lights(plan, camera, &view);
     let media = Media::new(&plan.media, rows.origin_m(), rows.interval());
     let near = region_and_change_over(plan, camera, &rows, source).map(|(precipitation, region, change_over)| {
-        near(precipitation, &media, (&rows, request.simd), &region, &change_over)
+        near(precipitation, &media, &rows, request.simd, &region, &change_over)
     });
     let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera, pass))
         .with_media(&media)
@@ -152,16 +153,15 @@ fn through(job: &LightJob<'_>, source: &dyn RaySource) -> Result<Film, GatherErr
     let settings = &camera.settings;
     let density = pixel_density(plan, camera);
     let mosaic = camera.summing_sensor().map(|sensor| Mosaic::of(sensor, &density).beyond(margin_px(camera)));
-    let job = render_job((camera, rows), request, source, mosaic.as_ref());
+    let job = render_job(camera, rows, request, source, mosaic.as_ref());
     let scratch = if request.keeping == FilmKeeping::Memory { None } else { plan.scratch(camera) };
     let sample_spread = sample_spread(camera);
     let sample_spread = sample_spread.as_ref();
     let job = RenderJob { sampling: Sampling { pass, ..job.sampling }, sample_spread, scratch, ..job };
-    let asked = (before, observer);
     match settings.wavelengths {
-        1 => gathered::<1>(&job, tracer, camera, asked),
-        8 => gathered::<8>(&job, tracer, camera, asked),
-        _ => gathered::<4>(&job, tracer, camera, asked),
+        1 => gathered::<1>(&job, tracer, camera, before, observer),
+        8 => gathered::<8>(&job, tracer, camera, before, observer),
+        _ => gathered::<4>(&job, tracer, camera, before, observer),
     }
 }
 
@@ -170,7 +170,8 @@ fn gathered<const N: usize>(
     job: &RenderJob<'_>,
     tracer: PathTracer<'_>,
     camera: &CameraPlan,
-    (before, observer): (Option<&Film>, &dyn Observer),
+    before: Option<&Film>,
+    observer: &dyn Observer,
 ) -> Result<Film, GatherError>
 where
     for<'t> PathTracer<'t>: SpectralPaths<N>,
@@ -224,14 +225,16 @@ pub(super) fn region_and_change_over<'a>(
     source: &dyn RaySource,
 ) -> Option<(&'a Precipitation, SeenRegion, ChangeOver)> {
     let precipitation = plan.precipitation.as_ref()?;
-    let region = seen_region(source, rows, camera.film_size());
+    let (width, height) = camera.film_size();
+    let region = seen_region(source, rows, width, height);
     let resolution = precipitation.resolution(pitch_tan(camera), rows.interval().length_s());
     let change_over = ChangeOver::new(precipitation.field.classes(), &resolution, &region);
     Some((precipitation, region, change_over))
 }
 
 pub(super) fn render_job<'a>(
-    (camera, exposure): (&CameraPlan, FilmExposure<'a>),
+    camera: &CameraPlan,
+    exposure: FilmExposure<'a>,
     request: Request,
     source: &'a dyn RaySource,
     mosaic: Option<&'a Mosaic>,

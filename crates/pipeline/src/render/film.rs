@@ -108,14 +108,14 @@ impl Film {
             mean: SpectralCube::new(width, height, bands),
             variance: SpectralCube::new(width, height, bands),
         };
-        Self::with(layout.bands.map(cube).map(FilmCube::Memory), (width, height), layout, replicates)
+        Self::with(layout.bands.map(cube).map(FilmCube::Memory), width, height, layout, replicates)
     }
 
     /// An empty film whose bands are on the disk.
     #[must_use]
     pub fn on_disk(cube: TiledCube, layout: &Layout, replicates: u32) -> Self {
-        let size = cube.size();
-        Self::with(Some(FilmCube::Disk(cube)), size, layout, replicates)
+        let (width, height) = cube.size();
+        Self::with(Some(FilmCube::Disk(cube)), width, height, layout, replicates)
     }
 
     /// The same film, but for its bands, which are those of `cube`.
@@ -131,7 +131,7 @@ impl Film {
         }
     }
 
-    fn with(cube: Option<FilmCube>, (width, height): (usize, usize), layout: &Layout, replicates: u32) -> Self {
+    fn with(cube: Option<FilmCube>, width: usize, height: usize, layout: &Layout, replicates: u32) -> Self {
         Self {
             cube,
             weight: Plane::new(width, height),
@@ -237,7 +237,7 @@ impl Film {
             means.push(f64::from(mean));
             variances.push(f64::from(variance));
         }
-        PixelLight::of(layout, means, variances, (self.samples.at(x, y), self.not_finite.at(x, y)))
+        PixelLight::of(layout, means, variances, self.samples.at(x, y), self.not_finite.at(x, y))
     }
 
     /// Copies `tile` from a film of the same size and layout; bands from memory to memory.

@@ -128,7 +128,7 @@ pub struct PixelLight {
 
 impl PixelLight {
     /// Of these means and variances of [`Layout::slots`] numbers.
-    pub(super) fn of(layout: &Layout, means: Vec<f64>, variances: Vec<f64>, (samples, not_finite): (u32, u32)) -> Self {
+    pub(super) fn of(layout: &Layout, means: Vec<f64>, variances: Vec<f64>, samples: u32, not_finite: u32) -> Self {
         Self { layout: *layout, means, variances, samples, not_finite }
     }
 

@@ -9,6 +9,14 @@ pub(crate) struct Heroes {
     order: Order,
 }
 
+/// The random numbers of a replicate of a block.
+pub(super) struct ReplicateNumbers {
+    /// Of each pixel, those of its first sample.
+    pub(super) streams: Vec<PathStream>,
+    /// Those of the wavelengths.
+    pub(super) heroes: Heroes,
+}
+
 /// How the numbers of a replicate follow each other.
 #[derive(Clone, Copy, Debug)]
 enum Order {
@@ -19,13 +27,14 @@ enum Order {
 }
 
 impl Heroes {
-    /// Those of the replicate of `address`, which has `samples` samples, of a pass whose first replicate and number of replicates are
-    /// given.
+    /// Those of the replicate of `address`, which has `samples` samples, of a pass whose first replicate is `first`
+    /// and which has `replicates`.
     pub(crate) fn new(
         spread: SpectrumSpread,
         address: &PixelAddress,
         samples: u32,
-        (first, replicates): (u32, u32),
+        first: u32,
+        replicates: u32,
     ) -> Self {
         let order = match spread {
             SpectrumSpread::Drawn => Order::Drawn,

@@ -74,7 +74,7 @@ impl SourceJob for CoverageJob<'_> {
         let Self { plan, camera, request } = self;
         let exposure = FilmExposure::of(camera, request.shot);
         let view = plan.world.render_space_with(exposure.origin_m(), exposure.interval(), request.simd);
-        let job = render_job((camera, exposure), request, source, None);
+        let job = render_job(camera, exposure, request, source, None);
         let sampling = Sampling { pass: PassAt::only(spp(camera)), ..job.sampling };
         let job = RenderJob { sampling, aperture_px: camera.body.aperture_px, ..job };
         let (width, height) = (camera.body.raster.width(), camera.body.raster.height());

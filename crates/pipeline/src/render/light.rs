@@ -4,7 +4,7 @@ use crate::plan::PassAt;
 use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
 use crate::render::gather::{Gather, PixelLight, Sums};
-use crate::render::heroes::Heroes;
+use crate::render::heroes::{Heroes, ReplicateNumbers};
 use crate::render::mosaic::{Mosaic, Site};
 use crate::render::observer::Observer;
 use crate::render::tile_bands::TileBands;
@@ -239,7 +239,7 @@ impl RenderJob<'_> {
         let mut asked = Asked::default();
         let samples = self.sampling.spp() / self.sampling.replicates;
         for replicate in 0..self.sampling.replicates {
-            self.add_replicate(field, (block, replicate), 0..samples, &mut asked, &mut sums);
+            self.add_replicate(field, block, replicate, 0..samples, &mut asked, &mut sums);
             gathers.iter_mut().zip(&mut sums).for_each(|(gather, sums)| gather.end_replicate(sums, samples));
         }
         let of = |(gather, sums): (Gather, &Sums)| gather.light(&layout, self.sampling.spp(), sums.not_finite());
@@ -250,15 +250,16 @@ impl RenderJob<'_> {
     pub(super) fn add_replicate<const N: usize>(
         &self,
         field: &dyn RadianceField<N>,
-        (block, replicate): (&[Pixel], u32),
+        block: &[Pixel],
+        replicate: u32,
         samples: Range<u32>,
         asked: &mut Asked<N>,
         sums: &mut [Sums],
     ) {
-        let streams: Vec<_> = block.iter().map(|p| PathStream::new(&self.address(*p, replicate), 0)).collect();
-        let heroes = self.heroes(block[0], replicate);
+        let streams = block.iter().map(|p| PathStream::new(&self.address(*p, replicate), 0)).collect();
+        let numbers = ReplicateNumbers { streams, heroes: self.heroes(block[0], replicate) };
         for sample in samples {
-            self.add_samples(field, block, (&streams, &heroes), sample, asked, sums);
+            self.add_samples(field, block, &numbers, sample, asked, sums);
         }
     }
 
@@ -271,8 +272,8 @@ impl RenderJob<'_> {
     /// The wavelengths of a replicate of a block, which are those of its first pixel.
     fn heroes(&self, pixel: Pixel, replicate: u32) -> Heroes {
         let Sampling { replicates, spread, .. } = self.sampling;
-        let group = (self.sampling.first_replicate(), replicates);
-        Heroes::new(spread, &self.address(pixel, replicate), self.sampling.spp() / replicates, group)
+        let samples = self.sampling.spp() / replicates;
+        Heroes::new(spread, &self.address(pixel, replicate), samples, self.sampling.first_replicate(), replicates)
     }
 
     /// One sample of each pixel of a block.
@@ -280,11 +281,12 @@ impl RenderJob<'_> {
         &self,
         field: &dyn RadianceField<N>,
         block: &[Pixel],
-        (streams, heroes): (&[PathStream], &Heroes),
+        numbers: &ReplicateNumbers,
         sample: u32,
         asked: &mut Asked<N>,
         sums: &mut [Sums],
     ) {
+        let ReplicateNumbers { streams, heroes } = numbers;
         asked.clear();
         let site = self.mosaic.map(|mosaic| mosaic.at(block[0]));
         let wavelengths = self.wavelengths::<N>(site, heroes.number(&streams[0].with_sample(sample), N));

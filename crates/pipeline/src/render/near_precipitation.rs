@@ -26,14 +26,10 @@ const WITHIN_PX: f64 = 1e-6;
 const MIDDLE_NM: f64 = 550.0;
 
 /// What a camera sees during an exposure of a film of a size in px, about the origin of its view.
-pub(super) fn seen_region(
-    source: &dyn RaySource,
-    exposure: &FilmExposure<'_>,
-    (width, height): (u32, u32),
-) -> SeenRegion {
+pub(super) fn seen_region(source: &dyn RaySource, exposure: &FilmExposure<'_>, width: u32, height: u32) -> SeenRegion {
     let moments = moments(exposure.interval());
     let (mut directions, mut margin_m) = (vec![], 0.0_f64);
-    for [at, within] in grid((width, height)) {
+    for [at, within] in grid(width, height) {
         for pupil in PUPIL {
             let ray = |at: DVec2| source.ray(at, DVec2::from_array(pupil), MIDDLE_NM);
             let Some(ray) = ray(at).or_else(|| ray(within)) else { continue };
@@ -49,14 +45,14 @@ pub(super) fn seen_region(
 
 /// What the camera of a stored image sees that stands still, its axes turned to the world's by a rotation.
 pub(crate) fn region_of_projection(projection: &PupilProjection, rotation: DMat3) -> SeenRegion {
-    let size = (projection.width() as u32, projection.height() as u32);
+    let (width, height) = (projection.width() as u32, projection.height() as u32);
     let direction = |[at, within]: [DVec2; 2]| projection.direction(at).or_else(|| projection.direction(within));
-    let directions: Vec<_> = grid(size).filter_map(direction).map(|direction| rotation * direction).collect();
+    let directions: Vec<_> = grid(width, height).filter_map(direction).map(|direction| rotation * direction).collect();
     SeenRegion::around(&directions, ROOM_RAD, 0.0)
 }
 
 /// Points all over a film, its edges included, and the same just within the last edges.
-fn grid((width, height): (u32, u32)) -> impl Iterator<Item = [DVec2; 2]> {
+fn grid(width: u32, height: u32) -> impl Iterator<Item = [DVec2; 2]> {
     let size = DVec2::new(f64::from(width), f64::from(height));
     (0..SIDE * SIDE).map(move |i| {
         let at = size * DVec2::new(f64::from(i % SIDE), f64::from(i / SIDE)) / f64::from(SIDE - 1);
@@ -72,7 +68,8 @@ fn moments(interval: TimeInterval) -> [f64; 5] {
 pub(super) fn near<'a>(
     precipitation: &Precipitation,
     media: &Media<'a>,
-    (exposure, simd): (&FilmExposure<'_>, Simd),
+    exposure: &FilmExposure<'_>,
+    simd: Simd,
     region: &SeenRegion,
     change_over: &ChangeOver,
 ) -> Near<'a> {

@@ -35,7 +35,7 @@ where
     for<'t> PathTracer<'t>: SpectralPaths<N>,
 {
     let training = Training::default();
-    let paths = paths((job.width, job.height), spp(camera, job.sampling.pass));
+    let paths = paths(job.width, job.height, spp(camera, job.sampling.pass));
     (0..paths.div_ceil(A_CHUNK)).into_par_iter().try_for_each(|chunk| {
         if observer.cancelled() {
             return Err(GatherError::Cancelled);
@@ -50,7 +50,8 @@ where
 #[must_use]
 pub fn paths_of(camera: &CameraPlan) -> u64 {
     let passes = (0..camera.pass_count()).map(|number| camera.pass(number));
-    passes.map(|pass| paths(camera.film_size(), spp(camera, pass))).sum()
+    let (width, height) = camera.film_size();
+    passes.map(|pass| paths(width, height, spp(camera, pass))).sum()
 }
 
 /// Samples a pixel that every pixel gets in a pass.
@@ -59,7 +60,7 @@ fn spp(camera: &CameraPlan, pass: PassAt) -> u32 {
 }
 
 /// How many paths are followed before a pass of so many columns and rows, and samples a pixel.
-fn paths((width, height): (u32, u32), spp: u32) -> u64 {
+fn paths(width: u32, height: u32, spp: u32) -> u64 {
     (u64::from(width) * u64::from(height) * u64::from(spp) / PATHS_FOR_ONE).min(MOST_PATHS)
 }
 
@@ -83,9 +84,9 @@ mod tests {
 
     #[test]
     fn a_sixteenth_of_the_paths_and_no_more_than_the_most() {
-        assert_eq!(paths((32, 20), 16), 640);
-        assert_eq!(paths((3, 1), 4), 0);
-        assert_eq!(paths((u32::MAX, 2), 64), MOST_PATHS);
+        assert_eq!(paths(32, 20, 16), 640);
+        assert_eq!(paths(3, 1, 4), 0);
+        assert_eq!(paths(u32::MAX, 2, 64), MOST_PATHS);
     }
 
     /// A step of the sequence in the place of another would leave gaps or meet pixels twice.

@@ -204,7 +204,7 @@ impl<'a> TruthRows<'a> {
         let look = |i: usize| {
             let row = rows.start + i / width;
             let centre = DVec2::new((i % width) as f64, row as f64) + 0.5;
-            look(&self.view, self.material_table, (self.camera, &self.viewpoints[row]), centre)
+            look(&self.view, self.material_table, self.camera, &self.viewpoints[row], centre)
         };
         (0..width * rows.len()).into_par_iter().map(look).collect()
     }
@@ -256,7 +256,8 @@ fn has_mirror(camera: &CameraPlan) -> bool {
 fn look(
     view: &RenderSpace<'_>,
     material_table: &MaterialTable,
-    (camera, viewpoint): (&CameraPlan, &Viewpoint),
+    camera: &CameraPlan,
+    viewpoint: &Viewpoint,
     raster_px: DVec2,
 ) -> Look {
     match camera.body.truth_ray(raster_px) {

@@ -23,10 +23,10 @@ impl Blocks {
     /// Every pixel by itself.
     pub const SINGLE: Self = Self { side: 1, stride: (1, 1) };
 
-    /// Blocks of `side` × `side` pixels (a power of two), for a filter that repeats after `stride` columns and rows.
+    /// Blocks of `side` × `side` pixels (a power of two), for a filter that repeats after so many columns and rows.
     #[must_use]
-    pub fn new(side: u32, stride: (u32, u32)) -> Self {
-        if side == 1 { Self::SINGLE } else { Self { side, stride } }
+    pub fn new(side: u32, columns: u32, rows: u32) -> Self {
+        if side == 1 { Self::SINGLE } else { Self { side, stride: (columns, rows) } }
     }
 
     /// Columns and rows of pixels in a block.
@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     fn blocks_hold_every_pixel_once_whatever_the_tiles() {
-        for layout in [Blocks::SINGLE, Blocks::new(4, (1, 1)), Blocks::new(2, (2, 2)), Blocks::new(4, (2, 4))] {
+        for layout in [Blocks::SINGLE, Blocks::new(4, 1, 1), Blocks::new(2, 2, 2), Blocks::new(4, 2, 4)] {
             let mut pixels: Vec<_> = blocks(layout, 8).into_iter().flatten().collect();
             pixels.sort_unstable();
             pixels.dedup();
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn pixels_of_a_block_have_one_colour() {
-        for block in blocks(Blocks::new(4, (2, 3)), 16) {
+        for block in blocks(Blocks::new(4, 2, 3), 16) {
             let colour = |p: &(u32, u32)| (p.0 % 2, p.1 % 3);
             assert!(block.iter().all(|p| colour(p) == colour(&block[0])));
         }

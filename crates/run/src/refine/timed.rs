@@ -218,7 +218,7 @@ impl<'a> Run<'a> {
         let place = (place, self.films.len());
         let watched = Watched { watch: &self.watch, camera, shot: film.shot, place, is_kept };
         let request = Request { shot: film.shot, simd: self.options.simd, ..Request::default() };
-        let joined = pass(&self.plan, camera, request, (at, before), &watched);
+        let joined = pass(&self.plan, camera, request, at, before, &watched);
         self.watch.ends();
         match joined {
             Ok(film) => Ok(Some(film)),

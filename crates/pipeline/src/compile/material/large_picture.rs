@@ -19,12 +19,21 @@ pub(super) enum Refusal {
     Store(String),
 }
 
+/// How the texels of a picture are read, and how they are laid out and looked up.
+#[derive(Clone, Copy)]
+pub(super) struct TexelUse {
+    pub(super) reading: Reading,
+    pub(super) sampling: Sampling,
+}
+
 /// A texture whose tiles are in the store, by now if they were not before.
 pub(super) fn tiled(
     image: &LargeImage,
-    (reading, sampling): (Reading, Sampling),
-    (store, memory): (&TexelStore, &Arc<TileMemory>),
+    usage: TexelUse,
+    store: &TexelStore,
+    memory: &Arc<TileMemory>,
 ) -> Result<ImageTexture, Refusal> {
+    let TexelUse { reading, sampling } = usage;
     let (size, encoding) = ((image.width, image.height), reading.encoding(image.format));
     let (key, lengths) = (key(image, reading), PyramidWriter::lengths(size.0, size.1, encoding));
     let texture = |blocks| ImageTexture::tiled(size, encoding, (blocks, memory), sampling);
@@ -50,7 +59,8 @@ pub(super) fn tiled(
 }
 
 /// The picture in memory, of all its pixels.
-pub(super) fn held(image: &LargeImage, reading: Reading, sampling: Sampling) -> Result<ImageTexture, String> {
+pub(super) fn held(image: &LargeImage, usage: TexelUse) -> Result<ImageTexture, String> {
+    let TexelUse { reading, sampling } = usage;
     let mut all: Option<Texels> = None;
     image.rows.read(&mut |rows| {
         let texels = reading.texels(rows, image.to_rec_709).ok_or_else(no_opacity)?;

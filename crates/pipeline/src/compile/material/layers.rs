@@ -16,6 +16,18 @@ use etendue_tracer::materials::{
 };
 use etendue_tracer::textures::{Channel, Sampling, TextureId, Wrap};
 
+/// A surface of a mix, with the name of its part.
+struct NamedSurface {
+    surface: Surface,
+    name: &'static str,
+}
+
+impl NamedSurface {
+    fn new(surface: Surface, name: &'static str) -> Self {
+        Self { surface, name }
+    }
+}
+
 /// What one material is made in.
 struct Layering<'l, 'c, 'a> {
     builder: &'l mut MaterialTableBuilder,
@@ -69,7 +81,7 @@ impl Layering<'_, '_, '_> {
             SlotNumber::Number(share) if share >= 1.0 => self.metal(layers),
             _ => {
                 let (a, b) = (self.no_metal(layers)?, self.metal(layers)?);
-                self.mix((a, "no metal"), (b, "metal"), &layers.metal, layers)
+                self.mix(NamedSurface::new(a, "no metal"), NamedSurface::new(b, "metal"), &layers.metal, layers)
             }
         }
     }
@@ -93,7 +105,7 @@ impl Layering<'_, '_, '_> {
             SlotNumber::Number(share) if share >= 1.0 => Some(through),
             _ => {
                 let opaque = self.opaque(layers)?;
-                self.mix((opaque, "opaque"), (through, "clear"), &clear.share, layers)
+                self.mix(NamedSurface::new(opaque, "opaque"), NamedSurface::new(through, "clear"), &clear.share, layers)
             }
         }
     }
@@ -116,7 +128,12 @@ impl Layering<'_, '_, '_> {
                 if *share >= 1.0 {
                     return Some(clear.into());
                 }
-                self.mix((own.into(), "own coat"), (clear.into(), "clear coat"), &SlotNumber::Number(*share), layers)
+                self.mix(
+                    NamedSurface::new(own.into(), "own coat"),
+                    NamedSurface::new(clear.into(), "clear coat"),
+                    &SlotNumber::Number(*share),
+                    layers,
+                )
             }
         }
     }
@@ -138,20 +155,14 @@ impl Layering<'_, '_, '_> {
     }
 
     /// Two surfaces side by side.
-    fn mix(
-        &mut self,
-        (a, a_name): (Surface, &str),
-        (b, b_name): (Surface, &str),
-        weight: &SlotNumber,
-        layers: &SlotLayers,
-    ) -> Option<Surface> {
+    fn mix(&mut self, a: NamedSurface, b: NamedSurface, weight: &SlotNumber, layers: &SlotLayers) -> Option<Surface> {
         let weight = self.number(weight)?;
-        let mut part = |surface: Surface, name: &str| -> Option<_> {
+        let mut part = |NamedSurface { surface, name }: NamedSurface| -> Option<_> {
             let material = self.with_normals(surface, layers)?;
             let name = format!("{}, {name}", self.slot.name);
             Some(self.builder.add_part(material, &name, self.place, self.has_picture))
         };
-        Some(Surface::Mix(Mix { a: part(a, a_name)?, b: part(b, b_name)?, weight }))
+        Some(Surface::Mix(Mix { a: part(a)?, b: part(b)?, weight }))
     }
 
     fn emission(&mut self, emission: &SlotEmission) -> Option<Emission> {

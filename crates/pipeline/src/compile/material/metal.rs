@@ -1,6 +1,7 @@
 //! Complex refractive indices of metals, by name or from a file.
 
 use super::super::context::Context;
+use etendue_core::WavelengthRange;
 use etendue_scene::Placed;
 use etendue_scene::record::material::Metal;
 use etendue_spectra::metal::{self, ComplexIndex};
@@ -32,7 +33,7 @@ pub(super) fn from_table(file: &Placed<PathBuf>, context: &mut Context<'_>) -> O
         return None;
     };
     if let (Some(first), Some(last)) = (asset.points.first(), asset.points.last()) {
-        context.coverage.add(&file.value, (first.0, last.0), Outside::Hold);
+        context.coverage.add(&file.value, WavelengthRange::new(first.0, last.0), Outside::Hold);
     }
     let n: Vec<_> = asset.points.iter().map(|(nm, n, _)| (*nm, *n)).collect();
     let k: Vec<_> = asset.points.iter().map(|(nm, _, k)| (*nm, *k)).collect();

@@ -1,7 +1,7 @@
 //! Pictures as textures, each made once for every way in which it is laid out.
 
 use super::super::context::Context;
-use super::large_picture::{Refusal, held, tiled};
+use super::large_picture::{Refusal, TexelUse, held, tiled};
 use super::texels::Reading;
 use etendue_scene::Place;
 use etendue_scene::asset::{Assets, LargeImage, TexelStore};
@@ -44,7 +44,7 @@ impl Pictures {
         if let Some(id) = self.made.get(&key) {
             return Some(*id);
         }
-        let texture = self.texture((file, place), reading, sampling, context)?;
+        let texture = self.texture(file, place, TexelUse { reading, sampling }, context)?;
         self.textures.push(texture);
         let id = TextureId((self.textures.len() - 1) as u32);
         self.made.insert(key, id);
@@ -53,17 +53,18 @@ impl Pictures {
 
     fn texture(
         &mut self,
-        (file, place): (&Path, &Place),
-        reading: Reading,
-        sampling: Sampling,
+        file: &Path,
+        place: &Place,
+        usage: TexelUse,
         context: &mut Context<'_>,
     ) -> Option<ImageTexture> {
+        let TexelUse { reading, sampling } = usage;
         let Assets { images, large_images, texel_store, .. } = context.assets;
         if let (Some(image), Some(store)) = (large_images.get(file), texel_store) {
             if reading.alpha && !image.format.has_opacity() {
                 return no_opacity(file, place, context);
             }
-            return self.large((file, image), place, (reading, sampling), store, context);
+            return self.large(file, image, place, usage, store, context);
         }
         let Some(image) = images.get(file) else {
             context.fault(place, format!("the picture {} was not loaded", file.display()), "give a readable file");
@@ -78,18 +79,19 @@ impl Pictures {
     /// In tiles; where these cannot be kept, in memory.
     fn large(
         &mut self,
-        (file, image): (&Path, &LargeImage),
+        file: &Path,
+        image: &LargeImage,
         place: &Place,
-        (reading, sampling): (Reading, Sampling),
+        usage: TexelUse,
         store: &TexelStore,
         context: &mut Context<'_>,
     ) -> Option<ImageTexture> {
         let memory = self.tile_memory.get_or_insert_with(|| Arc::new(TileMemory::new(store.memory_bytes)));
-        let texture = match tiled(image, (reading, sampling), (store, memory)) {
+        let texture = match tiled(image, usage, store, memory) {
             Ok(texture) => Ok(texture),
             Err(Refusal::Picture(error)) => Err(error),
             Err(Refusal::Store(error)) => {
-                let texture = held(image, reading, sampling);
+                let texture = held(image, usage);
                 let megabytes = texture.as_ref().map_or(0, |texture| texture.texel_bytes().div_ceil(1_000_000));
                 let problem = format!(
                     "{megabytes} MB are held in memory, above its limit, because {error}; give a --cache folder"

@@ -62,13 +62,13 @@ impl SourceJob for LayersJob<'_> {
         let view = plan.world.render_space_with(rows.origin_m(), rows.interval(), request.simd);
         let media = Media::new(&plan.media, rows.origin_m(), rows.interval());
         let near = region_and_change_over(plan, camera, &rows, source).map(|(precipitation, region, change_over)| {
-            near(precipitation, &media, (&rows, request.simd), &region, &change_over)
+            near(precipitation, &media, &rows, request.simd, &region, &change_over)
         });
         let share =
             |of| Shares { view: &view, material_table: &plan.material_table, media: &media, near: near.as_ref(), of };
         let even = Layout { bands: Some(whole(camera)), folded: false, watched: false };
         let job = |layout| {
-            let job = render_job((camera, rows.clone()), request, source, None);
+            let job = render_job(camera, rows.clone(), request, source, None);
             RenderJob {
                 layout,
                 tolerance: None,

@@ -132,7 +132,7 @@ fn lateral_colour(camera: &CameraPlan) -> PlannedEffect {
         ),
     };
     let effect = PlannedEffect::new(GROUP, "lateral colour", status).described_by("lens.lateral_colour");
-    match lateral_colour_px(&camera.body, camera.settings.range_nm) {
+    match lateral_colour_px(&camera.body, camera.settings.range_nm.into()) {
         Some(px) => effect.dropped_by([without(camera, "lens.lateral_colour")]).erring("colours apart up to", px, "px"),
         None => effect,
     }
@@ -164,11 +164,7 @@ fn optic(camera: &CameraPlan) -> Option<&Optic> {
 }
 
 /// A thing before the lens: the section goes with its last one.
-fn before_the_lens(
-    camera: &CameraPlan,
-    (name, key): (&'static str, &'static str),
-    status: EffectStatus,
-) -> PlannedEffect {
+fn before_the_lens(camera: &CameraPlan, name: &'static str, key: &'static str, status: EffectStatus) -> PlannedEffect {
     let front = camera.body.front.as_ref();
     let things = front.map_or(0, |front| usize::from(front.dirt().is_some()) + usize::from(front.optic().is_some()));
     let dropped = if things == 1 { "external_optics" } else { key };
@@ -178,13 +174,13 @@ fn before_the_lens(
 fn mirror(camera: &CameraPlan) -> PlannedEffect {
     let is_there = matches!(optic(camera), Some(Optic::Mirror(_)));
     let status = where_there(is_there, "each ray is reflected at it", "none is described");
-    before_the_lens(camera, ("mirror before the lens", "external_optics.mirror"), status)
+    before_the_lens(camera, "mirror before the lens", "external_optics.mirror", status)
 }
 
 fn windscreen(camera: &CameraPlan) -> PlannedEffect {
     let is_there = matches!(optic(camera), Some(Optic::Windscreen(_)));
     let status = where_there(is_there, "each ray is traced through its layers", "none is described");
-    before_the_lens(camera, ("wind-screen", "external_optics.windscreen"), status)
+    before_the_lens(camera, "wind-screen", "external_optics.windscreen", status)
 }
 
 fn drops(camera: &CameraPlan) -> PlannedEffect {
@@ -206,7 +202,7 @@ fn drops(camera: &CameraPlan) -> PlannedEffect {
 fn dirt(camera: &CameraPlan) -> PlannedEffect {
     let is_there = camera.body.front.as_ref().is_some_and(|front| front.dirt().is_some());
     let status = where_there(is_there, "each ray is weighted by the mask", "none is described");
-    before_the_lens(camera, ("dirt before the lens", "external_optics.dirt"), status)
+    before_the_lens(camera, "dirt before the lens", "external_optics.dirt", status)
 }
 
 /// An effect on the irradiance: the section, with its margin, goes with the last one.

@@ -1,6 +1,7 @@
 //! Closed forms of what a picture without a property of its lens would be wrong by.
 
 use crate::plan::CameraBody;
+use etendue_core::WavelengthRange;
 use glam::DVec2;
 
 /// Steps of the distance from the axis at which a curve is looked at.
@@ -37,8 +38,9 @@ pub(super) fn blur_px(body: &CameraBody, depth_m: f64) -> f64 {
 
 /// How far apart the sizes of the image are within wavelengths (nm), at the farthest corner, px; `None` where no lateral colour was laid
 /// over the lens.
-pub(super) fn lateral_colour_px(body: &CameraBody, (low_nm, high_nm): (f64, f64)) -> Option<f64> {
+pub(super) fn lateral_colour_px(body: &CameraBody, range: WavelengthRange) -> Option<f64> {
     let colour = body.lens.lateral_colour()?;
+    let WavelengthRange { low_nm, high_nm } = range;
     let sizes = (0..=RADII).map(|i| colour.at(low_nm + (high_nm - low_nm) * f64::from(i) / f64::from(RADII)));
     let (least, most) = sizes.fold((f64::INFINITY, 0.0_f64), |(a, b), size| (a.min(size), b.max(size)));
     Some((most - least) * body.raster.max_radius_mm() / body.raster.pitch_mm().x)
@@ -79,7 +81,7 @@ mod tests {
     fn colours_come_apart_with_the_distance_from_the_axis() {
         let lens = "lens = { type = \"pinhole\", focal_length_mm = 1, f_number = 8, lateral_colour = { wavelength_nm = [400, \
                     700], magnification = [1.001, 1.0] } }";
-        let found = lateral_colour_px(&body(lens), (400.0, 700.0)).expect("it has one");
+        let found = lateral_colour_px(&body(lens), WavelengthRange::new(400.0, 700.0)).expect("it has one");
         // Sizes are over that at 587.56 nm, which is 1.000 37.
         let expected = 1e-3 / (1.001 - 1e-3 * (587.56 - 400.0) / 300.0) * CORNER_MM.length() / 0.006;
         assert!((found - expected).abs() < 1e-6, "{found} for {expected}");

@@ -16,15 +16,15 @@ pub(super) fn effects(camera: &CameraPlan) -> Vec<PlannedEffect> {
     vec![
         black_level(camera, p),
         defects(camera, p),
-        step(camera, ("shading correction", "isp.shading"), p.shading.is_some(), "gains of each place of the picture"),
+        step(camera, "shading correction", "isp.shading", p.shading.is_some(), "gains of each place of the picture"),
         white_balance(camera, p),
         demosaic(p),
-        step(camera, ("noise reduction", "isp.noise_reduction"), p.noise_reduction.is_some(), "smooths like colours"),
+        step(camera, "noise reduction", "isp.noise_reduction", p.noise_reduction.is_some(), "smooths like colours"),
         colour_matrix(camera, p, development.mosaic.channels()),
-        step(camera, ("digital gain", "isp.exposure_gain"), p.exposure_gain != 1.0, "a factor on the linear picture"),
-        step(camera, ("image filters", "isp.image_filters"), !p.image_filters.is_empty(), "filters of the paper"),
+        step(camera, "digital gain", "isp.exposure_gain", p.exposure_gain != 1.0, "a factor on the linear picture"),
+        step(camera, "image filters", "isp.image_filters", !p.image_filters.is_empty(), "filters of the paper"),
         tone(camera, p),
-        step(camera, ("sharpening", "isp.sharpening"), p.sharpening.is_some(), "an unsharp mask"),
+        step(camera, "sharpening", "isp.sharpening", p.sharpening.is_some(), "an unsharp mask"),
         quantisation(development.format),
         never("highlight recovery"),
         never("local tone mapping"),
@@ -32,7 +32,7 @@ pub(super) fn effects(camera: &CameraPlan) -> Vec<PlannedEffect> {
 }
 
 /// A step that is there only where its key asks for it.
-fn step(camera: &CameraPlan, (name, key): (&'static str, &'static str), is_there: bool, text: &str) -> PlannedEffect {
+fn step(camera: &CameraPlan, name: &'static str, key: &'static str, is_there: bool, text: &str) -> PlannedEffect {
     let status = where_there(is_there, text, "not asked for");
     PlannedEffect::new(GROUP, name, status).described_by(key).dropped_by([without(camera, key)])
 }
@@ -67,7 +67,7 @@ fn white_balance(camera: &CameraPlan, p: &Processing) -> PlannedEffect {
     } else {
         "factors on the channels"
     };
-    step(camera, ("white balance", "isp.white_balance"), is_there, text)
+    step(camera, "white balance", "isp.white_balance", is_there, text)
 }
 
 fn demosaic(p: &Processing) -> PlannedEffect {
