@@ -219,7 +219,7 @@ const REPLACED: &[(&str, &str)] = &[
     ("MeshTree", "Blas"),
     ("Workshop", "MaterialCompiler"),
     ("gather_glow", "add_emission"),
-    ("gather_drawn", "sample_direct"),
+    ("gather_drawn", "sample_direct_light"),
     ("met_pdf", "light_pdf"),
     ("MovedBorders", "PreparedBrighterFatter"),
     ("NoisyRead", "PreparedReadNoise"),

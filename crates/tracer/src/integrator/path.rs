@@ -1,68 +1,77 @@
-//! One path, vertex by vertex.
+//! One path, in the order of the algorithm: intersect, add emission, sample direct light, sample the BSDF, Russian roulette.
 //!
-//! Where a surface is not there (opacity), or light goes straight through it (a thin pane), the path goes on as if it had
-//! met nothing: no scattering event, and light that it then meets is weighed as seen from where it was last scattered.
+//! Where a surface is transparent to a path (opacity), or light crosses it straight (a thin pane), the path continues as if there were
+//! no surface: no scattering event, and the light that it then hits has the weight seen from where the path was last scattered.
+//!
+//! **Branches** (splitting; Arvo and Kirk, "Particle transport and image synthesis", 1990): from one point that
+//! the camera sees several lights are sampled and several paths continue.
+//! The cost of that point (the ray through the lens, the textures, the cut of lights that the samples share) is paid once, and the
+//! light of lamps and of other surfaces has the noise of as many more samples. Edges, depth of field and motion do not: their noise goes
+//! by samples. A path branches once, at the first surface that is no mirror; points in media, drops and flakes do not branch. Each branch
+//! has its part of the throughput, and densities are those of all branches and light samples together, so that multiple importance sampling
+//! weights as many of both.
+//!
+//! **Russian roulette** (Arvo and Kirk 1990): light that a path still finds counts in its pixel by the throughput, and so does all else that the pixel
+//! shows: behind a dark surface everything is dark. So the probability to continue goes by the fraction of the throughput that is left behind the first
+//! surface that scatters, and not by the throughput itself. Where light is alike everywhere the best probability is in proportion to that fraction,
+//! by the root of a whole path's cost over that of the rest of it (Bolin and Meyer 1997; Rath and others 2022, "EARS").
 
 use core::marker::PhantomData;
 use etendue_core::random::Draw;
 use etendue_core::{FieldRay, Ray, Spectral, TimeInterval, Wavelengths};
 use glam::Vec3;
 
-use super::carried::Carried;
-use super::caustic::History;
-use super::cone::Cone;
-use super::effects::Effects;
-use super::medium::Medium;
-use super::{Level, LightSampling, PathTracer};
+use super::path_state::{Cone, Medium, RouletteState, ScatteringHistory};
+use super::path_tracer::Effects;
+use super::{Level, PathTracer};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::guiding::DirectionDistribution;
-use crate::lights::{LightSampleContext, ReceiverGloss};
-use crate::materials::{Bsdf, BsdfSample, BsdfValue, Event, GlossLobe, ShadingFrame};
+use crate::lights::{LightHit, LightSampleContext};
+use crate::materials::{Bsdf, BsdfSample, Event, ShadingFrame};
 use crate::media::Phase;
 use crate::precipitation::NearHit;
 use crate::textures::Lookup;
 
-/// Surfaces that a path meets at most, with those that it passes. No scene needs as many; among surfaces closer together
-/// than the step from one to the next a path might turn in circles.
-pub(super) const MAX_MET: u32 = 8192;
+/// Greatest number of surfaces that a path hits, with those that it passes. No scene needs as many; among surfaces closer together
+/// than the step from one to the next a path might go round for ever.
+pub(super) const MAX_VERTICES: u32 = 8192;
 
-/// A path on its way.
+/// A path and what it has gathered so far.
 #[derive(Clone)]
 pub(super) struct Path<'a, const N: usize, E> {
     pub(super) tracer: &'a PathTracer<'a>,
     pub(super) wavelengths: &'a Wavelengths<N>,
-    /// What the camera asked: its random address, and when lights are looked at.
-    pub(super) asked: &'a FieldRay,
+    /// The ray of the camera: its random address, and the interval over which lights are averaged.
+    pub(super) camera_ray: &'a FieldRay,
     pub(super) ray: Ray,
     pub(super) cone: Cone,
     /// Whether it branches at the first surface that is no mirror.
     pub(super) branches: bool,
     /// Scattering events so far.
     pub(super) bounces: u32,
-    /// Surfaces met so far, with those that were passed: the vertex's number for random draws.
-    pub(super) met: u32,
-    /// Way since the last scattering, m: longer than the ray's where it has passed surfaces.
+    /// Surfaces hit so far, with those that were passed: the vertex's number for random draws.
+    pub(super) vertex_index: u32,
+    /// Distance since the last scattering, m: longer than the ray's where it has passed surfaces.
     pub(super) travelled_m: f32,
     /// Density of the ray's direction, 1/sr, times the branches of the path at the surface that scattered it; `None` where it came from the camera or a mirror.
-    pub(super) scattered: Option<f32>,
+    pub(super) direction_pdf: Option<f32>,
     /// Where the ray was last scattered; `None` where it came from the camera or a mirror.
     pub(super) receiver: Option<LightSampleContext>,
     pub(super) medium: Medium<'a>,
-    pub(super) history: History,
-    /// Whether the path has met a drop or flake: it meets one at most.
-    pub(super) beyond_particle: bool,
-    /// Random numbers used for flights through media.
-    pub(super) flights: u32,
-    /// What roulette goes by.
-    pub(super) carried: Carried,
-    /// What radiance along the ray counts at the camera.
+    pub(super) history: ScatteringHistory,
+    /// Whether the path has hit a drop or flake: it hits one at most.
+    pub(super) has_hit_particle: bool,
+    /// Random numbers used for free flights in media.
+    pub(super) flight_draws: u32,
+    pub(super) roulette: RouletteState,
+    /// Weight of radiance along the ray at the camera.
     pub(super) throughput: Spectral<N>,
     pub(super) radiance: Spectral<N>,
     pub(super) effects: PhantomData<E>,
 }
 
-/// A surface that the path has met.
+/// A surface that the path has hit and that may scatter it.
 #[derive(Clone, Copy)]
 pub(super) struct Vertex<'a, const N: usize> {
     pub(super) point: SurfacePoint,
@@ -70,17 +79,17 @@ pub(super) struct Vertex<'a, const N: usize> {
     pub(super) bsdf: Bsdf<'a, N>,
     /// Of mixes the part that was drawn.
     pub(super) material: MaterialId,
-    /// What its directions are drawn by; `None` where by the bsdf alone.
+    /// The distribution of sampled directions; `None` where they are those of the bsdf.
     pub(super) guide: Option<&'a DirectionDistribution>,
 }
 
-/// What a path meets.
+/// The end of a ray.
 pub(super) enum Intersection<'a> {
-    /// Nothing: infinity.
+    /// Infinity.
     Nothing,
-    /// A surface that is not there for this path.
+    /// A surface that is transparent to this path; the ray has been taken beyond it.
     Passed,
-    /// A place between surfaces where light is scattered, in the render frame, m.
+    /// A point between surfaces where light is scattered, in the render frame, m.
     Medium(Vec3, &'a Phase),
     /// A drop or flake, which the ray has been taken to.
     Particle(NearHit),
@@ -88,101 +97,63 @@ pub(super) enum Intersection<'a> {
     Surface(SurfacePoint, Lookup),
 }
 
-/// How a path goes on.
+/// Whether a path has another vertex.
 pub(super) enum PathStep {
-    /// To another surface.
-    Goes,
-    /// Not at all.
-    Ends,
+    Continue,
+    End,
 }
 
 impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
-    pub(super) fn new(tracer: &'a PathTracer<'a>, asked: &'a FieldRay, wavelengths: &'a Wavelengths<N>) -> Self {
+    pub(super) fn new(tracer: &'a PathTracer<'a>, camera_ray: &'a FieldRay, wavelengths: &'a Wavelengths<N>) -> Self {
         Self {
             tracer,
             wavelengths,
-            asked,
-            ray: asked.ray,
+            camera_ray,
+            ray: camera_ray.ray,
             cone: Cone::new(tracer.settings.cone_spread_rad),
             branches: tracer.settings.branches > 1,
             bounces: 0,
-            met: 0,
+            vertex_index: 0,
             travelled_m: 0.0,
-            scattered: None,
+            direction_pdf: None,
             receiver: None,
             medium: tracer.medium,
-            history: History::default(),
-            beyond_particle: false,
-            flights: 0,
-            carried: Carried::default(),
+            history: ScatteringHistory::default(),
+            has_hit_particle: false,
+            flight_draws: 0,
+            roulette: RouletteState::default(),
             throughput: Spectral::ONE,
             radiance: Spectral::ZERO,
             effects: PhantomData,
         }
     }
 
-    /// Radiance at the camera.
-    pub(super) fn follow(mut self) -> Spectral<N> {
-        while self.met < MAX_MET && matches!(self.step(), PathStep::Goes) {
-            self.met += 1;
+    /// Traces the path to its end and returns the radiance at the camera.
+    pub(super) fn trace(mut self) -> Spectral<N> {
+        while self.vertex_index < MAX_VERTICES && matches!(self.step(), PathStep::Continue) {
+            self.vertex_index += 1;
         }
         self.radiance
     }
 
-    /// The light that a surface, which the path has just met, scatters against it: what the rest of the path gathers.
-    /// Roulette goes on as if the path were not cut.
-    pub(super) fn tail(mut self, vertex: &Vertex<'a, N>) -> Spectral<N> {
-        self.carried.scale(self.throughput.max_value());
-        self.throughput = Spectral::ONE;
-        self.radiance = Spectral::ZERO;
-        match self.scatter(vertex) {
-            PathStep::Ends => self.radiance,
-            PathStep::Goes => {
-                self.met += 1;
-                self.follow()
-            }
-        }
-    }
-
     /// To the next surface and on from it, or to infinity.
     fn step(&mut self) -> PathStep {
-        let met = self.meet();
-        self.go_on_from(met)
+        let intersection = self.intersect();
+        self.scatter(intersection)
     }
 
-    /// On from what the path has met.
+    /// Takes the ray to the next surface, whose emission is added, or to infinity.
     #[inline(always)]
-    pub(super) fn go_on_from(&mut self, met: Intersection<'a>) -> PathStep {
-        match met {
-            Intersection::Nothing => PathStep::Ends,
-            Intersection::Passed => PathStep::Goes,
-            Intersection::Medium(..) | Intersection::Particle(_) if !E::MEDIA => PathStep::Ends,
-            Intersection::Medium(..) if self.is_spent() => PathStep::Ends,
-            Intersection::Medium(position, phase) => self.scatter_in_medium(position, phase),
-            Intersection::Particle(_) if self.tracer.settings.only_airlight => PathStep::Ends,
-            Intersection::Particle(hit) => self.scatter_at_particle(&hit),
-            Intersection::Surface(point, lookup) if self.is_spent() => self.only_pass(point, &lookup),
-            Intersection::Surface(point, lookup) => self.scatter(&self.vertex(point, &lookup)),
-        }
-    }
-
-    /// Whether the path has scattered as often as it may.
-    pub(super) fn is_spent(&self) -> bool {
-        self.bounces == self.tracer.max_bounces()
-    }
-
-    /// To the next surface, whose glow is gathered, or to infinity.
-    #[inline(always)]
-    pub(super) fn meet(&mut self) -> Intersection<'a> {
+    pub(super) fn intersect(&mut self) -> Intersection<'a> {
         let hit = self.tracer.view.closest(&self.ray);
         if E::MEDIA
             && self.tracer.media.is_some()
-            && let Some(met) = self.travel_to(hit.as_ref().map_or(f32::INFINITY, |hit| hit.t))
+            && let Some(intersection) = self.intersect_media(hit.as_ref().map_or(f32::INFINITY, |hit| hit.t))
         {
-            return met;
+            return intersection;
         }
         let Some(hit) = hit else {
-            self.gather_distant();
+            self.add_distant_light();
             return Intersection::Nothing;
         };
         let point = self.tracer.view.surface(&self.ray, &hit);
@@ -195,168 +166,160 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         if !self.sees_only_air() {
             self.add_emission(&point, &lookup);
         }
-        if self.is_passed(&point, &lookup) {
+        if self.is_transparent(&point, &lookup) {
             self.pass(&point);
             return Intersection::Passed;
         }
         if self.sees_only_air() { Intersection::Nothing } else { Intersection::Surface(point, lookup) }
     }
 
-    /// Where textures are read at a point that a ray of unit `direction` has met whose cone is `cone` there.
-    #[inline(always)]
-    pub(super) fn lookup(&self, point: &SurfacePoint, cone: Cone, direction: Vec3) -> Lookup {
-        let at = Lookup { local: point.local, local_normal: point.local_normal, ..Lookup::point(point.uv) };
-        if !(E::SURFACES && self.tracer.material_table.needs_footprint(point.material)) {
-            return at;
-        }
-        let at = Lookup { origin: self.tracer.view.local_origin(point.instance), ..at };
-        let footprint = self.tracer.view.footprint(point);
-        let width_m = cone.width_m;
-        let round = Lookup { width: width_m * footprint.uv_per_m, width_local: width_m * footprint.local_per_m, ..at };
-        match cone.long_side(point.geometric_normal, direction) {
-            None => round,
-            Some(vector) => {
-                let (long, long_local) = self.tracer.view.change_along(point, vector);
-                Lookup { long, long_local, ..round }
+    /// Adds light from infinity, along the ray.
+    pub(super) fn add_distant_light(&mut self) {
+        let strategies = self.tracer.settings.strategies;
+        for light in self.tracer.lights.distant(self.ray.direction, self.receiver.as_ref(), self.wavelengths) {
+            if (light.surrounds || self.includes(self.history.is_caustic())) && !self.sees_only_air() {
+                self.radiance +=
+                    self.throughput * light.radiance * strategies.hit_weight(self.direction_pdf, light.pdf);
             }
         }
     }
 
-    /// Whether the surface is not there for this path.
-    fn is_passed(&self, point: &SurfacePoint, lookup: &Lookup) -> bool {
+    /// Adds the light that the surface hit emits against the ray.
+    fn add_emission(&mut self, point: &SurfacePoint, lookup: &Lookup) {
+        let Some(emitted) = self.emitted(point, lookup) else { return };
+        if !self.includes(self.history.is_caustic()) {
+            return;
+        }
+        let (direction, distance_m) = (self.ray.direction, self.travelled_m);
+        let hit = |receiver| LightHit { receiver, point, direction, distance_m };
+        let light_pdf = self.receiver.as_ref().map_or(0.0, |receiver| self.tracer.lights.light_pdf(&hit(receiver)));
+        let weight = self.tracer.settings.strategies.hit_weight(self.direction_pdf, light_pdf);
+        self.radiance += self.throughput * emitted * weight;
+    }
+
+    /// Radiance of a surface against the ray: by its material, or as the opening of a lamp; `None` where its side does not emit.
+    #[inline(always)]
+    fn emitted(&self, point: &SurfacePoint, lookup: &Lookup) -> Option<Spectral<N>> {
+        let material_table = self.tracer.material_table;
+        match material_table.emission(point.material) {
+            None => self.tracer.lights.of_opening(point, self.ray.direction, (self.wavelengths, self.lit())),
+            Some(emission) => emission
+                .leaves(point.geometric_normal, -self.ray.direction)
+                .then(|| material_table.radiance(point.material, emission, lookup, (self.wavelengths, self.lit()))),
+        }
+    }
+
+    /// Whether the surface is transparent to this path.
+    fn is_transparent(&self, point: &SurfacePoint, lookup: &Lookup) -> bool {
         let material_table = self.tracer.material_table;
         E::SURFACES
             && material_table.lets_pass(point.material)
-            && self.asked.stream.one(Draw::Opacity, self.met) >= material_table.opacity(point.material, lookup)
+            && self.camera_ray.stream.one(Draw::Opacity, self.vertex_index)
+                >= material_table.opacity(point.material, lookup)
     }
 
-    /// Straight on from a surface.
+    /// Takes the ray straight on from a surface.
     fn pass(&mut self, point: &SurfacePoint) {
         self.ray.origin = point.spawn(self.ray.direction);
         self.ray.left = Some(point.primitive_id());
     }
 
+    /// Scatters the path where its ray ended.
+    #[inline(always)]
+    pub(super) fn scatter(&mut self, intersection: Intersection<'a>) -> PathStep {
+        match intersection {
+            Intersection::Nothing => PathStep::End,
+            Intersection::Passed => PathStep::Continue,
+            Intersection::Medium(..) | Intersection::Particle(_) if !E::MEDIA => PathStep::End,
+            Intersection::Medium(..) if self.is_at_max_bounces() => PathStep::End,
+            Intersection::Medium(position, phase) => self.scatter_in_medium(position, phase),
+            Intersection::Particle(_) if self.tracer.settings.only_airlight => PathStep::End,
+            Intersection::Particle(hit) => self.scatter_at_particle(&hit),
+            Intersection::Surface(point, lookup) if self.is_at_max_bounces() => self.only_pass(point, &lookup),
+            Intersection::Surface(point, lookup) => self.scatter_at_surface(&self.vertex(point, &lookup)),
+        }
+    }
+
+    /// Whether the path has scattered as often as it may.
+    pub(super) fn is_at_max_bounces(&self) -> bool {
+        self.bounces == self.tracer.max_bounces()
+    }
+
     /// Beyond the last scattering event light may still come straight through.
     pub(super) fn only_pass(&mut self, point: SurfacePoint, lookup: &Lookup) -> PathStep {
         if !(E::SURFACES && self.tracer.material_table.lets_pass(point.material)) {
-            return PathStep::Ends;
+            return PathStep::End;
         }
         let vertex = self.vertex(point, lookup);
-        let through = self.sample(&vertex).filter(|sample| sample.event == Event::Null);
-        through.map_or(PathStep::Ends, |sample| self.go_through(&vertex, &sample))
+        match self.sample_bsdf(&vertex) {
+            Some(sample) if sample.event == Event::Null => self.go_through(&vertex, &sample),
+            _ => PathStep::End,
+        }
     }
 
-    /// Gathers drawn light at a surface and goes on from it.
+    /// Adds direct light at a surface and continues from it.
     #[inline(always)]
-    pub(super) fn scatter(&mut self, vertex: &Vertex<'a, N>) -> PathStep {
+    pub(super) fn scatter_at_surface(&mut self, vertex: &Vertex<'a, N>) -> PathStep {
         if matches!(vertex.bsdf, Bsdf::Absorber) {
-            return PathStep::Ends;
+            return PathStep::End;
         }
         // Light from behind counts where the surface lets it through.
         let transmits = E::SURFACES && vertex.bsdf.transmits();
         let normal = if transmits { Vec3::ZERO } else { vertex.frame.normal() };
         let gloss = if !E::SURFACES || transmits { None } else { self.gloss(vertex) };
         let (position, time_s) = (vertex.point.position, vertex.point.time_s);
-        let draws = self.branches(vertex);
+        let draws = self.branch_count(vertex);
         let receiver = LightSampleContext { position, normal, gloss, in_view: self.history.is_seen(), draws, time_s };
-        self.sample_direct(vertex, &receiver);
-        if draws > 1 { self.branch(vertex, &receiver) } else { self.scatter_on(vertex, &receiver) }
+        self.sample_direct_light(vertex, &receiver);
+        if draws > 1 { self.branch(vertex, &receiver) } else { self.continue_from(vertex, &receiver) }
     }
 
-    /// On from a surface in a drawn direction.
+    /// How many paths continue from a surface that the path has hit.
     #[inline(always)]
-    pub(super) fn scatter_on(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) -> PathStep {
-        match self.sample(vertex) {
-            None => PathStep::Ends,
+    fn branch_count(&self, vertex: &Vertex<'a, N>) -> u32 {
+        let here = self.branches && self.history.is_seen() && !(E::SURFACES && vertex.bsdf.is_delta());
+        if here { self.tracer.settings.branches } else { 1 }
+    }
+
+    /// Traces all branches to their ends.
+    #[inline(never)]
+    fn branch(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) -> PathStep {
+        let count = receiver.draws;
+        for k in 0..count {
+            let camera_ray = FieldRay { stream: self.camera_ray.stream.branch(k, count), ..*self.camera_ray };
+            let (throughput, radiance) = (self.throughput / count as f32, Spectral::ZERO);
+            let mut branch = Path { camera_ray: &camera_ray, branches: false, throughput, radiance, ..self.clone() };
+            let gathered = match branch.continue_from(vertex, receiver) {
+                PathStep::End => branch.radiance,
+                PathStep::Continue => {
+                    branch.vertex_index += 1;
+                    branch.trace()
+                }
+            };
+            self.radiance += gathered;
+        }
+        PathStep::End
+    }
+
+    /// Continues from a surface in a sampled direction.
+    #[inline(always)]
+    fn continue_from(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) -> PathStep {
+        match self.sample_bsdf(vertex) {
+            None => PathStep::End,
             Some(sample) if E::SURFACES && sample.event == Event::Null => self.go_through(vertex, &sample),
-            Some(sample) => self.go_on(vertex, &sample, receiver),
+            Some(sample) => self.follow_sample(vertex, &sample, receiver),
         }
     }
 
-    /// What the choice among lights is told of a surface: nothing where light that lobes send on is left out as a caustic, or lobes do not count.
+    /// Samples the direction in which the path continues; `None` where the light would be absorbed.
     #[inline(always)]
-    fn gloss(&self, vertex: &Vertex<'a, N>) -> Option<ReceiverGloss> {
-        let asked = self.tracer.settings.light_sampling == LightSampling::Gloss;
-        if !asked || !self.follows(self.history.is_matt()) {
-            return None;
-        }
-        let counts = |lobe: &GlossLobe| self.follows(self.history.would_be_caustic(lobe.density_at_axis()));
-        ReceiverGloss::new(&vertex.bsdf.gloss(vertex.frame.wo).keeping(counts), &vertex.frame)
-    }
-
-    #[inline(always)]
-    pub(super) fn vertex(&self, point: SurfacePoint, lookup: &Lookup) -> Vertex<'a, N> {
-        let material_table = self.tracer.material_table;
-        let material = if E::SURFACES && material_table.is_mix(point.material) {
-            material_table.resolve(point.material, lookup, self.asked.stream.one(Draw::Mix, self.met))
-        } else {
-            point.material
-        };
-        let frame = self.frame(material, &point, lookup, self.ray.direction);
-        let bsdf = if E::SURFACES {
-            material_table.widened_bsdf(material, lookup, (frame.front, self.least_alpha(&frame)), self.wavelengths)
-        } else {
-            material_table.matt_bsdf(material, self.wavelengths)
-        };
-        Vertex { guide: self.guide(&bsdf, &point, &frame), bsdf, point, frame, material }
-    }
-
-    /// The shading frame of a material at a point that a ray of unit `direction` has met.
-    #[inline(always)]
-    pub(super) fn frame(
-        &self,
-        material: MaterialId,
-        point: &SurfacePoint,
-        lookup: &Lookup,
-        direction: Vec3,
-    ) -> ShadingFrame {
-        let material_table = self.tracer.material_table;
-        let normal = if E::SURFACES && material_table.needs_tangents(material) {
-            material_table.shading_normal(material, lookup, point, self.tracer.view.tangents(point))
-        } else {
-            point.shading_normal
-        };
-        ShadingFrame::new(point, normal, -direction)
-    }
-
-    /// Value and density of light that arrives at a surface from `wi`.
-    #[inline(always)]
-    pub(super) fn evaluate(&self, vertex: &Vertex<'_, N>, wi: Vec3) -> BsdfValue<N> {
-        match &vertex.bsdf {
-            Bsdf::Diffuse(bsdf) if !E::SURFACES => bsdf.evaluate_above(wi),
-            bsdf => bsdf.evaluate(vertex.frame.wo, wi),
-        }
-    }
-
-    /// Whether light of a lamp counts, given whether it is part of a caustic: matt surfaces alone make none.
-    pub(super) fn follows(&self, is_caustic: bool) -> bool {
-        !E::SURFACES || self.tracer.settings.caustics || !is_caustic
-    }
-
-    /// Unit direction of the ray.
-    pub(super) fn direction(&self) -> Vec3 {
-        self.ray.direction
-    }
-
-    /// The time at which the path looks at the scene.
-    pub(super) fn time_s(&self) -> f32 {
-        self.ray.time_s
-    }
-
-    /// The time over which lights are averaged.
-    pub(super) fn lit(&self) -> &'a TimeInterval {
-        &self.asked.lit
-    }
-
-    /// Draws where the path goes; `None` where the light would be absorbed.
-    #[inline(always)]
-    fn sample(&self, vertex: &Vertex<'_, N>) -> Option<BsdfSample<N>> {
+    fn sample_bsdf(&self, vertex: &Vertex<'_, N>) -> Option<BsdfSample<N>> {
         let choice = if E::SURFACES && vertex.bsdf.has_parts() {
-            self.asked.stream.one(Draw::BsdfChoice, self.met)
+            self.camera_ray.stream.one(Draw::BsdfChoice, self.vertex_index)
         } else {
             0.0
         };
-        let u = self.asked.stream.two(Draw::BsdfDirection, self.met);
+        let u = self.camera_ray.stream.two(Draw::BsdfDirection, self.vertex_index);
         match &vertex.bsdf {
             Bsdf::Diffuse(bsdf) if vertex.guide.is_some() => vertex.guided_sample(bsdf, u),
             Bsdf::Diffuse(bsdf) if !E::SURFACES => bsdf.sample_above(u),
@@ -364,44 +327,35 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// What light crosses that arrives at a surface from `wi`.
-    pub(super) fn medium_towards(&self, vertex: &Vertex<'a, N>, wi: Vec3) -> Medium<'a> {
-        if E::SURFACES && wi.z < 0.0 {
-            let table = self.tracer.material_table;
-            Medium::beyond(
-                vertex.frame.front,
-                table.solid(vertex.material).is_some(),
-                table.absorption(vertex.material),
-            )
-        } else {
-            self.medium
-        }
-    }
-
     /// Straight through a surface that takes its share.
     fn go_through(&mut self, vertex: &Vertex<'_, N>, sample: &BsdfSample<N>) -> PathStep {
         self.throughput *= sample.weight;
         self.pass(&vertex.point);
-        self.unless_dark()
+        self.end_if_dark()
     }
 
-    /// On in a new direction.
-    fn go_on(&mut self, vertex: &Vertex<'a, N>, sample: &BsdfSample<N>, receiver: &LightSampleContext) -> PathStep {
-        let kept = vertex.frame.outward(sample.wi);
-        let Some(direction) = kept.or_else(|| Self::along_surface(vertex, sample)) else { return PathStep::Ends };
+    /// Continues in a new direction.
+    fn follow_sample(
+        &mut self,
+        vertex: &Vertex<'a, N>,
+        sample: &BsdfSample<N>,
+        receiver: &LightSampleContext,
+    ) -> PathStep {
+        let outward = vertex.frame.outward(sample.wi);
+        let Some(direction) = outward.or_else(|| Self::along_surface(vertex, sample)) else { return PathStep::End };
         self.throughput *= sample.weight;
-        // What counts as a caustic, and how wide textures are read, goes by the surface, not by how its directions are drawn. No light is drawn along a
-        // surface.
-        let has_density = kept.is_some() && (!E::SURFACES || sample.event == Event::Scatter);
-        let bsdf_density = has_density.then_some(sample.pdf);
-        self.history.scatter(bsdf_density);
-        if let Some(pdf) = bsdf_density {
+        // What counts as a caustic, and how wide textures are read, goes by the surface, not by how its directions are sampled. No light is sampled
+        // along a surface.
+        let has_density = outward.is_some() && (!E::SURFACES || sample.event == Event::Scatter);
+        let bsdf_pdf = has_density.then_some(sample.pdf);
+        self.history.scatter(bsdf_pdf);
+        if let Some(pdf) = bsdf_pdf {
             self.cone.scatter(pdf);
         }
-        let relative = vertex.relative_density(sample.wi);
-        self.scattered = bsdf_density.map(|pdf| pdf * relative * receiver.draws as f32);
-        self.carried.scale(relative);
-        self.receiver = self.scattered.map(|_| *receiver);
+        let relative_density = vertex.relative_density(sample.wi);
+        self.direction_pdf = bsdf_pdf.map(|pdf| pdf * relative_density * receiver.draws as f32);
+        self.roulette.scale(relative_density);
+        self.receiver = self.direction_pdf.map(|_| *receiver);
         self.medium = self.medium_towards(vertex, sample.wi);
         self.leave(Ray { time_s: self.ray.time_s, ..vertex.point.leave(direction) })
     }
@@ -410,24 +364,53 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// for all others.
     #[inline(always)]
     fn along_surface(vertex: &Vertex<'a, N>, sample: &BsdfSample<N>) -> Option<Vec3> {
-        let keeps_light =
+        let is_lossless =
             E::SURFACES && (sample.event == Event::Specular || matches!(vertex.bsdf, Bsdf::Dielectric(_)));
-        keeps_light.then(|| vertex.frame.outward_to_horizon(sample.wi))
+        is_lossless.then(|| vertex.frame.outward_to_horizon(sample.wi))
     }
 
-    /// On from where the path was scattered.
+    /// Leaves the point that has scattered the path.
     #[inline(always)]
     pub(super) fn leave(&mut self, ray: Ray) -> PathStep {
         self.ray = ray;
         self.travelled_m = 0.0;
         self.bounces += 1;
         if self.tracer.settings.level == Level::Flat {
-            self.gather_distant();
-            return PathStep::Ends;
+            self.add_distant_light();
+            return PathStep::End;
         }
-        match self.unless_dark() {
-            PathStep::Goes if self.survives() => PathStep::Goes,
-            _ => PathStep::Ends,
+        match self.end_if_dark() {
+            PathStep::Continue if self.russian_roulette() => PathStep::Continue,
+            _ => PathStep::End,
         }
+    }
+
+    /// Ends a path without throughput.
+    pub(super) fn end_if_dark(&self) -> PathStep {
+        if self.throughput.is_zero() { PathStep::End } else { PathStep::Continue }
+    }
+
+    /// Draws whether the path continues; if so it counts for those that ended. Paths that only mirrors have scattered all continue.
+    fn russian_roulette(&mut self) -> bool {
+        if self.history.is_seen() {
+            return true;
+        }
+        let probability = self.roulette.survival_probability(self.throughput.max_value());
+        let starts = self.bounces >= self.tracer.settings.roulette_start;
+        if !starts || probability >= 1.0 || !probability.is_finite() {
+            return true;
+        }
+        self.throughput = self.throughput / probability;
+        self.camera_ray.stream.one(Draw::Roulette, self.bounces) < probability
+    }
+
+    /// Whether light of a lamp counts, given whether it is part of a caustic: diffuse surfaces alone make none.
+    pub(super) fn includes(&self, is_caustic: bool) -> bool {
+        !E::SURFACES || self.tracer.settings.caustics || !is_caustic
+    }
+
+    /// The interval over which lights are averaged.
+    pub(super) fn lit(&self) -> &'a TimeInterval {
+        &self.camera_ray.lit
     }
 }

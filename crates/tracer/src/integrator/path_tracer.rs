@@ -1,35 +1,38 @@
-//! What a path tracer asks: a view, its materials and its lights.
+//! A path tracer: the view, materials and lights that paths are traced through, and the effects that these paths may encounter.
 
-use super::effects::SceneEffects;
-use super::level::Level;
-use super::medium::Medium;
-use super::settings::PathSettings;
-use super::surroundings::Surroundings;
+use core::f32::consts::TAU;
+use etendue_core::Ray;
+use etendue_core::maths::f32::sin_cos;
+use glam::Vec3;
+
+use super::path_state::Medium;
+use super::settings::{Level, PathSettings};
 use crate::guiding::Guide;
 use crate::lights::Lights;
 use crate::materials::MaterialTable;
 use crate::media::Media;
 use crate::precipitation::Near;
 use crate::render_space::RenderSpace;
+use crate::{ALL_EFFECTS, MaterialId};
 
-/// Answers rays of a view with spectral radiance.
+/// Traces rays of a view: the result is spectral radiance.
 #[derive(Clone, Copy, Debug)]
 pub struct PathTracer<'a> {
     pub(super) view: &'a RenderSpace<'a>,
     pub(super) material_table: &'a MaterialTable,
     pub(super) lights: &'a Lights,
     pub(super) settings: PathSettings,
-    /// What the entrance pupil lies in: paths begin there.
+    /// The medium that the entrance pupil is in: paths begin there.
     pub(super) medium: Medium<'a>,
     /// What scatters light between surfaces; `None` where nothing does.
     pub(super) media: Option<&'a Media<'a>>,
-    /// Drops or flakes that rays from the camera meet; `None` where none fall.
+    /// Drops or flakes that rays from the camera hit; `None` where none fall.
     pub(super) near: Option<&'a Near<'a>>,
-    /// What matt surfaces draw directions by; `None` where they go by the cosine alone.
+    /// The distributions by which diffuse surfaces sample directions; `None` where they go by the cosine alone.
     pub(super) guide: Option<&'a Guide>,
-    /// Whether any light goes up and down.
+    /// Whether the strength of any light changes over time.
     pub(super) is_modulated: bool,
-    /// The code that is made for the scene.
+    /// The code that is compiled for the scene.
     pub(super) effects: SceneEffects,
 }
 
@@ -46,7 +49,7 @@ impl<'a> PathTracer<'a> {
         let solid = Surroundings::of(view, material_table).solid;
         let medium = solid.map_or_else(Medium::default, |id| Medium::inside(material_table.absorption(id)));
         let is_modulated = material_table.is_modulated() || lights.are_modulated();
-        let effects = SceneEffects::Every;
+        let effects = SceneEffects::All;
         let (media, near, guide) = (None, None, None);
         let tracer = Self { view, material_table, lights, settings, medium, media, near, guide, is_modulated, effects };
         tracer.with_effects()
@@ -64,25 +67,25 @@ impl<'a> PathTracer<'a> {
         Self { near, ..self }.with_effects()
     }
 
-    /// The same with what paths of the same view and lights have found, by which matt surfaces draw directions. No mean depends on it.
+    /// The same with a guide that paths of the same view and lights have trained, by which diffuse surfaces sample directions. No mean depends on it.
     #[must_use]
     pub fn with_guide(self, guide: Option<&'a Guide>) -> Self {
         Self { guide, ..self }
     }
 
-    /// The same by the code that is made for what it may meet.
+    /// The same with the code that is compiled for the effects that its paths may encounter.
     fn with_effects(self) -> Self {
         let has_media = self.media.is_some() || self.near.is_some() || self.settings.only_airlight;
-        let is_matt = self.material_table.is_matt() && !self.medium.is_solid();
-        let effects = match (has_media, is_matt) {
-            (true, _) => SceneEffects::Every,
-            (false, false) => SceneEffects::Clear,
-            (false, true) => SceneEffects::Matt,
+        let is_diffuse_only = self.material_table.is_diffuse_only() && !self.medium.is_solid();
+        let effects = match (has_media, is_diffuse_only) {
+            (true, _) => SceneEffects::All,
+            (false, false) => SceneEffects::NoMedia,
+            (false, true) => SceneEffects::DiffuseOnly,
         };
         Self { effects, ..self }
     }
 
-    /// How paths are followed.
+    /// The settings.
     #[must_use]
     pub fn settings(&self) -> &PathSettings {
         &self.settings
@@ -100,5 +103,142 @@ impl<'a> PathTracer<'a> {
     #[must_use]
     pub fn lights(&self) -> &'a Lights {
         self.lights
+    }
+}
+
+/// The effects that a path may encounter. A path is compiled once for each row of the table; [`super::PathTracer`] takes the first that has all that
+/// its scene needs. An effect that a row leaves out costs nothing at a vertex. All rows give the same bits.
+///
+/// | row | scenes |
+/// | --- | --- |
+/// | [`DiffuseOnly`] | diffuse surfaces without textures, no media |
+/// | [`NoMedia`] | all surfaces, no media |
+/// | [`AllEffects`] | all |
+pub(super) trait Effects: Copy {
+    /// What scatters light between surfaces: fog, drops, flakes.
+    const MEDIA: bool;
+    /// Surfaces other than diffuse ones of one spectrum each: other models, textures, mixes, opacity, transparent solids.
+    const SURFACES: bool;
+}
+
+/// The row of [`Effects`] that a scene takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SceneEffects {
+    /// [`DiffuseOnly`].
+    DiffuseOnly,
+    /// [`NoMedia`].
+    NoMedia,
+    /// [`AllEffects`].
+    All,
+}
+
+/// Media and all surfaces.
+#[derive(Clone, Copy)]
+pub(super) struct AllEffects;
+
+/// No media.
+#[derive(Clone, Copy)]
+pub(super) struct NoMedia;
+
+/// Neither media nor surfaces other than diffuse ones.
+#[derive(Clone, Copy)]
+pub(super) struct DiffuseOnly;
+
+impl Effects for AllEffects {
+    const MEDIA: bool = ALL_EFFECTS;
+    const SURFACES: bool = ALL_EFFECTS;
+}
+
+impl Effects for NoMedia {
+    const MEDIA: bool = false;
+    const SURFACES: bool = ALL_EFFECTS;
+}
+
+impl Effects for DiffuseOnly {
+    const MEDIA: bool = false;
+    const SURFACES: bool = false;
+}
+
+/// Rays that are traced.
+const RAYS: u32 = 15;
+
+/// Greatest number of surfaces that a ray is traced through.
+const MAX_PASSED: u32 = 4096;
+
+/// The solid that a camera stands in.
+///
+/// From the centre of the entrance pupil, rays of fixed directions are traced straight through everything. A solid that a
+/// ray comes out of once more than it goes in holds the camera; of several the one it first comes out of, which is the
+/// innermost. Most of the rays decide: of a solid whose surface is closed all agree. What moves is taken where it is half-way through
+/// the view's interval; left out is a camera that enters or leaves a solid while it exposes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Surroundings {
+    /// The material of the solid that most rays come out of; `None` for air.
+    pub solid: Option<MaterialId>,
+    /// A solid that some rays come out of where others do not: its surface is not closed.
+    pub open: Option<MaterialId>,
+}
+
+impl Surroundings {
+    /// What surrounds the camera of a view.
+    #[must_use]
+    pub fn of(view: &RenderSpace<'_>, material_table: &MaterialTable) -> Self {
+        if !material_table.has_solids() {
+            return Self::default();
+        }
+        let solids: Vec<_> = (0..RAYS).map(|i| first_exited(view, material_table, direction(i))).collect();
+        let votes = |id: Option<MaterialId>| solids.iter().filter(|solid| **solid == id).count();
+        let solid = solids.iter().flatten().copied().find(|id| 2 * votes(Some(*id)) > solids.len());
+        let open = solids.iter().flatten().copied().find(|id| votes(Some(*id)) < solids.len());
+        Self { solid, open }
+    }
+}
+
+/// Unit directions spread over the sphere (a Fibonacci lattice), none of them along an axis.
+fn direction(i: u32) -> Vec3 {
+    let z = 1.0 - (2.0 * i as f32 + 1.0) / RAYS as f32 + 0.013;
+    let (sin, cos) = sin_cos((0.618_034 * i as f32 + 0.137).fract() * TAU);
+    let r = (1.0 - z * z).sqrt();
+    Vec3::new(r * cos, r * sin, z).normalize()
+}
+
+/// A solid whose surface a ray has crossed.
+struct CrossedSolid {
+    instance: u32,
+    material: MaterialId,
+    /// How many times more often the ray has left it than entered it.
+    exits: i32,
+}
+
+/// Of the solids that hold the camera as seen along one direction, the one that is left first.
+fn first_exited(view: &RenderSpace<'_>, material_table: &MaterialTable, direction: Vec3) -> Option<MaterialId> {
+    // In the order in which they were first crossed.
+    let mut solids: Vec<CrossedSolid> = vec![];
+    let mut ray = Ray::new(Vec3::ZERO, direction, (0.5 * view.interval().length_s()) as f32);
+    for _ in 0..MAX_PASSED {
+        let Some(hit) = view.closest(&ray) else { break };
+        let point = view.surface(&ray, &hit);
+        if let Some(material) = material_table.solid(point.material) {
+            let step = if point.geometric_normal.dot(direction) > 0.0 { 1 } else { -1 };
+            match solids.iter_mut().find(|solid| solid.instance == hit.instance) {
+                Some(solid) => solid.exits += step,
+                None => solids.push(CrossedSolid { instance: hit.instance, material, exits: step }),
+            }
+        }
+        ray.origin = point.spawn(direction);
+    }
+    solids.into_iter().find(|solid| solid.exits > 0).map(|solid| solid.material)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_are_unit_and_spread() {
+        let all: Vec<_> = (0..RAYS).map(direction).collect();
+        assert!(all.iter().all(|d| (d.length() - 1.0).abs() < 1e-6 && d.abs().min_element() > 1e-3));
+        let sum: Vec3 = all.iter().sum();
+        assert!(sum.length() < 1.0, "{sum}");
     }
 }

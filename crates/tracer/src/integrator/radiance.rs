@@ -1,24 +1,25 @@
-//! Radiance along rays, alone and in groups, by the code that was made for the scene's effects.
+//! What paths are traced for: radiance along rays, alone and in groups, and the training of a guide (`crate::guiding`); by the code that was
+//! compiled for the scene's effects.
 
-use super::effects::{Clear, Effects, Every, Matt, SceneEffects};
-use super::path::Path;
-use super::path_tracer::PathTracer;
+use super::path::{Intersection, MAX_VERTICES, Path, PathStep, Vertex};
+use super::path_tracer::{AllEffects, DiffuseOnly, Effects, NoMedia, PathTracer, SceneEffects};
 use crate::ALL_EFFECTS;
-use crate::guiding::Training;
+use crate::guiding::{GUIDED_BOUNCES, Place, Training, bin_of};
+use crate::materials::Bsdf;
 use etendue_core::{FieldRay, RadianceField, Spectral, Wavelengths};
 
 /// Paths of `N` wavelengths, where `N` is 1, 4 or 8.
 pub trait SpectralPaths<const N: usize>: RadianceField<N> {
-    /// Follows a path and adds the radiance that it finds behind its first matt surfaces to `training`. The tracer must have no guide.
-    fn train(&self, asked: &FieldRay, wavelengths: &Wavelengths<N>, training: &Training);
+    /// Traces a path and adds the radiance that it finds behind its first diffuse surfaces to `training`. The tracer must have no guide.
+    fn train(&self, camera_ray: &FieldRay, wavelengths: &Wavelengths<N>, training: &Training);
 }
 
 /// Implements paths of `N` wavelengths. The implementations are not generic, so that this crate compiles them once and no other crate does.
 macro_rules! spectral_paths {
     ($($n:literal)*) => {$(
         impl RadianceField<$n> for PathTracer<'_> {
-            fn radiance(&self, asked: &FieldRay, wavelengths: &Wavelengths<$n>) -> Spectral<$n> {
-                self.radiance_along(asked, wavelengths)
+            fn radiance(&self, camera_ray: &FieldRay, wavelengths: &Wavelengths<$n>) -> Spectral<$n> {
+                self.radiance_along(camera_ray, wavelengths)
             }
 
             fn radiance_of_group(
@@ -32,8 +33,8 @@ macro_rules! spectral_paths {
         }
 
         impl SpectralPaths<$n> for PathTracer<'_> {
-            fn train(&self, asked: &FieldRay, wavelengths: &Wavelengths<$n>, training: &Training) {
-                self.train_along(asked, wavelengths, training);
+            fn train(&self, camera_ray: &FieldRay, wavelengths: &Wavelengths<$n>, training: &Training) {
+                self.train_along(camera_ray, wavelengths, training);
             }
         }
     )*};
@@ -42,13 +43,21 @@ macro_rules! spectral_paths {
 spectral_paths!(1 4 8);
 
 impl PathTracer<'_> {
-    fn radiance_along<const N: usize>(&self, asked: &FieldRay, wavelengths: &Wavelengths<N>) -> Spectral<N> {
+    fn radiance_along<const N: usize>(&self, camera_ray: &FieldRay, wavelengths: &Wavelengths<N>) -> Spectral<N> {
         match self.effects {
-            SceneEffects::Matt => self.radiance_of::<N, Matt>(asked, wavelengths),
+            SceneEffects::DiffuseOnly => self.radiance_with::<N, DiffuseOnly>(camera_ray, wavelengths),
             _ if !ALL_EFFECTS => unreachable!("a scene without optional effects"),
-            SceneEffects::Clear => self.radiance_of::<N, Clear>(asked, wavelengths),
-            SceneEffects::Every => self.radiance_of::<N, Every>(asked, wavelengths),
+            SceneEffects::NoMedia => self.radiance_with::<N, NoMedia>(camera_ray, wavelengths),
+            SceneEffects::All => self.radiance_with::<N, AllEffects>(camera_ray, wavelengths),
         }
+    }
+
+    fn radiance_with<const N: usize, E: Effects>(
+        &self,
+        camera_ray: &FieldRay,
+        wavelengths: &Wavelengths<N>,
+    ) -> Spectral<N> {
+        Path::<N, E>::new(self, camera_ray, wavelengths).trace()
     }
 
     fn radiance_along_group<const N: usize>(
@@ -58,17 +67,83 @@ impl PathTracer<'_> {
         radiance: &mut Vec<Spectral<N>>,
     ) {
         if rays.len() < 2 || !self.shares() {
-            radiance.extend(rays.iter().map(|asked| self.radiance_along(asked, wavelengths)));
+            radiance.extend(rays.iter().map(|camera_ray| self.radiance_along(camera_ray, wavelengths)));
             return;
         }
         match self.effects {
-            SceneEffects::Matt => self.radiance_shared::<N, Matt>(rays, wavelengths, radiance),
+            SceneEffects::DiffuseOnly => self.radiance_shared::<N, DiffuseOnly>(rays, wavelengths, radiance),
             // With media no path shares anything.
-            SceneEffects::Clear | SceneEffects::Every => self.radiance_shared::<N, Clear>(rays, wavelengths, radiance),
+            SceneEffects::NoMedia | SceneEffects::All => {
+                self.radiance_shared::<N, NoMedia>(rays, wavelengths, radiance);
+            }
         }
     }
 
-    fn radiance_of<const N: usize, E: Effects>(&self, asked: &FieldRay, wavelengths: &Wavelengths<N>) -> Spectral<N> {
-        Path::<N, E>::new(self, asked, wavelengths).follow()
+    /// Traces a path with the code for all effects: training paths are few.
+    fn train_along<const N: usize>(&self, camera_ray: &FieldRay, wavelengths: &Wavelengths<N>, training: &Training) {
+        if ALL_EFFECTS {
+            Path::<N, AllEffects>::new(self, camera_ray, wavelengths).train(training);
+        } else {
+            Path::<N, DiffuseOnly>::new(self, camera_ray, wavelengths).train(training);
+        }
+    }
+}
+
+/// The direction in which a training path has left a diffuse surface.
+#[derive(Clone, Copy)]
+struct TrainingVertex {
+    place: Place,
+    bin: usize,
+    /// Radiance at the camera before, summed over wavelengths.
+    radiance_before: f32,
+    /// Weight at the camera of radiance along the path from here on, likewise.
+    throughput: f32,
+}
+
+impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
+    /// Traces the path to its end and adds what it has found behind its first diffuse surfaces.
+    fn train(mut self, training: &Training) {
+        self.branches = false;
+        let mut vertices = [None; GUIDED_BOUNCES as usize];
+        while self.vertex_index < MAX_VERTICES && matches!(self.train_step(&mut vertices), PathStep::Continue) {
+            self.vertex_index += 1;
+        }
+        let radiance = self.radiance.0.iter().sum::<f32>();
+        for vertex in vertices.into_iter().flatten() {
+            let TrainingVertex { place, bin, radiance_before, throughput } = vertex;
+            training.add(place, bin, (radiance - radiance_before) / throughput);
+        }
+    }
+
+    /// To the next surface and on from it, which is noted where it is diffuse.
+    fn train_step(&mut self, vertices: &mut [Option<TrainingVertex>]) -> PathStep {
+        match self.intersect() {
+            Intersection::Surface(point, lookup) if !self.is_at_max_bounces() => {
+                let (vertex, bounces) = (self.vertex(point, &lookup), self.bounces as usize);
+                let step = self.scatter_at_surface(&vertex);
+                if let Some(noted) = vertices.get_mut(bounces)
+                    && matches!(step, PathStep::Continue)
+                {
+                    *noted = self.training_vertex(&vertex);
+                }
+                step
+            }
+            intersection => self.scatter(intersection),
+        }
+    }
+
+    /// How the path has left a surface; `None` where that is not diffuse.
+    fn training_vertex(&self, vertex: &Vertex<'a, N>) -> Option<TrainingVertex> {
+        if !matches!(vertex.bsdf, Bsdf::Diffuse(_)) {
+            return None;
+        }
+        let wi = vertex.frame.inward(self.ray.direction)?;
+        let sum = |values: &[f32; N]| values.iter().sum::<f32>();
+        Some(TrainingVertex {
+            place: Place::of(vertex.point.position, vertex.frame.normal()),
+            bin: bin_of(wi),
+            radiance_before: sum(&self.radiance.0),
+            throughput: sum(&self.throughput.0),
+        })
     }
 }

@@ -1,52 +1,29 @@
-//! How paths are followed.
+//! Settings of a path tracer.
 
-use super::level::Level;
-use super::mis::Strategies;
-
-/// What a light's chance of being drawn at a surface goes by. No mean depends on it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LightSampling {
-    /// Its irradiance, and how much of it the surface's narrow lobes send back along the path.
-    Gloss,
-    /// Its irradiance alone: cheaper at glossy surfaces, and noisier where they mirror lamps.
-    Irradiance,
-}
-
-impl LightSampling {
-    /// Its word in the key `light_sampling`.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Gloss => "gloss",
-            Self::Irradiance => "irradiance",
-        }
-    }
-}
-
-/// How paths are followed.
+/// Settings of a path tracer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
-    /// How much of light transport is followed.
+    /// Which light paths are simulated.
     pub level: Level,
     /// Greatest number of scattering events; of the level [`Level::Path`] alone.
     pub max_bounces: u32,
     /// Scattering events after which paths may end at random; those that mirrors alone have scattered never do.
     pub roulette_start: u32,
-    /// How many lights are drawn and how many paths go on at the first surface that is no mirror, 1 or more (`branching.rs`).
+    /// How many lights are sampled and how many paths continue at the first surface that is no mirror, 1 or more (`path.rs`).
     pub branches: u32,
     /// Samples of a replicate, or of a run of them where their number is not known before: paths that share their tails take turns over them.
     pub samples: u32,
     /// Full angle of the cone that a camera ray stands for, rad: that of a pixel over the root of its samples. Chooses the
     /// resolution of textures.
     pub cone_spread_rad: f32,
-    /// Which ways of finding light are used.
+    /// Which sampling strategies are used.
     pub strategies: Strategies,
-    /// What lights are drawn by.
+    /// What lights are sampled by.
     pub light_sampling: LightSampling,
-    /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones, and mirrors on much less glossy ones, is followed (`caustic.rs`).
-    /// Without it the picture is darker by that light, and free of the rare bright samples that find it.
+    /// Whether light of suns and emitting surfaces that smooth surfaces throw on diffuse ones, and mirrors on much less glossy ones, is simulated
+    /// (`path_state.rs`). Without it the image is darker by that light, and free of the rare bright samples that find it.
     pub caustics: bool,
-    /// Whether micro-facets are widened whose lobes the path would find by luck (`regularize.rs`).
+    /// Whether micro-facets are widened whose lobes the path would find by luck (`surface.rs`).
     pub regularize: bool,
     /// Whether only light counts that media scatter into the camera's rays before these meet a surface, a drop or a flake.
     pub only_airlight: bool,
@@ -66,6 +43,112 @@ impl Default for PathSettings {
             caustics: true,
             regularize: false,
             only_airlight: false,
+        }
+    }
+}
+
+/// Which light paths are simulated: the user's trade of time for accuracy. All levels see the same surfaces: depth and identities do not depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Level {
+    /// Local shading: the light of lamps, suns and surroundings that the first surface scatters towards the camera, as
+    /// if nothing else stood in its way. No shadows, nothing reflected but the surroundings, no light from other
+    /// surfaces, nothing seen through solid glass.
+    Flat,
+    /// Direct light: as [`Level::Flat`], but what stands between a light and the surface casts its shadow, and glowing
+    /// surfaces are seen in smooth ones. One scattering event: mirrors show what glows and the surroundings, and other
+    /// surfaces black.
+    Direct,
+    /// Everything, up to the greatest number of scattering events.
+    #[default]
+    Path,
+}
+
+/// What a light's probability of being sampled at a surface goes by. No mean depends on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightSampling {
+    /// Its irradiance, and how much of it the surface's narrow lobes send back along the path.
+    Gloss,
+    /// Its irradiance alone: cheaper at glossy surfaces, and noisier where they mirror lamps.
+    Irradiance,
+}
+
+impl LightSampling {
+    /// Its word in the key `light_sampling`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Gloss => "gloss",
+            Self::Irradiance => "irradiance",
+        }
+    }
+}
+
+/// Which sampling strategies find light (multiple importance sampling). All give the same mean; the others than `Both` exist to prove it.
+///
+/// Where an emission is textured they do but for the filtering: a sampled light's texture is averaged over the cone of the path
+/// as it arrived, one hit by chance over the cone widened by the scattering. `Both` then gives a mean of the two.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Strategies {
+    /// Lights are sampled, and hit by chance; both are weighted.
+    #[default]
+    Both,
+    /// Lights are only hit by chance.
+    Scattering,
+    /// Lights are only sampled, but for those that cannot be: seen by the camera or in a mirror, or a uniform environment.
+    Lights,
+}
+
+/// Weight of a strategy of density `this` beside one of density `other`, for finite densities of 0 or more: the power heuristic with exponent 2
+/// (Veach and Guibas 1995), p²/(p² + q²).
+fn power_heuristic(this: f32, other: f32) -> f32 {
+    if this <= 0.0 {
+        return 0.0;
+    }
+    // As a ratio, so that squares of large densities do not overflow.
+    let ratio = other / this;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+impl Strategies {
+    /// Weight of light hit by chance. `direction_pdf` is the density of the direction that hit it, `None` where it could
+    /// not have been sampled from here (camera, mirror); `light_pdf` is the density by which the light would have been sampled.
+    pub(super) fn hit_weight(self, direction_pdf: Option<f32>, light_pdf: f32) -> f32 {
+        let Some(direction_pdf) = direction_pdf.filter(|_| light_pdf > 0.0) else { return 1.0 };
+        match self {
+            Self::Both => power_heuristic(direction_pdf, light_pdf),
+            Self::Scattering => 1.0,
+            Self::Lights => 0.0,
+        }
+    }
+
+    /// Weight of a sampled light.
+    pub(super) fn sample_weight(self, light_pdf: f32, direction_pdf: f32) -> f32 {
+        match self {
+            Self::Both => power_heuristic(light_pdf, direction_pdf),
+            Self::Scattering => 0.0,
+            Self::Lights => 1.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_sum_to_one_at_every_scale() {
+        for (p, q) in [(1.0, 1.0), (1e-20, 1e20), (3e30, 2e30), (1e-38, 1e38), (5.0, 0.0)] {
+            let sum = power_heuristic(p, q) + power_heuristic(q, p);
+            assert!((sum - 1.0).abs() < 1e-6, "{p} {q}: {sum}");
+        }
+        assert_eq!(power_heuristic(0.0, 0.0), 0.0);
+    }
+
+    #[test]
+    fn light_that_cannot_be_drawn_counts_in_full() {
+        for strategies in [Strategies::Both, Strategies::Scattering, Strategies::Lights] {
+            assert_eq!(strategies.hit_weight(None, 3.0), 1.0);
+            assert_eq!(strategies.hit_weight(Some(3.0), 0.0), 1.0);
         }
     }
 }

@@ -183,7 +183,7 @@ impl MaterialTable {
     }
 
     /// Whether all surfaces absorb, or are diffuse with one spectrum each, and are wholly there and flat.
-    pub(crate) fn is_matt(&self) -> bool {
+    pub(crate) fn is_diffuse_only(&self) -> bool {
         self.materials.iter().all(|material| {
             let surface = matches!(material.surface, Surface::Absorber | Surface::Diffuse(Reflectance::Spectrum(_)));
             surface && material.opacity.is_none() && material.normal_map.is_none() && material.textures().is_empty()
@@ -250,9 +250,9 @@ impl MaterialTable {
         self.materials[id.0 as usize].surface.resolve(&point)
     }
 
-    /// The same where [`MaterialTable::is_matt`].
+    /// The same where [`MaterialTable::is_diffuse_only`].
     #[inline(always)]
-    pub(crate) fn matt_bsdf<const N: usize>(&self, id: MaterialId, wavelengths: &Wavelengths<N>) -> Bsdf<'_, N> {
+    pub(crate) fn diffuse_bsdf<const N: usize>(&self, id: MaterialId, wavelengths: &Wavelengths<N>) -> Bsdf<'_, N> {
         match &self.materials[id.0 as usize].surface {
             Surface::Diffuse(Reflectance::Spectrum(spectrum)) => {
                 Bsdf::Diffuse(DiffuseBsdf { reflectance: spectrum.sample(wavelengths) })

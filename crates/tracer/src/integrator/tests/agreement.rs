@@ -1,7 +1,7 @@
 //! The path tracer against itself: ways of finding light, roulette, wavelengths, repetition.
 
 use super::*;
-use crate::integrator::effects::SceneEffects;
+use crate::integrator::path_tracer::SceneEffects;
 use crate::lights::Lights;
 
 /// A floor and a block under lights of every kind.
@@ -154,7 +154,7 @@ fn code_made_for_a_scene_gives_the_same_bits() {
     let view = ready.world.render_space(DVec3::ZERO);
     let lights = ready.lights(&view);
     let tracer = PathTracer::new(&view, &ready.material_table, &lights, PathSettings::default());
-    assert_eq!(tracer.effects, SceneEffects::Matt);
+    assert_eq!(tracer.effects, SceneEffects::DiffuseOnly);
     let by = |effects| {
         let tracer = PathTracer { effects, ..tracer };
         let alone = (0..64).map(|replicate| replicate_bits(&tracer, replicate));
@@ -162,10 +162,10 @@ fn code_made_for_a_scene_gives_the_same_bits() {
         assert!(bits.iter().flatten().any(|b| *b != 0), "light is seen");
         bits
     };
-    let matt = by(SceneEffects::Matt);
-    assert_eq!(by(SceneEffects::Clear), matt);
+    let matt = by(SceneEffects::DiffuseOnly);
+    assert_eq!(by(SceneEffects::NoMedia), matt);
     // Where there may be media, no path shares anything.
-    assert_eq!(by(SceneEffects::Every)[..64], matt[..64]);
+    assert_eq!(by(SceneEffects::All)[..64], matt[..64]);
 }
 
 #[test]
@@ -177,10 +177,10 @@ fn a_scene_takes_the_code_that_has_what_it_needs() {
         PathTracer::new(&view, &ready.material_table, &lights, settings).effects
     };
     let path = PathSettings::default();
-    assert_eq!(effects(matt(0.8), path), SceneEffects::Matt);
-    assert_eq!(effects(Surface::Absorber, path), SceneEffects::Matt);
-    assert_eq!(effects(aluminium(0.4), path), SceneEffects::Clear);
-    assert_eq!(effects(matt(0.8), PathSettings { only_airlight: true, ..path }), SceneEffects::Every);
+    assert_eq!(effects(matt(0.8), path), SceneEffects::DiffuseOnly);
+    assert_eq!(effects(Surface::Absorber, path), SceneEffects::DiffuseOnly);
+    assert_eq!(effects(aluminium(0.4), path), SceneEffects::NoMedia);
+    assert_eq!(effects(matt(0.8), PathSettings { only_airlight: true, ..path }), SceneEffects::All);
 }
 
 fn asked(replicate: u32) -> FieldRay {

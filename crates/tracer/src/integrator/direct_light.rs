@@ -1,0 +1,154 @@
+//! Direct light (next-event estimation): light of sampled lights at a surface, and what is left of it on the way.
+
+use etendue_core::random::Draw;
+use etendue_core::{Ray, Spectral};
+use glam::Vec3;
+
+use super::Level;
+use super::path::{MAX_VERTICES, Path, Vertex};
+use super::path_state::Medium;
+use super::path_tracer::Effects;
+use crate::geometry::SurfacePoint;
+use crate::lights::{LightSample, LightSampleContext};
+use crate::media::Following;
+
+impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
+    /// Adds light of as many sampled lights as the receiver draws, as far as it comes through.
+    #[inline(always)]
+    pub(super) fn sample_direct_light(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) {
+        let lights = self.tracer.lights;
+        if !lights.can_be_drawn() || (E::SURFACES && vertex.bsdf.is_delta()) {
+            return;
+        }
+        let drawing = lights.drawing(receiver);
+        for k in 0..receiver.draws {
+            let stream = self.camera_ray.stream.branch(k, receiver.draws);
+            let choice = if lights.are_many() { stream.one(Draw::LightChoice, self.vertex_index) } else { 0.0 };
+            let u = stream.two(Draw::LightPoint, self.vertex_index);
+            let asked = (self.wavelengths, self.lit());
+            let sample = drawing.sample((choice, u), self.cone.spread_rad, self.tracer.material_table, asked);
+            if let Some(light) = sample.and_then(|sample| self.direct_light(vertex, &sample, receiver)) {
+                self.radiance += light;
+            }
+        }
+    }
+
+    /// Radiance at the camera of a sampled light that a surface scatters; `None` where there is none.
+    #[inline(always)]
+    fn direct_light(
+        &self,
+        vertex: &Vertex<'a, N>,
+        light: &LightSample<N>,
+        receiver: &LightSampleContext,
+    ) -> Option<Spectral<N>> {
+        let wi = vertex.frame.inward(light.direction)?;
+        let value = self.evaluate(vertex, wi);
+        if !(light.surrounds || self.includes(self.history.would_be_caustic(value.pdf))) {
+            return None;
+        }
+        let direction_pdf = vertex.density(wi, value.pdf) * receiver.draws as f32;
+        let arriving = self.throughput * value.value_cos * light.radiance * self.light_weight(light, direction_pdf);
+        let following = self.following(self.history.would_have_diffuse(value.pdf));
+        if arriving.is_zero() {
+            return None;
+        }
+        let visibility = self.visibility(vertex, light, self.medium_towards(vertex, wi), following)?;
+        Some(arriving * visibility)
+    }
+
+    /// Weight of a sampled light beside the scattering that may hit it, over its density. A lamp without an opening is found in no
+    /// other way, and nor are surfaces where no ray is traced to hit them.
+    pub(super) fn light_weight(&self, light: &LightSample<N>, direction_pdf: f32) -> f32 {
+        let settings = &self.tracer.settings;
+        let is_only_sampled = light.delta || (settings.level == Level::Flat && light.target.is_some());
+        if is_only_sampled {
+            1.0 / light.pdf
+        } else {
+            settings.strategies.sample_weight(light.pdf, direction_pdf) / light.pdf
+        }
+    }
+
+    /// The fraction of a sampled light that reaches the vertex through a `medium`; `None` where something opaque stands
+    /// between.
+    fn visibility(
+        &self,
+        vertex: &Vertex<'_, N>,
+        light: &LightSample<N>,
+        medium: Medium<'_>,
+        following: Following,
+    ) -> Option<Spectral<N>> {
+        let ray = self.ray_from_surface(&vertex.point, light);
+        let fraction = self.visibility_along(ray, light, medium, following)?;
+        // As for a path that hits nothing, the distance to infinity absorbs nothing.
+        let distance_m = light.target.map_or(0.0, |target| target.distance(vertex.point.position));
+        Some(if E::SURFACES { medium.attenuate(fraction, distance_m, self.wavelengths) } else { fraction })
+    }
+
+    /// The fraction of a sampled light that comes through along a ray towards it, but for what a solid absorbs in which the ray begins.
+    pub(super) fn visibility_along(
+        &self,
+        ray: Ray,
+        light: &LightSample<N>,
+        medium: Medium<'_>,
+        following: Following,
+    ) -> Option<Spectral<N>> {
+        let fraction = if self.tracer.settings.level == Level::Flat {
+            Spectral::ONE
+        } else if E::SURFACES && self.tracer.material_table.has_passages() {
+            self.transmittance_of_surfaces(ray, light)?
+        } else if self.tracer.view.occluded(&ray) {
+            return None;
+        } else {
+            Spectral::ONE
+        };
+        match self.tracer.media {
+            Some(media) if E::MEDIA && !medium.is_solid() => {
+                let numbers = (&self.camera_ray.stream, 2 * self.vertex_index);
+                Some(fraction * media.transmittance((&ray, following), numbers, self.wavelengths))
+            }
+            _ => Some(fraction),
+        }
+    }
+
+    /// The ray from a point of a surface to the light's, or to infinity.
+    fn ray_from_surface(&self, point: &SurfacePoint, light: &LightSample<N>) -> Ray {
+        let origin = point.spawn(light.direction);
+        self.ray_towards(origin, light.direction, light.target).leaving(point.primitive_id())
+    }
+
+    /// The ray from a point off all surfaces to `target`, or to infinity.
+    pub(super) fn ray_towards(&self, origin: Vec3, direction: Vec3, target: Option<Vec3>) -> Ray {
+        let mut ray = Ray::new(origin, direction, self.ray.time_s);
+        if let Some(target) = target {
+            ray.direction = target - origin;
+            ray.t_max = 1.0;
+        }
+        ray
+    }
+
+    /// The fraction of a sampled light that the surfaces along a ray let pass: cut-outs and thin panes let light pass straight.
+    fn transmittance_of_surfaces(&self, mut ray: Ray, light: &LightSample<N>) -> Option<Spectral<N>> {
+        let material_table = self.tracer.material_table;
+        let mut transmittance = Spectral::ONE;
+        let mut cone = self.cone;
+        for _ in 0..MAX_VERTICES {
+            let Some(hit) = self.tracer.view.closest(&ray) else { return Some(transmittance) };
+            let point = self.tracer.view.surface(&ray, &hit);
+            if !material_table.lets_pass(point.material) {
+                return None;
+            }
+            cone.travel(hit.t * ray.direction.length());
+            let lookup = self.lookup(&point, cone, light.direction);
+            let cos = |part| self.frame(part, &point, &lookup, light.direction).wo.z;
+            transmittance *= material_table.passage(point.material, &lookup, &cos, self.wavelengths)?;
+            if transmittance.is_zero() {
+                return None;
+            }
+            ray = self.ray_from_surface(&point, light);
+            if ray.direction.dot(light.direction) <= 0.0 {
+                return Some(transmittance);
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,216 @@
+//! Scattering between surfaces: by participating media, and by the drops and flakes that rays of the camera hit.
+//!
+//! A pixel sees a small part of a drop or flake at some place of it: over these the direction in which light is scattered is spread by the
+//! phase function. A ray is therefore continued as the drop refracts it where it is hit, and lights are sampled for it, and weighted against that ray, as
+//! by the phase function. For a particle that a pixel does not resolve this is right in the mean; in one that fills pixels, glints of
+//! lamps and of the sun are spread over its disc.
+
+use etendue_core::random::Draw;
+use etendue_core::{Ray, Spectral};
+use glam::Vec3;
+
+use super::Level;
+use super::path::{Intersection, Path, PathStep};
+use super::path_tracer::Effects;
+use crate::lights::LightSampleContext;
+use crate::media::{Following, Media, Phase};
+use crate::precipitation::{Near, NearHit};
+
+/// Random numbers of a drop.
+const DRAWS_PER_DROP: u32 = 16;
+
+impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
+    /// Takes the ray through media and precipitation to `end`, or to where it is scattered; `None` where it gets to the end.
+    pub(super) fn intersect_media(&mut self, end: f32) -> Option<Intersection<'a>> {
+        let particle = match self.particles_along() {
+            Some(near) if !self.medium.is_solid() => near.closest(&self.ray, end),
+            _ => None,
+        };
+        if let Some(collision) = self.travel_through_media(particle.map_or(end, |hit| hit.t)) {
+            return Some(collision);
+        }
+        let hit = particle?;
+        self.cone.travel(hit.t);
+        self.travelled_m += hit.t;
+        Some(Intersection::Particle(hit))
+    }
+
+    /// The media along the ray: about the camera, particles stand for a part of them.
+    fn media_along(&self) -> Option<&'a Media<'a>> {
+        self.particles_along().map(Near::media).or(self.tracer.media)
+    }
+
+    /// The drops and flakes along the ray: about the camera alone.
+    fn particles_along(&self) -> Option<&'a Near<'a>> {
+        let is_camera_ray = self.bounces == 0 && !self.has_hit_particle;
+        self.tracer.near.filter(|near| is_camera_ray && near.looks_along(self.ray.direction))
+    }
+
+    /// How media are followed by a path, given whether it has been scattered by more than smooth surfaces.
+    pub(super) fn following(&self, has_diffuse: bool) -> Following {
+        if has_diffuse && !self.tracer.settings.caustics { Following::WithoutPeak } else { Following::Exact }
+    }
+
+    /// Whether what the ray hits does not count, as no medium has scattered it yet.
+    #[inline(always)]
+    pub(super) fn sees_only_air(&self) -> bool {
+        E::MEDIA && self.tracer.settings.only_airlight && self.bounces == 0
+    }
+
+    /// Whether lamps without an opening are sampled along the ray, rather than where the path is scattered: as far as the camera sees it straight
+    /// or in mirrors. Behind that a ray is one of so many that its own light matters less than its price.
+    fn samples_lamps_along(&self) -> bool {
+        self.tracer.lights.has_points() && !self.history.has_diffuse() && !self.is_at_max_bounces()
+    }
+
+    /// Adds the light of lamps that is scattered on the way to `end`, and finds where the path is scattered itself; `None` where it is not.
+    fn travel_through_media(&mut self, end: f32) -> Option<Intersection<'a>> {
+        let media = self.media_along().filter(|_| !self.medium.is_solid())?;
+        let following = self.following(self.history.has_diffuse());
+        if self.samples_lamps_along() {
+            self.add_in_scattered_lamp(media, end);
+        }
+        let stream = (&self.camera_ray.stream, &mut self.flight_draws);
+        let collision =
+            media.collide((&self.ray, following), f64::from(end), stream, self.wavelengths, &mut self.throughput)?;
+        self.cone.travel(collision.t);
+        self.travelled_m += collision.t;
+        Some(Intersection::Medium(self.ray.at(collision.t), collision.phase))
+    }
+
+    /// Adds light of one lamp without an opening that is scattered once on the way to `end`.
+    fn add_in_scattered_lamp(&mut self, media: &Media<'_>, end: f32) {
+        let Some((from, to)) = media.reach(&self.ray, f64::from(end)) else { return };
+        let (part, lights) = ([from as f32, to as f32], self.tracer.lights);
+        let stream = &self.camera_ray.stream;
+        let u = stream.two(Draw::InScattering, self.vertex_index);
+        let visible = |t: f32, to: Vec3| media.about(&self.ray, f64::from(t), to, self.wavelengths);
+        let Some(lamp) = lights.lamp_along(&self.ray, part, u.x, visible) else { return };
+        let t = lamp.place(u.y);
+        let density = lamp.density(t);
+        if !(t > part[0] && t < part[1] && density > 0.0 && density.is_finite()) {
+            return;
+        }
+        let position = self.ray.at(t);
+        let receiver = LightSampleContext::in_medium(position, self.ray.time_s);
+        let Some(light) = lights.of_lamp(&lamp, &receiver, (self.wavelengths, self.lit())) else { return };
+        let mut segment = self.ray;
+        segment.t_max = t;
+        let numbers = (stream, 2 * self.vertex_index + 1);
+        let transmittance = media.transmittance((&segment, Following::Exact), numbers, self.wavelengths);
+        let scattering =
+            media.scattering((&self.ray, Following::Exact), f64::from(t), light.direction, self.wavelengths);
+        let arriving = self.throughput * transmittance * scattering * light.radiance / (density * lamp.probability);
+        let ray = self.ray_towards(position, light.direction, light.target);
+        if !arriving.is_zero()
+            && let Some(visibility) = self.visibility_along(ray, &light, self.medium, self.following(true))
+        {
+            self.radiance += arriving * visibility;
+        }
+    }
+
+    /// Adds direct light at a point between surfaces and continues from it.
+    pub(super) fn scatter_in_medium(&mut self, position: Vec3, phase: &Phase) -> PathStep {
+        self.scatter_by_phase(position, phase, self.samples_lamps_along())
+    }
+
+    /// The same; `lamps_were_sampled` as of [`Path::sample_direct_light_in_medium`].
+    fn scatter_by_phase(&mut self, position: Vec3, phase: &Phase, lamps_were_sampled: bool) -> PathStep {
+        let from = self.ray.direction;
+        let receiver = LightSampleContext::in_medium(position, self.ray.time_s);
+        self.sample_direct_light_in_medium(&receiver, phase, lamps_were_sampled);
+        let stream = &self.camera_ray.stream;
+        let choice = stream.one(Draw::PhaseDirection, 2 * self.vertex_index);
+        let u = stream.two(Draw::PhaseDirection, 2 * self.vertex_index + 1);
+        let direction = phase.sample(from, choice, u, self.wavelengths);
+        let density = phase.density(from, direction, self.wavelengths);
+        if density <= 0.0 {
+            return PathStep::End;
+        }
+        self.throughput *= Spectral(phase.values(from, direction, self.wavelengths)) / density;
+        self.direction_pdf = Some(density);
+        self.receiver = Some(receiver);
+        // However narrow its forward peak, fog is no mirror.
+        self.history.scatter(Some(0.0));
+        self.cone.scatter(density);
+        self.leave(Ray::new(position, direction, self.ray.time_s))
+    }
+
+    /// Direct light at a point between surfaces; lamps that only sampling can find are left out where they were sampled along the ray.
+    fn sample_direct_light_in_medium(
+        &mut self,
+        receiver: &LightSampleContext,
+        phase: &Phase,
+        lamps_were_sampled: bool,
+    ) {
+        let lights = self.tracer.lights;
+        if !lights.can_be_drawn() {
+            return;
+        }
+        let stream = &self.camera_ray.stream;
+        let choice = if lights.are_many() { stream.one(Draw::LightChoice, self.vertex_index) } else { 0.0 };
+        let u = stream.two(Draw::LightPoint, self.vertex_index);
+        let asked = (self.wavelengths, self.lit());
+        let Some(light) = lights.sample(receiver, (choice, u), self.cone.spread_rad, self.tracer.material_table, asked)
+        else {
+            return;
+        };
+        if light.delta && lamps_were_sampled {
+            return;
+        }
+        let density = phase.density(self.ray.direction, light.direction, self.wavelengths);
+        let values = Spectral(phase.values(self.ray.direction, light.direction, self.wavelengths));
+        let arriving = self.throughput * values * light.radiance * self.light_weight(&light, density);
+        let ray = self.ray_towards(receiver.position, light.direction, light.target);
+        if !arriving.is_zero()
+            && let Some(visibility) = self.visibility_along(ray, &light, self.medium, self.following(true))
+        {
+            self.radiance += arriving * visibility;
+        }
+    }
+
+    /// Continues from a drop or flake.
+    pub(super) fn scatter_at_particle(&mut self, hit: &NearHit) -> PathStep {
+        let Some(near) = self.tracer.near else { return PathStep::End };
+        let stream = &self.camera_ray.stream;
+        let chosen = stream.one(Draw::PhaseDirection, 2 * self.vertex_index) * N as f32;
+        let wavelength_nm = self.wavelengths.nm[(chosen as usize).min(N - 1)];
+        let uniform = |k: u32| f64::from(stream.one(Draw::DropInterface, DRAWS_PER_DROP * self.vertex_index + k));
+        match near.refracted(&self.ray, hit, wavelength_nm, uniform) {
+            None if self.is_at_max_bounces() => PathStep::End,
+            None => self.scatter_at_flake(self.ray.at(hit.t), near.phase()),
+            Some((position, direction)) => self.scatter_at_drop(near.phase(), position, direction),
+        }
+    }
+
+    fn scatter_at_flake(&mut self, position: Vec3, phase: &Phase) -> PathStep {
+        self.has_hit_particle = true;
+        // Lamps that were sampled along the ray were those of the medium before the flake.
+        self.scatter_by_phase(position, phase, false)
+    }
+
+    /// Continues from where a drop refracts the ray. A drop is no scattering event: a path of one event only still sees what is behind it.
+    fn scatter_at_drop(&mut self, phase: &Phase, position: Vec3, direction: Vec3) -> PathStep {
+        let from = self.ray.direction;
+        let density = phase.density(from, direction, self.wavelengths);
+        if density <= 0.0 {
+            return PathStep::End;
+        }
+        let values = Spectral(phase.values(from, direction, self.wavelengths));
+        self.direction_pdf = None;
+        if self.tracer.settings.level != Level::Flat && !self.is_at_max_bounces() {
+            let receiver = LightSampleContext::in_medium(position, self.ray.time_s);
+            self.has_hit_particle = true;
+            self.sample_direct_light_in_medium(&receiver, phase, false);
+            self.direction_pdf = Some(density);
+            self.receiver = Some(receiver);
+        }
+        self.has_hit_particle = true;
+        self.throughput *= values / density;
+        self.ray = Ray::new(position, direction, self.ray.time_s);
+        self.travelled_m = 0.0;
+        self.history.scatter(Some(0.0));
+        self.cone.scatter(density);
+        self.end_if_dark()
+    }
+}
