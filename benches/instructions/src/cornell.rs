@@ -1,7 +1,7 @@
 //! The Cornell box as the tracer sees it: eight instances of two meshes, three grey levels and a lamp.
 
 use core::f64::consts::FRAC_PI_2;
-use etendue_core::Motion;
+use etendue_core::{Motion, WavelengthRange};
 use etendue_spectra::{Outside, Spectrum};
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{World, WorldBuilder};
@@ -76,7 +76,8 @@ impl Cornell {
     }
 
     pub(crate) fn lights(&self, view: &RenderSpace<'_>) -> Lights {
-        Lights::new(view, &self.materials, Sources::default(), (400.0, 700.0)).expect("lights")
+        Lights::new(view, &self.materials, Sources::default(), WavelengthRange { low_nm: 400.0, high_nm: 700.0 })
+            .expect("lights")
     }
 }
 

@@ -8,7 +8,6 @@ pub mod geometry;
 pub mod guiding;
 pub mod integrator;
 pub mod lights;
-mod limit;
 pub mod materials;
 pub mod media;
 pub mod precipitation;
@@ -18,6 +17,10 @@ pub mod textures;
 /// Whether the program has the effects that a closed box of diffuse triangles does not need. The feature `minimal` makes a tracer without
 /// them, which refuses by a panic what it cannot show: it serves to count what they cost where they are not used.
 pub(crate) const ALL_EFFECTS: bool = !cfg!(feature = "minimal");
+
+/// The greatest radiance, irradiance or intensity of a light at any wavelength, in its unit: products of it with weights and
+/// sums over many lights stay finite in f32.
+pub const BRIGHTEST: f32 = 1e30;
 
 /// Panics in a tracer without optional effects: what follows is one.
 #[inline(always)]

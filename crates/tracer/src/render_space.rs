@@ -7,9 +7,6 @@
 
 mod footprint;
 mod point;
-mod tangents;
-#[cfg(test)]
-mod tests;
 mod truth;
 
 pub use truth::Truth;
@@ -41,7 +38,7 @@ impl World {
     #[must_use]
     pub fn render_space_for_few(&self, origin_m: DVec3, interval: TimeInterval) -> RenderSpace<'_> {
         let placed = self.placed(origin_m, interval);
-        RenderSpace { world: self, origin_m, interval, top: Tlas::new(self, (placed, None), interval, Simd::Auto) }
+        RenderSpace { world: self, origin_m, interval, top: Tlas::new(self, placed, None, interval, Simd::Auto) }
     }
 
     fn placed(&self, origin_m: DVec3, interval: TimeInterval) -> Vec<Placement> {
@@ -128,8 +125,8 @@ impl<'w> RenderSpace<'w> {
     pub fn footprint(&self, point: &SurfacePoint) -> Footprint {
         let placed = &*self.placed_at(point.instance, point.time_s);
         match self.world.instances()[point.instance as usize].shape {
-            Shape::Mesh(id) => footprint::of_mesh(&self.pose(id, point.time_s), placed, point.primitive),
-            Shape::Sphere { radius_m } => footprint::of_sphere(radius_m, placed),
+            Shape::Mesh(id) => footprint::mesh_footprint(&self.pose(id, point.time_s), placed, point.primitive),
+            Shape::Sphere { radius_m } => footprint::sphere_footprint(radius_m, placed),
         }
     }
 
@@ -161,10 +158,10 @@ impl<'w> RenderSpace<'w> {
     pub fn tangents(&self, point: &SurfacePoint) -> Option<[Vec3; 2]> {
         let placed = &*self.placed_at(point.instance, point.time_s);
         let local = match self.world.instances()[point.instance as usize].shape {
-            Shape::Mesh(id) => tangents::of_mesh(&self.pose(id, point.time_s), point.primitive)?,
-            Shape::Sphere { .. } => tangents::of_sphere(point.local.as_dvec3())?,
+            Shape::Mesh(id) => footprint::mesh_tangents(&self.pose(id, point.time_s), point.primitive)?,
+            Shape::Sphere { .. } => footprint::sphere_tangents(point.local.as_dvec3())?,
         };
-        tangents::to_render(local, placed)
+        footprint::tangents_to_render(local, placed)
     }
 
     /// An instance's place.
@@ -227,4 +224,12 @@ impl<'w> RenderSpace<'w> {
         // Room for the rounding of centre and radius.
         (((low + high) * 0.5).as_vec3(), ((high - low).length() * 0.5 * (1.0 + 1e-6)) as f32)
     }
+}
+
+#[cfg(test)]
+mod tests {
+    mod motion;
+    mod spawn;
+    mod surface;
+    mod truth;
 }

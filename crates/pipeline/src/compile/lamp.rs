@@ -19,7 +19,7 @@ use etendue_scene::record::light::{
 use etendue_scene::record::transform::yaw_pitch_roll;
 use etendue_scene::record::{Light, LightColour};
 use etendue_spectra::{Spectrum, colour};
-use etendue_tracer::lights::{Cone, Lamp, MaskImage, Profile, Web, WebAxes, head_lamp};
+use etendue_tracer::lights::{Cone, Lamp, MaskImage, PhotometricAxes, PhotometricGrid, Profile, head_lamp};
 use glam::DMat3;
 use std::sync::Arc;
 
@@ -99,9 +99,9 @@ fn measured(lamp: &MeasuredLamp, frames: &Frames<'_>, context: &mut Context<'_>)
     };
     asset.report.iter().for_each(|line| context.remark(line));
     let (axes, main) = match asset.axes {
-        PhotometryAxes::A => (WebAxes::A, MainAxis::Forward),
-        PhotometryAxes::B => (WebAxes::B, MainAxis::Forward),
-        PhotometryAxes::C => (WebAxes::C, MainAxis::Downward),
+        PhotometryAxes::A => (PhotometricAxes::A, MainAxis::Forward),
+        PhotometryAxes::B => (PhotometricAxes::B, MainAxis::Forward),
+        PhotometryAxes::C => (PhotometricAxes::C, MainAxis::Downward),
     };
     if let (Some(mask), MainAxis::Downward) = (&lamp.mask, main) {
         let problem = "a mask shapes light along +x, and this lamp (photometry of type C) shines down";
@@ -109,8 +109,9 @@ fn measured(lamp: &MeasuredLamp, frames: &Frames<'_>, context: &mut Context<'_>)
         return None;
     }
     let floats = |values: &[f64]| values.iter().map(|v| *v as f32).collect::<Vec<_>>();
-    let web = Web::new(axes, floats(&asset.vertical_deg), floats(&asset.horizontal_deg), floats(&asset.candela));
-    let profile = Profile::Web(context.accept(&lamp.file.place, web)?);
+    let web =
+        PhotometricGrid::new(axes, floats(&asset.vertical_deg), floats(&asset.horizontal_deg), floats(&asset.candela));
+    let profile = Profile::PhotometricGrid(context.accept(&lamp.file.place, web)?);
     let intensity = of_candela(lamp.strength.as_ref(), &lamp.colour, &profile, context)?;
     let profile = masked(profile, lamp.mask.as_ref(), context)?;
     let kind = Kind {
@@ -127,7 +128,7 @@ fn measured(lamp: &MeasuredLamp, frames: &Frames<'_>, context: &mut Context<'_>)
 }
 
 fn head_lamp(lamp: &HeadLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Lamps> {
-    let profile = Profile::Web(match (lamp.beam.value, lamp.traffic.as_ref().map(|t| t.value)) {
+    let profile = Profile::PhotometricGrid(match (lamp.beam.value, lamp.traffic.as_ref().map(|t| t.value)) {
         (Beam::High, _) => head_lamp::high_beam(),
         (Beam::Low, Some(Traffic::Left)) => head_lamp::low_beam(head_lamp::Traffic::Left),
         (Beam::Low, Some(Traffic::Right) | None) => head_lamp::low_beam(head_lamp::Traffic::Right),
@@ -156,10 +157,11 @@ fn masked(profile: Profile, mask: Option<&Mask>, context: &mut Context<'_>) -> O
         context.fault(&mask.file.place, "the picture was not loaded", "give a readable file");
         return None;
     };
-    let size = (picture.width as usize, picture.height as usize);
+    let (width, height) = (picture.width as usize, picture.height as usize);
     let texels = linear(picture).into_iter().map(luminance).collect();
     let [horizontal_rad, vertical_rad] = mask.field_deg.value.map(f64::to_radians);
-    let image = context.accept(&mask.file.place, MaskImage::new(size, texels, horizontal_rad, vertical_rad))?;
+    let image =
+        context.accept(&mask.file.place, MaskImage::new(width, height, texels, horizontal_rad, vertical_rad))?;
     Some(Profile::masked(profile, Profile::MaskImage(image)))
 }
 

@@ -86,11 +86,11 @@ fn image(record: &EnvironmentImage, context: &mut Context<'_>) -> Option<ImageEn
         context.fault(&record.file.place, "the picture was not loaded", "give a readable file");
         return None;
     };
-    let size = (picture.width as usize, picture.height as usize);
+    let (width, height) = (picture.width as usize, picture.height as usize);
     let rotation_rad = record.rotation_deg.as_ref().map_or(0.0, |r| r.value.to_radians());
     let scale = record.luminance_cd_m2_per_unit.value;
     let texels = light_only(linear(picture), record, context);
-    context.accept(&record.file.place, ImageEnvironment::new(size, texels, scale, rotation_rad))
+    context.accept(&record.file.place, ImageEnvironment::new(width, height, texels, scale, rotation_rad))
 }
 
 /// Texels without negative components. Where there are any, the record must ask for it, and they are counted.

@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 use etendue_core::maths::f64::{sin, sin_cos};
-use etendue_tracer::geometry::{Dropped, Mesh, MeshError};
+use etendue_tracer::geometry::{DroppedTriangles, Mesh, MeshError};
 use glam::{Vec2, Vec3};
 
 /// Corners of a shape's faces, four a face, counter-clockwise as seen from the front.
@@ -28,7 +28,7 @@ pub(super) fn cuboid(size_m: [f64; 3]) -> Corners {
 const DISC_SIDES: u32 = 256;
 
 /// A disc in the plane z = 0, centred, its front towards +z, as a regular polygon of the same area.
-pub(super) fn disc(radius_m: f64) -> Result<(Mesh, Dropped), MeshError> {
+pub(super) fn disc(radius_m: f64) -> Result<(Mesh, DroppedTriangles), MeshError> {
     let step = TAU / f64::from(DISC_SIDES);
     let reach = (step / sin(step)).sqrt();
     let rim = (0..DISC_SIDES).map(|i| {
@@ -44,7 +44,7 @@ pub(super) fn disc(radius_m: f64) -> Result<(Mesh, Dropped), MeshError> {
 
 impl Corners {
     /// The mesh: faces share no vertices, so each has its own texture coordinates, 0 to 1.
-    pub(super) fn into_mesh(self) -> Result<(Mesh, Dropped), MeshError> {
+    pub(super) fn into_mesh(self) -> Result<(Mesh, DroppedTriangles), MeshError> {
         let faces = self.0.len() as u32;
         let uvs = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y].repeat(self.0.len());
         let triangles = (0..faces).flat_map(|f| [[4 * f, 4 * f + 1, 4 * f + 2], [4 * f, 4 * f + 2, 4 * f + 3]]);
@@ -63,7 +63,7 @@ mod tests {
     #[test]
     fn a_disc_has_the_area_of_the_circle_and_faces_up() {
         let (mesh, dropped) = disc(0.3).expect("a mesh");
-        assert_eq!((mesh.triangles().len(), dropped), (256, Dropped::default()));
+        assert_eq!((mesh.triangles().len(), dropped), (256, DroppedTriangles::default()));
         let twice_area = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|i| mesh.positions()[i as usize]);
             f64::from((b - a).cross(c - a).z)
@@ -82,7 +82,7 @@ mod tests {
             assert!(centre.normalize().dot(normal) > 1.0 - 1e-6);
         }
         let (mesh, dropped) = cuboid.into_mesh().expect("a mesh");
-        assert_eq!((mesh.triangles().len(), dropped), (12, Dropped::default()));
+        assert_eq!((mesh.triangles().len(), dropped), (12, DroppedTriangles::default()));
         assert_eq!(mesh.bounds(), Some((Vec3::new(-0.5, -1.0, -2.0), Vec3::new(0.5, 1.0, 2.0))));
     }
 }

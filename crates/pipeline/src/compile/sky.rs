@@ -7,7 +7,7 @@ use etendue_scene::record::environment::{Sky, SunMoment};
 use etendue_scene::{Place, Placed};
 use etendue_spectra::sky::{SkyModel, sun};
 use etendue_spectra::{Spectrum, observer};
-use etendue_tracer::lights::sun_position::{UtcTime, sun_position};
+use etendue_tracer::lights::sun_position::{CalendarDate, ClockTime, UtcTime, sun_position};
 use etendue_tracer::lights::{SUN_ANGULAR_DIAMETER_DEG, SkyEnvironment, Sun};
 use glam::DVec3;
 
@@ -87,8 +87,9 @@ fn sunward(record: &Sky, context: &mut Context<'_>) -> Option<Sunward> {
 
 fn at(moment: &SunMoment, context: &mut Context<'_>) -> Option<Sunward> {
     let (day, seconds) = (moment.date.value, moment.time_utc.seconds);
-    let time = (seconds / 3600, seconds / 60 % 60, f64::from(seconds % 60));
-    let utc = context.accept(&moment.date.place, UtcTime::new((day.year as i32, day.month, day.day), time))?;
+    let date = CalendarDate { year: day.year as i32, month: day.month, day: day.day };
+    let time = ClockTime { hour: seconds / 3600, minute: seconds / 60 % 60, second: f64::from(seconds % 60) };
+    let utc = context.accept(&moment.date.place, UtcTime::new(date, time))?;
     let position = sun_position(utc, moment.latitude_deg.value, moment.longitude_deg.value);
     let position = context.accept(&moment.latitude_deg.place, position)?;
     // North turns anticlockwise as seen from above, the sun's azimuth clockwise from it.

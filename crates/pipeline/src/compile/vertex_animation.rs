@@ -9,7 +9,7 @@ use etendue_core::Epoch;
 use etendue_scene::asset::{MeshAsset, MeshFrameAsset};
 use etendue_scene::record;
 use etendue_scene::record::vertex_animation::FrameRepeat;
-use etendue_tracer::geometry::{Dropped, Mesh, MeshError, Repeat, VertexAnimation, VertexFrame};
+use etendue_tracer::geometry::{DroppedTriangles, Mesh, MeshError, Repeat, VertexAnimation, VertexFrame};
 use glam::{DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -19,7 +19,7 @@ pub(super) fn mesh(
     record: &record::VertexAnimation,
     asset: &MeshAsset,
     context: &mut Context<'_>,
-) -> Option<Result<(Mesh, Dropped), MeshError>> {
+) -> Option<Result<(Mesh, DroppedTriangles), MeshError>> {
     let files: Vec<PathBuf> = record.frame_files().into_iter().map(|file| file.value).collect();
     let found: Vec<&MeshFrameAsset> = files.iter().filter_map(|file| context.assets.mesh_frames.get(file)).collect();
     if found.len() < files.len() {
@@ -134,7 +134,7 @@ impl<'a> Weld<'a> {
         record: &record::VertexAnimation,
         asset: &MeshAsset,
         epoch: Epoch,
-    ) -> Result<(Mesh, Dropped), MeshError> {
+    ) -> Result<(Mesh, DroppedTriangles), MeshError> {
         let repeat = match record.repeats() {
             FrameRepeat::Hold => Repeat::Hold,
             FrameRepeat::Loop => Repeat::Loop,

@@ -40,10 +40,10 @@ fn airlight(record: &record::Airlight, context: &mut Context<'_>) -> Option<Airl
 
 /// Only its extinction counts: albedo and phase function are any.
 fn fog(record: &Fog, context: &mut Context<'_>) -> Option<Medium> {
-    let optics = (medium::extinction(&record.extinction, context)?, Spectrum::constant(1.0));
+    let extinction = medium::extinction(&record.extinction, context)?;
     let to_world = Motion::still(record.transform.to_world());
     let shape = medium::shape(record.shape.as_ref(), context)?;
-    let made = Medium::new(optics, Phase::Isotropic, shape, to_world);
+    let made = Medium::new(extinction, Spectrum::constant(1.0), Phase::Isotropic, shape, to_world);
     let fog = context.accept(&record.place, made)?;
     Some(medium::with_unevenness(fog, record.unevenness.as_ref()))
 }

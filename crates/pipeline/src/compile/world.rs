@@ -14,7 +14,7 @@ use etendue_scene::record::{self, Body, Object, Scene};
 use etendue_scene::{CameraSetup, Description};
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{TreeQuality, World, WorldBuilder};
-use etendue_tracer::geometry::{Dropped, Instance, Mesh, MeshError, MeshId, Shape};
+use etendue_tracer::geometry::{DroppedTriangles, Instance, Mesh, MeshError, MeshId, Shape};
 use etendue_tracer::lights::Lamp;
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use std::borrow::Cow;
@@ -96,8 +96,8 @@ impl Assembly {
         };
         let Some((mesh, dropped)) = context.accept(&file.place, made) else { return };
         let mesh = mesh.with_origin(DVec3::from_array(asset.origin));
-        if dropped != Dropped::default() {
-            let Dropped { zero_area, duplicate, .. } = dropped;
+        if dropped != DroppedTriangles::default() {
+            let DroppedTriangles { zero_area, duplicate, .. } = dropped;
             let told = format!("{zero_area} triangles of no area and {duplicate} duplicates dropped");
             context.warn_on(file.value.display(), told);
         }
@@ -214,7 +214,7 @@ impl Assembly {
 
     fn own_mesh(
         &mut self,
-        mesh: Result<(Mesh, Dropped), MeshError>,
+        mesh: Result<(Mesh, DroppedTriangles), MeshError>,
         object: &Object,
         context: &mut Context<'_>,
     ) -> Option<Shape> {
@@ -347,7 +347,7 @@ fn check_slot(slot: &etendue_scene::Placed<String>, mesh: &record::Mesh, asset: 
     }
 }
 
-fn mesh_of(asset: &MeshAsset) -> Result<(Mesh, Dropped), etendue_tracer::geometry::MeshError> {
+fn mesh_of(asset: &MeshAsset) -> Result<(Mesh, DroppedTriangles), etendue_tracer::geometry::MeshError> {
     let vectors = |list: &[[f32; 3]]| list.iter().copied().map(Vec3::from).collect();
     let uvs = asset.uvs.iter().copied().map(Vec2::from).collect();
     Mesh::new(vectors(&asset.positions), vectors(&asset.normals), uvs, asset.triangles.clone(), asset.slots.clone())

@@ -134,7 +134,7 @@ pub fn light_counts(plan: &Plan, camera: &CameraPlan) -> LightCounts {
 }
 
 pub(super) fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Lights {
-    Lights::new(view, &plan.material_table, plan.sources.clone(), camera.settings.range_nm)
+    Lights::new(view, &plan.material_table, plan.sources.clone(), camera.settings.range_nm.into())
         .expect("a compiled plan names only materials that it has")
 }
 

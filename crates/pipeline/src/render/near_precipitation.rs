@@ -7,8 +7,8 @@ use etendue_core::TimeInterval;
 use etendue_optics::PupilProjection;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::media::Media;
-use etendue_tracer::precipitation::{ChangeOver, Near, SeenRegion};
-use glam::{DMat3, DVec2, DVec3};
+use etendue_tracer::precipitation::{ChangeOver, NearParticles, SeenRegion, ViewPlacement};
+use glam::{DMat3, DVec2};
 
 /// Points along a side of the film whose rays are looked at.
 const SIDE: u32 = 13;
@@ -72,7 +72,7 @@ pub(super) fn near<'a>(
     simd: Simd,
     region: &SeenRegion,
     change_over: &ChangeOver,
-) -> Near<'a> {
-    let view = (exposure.origin_m() as DVec3, exposure.interval(), simd);
-    Near::new(&precipitation.field, (media.clone(), precipitation.medium), view, region, change_over)
+) -> NearParticles<'a> {
+    let view = ViewPlacement { origin_m: exposure.origin_m(), interval: exposure.interval(), simd };
+    NearParticles::new(&precipitation.field, media.clone(), precipitation.medium, view, region, change_over)
 }

@@ -1,16 +1,15 @@
 //! A mesh's tree, in the mesh's own frame.
 
-use super::best::{Best, Names};
+use glam::Vec3;
+
 use super::build::{TreeQuality, over_triangles};
-use super::collapse::{Wide, collapse};
+use super::collapse::{WideTree, collapse};
 use super::lanes::{Job, Lanes, Visit};
-use super::local::LocalRay;
 use super::node::{Child, Node};
-use super::packet::{Half, Packet, RayLanes};
-use super::ray::SlabRay;
+use super::packet::{BestHit, Half, Names, Packet, RayLanes};
+use super::ray::{LocalRay, SlabRay};
 use super::walk::{Leaves, walk};
 use crate::geometry::Mesh;
-use glam::Vec3;
 
 /// Triangles a leaf: as many as are met at once.
 const LEAF_SIZE: usize = 8;
@@ -35,7 +34,7 @@ impl Blas {
         let binary = over_triangles(count, &corners, quality);
         // What even meshes need; others get room by and by, since memory is short just now.
         let mut halves = Vec::with_capacity(count * 9 / 32 + 2);
-        let Wide { nodes, root } = collapse(&binary, LEAF_SIZE, |leaf| {
+        let WideTree { nodes, root } = collapse(&binary, LEAF_SIZE, |leaf| {
             let first = halves.len();
             if halves.capacity() < first + 2 {
                 halves.reserve_exact(count / 16 + 2);
@@ -60,27 +59,34 @@ impl Blas {
     /// Offers the triangles that the ray meets with 0 < t ≤ `limit` to `best`, by their `names`; near ones come
     /// first by and by, and `limit` is lowered to the best.
     #[inline(always)]
-    pub(super) fn closest<L: Lanes>(&self, l: L, ray: &LocalRay, names: Names<'_>, best: &mut Best, limit: &mut f32) {
-        l.run(Closest { tree: self, ray, names, best, limit });
+    pub(super) fn closest<L: Lanes>(
+        &self,
+        l: L,
+        ray: &LocalRay,
+        names: Names<'_>,
+        best: &mut BestHit,
+        limit: &mut f32,
+    ) {
+        l.run(ClosestQuery { tree: self, ray, names, best, limit });
     }
 
     /// Whether the ray meets a triangle with 0 < t < `t_max`.
     #[inline(always)]
     pub(super) fn occluded<L: Lanes>(&self, l: L, ray: &LocalRay, t_max: f32) -> bool {
-        l.run(Occluded { tree: self, ray, t_max })
+        l.run(OcclusionQuery { tree: self, ray, t_max })
     }
 }
 
 /// A task of its own, so that the compiler keeps what a walk needs at hand.
-struct Closest<'a> {
+struct ClosestQuery<'a> {
     tree: &'a Blas,
     ray: &'a LocalRay,
     names: Names<'a>,
-    best: &'a mut Best,
+    best: &'a mut BestHit,
     limit: &'a mut f32,
 }
 
-impl Job for Closest<'_> {
+impl Job for ClosestQuery<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -92,13 +98,13 @@ impl Job for Closest<'_> {
     }
 }
 
-struct Occluded<'a> {
+struct OcclusionQuery<'a> {
     tree: &'a Blas,
     ray: &'a LocalRay,
     t_max: f32,
 }
 
-impl Job for Occluded<'_> {
+impl Job for OcclusionQuery<'_> {
     type Output = bool;
 
     #[inline(always)]
@@ -122,7 +128,7 @@ struct ClosestLeaf<'a, L: Lanes> {
     tree: &'a Blas,
     ray: &'a LocalRay,
     names: Names<'a>,
-    best: &'a mut Best,
+    best: &'a mut BestHit,
 }
 
 impl<L: Lanes> Leaves for ClosestLeaf<'_, L> {

@@ -5,16 +5,17 @@
 //! "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", section 3). The cost of a node is the
 //! area of its box, that of a leaf somewhat more, whatever the number of its primitives: they are tested at once.
 
-use super::binary::{BinaryKind, BinaryNode};
-use super::node::{Child, Node};
 use core::cmp::Reverse;
+
+use super::boxes::{BinaryKind, BinaryNode};
+use super::node::{Child, Node};
 
 /// Cost of testing a leaf's primitives relative to that of testing a node's boxes: the best of 1, 1.3, 2 and 3.
 const LEAF_COST: f32 = 1.3;
 
 /// The nodes of an eight-wide tree.
 #[derive(Clone, Debug)]
-pub(super) struct Wide {
+pub(super) struct WideTree {
     pub(super) nodes: Vec<Node>,
     /// Where rays begin; `None` for an empty tree.
     pub(super) root: Option<Child>,
@@ -22,9 +23,9 @@ pub(super) struct Wide {
 
 /// Makes a binary tree eight wide, with at most `leaf_size` primitives a leaf. `place` takes the primitives of each leaf, in
 /// ascending order and each once, and says by which index its node names it.
-pub(super) fn collapse(binary: &[BinaryNode], leaf_size: usize, place: impl FnMut(&[u32]) -> usize) -> Wide {
+pub(super) fn collapse(binary: &[BinaryNode], leaf_size: usize, place: impl FnMut(&[u32]) -> usize) -> WideTree {
     if binary.is_empty() {
-        return Wide { nodes: Vec::new(), root: None };
+        return WideTree { nodes: Vec::new(), root: None };
     }
     let plans = plan(binary, leaf_size as u32);
     let mut writer = Writer {
@@ -37,7 +38,7 @@ pub(super) fn collapse(binary: &[BinaryNode], leaf_size: usize, place: impl FnMu
     let root = Some(writer.write());
     let mut nodes = writer.nodes;
     nodes.shrink_to_fit();
-    Wide { nodes, root }
+    WideTree { nodes, root }
 }
 
 /// How a binary node best stands in one to seven slots, and in the eight of a wide node of its own, in 32 bits.

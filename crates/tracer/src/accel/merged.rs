@@ -7,14 +7,15 @@
 //! triangle is off the true surface by no more than its corners are, and [`InstanceTransform::merged`] has it in its error bound.
 //! An instance that moves, or whose vertices do, has no one place to be written out at, and one with a triangle that is not [`STEEP`] times as high as that is left as it is too: its plane would tilt.
 
-use super::best::Names;
-use super::blas::Blas;
-use super::boxes::Box3;
-use super::local::NONE_LEFT;
-use super::world::World;
-use crate::geometry::{InstanceTransform, MeshPose, Placement, Shape};
 use etendue_core::{PrimitiveId, TimeInterval};
 use glam::{DVec3, Vec3};
+
+use super::blas::Blas;
+use super::boxes::Box3;
+use super::packet::Names;
+use super::ray::NONE_LEFT;
+use super::world::World;
+use crate::geometry::{InstanceTransform, MeshPose, Placement, Shape};
 
 /// Triangles written out at most: 32 MB of trees, and less than half a second of one thread to build them for a view.
 const MOST: usize = 1 << 19;
@@ -31,7 +32,7 @@ const HALF_ULP: f64 = 1.0 / (1 << 24) as f64;
 
 /// Instances under one tree.
 #[derive(Clone, Debug)]
-pub(crate) struct Merged {
+pub(crate) struct MergedMesh {
     pub(super) tree: Blas,
     /// The box about all triangles.
     pub(super) bounds: Box3,
@@ -41,7 +42,7 @@ pub(crate) struct Merged {
     first: Vec<u32>,
 }
 
-impl Merged {
+impl MergedMesh {
     /// Writes out instances of `world` as they are `placed`, and tells these so; `None` where there are none to write out.
     pub(super) fn new(world: &World, placed: &mut [Placement], interval: TimeInterval) -> Option<Self> {
         let (mut corners, mut names) = (Vec::new(), Vec::new());

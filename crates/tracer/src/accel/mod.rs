@@ -6,36 +6,29 @@
 //! - `build`: trees from the top down by the surface area heuristic, in blocks.
 //! - `collapse`: binary to eight-wide, at least cost.
 //! - `node`, `packet`: what is tested eight at a time: boxes and triangles.
-//! - `animated`, `swept`: meshes whose vertices move.
+//! - `swept`: meshes whose vertices move.
 //! - `merged`: small instances written out as one mesh.
 //! - `reach`: how far rays may start from a mesh.
 //! - `streaks`: drops and flakes about a camera, with a tree of their own.
-//! - `walk`, `pending`: near to far through a tree for the first hit, or through the largest boxes for any.
+//! - `walk`: near to far through a tree for the first hit, or through the largest boxes for any.
 //!
 //! Everything is written once over eight lanes (`lanes`) and compiled twice, with AVX2 and without: the same
 //! operations in the same order, so the same bits.
 
-mod animated;
-mod best;
-mod binary;
 mod blas;
 pub(crate) mod boxes;
 mod build;
 mod collapse;
 pub(crate) mod lanes;
-pub(crate) mod local;
 mod merged;
 mod node;
 mod packet;
-mod pending;
-mod ray;
+pub(crate) mod ray;
 mod reach;
 #[cfg(target_arch = "x86_64")]
 mod simd;
 mod streaks;
 mod swept;
-#[cfg(test)]
-pub(crate) mod tests;
 pub(crate) mod tlas;
 mod visits;
 mod walk;
@@ -54,4 +47,16 @@ pub enum Simd {
     Auto,
     /// Plain code without vector intrinsics.
     Scalar,
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    mod agreement;
+    mod deforming;
+    mod degenerate;
+    mod motion;
+    mod needles;
+    pub(crate) mod shapes;
+    mod ties;
+    mod watertight;
 }

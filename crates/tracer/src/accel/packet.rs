@@ -9,9 +9,11 @@
 //! depths, so its sign is certain where those have one sign, or where it exceeds its error bound (Pharr, Jakob,
 //! Humphreys 2023, section 6.8.7); else t is found again in f64 from the triangle's plane.
 
-use super::lanes::{Eight, Four, Lanes};
-use super::local::LocalRay;
 use glam::{DVec3, Vec3};
+
+use super::lanes::{Eight, Four, Lanes};
+use super::ray::LocalRay;
+use crate::geometry::Hit;
 
 /// Triangles a half.
 const HALF: usize = 4;
@@ -342,4 +344,44 @@ fn plane(corners: [DVec3; 3], ray: &LocalRay) -> Option<f64> {
 fn height_and_slope([a, b, c]: [DVec3; 3], ray: &LocalRay) -> (f64, f64) {
     let normal = (b - a).cross(c - a);
     (normal.dot(a - ray.origin.as_dvec3()), normal.dot(ray.direction.as_dvec3()))
+}
+
+/// Whose primitives a tree holds.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Names<'a> {
+    /// Those of one instance.
+    Instance(u32),
+    /// Those of several: instance and primitive by their number in the tree, in ascending order.
+    Merged(&'a [(u32, u32)]),
+}
+
+impl Names<'_> {
+    /// Instance and primitive.
+    #[inline(always)]
+    fn of(self, primitive: u32) -> (u32, u32) {
+        match self {
+            Self::Instance(instance) => (instance, primitive),
+            Self::Merged(names) => names[primitive as usize],
+        }
+    }
+}
+
+/// The best hit so far.
+#[derive(Default)]
+pub(super) struct BestHit {
+    pub(super) hit: Option<Hit>,
+}
+
+impl BestHit {
+    /// Takes a hit that is nearer than `limit`, or as near as the best and of lesser identity; lowers the limit.
+    #[inline(always)]
+    pub(super) fn offer(&mut self, names: Names<'_>, hit: PrimitiveHit, limit: &mut f32) {
+        let (instance, primitive) = names.of(hit.primitive);
+        let wins_tie = |best: &Hit| (instance, primitive) < (best.instance, best.primitive);
+        let nearer = hit.t < *limit || hit.t == *limit && self.hit.as_ref().is_some_and(wins_tie);
+        if hit.t > 0.0 && nearer {
+            *limit = hit.t;
+            self.hit = Some(Hit { t: hit.t, instance, primitive, u: hit.u, v: hit.v });
+        }
+    }
 }

@@ -9,7 +9,7 @@ use super::collapse::collapse;
 use super::lanes::{Job, Lanes};
 use super::node::{Child, Node};
 use super::ray::SlabRay;
-use super::tlas::Chosen;
+use super::tlas::InstructionSet;
 use super::walk::{Leaves, walk};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
@@ -68,7 +68,7 @@ pub struct Streaks {
     root: Option<Child>,
     leaves: Vec<u32>,
     streaks: Vec<Streak>,
-    chosen: Chosen,
+    chosen: InstructionSet,
 }
 
 impl Streaks {
@@ -81,7 +81,7 @@ impl Streaks {
             leaves.push(leaf[0]);
             leaves.len() - 1
         });
-        Self { nodes: wide.nodes, root: wide.root, leaves, streaks, chosen: Chosen::new(simd) }
+        Self { nodes: wide.nodes, root: wide.root, leaves, streaks, chosen: InstructionSet::new(simd) }
     }
 
     /// All of them.
@@ -93,17 +93,17 @@ impl Streaks {
     /// Where a ray first enters one before `end`, and which.
     #[must_use]
     pub fn closest(&self, ray: &Ray, end: f32) -> Option<(f32, u32)> {
-        self.chosen.run(Closest { all: self, ray, end })
+        self.chosen.run(ClosestQuery { all: self, ray, end })
     }
 }
 
-struct Closest<'a> {
+struct ClosestQuery<'a> {
     all: &'a Streaks,
     ray: &'a Ray,
     end: f32,
 }
 
-impl Job for Closest<'_> {
+impl Job for ClosestQuery<'_> {
     type Output = Option<(f32, u32)>;
 
     #[inline(always)]

@@ -4,18 +4,18 @@
 //! its corners at all of these: the boxes of the tree. A leaf names its triangles, whose corners are found at the ray's own time and
 //! met by the same test as those that stand still. Two triangles that share a vertex find the same bits for it.
 
-use super::best::{Best, Names};
+use etendue_core::TimeInterval;
+
+use super::blas::Blas;
 use super::boxes::Box3;
 use super::build::{TreeQuality, over_moving};
-use super::collapse::{Wide, collapse};
+use super::collapse::{WideTree, collapse};
 use super::lanes::{Job, Lanes, Visit};
-use super::local::LocalRay;
 use super::node::{Child, Node};
-use super::packet::{Half, Packet, RayLanes};
-use super::ray::SlabRay;
+use super::packet::{BestHit, Half, Names, Packet, RayLanes};
+use super::ray::{LocalRay, SlabRay};
 use super::walk::{Leaves, walk};
 use crate::geometry::{Mesh, MeshPose};
-use etendue_core::TimeInterval;
 
 /// Triangles a leaf: as many as are met at once.
 const LEAF_SIZE: usize = 8;
@@ -42,7 +42,7 @@ impl<'w> SweptTree<'w> {
         };
         let binary = over_moving(mesh.triangles().len(), swept, quality);
         let (mut leaves, mut primitives) = (Vec::new(), Vec::new());
-        let Wide { nodes, root } = collapse(&binary, LEAF_SIZE, |leaf| {
+        let WideTree { nodes, root } = collapse(&binary, LEAF_SIZE, |leaf| {
             let begin = primitives.len() as u32;
             primitives.extend_from_slice(leaf);
             leaves.push([begin, primitives.len() as u32]);
@@ -55,19 +55,20 @@ impl<'w> SweptTree<'w> {
     pub(super) fn closest<L: Lanes>(
         &self,
         l: L,
-        (ray, time_s): (&LocalRay, f32),
+        ray: &LocalRay,
+        time_s: f32,
         names: Names<'_>,
-        best: &mut Best,
+        best: &mut BestHit,
         limit: &mut f32,
     ) {
         let pose = self.mesh.at(self.interval.moment(time_s));
-        l.run(Closest { tree: self, pose, ray, names, best, limit });
+        l.run(ClosestQuery { tree: self, pose, ray, names, best, limit });
     }
 
     /// Whether a ray of this time meets a triangle with 0 < t < `t_max`.
-    pub(super) fn occluded<L: Lanes>(&self, l: L, (ray, time_s): (&LocalRay, f32), t_max: f32) -> bool {
+    pub(super) fn occluded<L: Lanes>(&self, l: L, ray: &LocalRay, time_s: f32, t_max: f32) -> bool {
         let pose = self.mesh.at(self.interval.moment(time_s));
-        l.run(Occluded { tree: self, pose, ray, t_max })
+        l.run(OcclusionQuery { tree: self, pose, ray, t_max })
     }
 
     /// The triangles of a leaf as they are in a pose; the second half is the first where there are four at most.
@@ -84,16 +85,16 @@ impl<'w> SweptTree<'w> {
     }
 }
 
-struct Closest<'a> {
+struct ClosestQuery<'a> {
     tree: &'a SweptTree<'a>,
     pose: MeshPose<'a>,
     ray: &'a LocalRay,
     names: Names<'a>,
-    best: &'a mut Best,
+    best: &'a mut BestHit,
     limit: &'a mut f32,
 }
 
-impl Job for Closest<'_> {
+impl Job for ClosestQuery<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -111,7 +112,7 @@ struct ClosestLeaf<'a, L: Lanes> {
     pose: MeshPose<'a>,
     ray: &'a LocalRay,
     names: Names<'a>,
-    best: &'a mut Best,
+    best: &'a mut BestHit,
 }
 
 impl<L: Lanes> Leaves for ClosestLeaf<'_, L> {
@@ -129,14 +130,14 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, L> {
     }
 }
 
-struct Occluded<'a> {
+struct OcclusionQuery<'a> {
     tree: &'a SweptTree<'a>,
     pose: MeshPose<'a>,
     ray: &'a LocalRay,
     t_max: f32,
 }
 
-impl Job for Occluded<'_> {
+impl Job for OcclusionQuery<'_> {
     type Output = bool;
 
     #[inline(always)]
@@ -162,5 +163,48 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, L> {
         let spread = RayLanes::new(self.l, self.ray);
         let (halves, second) = self.tree.halves(&self.pose, leaf);
         Packet::new(&halves, 0, second).blocks(self.l, &spread, self.ray, *limit)
+    }
+}
+
+/// The tree of a mesh whose vertices move.
+#[derive(Clone, Debug)]
+pub(super) enum AnimatedTree<'w> {
+    /// Nothing moves during the interval.
+    Posed(Blas),
+    /// Something does.
+    Swept(SweptTree<'w>),
+}
+
+impl<'w> AnimatedTree<'w> {
+    /// Builds the tree for an interval.
+    pub(super) fn new(mesh: &'w Mesh, interval: TimeInterval, quality: TreeQuality) -> Self {
+        match mesh.still_over(interval) {
+            Some(pose) => Self::Posed(Blas::over(mesh.triangles().len(), |p| pose.corners(p), quality)),
+            None => Self::Swept(SweptTree::new(mesh, interval, quality)),
+        }
+    }
+
+    /// Offers the triangles that a ray in the mesh's frame, of this time, meets with 0 < t ≤ `limit` to `best`, which lowers it.
+    pub(super) fn closest<L: Lanes>(
+        &self,
+        l: L,
+        ray: &LocalRay,
+        time_s: f32,
+        names: Names<'_>,
+        best: &mut BestHit,
+        limit: &mut f32,
+    ) {
+        match self {
+            Self::Posed(tree) => tree.closest(l, ray, names, best, limit),
+            Self::Swept(tree) => tree.closest(l, ray, time_s, names, best, limit),
+        }
+    }
+
+    /// Whether a ray in the mesh's frame, of this time, meets a triangle with 0 < t < `t_max`.
+    pub(super) fn occluded<L: Lanes>(&self, l: L, ray: &LocalRay, time_s: f32, t_max: f32) -> bool {
+        match self {
+            Self::Posed(tree) => tree.occluded(l, ray, t_max),
+            Self::Swept(tree) => tree.occluded(l, ray, time_s, t_max),
+        }
     }
 }

@@ -1,30 +1,29 @@
 //! The tree over the instances of a view.
 
 use super::Simd;
-use super::animated::AnimatedTree;
-use super::best::{Best, Names};
 use super::blas::Blas;
 use super::boxes::Box3;
 use super::build::over_boxes;
 use super::collapse::collapse;
 use super::lanes::{Job, Lanes, Plain, Visit};
-use super::local::{LocalRay, NONE_LEFT};
-use super::merged::Merged;
+use super::merged::MergedMesh;
 use super::node::{Child, Node};
-use super::packet::PrimitiveHit;
-use super::ray::SlabRay;
+use super::packet::{BestHit, Names, PrimitiveHit};
+use super::ray::{LocalRay, NONE_LEFT, SlabRay};
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
-use super::visits::{Counting, Visits};
-use super::walk::{Leaves, walk};
-use super::world::World;
-use crate::geometry::{Hit, Instance, MeshId, Placement, Shape, sphere};
-use crate::is_optional;
+use super::swept::AnimatedTree;
 use core::cell::Cell;
 use etendue_core::{Ray, TimeInterval};
 use glam::Vec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+use super::visits::{VisitCounter, Visits};
+use super::walk::{Leaves, walk};
+use super::world::World;
+use crate::geometry::{Hit, Instance, MeshId, Placement, Shape, sphere};
+use crate::is_optional;
 
 /// A shape with what is needed to meet it.
 #[derive(Clone, Debug)]
@@ -39,13 +38,13 @@ enum Target<'w> {
 
 /// The lanes chosen when the view was made.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Chosen {
+pub(super) enum InstructionSet {
     Plain,
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
 }
 
-impl Chosen {
+impl InstructionSet {
     pub(super) fn new(simd: Simd) -> Self {
         match simd {
             Simd::Scalar => Self::Plain,
@@ -76,29 +75,31 @@ pub(crate) struct Tlas<'w> {
     root: Option<Child>,
     /// The instance of each leaf, or [`MERGED`].
     leaves: Vec<u32>,
-    merged: Option<Merged>,
+    merged: Option<MergedMesh>,
     targets: Vec<Target<'w>>,
     placed: Vec<Placement>,
-    chosen: Chosen,
+    chosen: InstructionSet,
 }
 
 impl<'w> Tlas<'w> {
     /// Builds the tree over instances placed in the render frame, small ones written out.
     pub(crate) fn merging(world: &'w World, mut placed: Vec<Placement>, interval: TimeInterval, simd: Simd) -> Self {
-        let merged = Merged::new(world, &mut placed, interval);
-        Self::new(world, (placed, merged), interval, simd)
+        let merged = MergedMesh::new(world, &mut placed, interval);
+        Self::new(world, placed, merged, interval, simd)
     }
 
     /// Builds the tree over instances placed in the render frame, of which some may be written out.
     pub(crate) fn new(
         world: &'w World,
-        (placed, merged): (Vec<Placement>, Option<Merged>),
+        placed: Vec<Placement>,
+        merged: Option<MergedMesh>,
         interval: TimeInterval,
         simd: Simd,
     ) -> Self {
         let bounded = placed.iter().zip(world.instances()).zip(0_u32..).filter(|((placed, _), _)| !placed.is_merged());
         let single = bounded.filter_map(|((placed, instance), index)| {
-            Some((Box3::from_f64(placed.bounds(instance, world.meshes())?), index))
+            let (low, high) = placed.bounds(instance, world.meshes())?;
+            Some((Box3::from_f64(low, high), index))
         });
         let bounds = merged.as_ref().map(|merged| merged.bounds);
         let (boxes, members): (Vec<_>, Vec<_>) = single.chain(bounds.map(|bounds| (bounds, MERGED))).unzip();
@@ -108,7 +109,7 @@ impl<'w> Tlas<'w> {
             leaves.len() - 1
         });
         let targets = targets(world, &placed, interval);
-        Self { nodes: wide.nodes, root: wide.root, leaves, merged, targets, placed, chosen: Chosen::new(simd) }
+        Self { nodes: wide.nodes, root: wide.root, leaves, merged, targets, placed, chosen: InstructionSet::new(simd) }
     }
 
     /// The instances' places, by their index.
@@ -118,23 +119,23 @@ impl<'w> Tlas<'w> {
 
     /// The first primitive that a ray meets.
     pub(crate) fn closest(&self, ray: &Ray) -> Option<Hit> {
-        self.chosen.run(Closest { top: self, ray })
+        self.chosen.run(ClosestQuery { top: self, ray })
     }
 
     /// What a ray visits on its way to the first primitive that it meets, or to any.
     pub(crate) fn visits(&self, ray: &Ray, any: bool) -> Visits {
         let visits = Cell::new(Visits::default());
         if any {
-            Counting(&visits).run(Occluded { top: self, ray });
+            VisitCounter(&visits).run(OcclusionQuery { top: self, ray });
         } else {
-            Counting(&visits).run(Closest { top: self, ray });
+            VisitCounter(&visits).run(ClosestQuery { top: self, ray });
         }
         visits.get()
     }
 
     /// Whether a ray meets anything.
     pub(crate) fn occluded(&self, ray: &Ray) -> bool {
-        self.chosen.run(Occluded { top: self, ray })
+        self.chosen.run(OcclusionQuery { top: self, ray })
     }
 }
 
@@ -161,19 +162,19 @@ fn is_traceable(ray: &Ray) -> bool {
     along > 0.0 && along + length(ray.origin) < f32::INFINITY
 }
 
-struct Closest<'a, 'w> {
+struct ClosestQuery<'a, 'w> {
     top: &'a Tlas<'w>,
     ray: &'a Ray,
 }
 
-impl Job for Closest<'_, '_> {
+impl Job for ClosestQuery<'_, '_> {
     type Output = Option<Hit>;
 
     #[inline(always)]
     fn work<L: Lanes>(self, l: L) -> Option<Hit> {
         let Self { top, ray } = self;
         let root = top.root.filter(|_| is_traceable(ray))?;
-        let mut leaves = ClosestLeaf { l, top, ray, best: Best::default() };
+        let mut leaves = ClosestLeaf { l, top, ray, best: BestHit::default() };
         if root.as_node().is_some() {
             let slab = SlabRay::new(ray.origin, ray.direction);
             walk::<L, true>(l, &top.nodes, root, &slab, &mut { ray.t_max }, &mut leaves);
@@ -188,7 +189,7 @@ struct ClosestLeaf<'a, 'w, L> {
     l: L,
     top: &'a Tlas<'w>,
     ray: &'a Ray,
-    best: Best,
+    best: BestHit,
 }
 
 impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
@@ -206,7 +207,7 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
         match &self.top.targets[instance as usize] {
             Target::Mesh(tree) => {
                 let Some(still) = placed.still() else {
-                    let moving = Moving { l: self.l, tree, placed, ray: self.ray };
+                    let moving = MovingEntry { l: self.l, tree, placed, ray: self.ray };
                     (self.best.hit, *limit) = moving.closest(instance, self.best.hit, *limit);
                     return false;
                 };
@@ -221,7 +222,7 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
                 }
             }
             Target::Animated(tree) => {
-                let animated = Animated { l: self.l, tree, placed, ray: self.ray };
+                let animated = AnimatedEntry { l: self.l, tree, placed, ray: self.ray };
                 (self.best.hit, *limit) = animated.closest(instance, self.best.hit, *limit);
             }
             Target::Written => {}
@@ -230,12 +231,12 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
     }
 }
 
-struct Occluded<'a, 'w> {
+struct OcclusionQuery<'a, 'w> {
     top: &'a Tlas<'w>,
     ray: &'a Ray,
 }
 
-impl Job for Occluded<'_, '_> {
+impl Job for OcclusionQuery<'_, '_> {
     type Output = bool;
 
     #[inline(always)]
@@ -254,7 +255,10 @@ impl Job for Occluded<'_, '_> {
 /// The triangle that a ray leaves, of an instance's own tree; [`NONE_LEFT`] where it is another's.
 #[inline(always)]
 fn left_of(ray: &Ray, instance: u32) -> u32 {
-    ray.left.filter(|left| left.instance == instance).map_or(NONE_LEFT, |left| left.primitive)
+    match ray.left {
+        Some(left) if left.instance == instance => left.primitive,
+        _ => NONE_LEFT,
+    }
 }
 
 struct AnyLeaf<'a, 'w, L> {
@@ -277,14 +281,14 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
         match &self.top.targets[instance as usize] {
             Target::Mesh(tree) => {
                 let Some(still) = placed.still() else {
-                    return Moving { l: self.l, tree, placed, ray: self.ray }.occluded(*limit);
+                    return MovingEntry { l: self.l, tree, placed, ray: self.ray }.occluded(*limit);
                 };
                 let (origin, direction) = still.rounded_ray_to_local(self.ray);
                 let local = LocalRay::new(origin, direction).leaving(left_of(self.ray, instance));
                 tree.occluded(self.l, &local, *limit)
             }
             Target::Sphere(radius) => meet_sphere(*radius, placed, self.ray).is_some_and(|t| t > 0.0 && t < *limit),
-            Target::Animated(tree) => Animated { l: self.l, tree, placed, ray: self.ray }.occluded(*limit),
+            Target::Animated(tree) => AnimatedEntry { l: self.l, tree, placed, ray: self.ray }.occluded(*limit),
             Target::Written => false,
         }
     }
@@ -292,19 +296,19 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
 
 /// A mesh in motion as a ray enters it. Apart from what stands still, whose code it would slow down: everything comes and goes by
 /// value, so that the rest stays in registers.
-struct Moving<'a, L> {
+struct MovingEntry<'a, L> {
     l: L,
     tree: &'a Blas,
     placed: &'a Placement,
     ray: &'a Ray,
 }
 
-impl<L: Lanes> Moving<'_, L> {
+impl<L: Lanes> MovingEntry<'_, L> {
     /// The best hit and the limit, from those so far.
     #[cold]
     #[inline(never)]
     fn closest(self, instance: u32, hit: Option<Hit>, mut limit: f32) -> (Option<Hit>, f32) {
-        let mut best = Best { hit };
+        let mut best = BestHit { hit };
         let (origin, direction) = self.placed.rounded_ray_to_local(self.ray);
         let local = LocalRay::new(origin, direction);
         self.tree.closest(self.l, &local, Names::Instance(instance), &mut best, &mut limit);
@@ -321,21 +325,21 @@ impl<L: Lanes> Moving<'_, L> {
 }
 
 /// A mesh whose vertices move as a ray enters it, likewise.
-struct Animated<'a, L> {
+struct AnimatedEntry<'a, L> {
     l: L,
     tree: &'a AnimatedTree<'a>,
     placed: &'a Placement,
     ray: &'a Ray,
 }
 
-impl<L: Lanes> Animated<'_, L> {
+impl<L: Lanes> AnimatedEntry<'_, L> {
     /// The best hit and the limit, from those so far.
     #[cold]
     #[inline(never)]
     fn closest(self, instance: u32, hit: Option<Hit>, mut limit: f32) -> (Option<Hit>, f32) {
-        let mut best = Best { hit };
+        let mut best = BestHit { hit };
         let local = self.local();
-        self.tree.closest(self.l, (&local, self.ray.time_s), Names::Instance(instance), &mut best, &mut limit);
+        self.tree.closest(self.l, &local, self.ray.time_s, Names::Instance(instance), &mut best, &mut limit);
         (best.hit, limit)
     }
 
@@ -343,7 +347,7 @@ impl<L: Lanes> Animated<'_, L> {
     #[cold]
     #[inline(never)]
     fn occluded(self, limit: f32) -> bool {
-        self.tree.occluded(self.l, (&self.local(), self.ray.time_s), limit)
+        self.tree.occluded(self.l, &self.local(), self.ray.time_s, limit)
     }
 
     fn local(&self) -> LocalRay {

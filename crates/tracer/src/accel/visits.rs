@@ -16,7 +16,7 @@ pub struct Visits {
 
 /// Plain lanes that count.
 #[derive(Clone, Copy)]
-pub(super) struct Counting<'a>(pub(super) &'a Cell<Visits>);
+pub(super) struct VisitCounter<'a>(pub(super) &'a Cell<Visits>);
 
 /// Methods that go to [`Plain`].
 macro_rules! plain {
@@ -28,7 +28,7 @@ macro_rules! plain {
     };
 }
 
-impl Lanes for Counting<'_> {
+impl Lanes for VisitCounter<'_> {
     type V = Eight;
     type M = [bool; 8];
 

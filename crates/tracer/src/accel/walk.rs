@@ -2,7 +2,6 @@
 
 use super::lanes::{Eight, Lanes, Visit};
 use super::node::{Child, Node};
-use super::pending::{Pending, entry};
 use super::ray::{SlabLanes, SlabRay};
 
 /// What happens at a tree's leaves.
@@ -24,7 +23,7 @@ pub(super) fn walk<L: Lanes, const SORTED: bool>(
     leaves: &mut impl Leaves,
 ) -> bool {
     let ray = SlabLanes::new(l, ray);
-    let mut pending = Pending::default();
+    let mut pending = PendingNodes::default();
     let mut current = root;
     let mut limits = l.splat(*limit);
     loop {
@@ -50,7 +49,7 @@ fn descend<L: Lanes, const SORTED: bool>(
     node: &Node,
     ray: &SlabLanes<L>,
     limits: L::V,
-    pending: &mut Pending,
+    pending: &mut PendingNodes,
 ) -> Option<Child> {
     l.note(Visit::Node);
     let (mut lanes, near) = ray.enter(l, node, limits);
@@ -62,22 +61,22 @@ fn descend<L: Lanes, const SORTED: bool>(
         return Some(Child::from_word(first as u32));
     }
     pending.reserve();
-    let others = Others { node, lanes, near };
+    let others = PendingQueue { node, lanes, near };
     let best = if SORTED { others.nearest(first, pending) } else { others.last(first, pending) };
     Some(Child::from_word(best as u32))
 }
 
 /// What a ray enters of a node, from the second lane on.
-struct Others<'a> {
+struct PendingQueue<'a> {
     node: &'a Node,
     lanes: u32,
     near: Eight,
 }
 
-impl Others<'_> {
+impl PendingQueue<'_> {
     /// The nearest, `first` included; the others are left pending, the nearer to be taken earlier.
     #[inline(always)]
-    fn nearest(mut self, first: u64, pending: &mut Pending) -> u64 {
+    fn nearest(mut self, first: u64, pending: &mut PendingNodes) -> u64 {
         let (mut best, mut count) = (first, 0);
         while self.lanes != 0 {
             let other = take::<true>(self.node, &mut self.lanes, &self.near);
@@ -93,7 +92,7 @@ impl Others<'_> {
 
     /// The last; the others are left pending, the last to be taken first.
     #[inline(always)]
-    fn last(mut self, first: u64, pending: &mut Pending) -> u64 {
+    fn last(mut self, first: u64, pending: &mut PendingNodes) -> u64 {
         let mut best = first;
         while self.lanes != 0 {
             pending.push(best);
@@ -109,4 +108,83 @@ fn take<const SORTED: bool>(node: &Node, lanes: &mut u32, near: &Eight) -> u64 {
     let lane = lanes.trailing_zeros() as usize & 7;
     *lanes &= *lanes - 1;
     entry(if SORTED { near.0[lane] } else { 0.0 }, node.children[lane])
+}
+
+/// Entries at hand; those of deeper trees than usual go to the heap.
+const AT_HAND: usize = 32;
+/// Entries that a node adds at most.
+const A_NODE: usize = 7;
+
+/// A stack of entries. An entry is where the ray enters a child (as bits, which order like the numbers, none being
+/// negative) above the child's word.
+pub(super) struct PendingNodes {
+    at_hand: [u64; AT_HAND],
+    count: usize,
+    deep: Vec<u64>,
+}
+
+impl Default for PendingNodes {
+    #[inline(always)]
+    fn default() -> Self {
+        Self { at_hand: [0; AT_HAND], count: 0, deep: Vec::new() }
+    }
+}
+
+/// The entry of a child that the ray enters at `near`.
+#[inline(always)]
+pub(super) fn entry(near: f32, child: Child) -> u64 {
+    u64::from(near.to_bits()) << 32 | u64::from(child.word())
+}
+
+impl PendingNodes {
+    /// Makes room for a node's entries.
+    #[inline(always)]
+    pub(super) fn reserve(&mut self) {
+        if self.count > AT_HAND - A_NODE {
+            self.deepen();
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn deepen(&mut self) {
+        self.deep.extend_from_slice(&self.at_hand[..self.count]);
+        self.count = 0;
+    }
+
+    /// Adds an entry, for which there is room.
+    #[inline(always)]
+    pub(super) fn push(&mut self, entry: u64) {
+        self.at_hand[self.count % AT_HAND] = entry;
+        self.count += 1;
+    }
+
+    /// Sorts the entries added last, at most seven, by insertion: the nearest will be taken first.
+    #[inline(always)]
+    pub(super) fn sort_last(&mut self, count: usize) {
+        let entries = &mut self.at_hand[self.count - count..self.count];
+        for end in 1..entries.len() {
+            let mut at = end;
+            while at > 0 && entries[at - 1] < entries[at] {
+                entries.swap(at - 1, at);
+                at -= 1;
+            }
+        }
+    }
+
+    /// Takes the entries added last until one begins at or before `limit`.
+    #[inline(always)]
+    pub(super) fn pop(&mut self, limit: f32) -> Option<Child> {
+        loop {
+            let entry = if self.count > 0 {
+                self.count -= 1;
+                self.at_hand[self.count % AT_HAND]
+            } else {
+                self.deep.pop()?
+            };
+            if f32::from_bits((entry >> 32) as u32) <= limit {
+                return Some(Child::from_word(entry as u32));
+            }
+        }
+    }
 }

@@ -4,11 +4,11 @@
 //! triangle has an area, and no two triangles are the same. What cannot be intersected (triangles of zero area) or
 //! cannot be told apart (exact duplicates, in any order of their corners) is dropped and counted.
 
-use super::facet::Facet;
-use super::repeats::repeats;
-use super::{MeshError, VertexAnimation};
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
+
+use super::repeats::repeats;
+use super::{MeshError, VertexAnimation};
 
 /// Coordinates beyond this are refused: products of three of them must stay finite in f32.
 const MAX_COORDINATE_M: f32 = 1e12;
@@ -34,7 +34,7 @@ pub struct Mesh {
 
 /// How many triangles were left out of a mesh, and why.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Dropped {
+pub struct DroppedTriangles {
     /// Triangles whose corners lie on one line or point.
     pub zero_area: usize,
     /// Triangles with the same three corners as an earlier one, in whatever order.
@@ -60,7 +60,7 @@ impl Mesh {
         uvs: Vec<Vec2>,
         triangles: Vec<[u32; 3]>,
         slots: Vec<u16>,
-    ) -> Result<(Self, Dropped), MeshError> {
+    ) -> Result<(Self, DroppedTriangles), MeshError> {
         check_counts(&positions, &normals, &uvs, &triangles, &slots)?;
         check_vertices(&positions, &uvs)?;
         check_indices(positions.len(), &triangles)?;
@@ -80,7 +80,7 @@ impl Mesh {
         uvs: Vec<Vec2>,
         triangles: Vec<[u32; 3]>,
         slots: Vec<u16>,
-    ) -> Result<(Self, Dropped), MeshError> {
+    ) -> Result<(Self, DroppedTriangles), MeshError> {
         for frame in animation.frames() {
             check_counts(&frame.positions, &frame.normals, &uvs, &triangles, &slots)?;
             check_vertices(&frame.positions, &uvs)?;
@@ -204,7 +204,7 @@ impl Mesh {
         frames.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
-    fn drop_unusable(&mut self) -> Dropped {
+    fn drop_unusable(&mut self) -> DroppedTriangles {
         let count = self.triangles.len();
         let frames = self.all_positions();
         let has_area = |triangle: u32| {
@@ -222,7 +222,7 @@ impl Mesh {
         self.triangles.retain(|_| *keep.next().unwrap_or(&true));
         let mut keep = kept.iter();
         self.slots.retain(|_| *keep.next().unwrap_or(&true));
-        Dropped { zero_area: count - usable, duplicate: repeated.len() }
+        DroppedTriangles { zero_area: count - usable, duplicate: repeated.len() }
     }
 }
 
@@ -291,6 +291,40 @@ fn unordered_vertices(mut vertices: [u32; 3]) -> [[u32; 3]; 3] {
     vertices.map(|vertex| [vertex, 0, 0])
 }
 
+/// Angle, rad, by which vertices' normals may lean for their triangle to be taken for flat: files give places and normals
+/// in some six digits.
+const FLAT_RAD: f64 = 1e-5;
+
+/// A triangle's own normal and material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Facet {
+    /// Unit normal in the mesh's frame, by the winding.
+    pub(crate) normal: Vec3,
+    /// The material slot.
+    pub(crate) slot: u16,
+    /// Whether normals between the vertices' are all along the triangle's own.
+    pub(crate) is_flat: bool,
+}
+
+impl Facet {
+    /// Of a triangle's corners, its vertices' normals where they have any, and its material slot.
+    pub(super) fn new([a, b, c]: [Vec3; 3], normals: Option<[Vec3; 3]>, slot: u16) -> Self {
+        let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
+        let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
+        Self { normal: normal.as_vec3(), slot, is_flat: normals.is_none_or(|normals| are_along(normals, normal)) }
+    }
+}
+
+/// Whether vertices' normals all lie along a triangle's own: on either side, but all on one.
+fn are_along(normals: [Vec3; 3], normal: DVec3) -> bool {
+    let along = normals.map(|own| {
+        let own = own.as_dvec3().normalize_or_zero();
+        let along = own.dot(normal);
+        if own.cross(normal).length() <= FLAT_RAD { along } else { 0.0 }
+    });
+    along.iter().all(|x| *x > 0.5) || along.iter().all(|x| *x < -0.5)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -299,7 +333,7 @@ mod tests {
         vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y]
     }
 
-    fn bare(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<(Mesh, Dropped), MeshError> {
+    fn bare(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<(Mesh, DroppedTriangles), MeshError> {
         Mesh::new(positions, vec![], vec![], triangles, vec![])
     }
 
@@ -311,7 +345,7 @@ mod tests {
         let triangles = vec![[0, 1, 2], [0, 2, 3], [0, 0, 1], [0, 5, 1], [2, 0, 1], [1, 4, 2], [0, 3, 2]];
         let (mesh, dropped) =
             Mesh::new(positions, vec![], vec![], triangles, vec![0, 1, 2, 3, 4, 5, 6]).expect("legal");
-        assert_eq!(dropped, Dropped { zero_area: 2, duplicate: 3 });
+        assert_eq!(dropped, DroppedTriangles { zero_area: 2, duplicate: 3 });
         assert_eq!((mesh.triangles(), mesh.slots()), (&[[0, 1, 2], [0, 2, 3]][..], &[0, 1][..]));
     }
 
@@ -343,6 +377,6 @@ mod tests {
     #[test]
     fn a_mesh_of_nothing_is_legal_and_has_no_bounds() {
         let (mesh, dropped) = bare(vec![], vec![]).expect("legal");
-        assert_eq!((mesh.bounds(), mesh.slot_count(), dropped), (None, 0, Dropped::default()));
+        assert_eq!((mesh.bounds(), mesh.slot_count(), dropped), (None, 0, DroppedTriangles::default()));
     }
 }

@@ -1,10 +1,11 @@
 //! A mesh as it is at one moment.
 
-use super::facet::Facet;
-use super::vertex_animation::Span;
-use super::{Mesh, VertexAnimation};
 use etendue_core::TimeInterval;
 use glam::{DVec3, Vec2, Vec3};
+
+use super::mesh::Facet;
+use super::vertex_animation::Span;
+use super::{Mesh, VertexAnimation};
 
 /// A mesh at one moment: its own vertices, or where its animation has them.
 #[derive(Clone, Copy, Debug)]

@@ -3,10 +3,7 @@
 //! A mesh keeps its own f32 frame; an instance places it in the world by an f64 transform. Two instances of one mesh
 //! share its vertices and its tree.
 
-mod facet;
-mod hit;
 mod instance;
-mod instance_transform;
 mod mesh;
 mod mesh_error;
 mod mesh_pose;
@@ -16,12 +13,11 @@ pub(crate) mod sphere;
 mod surface;
 mod vertex_animation;
 
-pub use hit::Hit;
 pub use instance::{Instance, MeshId, Shape};
-pub(crate) use instance_transform::{InstanceTransform, uniform_scale};
-pub use mesh::{Dropped, Mesh};
+pub(crate) use instance::{InstanceTransform, uniform_scale};
+pub use mesh::{DroppedTriangles, Mesh};
 pub use mesh_error::MeshError;
 pub use mesh_pose::MeshPose;
 pub(crate) use placement::Placement;
-pub use surface::{Footprint, SurfacePoint};
+pub use surface::{Footprint, Hit, SurfacePoint};
 pub use vertex_animation::{Repeat, VertexAnimation, VertexFrame};

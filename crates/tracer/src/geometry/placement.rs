@@ -4,11 +4,12 @@
 //! blended or rounded to steps. Rays are met in its own frame, where its mesh has its tree; only its box in the render frame,
 //! by which rays come to it, is that of the whole interval.
 
-use super::instance_transform::about;
-use super::{Instance, InstanceTransform, Mesh, Shape};
 use etendue_core::{Motion, Ray, TimeInterval};
 use glam::{DVec3, Vec3};
 use std::borrow::Cow;
+
+use super::instance::about;
+use super::{Instance, InstanceTransform, Mesh, Shape};
 
 /// An instance relative to the camera.
 #[derive(Clone, Debug)]
@@ -17,12 +18,12 @@ pub(crate) enum Placement {
     /// At rest during the interval.
     Still(InstanceTransform),
     /// In motion.
-    Moving(Box<Moving>),
+    Moving(Box<MovingPlacement>),
 }
 
 /// An instance that moves during an interval.
 #[derive(Clone, Debug)]
-pub(crate) struct Moving {
+pub(crate) struct MovingPlacement {
     to_world: Motion,
     origin_m: DVec3,
     interval: TimeInterval,
@@ -33,7 +34,7 @@ impl Placement {
     pub(crate) fn new(instance: &Instance, origin_m: DVec3, interval: TimeInterval) -> Self {
         match instance.to_world.still_over(interval) {
             Some(to_world) => Self::Still(InstanceTransform::new(to_world, origin_m)),
-            None => Self::Moving(Box::new(Moving { to_world: instance.to_world.clone(), origin_m, interval })),
+            None => Self::Moving(Box::new(MovingPlacement { to_world: instance.to_world.clone(), origin_m, interval })),
         }
     }
 
@@ -120,7 +121,7 @@ impl Placement {
     }
 }
 
-impl Moving {
+impl MovingPlacement {
     fn at(&self, time_s: f64) -> InstanceTransform {
         InstanceTransform::new(self.to_world.at(time_s), self.origin_m)
     }

@@ -8,21 +8,29 @@ use rayon::prelude::*;
 /// The corners of a triangle, as bits in an order that all its rotations and mirror images share.
 pub(super) type Corners = [[u32; 3]; 3];
 
+/// A triangle and the hash of its corners; ordered by the hash.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct HashedTriangle {
+    hash: u64,
+    number: u32,
+}
+
 /// Of the triangles that are `kept`, those that are equal to an earlier one of them. Runs on the caller's thread pool.
 pub(super) fn repeats(kept: &[bool], corners: impl Fn(u32) -> Corners + Sync) -> Vec<u32> {
     let numbers = 0..kept.len() as u32;
     let candidates = numbers.into_par_iter().filter(|number| kept[*number as usize]);
-    let mut hashed: Vec<(u64, u32)> = candidates.map(|number| (hash(&corners(number)), number)).collect();
+    let hashed = |number| HashedTriangle { hash: hash(&corners(number)), number };
+    let mut hashed: Vec<HashedTriangle> = candidates.map(hashed).collect();
     hashed.par_sort_unstable();
-    let runs = hashed.chunk_by(|a, b| a.0 == b.0).filter(|run| run.len() > 1);
+    let runs = hashed.chunk_by(|a, b| a.hash == b.hash).filter(|run| run.len() > 1);
     runs.flat_map(|run| repeats_of_run(run, &corners)).collect()
 }
 
 /// The same of triangles of one hash, in increasing order: nearly always one triangle, over and over.
-fn repeats_of_run(run: &[(u64, u32)], corners: &impl Fn(u32) -> Corners) -> Vec<u32> {
+fn repeats_of_run(run: &[HashedTriangle], corners: &impl Fn(u32) -> Corners) -> Vec<u32> {
     let mut first: Vec<Corners> = Vec::new();
     let mut repeats = Vec::new();
-    for (_, number) in run {
+    for HashedTriangle { number, .. } in run {
         let own = corners(*number);
         match first.contains(&own) {
             true => repeats.push(*number),
@@ -59,7 +67,7 @@ mod tests {
     #[test]
     fn equal_hashes_are_no_proof() {
         let list = [1, 2, 1].map(|n: u32| [[n; 3]; 3]);
-        let run = [(7, 0), (7, 1), (7, 2)];
+        let run = [0, 1, 2].map(|number| HashedTriangle { hash: 7, number });
         assert_eq!(repeats_of_run(&run, &|i| list[i as usize]), [2]);
     }
 }

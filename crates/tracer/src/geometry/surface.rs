@@ -1,8 +1,9 @@
-//! Points on surfaces, and rays that leave them.
+//! Hits of rays, points on surfaces, and rays that leave them.
 
-use crate::MaterialId;
 use etendue_core::{PrimitiveId, Ray};
 use glam::{Vec2, Vec3};
+
+use crate::MaterialId;
 
 /// A point of a surface, in the render frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,4 +65,19 @@ impl SurfacePoint {
     pub fn leave(&self, direction: Vec3) -> Ray {
         Ray::new(self.spawn(direction), direction, self.time_s).leaving(self.primitive_id())
     }
+}
+
+/// What a ray meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Where, in lengths of the ray's direction.
+    pub t: f32,
+    /// Index of the instance in the world.
+    pub instance: u32,
+    /// Primitive within the instance's shape: the triangle, or 0 for a sphere.
+    pub primitive: u32,
+    /// Barycentric weight of the triangle's vertex 1.
+    pub u: f32,
+    /// Barycentric weight of the triangle's vertex 2.
+    pub v: f32,
 }

@@ -1,10 +1,11 @@
-//! What was learnt, ready to be asked.
+//! A guide, and the training paths that it is made of.
 
-use super::distribution::{BINS, DirectionDistribution, neighbours};
-use super::found::FoundByBin;
-use super::place::Place;
 use glam::Vec3;
 use std::collections::BTreeMap;
+use std::sync::Mutex;
+
+use super::distribution::{BINS, DirectionDistribution, neighbours};
+use super::place::Place;
 
 /// Share of the cosine in the mixture (defensive sampling): no weight is more than five times that without a guide.
 const UNGUIDED: f64 = 0.2;
@@ -26,7 +27,7 @@ const EMPTY: u32 = u32::MAX;
 
 impl Guide {
     /// Of what was found in cubes and, of all of these, in those four times as wide.
-    pub(super) fn new(fine: &BTreeMap<Place, FoundByBin>, coarse: &BTreeMap<Place, FoundByBin>) -> Self {
+    pub(super) fn new(fine: &BTreeMap<Place, PlaceStatistics>, coarse: &BTreeMap<Place, PlaceStatistics>) -> Self {
         let wide: BTreeMap<Place, [f64; BINS]> =
             coarse.iter().map(|(place, found)| (*place, squares(found, &[1.0; BINS]))).collect();
         let places = wide.len() + fine.len();
@@ -79,7 +80,7 @@ impl Guide {
 }
 
 /// Mean squares by bin, over their mean; where few paths came they are near what is `expected`, and like those of neighbouring bins.
-fn squares(found: &FoundByBin, expected: &[f64; BINS]) -> [f64; BINS] {
+fn squares(found: &PlaceStatistics, expected: &[f64; BINS]) -> [f64; BINS] {
     let mean = found.iter().map(|bin| bin.squares).sum::<f64>() / found.iter().map(|bin| bin.paths).sum::<f64>();
     let of = |bin: usize| (found[bin].squares / mean, found[bin].paths);
     let squares: [f64; BINS] = core::array::from_fn(|bin| {
@@ -97,4 +98,87 @@ fn distribution(squares: &[f64; BINS]) -> DirectionDistribution {
     let roots = squares.map(f64::sqrt);
     let mean = roots.iter().sum::<f64>() / BINS as f64;
     DirectionDistribution::new(&roots.map(|root| UNGUIDED + (1.0 - UNGUIDED) * root / mean))
+}
+
+/// What was found in the directions of one bin.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct BinStatistics {
+    /// Sum of squares of radiance.
+    pub(super) squares: f64,
+    /// Paths.
+    pub(super) paths: f64,
+}
+
+/// What was found at one place.
+pub(super) type PlaceStatistics = [BinStatistics; BINS];
+
+/// Parts that are locked apart.
+const PARTS: usize = 16;
+/// What 1 counts as: squares of radiance, (W/(m² sr nm))², from 8e-25 on are told apart, and their sums to 2.8e14. Beyond, densities tend to the cosine's.
+const ONE: f64 = (1_u128 << 80) as f64;
+
+/// Paths below which a place has no density of its own.
+const LEAST_PATHS: u32 = 16;
+
+/// What was found in the directions of one bin, while threads add to it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sum {
+    /// Sum of squares of radiance, in units of 1/[`ONE`].
+    squares: u128,
+    paths: u32,
+}
+
+/// A sum of the directions of one bin at one place.
+struct TrainingSum {
+    place: Place,
+    bin: u8,
+    sum: Sum,
+}
+
+/// Gathers what paths find behind matt surfaces. Threads may add in any order.
+#[derive(Debug, Default)]
+pub struct Training {
+    parts: [Mutex<BTreeMap<(Place, u8), Sum>>; PARTS],
+}
+
+impl Training {
+    /// Adds what a path has found that left a place in the directions of a bin: the radiance that arrived by them, W/(m² sr nm), summed over the
+    /// path's wavelengths as they count at the camera.
+    pub(crate) fn add(&self, place: Place, bin: usize, radiance: f32) {
+        let square = f64::from(radiance) * f64::from(radiance) * ONE;
+        let mut part = self.parts[place.hash() % PARTS].lock().expect("no path panicked");
+        let sum = part.entry((place, bin as u8)).or_default();
+        sum.squares = sum.squares.saturating_add(square as u128);
+        sum.paths = sum.paths.saturating_add(1);
+    }
+
+    /// What all paths have found.
+    #[must_use]
+    pub fn guide(self) -> Guide {
+        let parts = self.parts.map(|part| part.into_inner().expect("no path panicked"));
+        // In an order that is always the same, so that sums have the same bits.
+        let sums: Vec<TrainingSum> =
+            parts.into_iter().flatten().map(|((place, bin), sum)| TrainingSum { place, bin, sum }).collect();
+        Guide::new(&by_place(&sums, |place| place), &by_place(&sums, Place::coarse))
+    }
+}
+
+/// What was found at the places that enough paths have left.
+fn by_place(sums: &[TrainingSum], place_of: impl Fn(Place) -> Place) -> BTreeMap<Place, PlaceStatistics> {
+    let mut paths: BTreeMap<Place, u32> = BTreeMap::new();
+    for TrainingSum { place, sum, .. } in sums {
+        *paths.entry(place_of(*place)).or_default() += sum.paths;
+    }
+    paths.retain(|_, paths| *paths >= LEAST_PATHS);
+    let mut found: BTreeMap<Place, PlaceStatistics> =
+        paths.into_keys().map(|place| (place, [BinStatistics::default(); BINS])).collect();
+    for TrainingSum { place, bin, sum } in sums {
+        if let Some(found) = found.get_mut(&place_of(*place)) {
+            let found = &mut found[usize::from(*bin)];
+            found.squares += sum.squares as f64 / ONE;
+            found.paths += f64::from(sum.paths);
+        }
+    }
+    found.retain(|_, found| found.iter().any(|bin| bin.squares > 0.0));
+    found
 }

@@ -18,13 +18,10 @@
 //! second scattering; and refinement by guided paths.
 
 mod distribution;
-mod found;
 mod guide;
 mod place;
-mod training;
 
-pub use guide::Guide;
-pub use training::Training;
+pub use guide::{Guide, Training};
 
 pub(crate) use distribution::{DirectionDistribution, bin_of};
 pub(crate) use place::Place;

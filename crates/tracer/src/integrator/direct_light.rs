@@ -10,7 +10,7 @@ use super::path_state::Medium;
 use super::path_tracer::Effects;
 use crate::geometry::SurfacePoint;
 use crate::lights::{LightSample, LightSampleContext};
-use crate::media::Following;
+use crate::media::{ForwardPeak, MediaRay, RandomCounter};
 
 impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// Adds light of as many sampled lights as the receiver draws, as far as it comes through.
@@ -20,13 +20,13 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         if !lights.can_be_drawn() || (E::SURFACES && vertex.bsdf.is_delta()) {
             return;
         }
-        let drawing = lights.drawing(receiver);
+        let sampler = lights.sampler_for(receiver);
         for k in 0..receiver.draws {
             let stream = self.camera_ray.stream.branch(k, receiver.draws);
             let choice = if lights.are_many() { stream.one(Draw::LightChoice, self.vertex_index) } else { 0.0 };
             let u = stream.two(Draw::LightPoint, self.vertex_index);
-            let asked = (self.wavelengths, self.lit());
-            let sample = drawing.sample((choice, u), self.cone.spread_rad, self.tracer.material_table, asked);
+            let (spread_rad, table) = (self.cone.spread_rad, self.tracer.material_table);
+            let sample = sampler.sample(choice, u, spread_rad, table, self.emission_query());
             if let Some(light) = sample.and_then(|sample| self.direct_light(vertex, &sample, receiver)) {
                 self.radiance += light;
             }
@@ -48,11 +48,11 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
         let direction_pdf = vertex.density(wi, value.pdf) * receiver.draws as f32;
         let arriving = self.throughput * value.value_cos * light.radiance * self.light_weight(light, direction_pdf);
-        let following = self.following(self.history.would_have_diffuse(value.pdf));
+        let peak = self.forward_peak(self.history.would_have_diffuse(value.pdf));
         if arriving.is_zero() {
             return None;
         }
-        let visibility = self.visibility(vertex, light, self.medium_towards(vertex, wi), following)?;
+        let visibility = self.visibility(vertex, light, self.medium_towards(vertex, wi), peak)?;
         Some(arriving * visibility)
     }
 
@@ -75,10 +75,10 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         vertex: &Vertex<'_, N>,
         light: &LightSample<N>,
         medium: Medium<'_>,
-        following: Following,
+        peak: ForwardPeak,
     ) -> Option<Spectral<N>> {
         let ray = self.ray_from_surface(&vertex.point, light);
-        let fraction = self.visibility_along(ray, light, medium, following)?;
+        let fraction = self.visibility_along(ray, light, medium, peak)?;
         // As for a path that hits nothing, the distance to infinity absorbs nothing.
         let distance_m = light.target.map_or(0.0, |target| target.distance(vertex.point.position));
         Some(if E::SURFACES { medium.attenuate(fraction, distance_m, self.wavelengths) } else { fraction })
@@ -90,7 +90,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         ray: Ray,
         light: &LightSample<N>,
         medium: Medium<'_>,
-        following: Following,
+        peak: ForwardPeak,
     ) -> Option<Spectral<N>> {
         let fraction = if self.tracer.settings.level == Level::Flat {
             Spectral::ONE
@@ -103,8 +103,8 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         };
         match self.tracer.media {
             Some(media) if E::MEDIA && !medium.is_solid() => {
-                let numbers = (&self.camera_ray.stream, 2 * self.vertex_index);
-                Some(fraction * media.transmittance((&ray, following), numbers, self.wavelengths))
+                let random = RandomCounter { stream: &self.camera_ray.stream, counter: 2 * self.vertex_index };
+                Some(fraction * media.transmittance(MediaRay { ray: &ray, peak }, random, self.wavelengths))
             }
             _ => Some(fraction),
         }

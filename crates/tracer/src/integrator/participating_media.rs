@@ -12,9 +12,9 @@ use glam::Vec3;
 use super::Level;
 use super::path::{Intersection, Path, PathStep};
 use super::path_tracer::Effects;
-use crate::lights::LightSampleContext;
-use crate::media::{Following, Media, Phase};
-use crate::precipitation::{Near, NearHit};
+use crate::lights::{LightSampleContext, RaySegment};
+use crate::media::{FlightRandom, ForwardPeak, Media, MediaRay, Phase, RandomCounter, RaySpan};
+use crate::precipitation::{NearParticles, ParticleHit};
 
 /// Random numbers of a drop.
 const DRAWS_PER_DROP: u32 = 16;
@@ -37,18 +37,18 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
 
     /// The media along the ray: about the camera, particles stand for a part of them.
     fn media_along(&self) -> Option<&'a Media<'a>> {
-        self.particles_along().map(Near::media).or(self.tracer.media)
+        self.particles_along().map(NearParticles::media).or(self.tracer.media)
     }
 
     /// The drops and flakes along the ray: about the camera alone.
-    fn particles_along(&self) -> Option<&'a Near<'a>> {
+    fn particles_along(&self) -> Option<&'a NearParticles<'a>> {
         let is_camera_ray = self.bounces == 0 && !self.has_hit_particle;
         self.tracer.near.filter(|near| is_camera_ray && near.looks_along(self.ray.direction))
     }
 
-    /// How media are followed by a path, given whether it has been scattered by more than smooth surfaces.
-    pub(super) fn following(&self, has_diffuse: bool) -> Following {
-        if has_diffuse && !self.tracer.settings.caustics { Following::WithoutPeak } else { Following::Exact }
+    /// How forward peaks scatter a path, given whether it has been scattered by more than smooth surfaces.
+    pub(super) fn forward_peak(&self, has_diffuse: bool) -> ForwardPeak {
+        if has_diffuse && !self.tracer.settings.caustics { ForwardPeak::Unscattered } else { ForwardPeak::Exact }
     }
 
     /// Whether what the ray hits does not count, as no medium has scattered it yet.
@@ -65,14 +65,17 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
 
     /// Adds the light of lamps that is scattered on the way to `end`, and finds where the path is scattered itself; `None` where it is not.
     fn travel_through_media(&mut self, end: f32) -> Option<Intersection<'a>> {
-        let media = self.media_along().filter(|_| !self.medium.is_solid())?;
-        let following = self.following(self.history.has_diffuse());
+        if self.medium.is_solid() {
+            return None;
+        }
+        let media = self.media_along()?;
+        let peak = self.forward_peak(self.history.has_diffuse());
         if self.samples_lamps_along() {
             self.add_in_scattered_lamp(media, end);
         }
-        let stream = (&self.camera_ray.stream, &mut self.flight_draws);
-        let collision =
-            media.collide((&self.ray, following), f64::from(end), stream, self.wavelengths, &mut self.throughput)?;
+        let media_ray = MediaRay { ray: &self.ray, peak };
+        let random = FlightRandom { stream: &self.camera_ray.stream, draws: &mut self.flight_draws };
+        let collision = media.collide(media_ray, f64::from(end), random, self.wavelengths, &mut self.throughput)?;
         self.cone.travel(collision.t);
         self.travelled_m += collision.t;
         Some(Intersection::Medium(self.ray.at(collision.t), collision.phase))
@@ -80,30 +83,30 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
 
     /// Adds light of one lamp without an opening that is scattered once on the way to `end`.
     fn add_in_scattered_lamp(&mut self, media: &Media<'_>, end: f32) {
-        let Some((from, to)) = media.reach(&self.ray, f64::from(end)) else { return };
-        let (part, lights) = ([from as f32, to as f32], self.tracer.lights);
+        let Some(RaySpan { from, to }) = media.reach(&self.ray, f64::from(end)) else { return };
+        let (segment, lights) = (RaySegment { from: from as f32, to: to as f32 }, self.tracer.lights);
         let stream = &self.camera_ray.stream;
         let u = stream.two(Draw::InScattering, self.vertex_index);
         let visible = |t: f32, to: Vec3| media.about(&self.ray, f64::from(t), to, self.wavelengths);
-        let Some(lamp) = lights.lamp_along(&self.ray, part, u.x, visible) else { return };
+        let Some(lamp) = lights.lamp_along(&self.ray, segment, u.x, visible) else { return };
         let t = lamp.place(u.y);
         let density = lamp.density(t);
-        if !(t > part[0] && t < part[1] && density > 0.0 && density.is_finite()) {
+        if !(t > segment.from && t < segment.to && density > 0.0 && density.is_finite()) {
             return;
         }
         let position = self.ray.at(t);
         let receiver = LightSampleContext::in_medium(position, self.ray.time_s);
-        let Some(light) = lights.of_lamp(&lamp, &receiver, (self.wavelengths, self.lit())) else { return };
-        let mut segment = self.ray;
-        segment.t_max = t;
-        let numbers = (stream, 2 * self.vertex_index + 1);
-        let transmittance = media.transmittance((&segment, Following::Exact), numbers, self.wavelengths);
-        let scattering =
-            media.scattering((&self.ray, Following::Exact), f64::from(t), light.direction, self.wavelengths);
+        let Some(light) = lights.of_lamp(&lamp, &receiver, self.emission_query()) else { return };
+        let mut to_camera = self.ray;
+        to_camera.t_max = t;
+        let random = RandomCounter { stream, counter: 2 * self.vertex_index + 1 };
+        let exact = |ray| MediaRay { ray, peak: ForwardPeak::Exact };
+        let transmittance = media.transmittance(exact(&to_camera), random, self.wavelengths);
+        let scattering = media.scattering(exact(&self.ray), f64::from(t), light.direction, self.wavelengths);
         let arriving = self.throughput * transmittance * scattering * light.radiance / (density * lamp.probability);
         let ray = self.ray_towards(position, light.direction, light.target);
         if !arriving.is_zero()
-            && let Some(visibility) = self.visibility_along(ray, &light, self.medium, self.following(true))
+            && let Some(visibility) = self.visibility_along(ray, &light, self.medium, self.forward_peak(true))
         {
             self.radiance += arriving * visibility;
         }
@@ -150,9 +153,8 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         let stream = &self.camera_ray.stream;
         let choice = if lights.are_many() { stream.one(Draw::LightChoice, self.vertex_index) } else { 0.0 };
         let u = stream.two(Draw::LightPoint, self.vertex_index);
-        let asked = (self.wavelengths, self.lit());
-        let Some(light) = lights.sample(receiver, (choice, u), self.cone.spread_rad, self.tracer.material_table, asked)
-        else {
+        let (spread_rad, table) = (self.cone.spread_rad, self.tracer.material_table);
+        let Some(light) = lights.sample(receiver, choice, u, spread_rad, table, self.emission_query()) else {
             return;
         };
         if light.delta && lamps_were_sampled {
@@ -163,14 +165,14 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         let arriving = self.throughput * values * light.radiance * self.light_weight(&light, density);
         let ray = self.ray_towards(receiver.position, light.direction, light.target);
         if !arriving.is_zero()
-            && let Some(visibility) = self.visibility_along(ray, &light, self.medium, self.following(true))
+            && let Some(visibility) = self.visibility_along(ray, &light, self.medium, self.forward_peak(true))
         {
             self.radiance += arriving * visibility;
         }
     }
 
     /// Continues from a drop or flake.
-    pub(super) fn scatter_at_particle(&mut self, hit: &NearHit) -> PathStep {
+    pub(super) fn scatter_at_particle(&mut self, hit: &ParticleHit) -> PathStep {
         let Some(near) = self.tracer.near else { return PathStep::End };
         let stream = &self.camera_ray.stream;
         let chosen = stream.one(Draw::PhaseDirection, 2 * self.vertex_index) * N as f32;

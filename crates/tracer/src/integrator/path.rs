@@ -28,9 +28,9 @@ use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::guiding::DirectionDistribution;
 use crate::lights::{LightHit, LightSampleContext};
-use crate::materials::{Bsdf, BsdfSample, Event, ShadingFrame};
+use crate::materials::{Bsdf, BsdfSample, EmissionQuery, Event, ShadingFrame};
 use crate::media::Phase;
-use crate::precipitation::NearHit;
+use crate::precipitation::ParticleHit;
 use crate::textures::Lookup;
 
 /// Greatest number of surfaces that a path hits, with those that it passes. No scene needs as many; among surfaces closer together
@@ -92,7 +92,7 @@ pub(super) enum Intersection<'a> {
     /// A point between surfaces where light is scattered, in the render frame, m.
     Medium(Vec3, &'a Phase),
     /// A drop or flake, which the ray has been taken to.
-    Particle(NearHit),
+    Particle(ParticleHit),
     /// A surface, and where its textures are read.
     Surface(SurfacePoint, Lookup),
 }
@@ -202,10 +202,11 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     fn emitted(&self, point: &SurfacePoint, lookup: &Lookup) -> Option<Spectral<N>> {
         let material_table = self.tracer.material_table;
         match material_table.emission(point.material) {
-            None => self.tracer.lights.of_opening(point, self.ray.direction, (self.wavelengths, self.lit())),
-            Some(emission) => emission
-                .leaves(point.geometric_normal, -self.ray.direction)
-                .then(|| material_table.radiance(point.material, emission, lookup, (self.wavelengths, self.lit()))),
+            None => self.tracer.lights.of_opening(point, self.ray.direction, self.emission_query()),
+            Some(emission) if emission.leaves(point.geometric_normal, -self.ray.direction) => {
+                Some(material_table.radiance(point.material, emission, lookup, self.emission_query()))
+            }
+            Some(_) => None,
         }
     }
 
@@ -407,6 +408,11 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// Whether light of a lamp counts, given whether it is part of a caustic: diffuse surfaces alone make none.
     pub(super) fn includes(&self, is_caustic: bool) -> bool {
         !E::SURFACES || self.tracer.settings.caustics || !is_caustic
+    }
+
+    /// What lights are evaluated at.
+    pub(super) fn emission_query(&self) -> EmissionQuery<'a, N> {
+        EmissionQuery { wavelengths: self.wavelengths, interval: self.lit() }
     }
 
     /// The interval over which lights are averaged.

@@ -177,7 +177,7 @@ pub(super) struct Medium<'a> {
 impl<'a> Medium<'a> {
     /// What is beyond a surface whose inside has this `absorption`, for a path that comes from its front or its back.
     pub(super) fn beyond(front: bool, solid: bool, absorption: Option<&'a Spectrum>) -> Self {
-        Self { absorption: absorption.filter(|_| front), solid: solid && front }
+        Self { absorption: if front { absorption } else { None }, solid: solid && front }
     }
 
     /// The inside of a solid of this `absorption`.

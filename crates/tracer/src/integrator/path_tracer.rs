@@ -11,7 +11,7 @@ use crate::guiding::Guide;
 use crate::lights::Lights;
 use crate::materials::MaterialTable;
 use crate::media::Media;
-use crate::precipitation::Near;
+use crate::precipitation::NearParticles;
 use crate::render_space::RenderSpace;
 use crate::{ALL_EFFECTS, MaterialId};
 
@@ -27,7 +27,7 @@ pub struct PathTracer<'a> {
     /// What scatters light between surfaces; `None` where nothing does.
     pub(super) media: Option<&'a Media<'a>>,
     /// Drops or flakes that rays from the camera hit; `None` where none fall.
-    pub(super) near: Option<&'a Near<'a>>,
+    pub(super) near: Option<&'a NearParticles<'a>>,
     /// The distributions by which diffuse surfaces sample directions; `None` where they go by the cosine alone.
     pub(super) guide: Option<&'a Guide>,
     /// Whether the strength of any light changes over time.
@@ -63,7 +63,7 @@ impl<'a> PathTracer<'a> {
 
     /// The same with drops or flakes about the camera, of the same view and media.
     #[must_use]
-    pub fn with_near(self, near: Option<&'a Near<'a>>) -> Self {
+    pub fn with_near(self, near: Option<&'a NearParticles<'a>>) -> Self {
         Self { near, ..self }.with_effects()
     }
 

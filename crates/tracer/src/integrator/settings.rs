@@ -113,11 +113,10 @@ impl Strategies {
     /// Weight of light hit by chance. `direction_pdf` is the density of the direction that hit it, `None` where it could
     /// not have been sampled from here (camera, mirror); `light_pdf` is the density by which the light would have been sampled.
     pub(super) fn hit_weight(self, direction_pdf: Option<f32>, light_pdf: f32) -> f32 {
-        let Some(direction_pdf) = direction_pdf.filter(|_| light_pdf > 0.0) else { return 1.0 };
-        match self {
-            Self::Both => power_heuristic(direction_pdf, light_pdf),
-            Self::Scattering => 1.0,
-            Self::Lights => 0.0,
+        match (self, direction_pdf) {
+            (Self::Both, Some(direction_pdf)) if light_pdf > 0.0 => power_heuristic(direction_pdf, light_pdf),
+            (Self::Lights, Some(_)) if light_pdf > 0.0 => 0.0,
+            _ => 1.0,
         }
     }
 

@@ -69,7 +69,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         };
         let frame = self.frame(material, &point, lookup, self.ray.direction);
         let bsdf = if E::SURFACES {
-            material_table.widened_bsdf(material, lookup, (frame.front, self.min_alpha(&frame)), self.wavelengths)
+            material_table.widened_bsdf(material, lookup, frame.front, self.min_alpha(&frame), self.wavelengths)
         } else {
             material_table.diffuse_bsdf(material, self.wavelengths)
         };

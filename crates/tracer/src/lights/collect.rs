@@ -1,19 +1,17 @@
 //! Finding the surfaces that glow.
 
-use etendue_core::{Motion, TimeInterval};
+use etendue_core::{Motion, TimeInterval, WavelengthRange};
 use glam::DAffine3;
 
 use super::Light;
-use super::carried::CarriedLamp;
 use super::lamp::{Lamp, LampLight};
-use super::moving::MovingLight;
+use super::light::Primitives;
+use super::moving::{LightMotion, MovingLamp, MovingLight};
 use super::opening::Opening;
 use super::opening_light::OpeningLight;
-use super::primitives::Primitives;
 use super::sphere::SphereLight;
 use super::tree::LightBounds;
 use super::triangle::{Facets, TriangleLight};
-use super::way::Way;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, Shape};
 use crate::materials::{Emission, EmissionSides, MaterialTable};
@@ -48,59 +46,69 @@ pub enum LightError {
 
 /// Lights of the scene.
 #[derive(Default)]
-pub(super) struct Gathered {
+pub(super) struct SceneLights {
     pub(super) lights: Vec<Light>,
     /// What the choice among them knows of each.
     pub(super) bounds: Vec<LightBounds>,
     pub(super) primitives: Primitives,
 }
 
-/// What a material's glow weighs.
-struct Weigher<'a> {
+/// The emission of the materials in the choice among lights.
+struct EmissionWeights<'a> {
     material_table: &'a MaterialTable,
-    /// Mean radiance of each material that glows, W·m⁻²·sr⁻¹·nm⁻¹, as its strength over the view's interval counts in the choice
-    /// among lights, and which sides do.
-    glows: Vec<Option<(f64, EmissionSides)>>,
+    /// Of each material that emits.
+    emissions: Vec<Option<MeanEmission>>,
 }
 
-impl<'a> Weigher<'a> {
-    fn new(material_table: &'a MaterialTable, (low_nm, high_nm): (f64, f64), interval: TimeInterval) -> Self {
+/// The emission of a material in the choice among lights.
+#[derive(Clone, Copy)]
+struct MeanEmission {
+    /// Mean radiance, W·m⁻²·sr⁻¹·nm⁻¹, as its strength over the view's interval counts.
+    radiance: f64,
+    is_two_sided: bool,
+}
+
+impl<'a> EmissionWeights<'a> {
+    fn new(material_table: &'a MaterialTable, range: WavelengthRange, interval: TimeInterval) -> Self {
         let counts = |e: &Emission| e.modulation.as_ref().map_or(1.0, |modulation| modulation.choice_level(interval));
-        let weigh = |e: &Emission| (e.mean_radiance(material_table.textures(), low_nm, high_nm) * counts(e), e.sides);
-        let glows = material_table.materials().iter().map(|m| m.emission.as_ref().map(weigh)).collect();
-        Self { material_table, glows }
+        let weigh = |e: &Emission| MeanEmission {
+            radiance: e.mean_radiance(material_table.textures(), range.low_nm, range.high_nm) * counts(e),
+            is_two_sided: e.sides == EmissionSides::Both,
+        };
+        let emissions = material_table.materials().iter().map(|m| m.emission.as_ref().map(weigh)).collect();
+        Self { material_table, emissions }
     }
 
-    fn glow(&self, material: MaterialId) -> Option<(f64, EmissionSides)> {
-        self.glows[material.0 as usize]
+    fn emission(&self, material: MaterialId) -> Option<MeanEmission> {
+        self.emissions[material.0 as usize]
     }
 }
 
 pub(super) fn of_surfaces(
     view: &RenderSpace<'_>,
     material_table: &MaterialTable,
-    support_nm: (f64, f64),
-) -> Result<Gathered, LightError> {
+    range: WavelengthRange,
+) -> Result<SceneLights, LightError> {
     let world = view.world();
-    let weigher = Weigher::new(material_table, support_nm, view.interval());
-    let mut gathered = Gathered::default();
+    let weights = EmissionWeights::new(material_table, range, view.interval());
+    let mut scene_lights = SceneLights::default();
     for (index, instance) in world.instances().iter().enumerate() {
-        check_materials(index, instance, &weigher)?;
-        if !instance.materials.iter().any(|material| weigher.glow(*material).is_some()) {
-            gathered.primitives.push([]);
+        check_materials(index, instance, &weights)?;
+        if !instance.materials.iter().any(|material| weights.emission(*material).is_some()) {
+            scene_lights.primitives.push([]);
             continue;
         }
         let place = Place::of(&instance.to_world, view);
         match instance.shape {
-            Shape::Mesh(id) => gathered.add_mesh(world.mesh(id), instance, &place, &weigher),
-            Shape::Sphere { radius_m } => gathered.add_sphere(radius_m, instance.materials[0], place, &weigher),
+            Shape::Mesh(id) => scene_lights.add_mesh(world.mesh(id), instance, &place, &weights),
+            Shape::Sphere { radius_m } => scene_lights.add_sphere(radius_m, instance.materials[0], place, &weights),
         }
     }
-    if gathered.lights.len() >= u32::MAX as usize { Err(LightError::TooMany) } else { Ok(gathered) }
+    if scene_lights.lights.len() >= u32::MAX as usize { Err(LightError::TooMany) } else { Ok(scene_lights) }
 }
 
-fn check_materials(index: usize, instance: &Instance, weigher: &Weigher<'_>) -> Result<(), LightError> {
-    let materials = weigher.material_table.materials().len();
+fn check_materials(index: usize, instance: &Instance, weights: &EmissionWeights<'_>) -> Result<(), LightError> {
+    let materials = weights.material_table.materials().len();
     match instance.materials.iter().find(|m| m.0 as usize >= materials) {
         Some(m) => Err(LightError::UnknownMaterial { instance: index, material: m.0, materials }),
         None => Ok(()),
@@ -111,7 +119,7 @@ fn check_materials(index: usize, instance: &Instance, weigher: &Weigher<'_>) -> 
 enum Place {
     /// To the render frame.
     Still(DAffine3),
-    Moving(Way),
+    Moving(LightMotion),
 }
 
 impl Place {
@@ -122,7 +130,7 @@ impl Place {
                 to_render.translation -= origin_m;
                 Self::Still(to_render)
             }
-            None => Self::Moving(Way { to_world: to_world.clone(), origin_m, interval }),
+            None => Self::Moving(LightMotion { to_world: to_world.clone(), origin_m, interval }),
         }
     }
 
@@ -130,7 +138,7 @@ impl Place {
     fn at_start(&self) -> DAffine3 {
         match self {
             Self::Still(to_render) => *to_render,
-            Self::Moving(way) => way.at(way.interval.start_s()),
+            Self::Moving(motion) => motion.at(motion.interval.start_s()),
         }
     }
 
@@ -138,23 +146,37 @@ impl Place {
     fn facets(
         &self,
         mesh: &Mesh,
-        (first, is_pair): (usize, bool),
+        first: usize,
+        is_pair: bool,
         material: MaterialId,
-        (radiance, both): (f64, bool),
+        emission: MeanEmission,
     ) -> Option<(Light, LightBounds)> {
+        let MeanEmission { radiance, is_two_sided } = emission;
         let pair = is_pair.then_some([first, first + 1]);
         match self {
             Self::Still(to_render) => {
-                let light = pair
-                    .and_then(|pair| TriangleLight::of_two(mesh, pair, to_render, material))
-                    .or_else(|| TriangleLight::new(mesh, first, to_render, material))?;
-                let bounds = light.bounds(radiance, both);
+                let parallelogram = match pair {
+                    Some(pair) => TriangleLight::of_two(mesh, pair, to_render, material),
+                    None => None,
+                };
+                let light = match parallelogram {
+                    Some(light) => light,
+                    None => TriangleLight::new(mesh, first, to_render, material)?,
+                };
+                let bounds = light.bounds(radiance, is_two_sided);
                 Some((Light::Triangle(light), bounds))
             }
-            Self::Moving(way) => {
-                let facets = pair.and_then(|pair| Facets::two(mesh, pair)).unwrap_or_else(|| Facets::one(mesh, first));
-                let light = MovingLight::of_facets(facets, way.clone(), material);
-                let bounds = light.bounds(radiance, both)?;
+            Self::Moving(motion) => {
+                let parallelogram = match pair {
+                    Some(pair) => Facets::two(mesh, pair),
+                    None => None,
+                };
+                let facets = match parallelogram {
+                    Some(facets) => facets,
+                    None => Facets::one(mesh, first),
+                };
+                let light = MovingLight::of_facets(facets, motion.clone(), material);
+                let bounds = light.bounds(radiance, is_two_sided)?;
                 Some((Light::Moving(Box::new(light)), bounds))
             }
         }
@@ -173,8 +195,8 @@ impl Place {
                 let bounds = light.bounds(radiance);
                 Some((Light::Sphere(light), bounds))
             }
-            Self::Moving(way) => {
-                let light = MovingLight::of_sphere(radius_m, way, material, material_table);
+            Self::Moving(motion) => {
+                let light = MovingLight::of_sphere(radius_m, motion, material, material_table);
                 let bounds = light.bounds(radiance, true)?;
                 Some((Light::Moving(Box::new(light)), bounds))
             }
@@ -182,17 +204,16 @@ impl Place {
     }
 }
 
-impl Gathered {
-    fn add_mesh(&mut self, mesh: &Mesh, instance: &Instance, place: &Place, weigher: &Weigher<'_>) {
+impl SceneLights {
+    fn add_mesh(&mut self, mesh: &Mesh, instance: &Instance, place: &Place, weights: &EmissionWeights<'_>) {
         let material = |primitive: usize| instance.materials[usize::from(mesh.slots()[primitive])];
         let count = mesh.triangles().len();
         let mut lights: Vec<Option<u32>> = Vec::with_capacity(count);
         while lights.len() < count {
             let first = lights.len();
-            let light = weigher.glow(material(first)).and_then(|(radiance, glow)| {
+            let light = weights.emission(material(first)).and_then(|emission| {
                 let is_pair = first + 1 < count && material(first + 1) == material(first);
-                let both = glow == EmissionSides::Both;
-                let (light, bounds) = place.facets(mesh, (first, is_pair), material(first), (radiance, both))?;
+                let (light, bounds) = place.facets(mesh, first, is_pair, material(first), emission)?;
                 Some((light.triangles(), self.add(bounds, light)))
             });
             let (triangles, light) = light.map_or((1, None), |(triangles, light)| (triangles, Some(light)));
@@ -201,9 +222,9 @@ impl Gathered {
         self.primitives.push(lights);
     }
 
-    fn add_sphere(&mut self, radius_m: f64, material: MaterialId, place: Place, weigher: &Weigher<'_>) {
-        let light = weigher.glow(material).and_then(|(radiance, _)| {
-            let (light, bounds) = place.sphere(radius_m, material, weigher.material_table, radiance)?;
+    fn add_sphere(&mut self, radius_m: f64, material: MaterialId, place: Place, weights: &EmissionWeights<'_>) {
+        let light = weights.emission(material).and_then(|emission| {
+            let (light, bounds) = place.sphere(radius_m, material, weights.material_table, emission.radiance)?;
             Some(self.add(bounds, light))
         });
         self.primitives.push([light]);
@@ -215,30 +236,30 @@ impl Gathered {
         lamp: Lamp,
         view: &RenderSpace<'_>,
         material_table: &MaterialTable,
-        support_nm: (f64, f64),
+        range: WavelengthRange,
     ) -> Result<(), LightError> {
         let opening = lamp.opening();
         let place = Place::of(lamp.to_world(), view);
-        let made = LampLight::new(lamp, (&place.at_start(), view.interval()), support_nm);
+        let light = LampLight::new(lamp, &place.at_start(), view.interval(), range);
         let Some((opening, instance)) = opening else {
             match place {
-                Place::Still(_) => self.add(made.bounds(), Light::Lamp(made)),
-                Place::Moving(way) => self.add_carried(CarriedLamp::of_point(way, made)),
+                Place::Still(_) => self.add(light.bounds(), Light::Lamp(light)),
+                Place::Moving(motion) => self.add_moving_lamp(MovingLamp::of_point(motion, light)),
             };
             return Ok(());
         };
-        let light = opened(made, (opening, instance), view, material_table)?;
+        let light = opening_light(light, opening, instance, view, material_table)?;
         let primitives = light.primitives();
         let added = match place {
             Place::Still(_) => self.add(light.bounds(), Light::Opening(light)),
-            Place::Moving(way) => self.add_carried(CarriedLamp::of_opening(way, light)),
+            Place::Moving(motion) => self.add_moving_lamp(MovingLamp::of_opening(motion, light)),
         };
         self.primitives.assign(instance, primitives, added);
         Ok(())
     }
 
-    fn add_carried(&mut self, lamp: CarriedLamp) -> u32 {
-        self.add(lamp.bounds(), Light::Carried(Box::new(lamp)))
+    fn add_moving_lamp(&mut self, lamp: MovingLamp) -> u32 {
+        self.add(lamp.bounds(), Light::MovingLamp(Box::new(lamp)))
     }
 
     pub(super) fn add(&mut self, bounds: LightBounds, light: Light) -> u32 {
@@ -249,9 +270,10 @@ impl Gathered {
 }
 
 /// A lamp with the instance of the world that is its opening, at the start of the view's interval.
-fn opened(
+fn opening_light(
     lamp: LampLight,
-    (opening, instance): (Opening, u32),
+    opening: Opening,
+    instance: u32,
     view: &RenderSpace<'_>,
     material_table: &MaterialTable,
 ) -> Result<OpeningLight, LightError> {
@@ -260,11 +282,14 @@ fn opened(
     let [material] = placed.materials[..] else { return Err(fault) };
     let to_render = Place::of(&placed.to_world, view).at_start();
     let light = match placed.shape {
-        Shape::Mesh(id) => OpeningLight::of_mesh(lamp, opening, (view.world().mesh(id), &to_render), material),
+        Shape::Mesh(id) => OpeningLight::of_mesh(lamp, opening, view.world().mesh(id), &to_render, material),
         Shape::Sphere { radius_m } => {
             let sphere = SphereLight::new(radius_m, &to_render, material, material_table);
             Some(OpeningLight::of_sphere(lamp, opening, sphere))
         }
     };
-    light.filter(|_| material_table.emission(material).is_none()).ok_or(fault)
+    match light {
+        Some(light) if material_table.emission(material).is_none() => Ok(light),
+        _ => Err(fault),
+    }
 }

@@ -9,11 +9,11 @@
 use core::f32::consts::{PI, TAU};
 use etendue_core::distribution::Distribution2;
 use etendue_core::maths::f32::{acos, atan2, sin_cos};
-use etendue_core::{Spectral, Wavelengths, maths};
+use etendue_core::{Spectral, WavelengthRange, Wavelengths, maths};
 use etendue_spectra::{Spectrum, upsample};
 use glam::{DVec3, Vec2, Vec3};
 
-use super::patches::patches;
+use super::patches::{EnvironmentCell, patches};
 use super::sky::SkyEnvironment;
 use super::{BRIGHTEST, LightSample};
 
@@ -31,18 +31,18 @@ pub enum Environment {
 impl Environment {
     /// Irradiance by which the surroundings are drawn beside suns that give `of_suns`, W·m⁻²·nm⁻¹; 0 where they are not: that of their bright patches,
     /// and of all else what is beyond that of the suns. Scattered rays meet what is even as well as draws do.
-    pub(super) fn drawn_irradiance(&self, (low_nm, high_nm): (f64, f64), of_suns: f64) -> f64 {
+    pub(super) fn drawn_irradiance(&self, range: WavelengthRange, of_suns: f64) -> f64 {
         let (mean, patches) = match self {
             Self::Uniform(_) => return 0.0,
-            Self::Image(image) => (image.mean_irradiance(low_nm, high_nm), image.patches),
-            Self::Sky(sky) => (sky.mean_irradiance(low_nm, high_nm), sky.patches),
+            Self::Image(image) => (image.mean_irradiance(range.low_nm, range.high_nm), image.patches),
+            Self::Sky(sky) => (sky.mean_irradiance(range.low_nm, range.high_nm), sky.patches),
         };
         mean * patches + (mean * (1.0 - patches) - of_suns).max(0.0)
     }
 
     /// Radiance from a direction, and the density by which it would be drawn, 1/sr, which is asked for only where it is
     /// `wanted`.
-    pub(super) fn seen<const N: usize>(
+    pub(super) fn radiance_and_pdf<const N: usize>(
         &self,
         direction: Vec3,
         wanted: bool,
@@ -139,7 +139,8 @@ impl ImageEnvironment {
     /// # Errors
     /// Where the texels do not fill the picture, one is not light, or all are black.
     pub fn new(
-        (width, height): (usize, usize),
+        width: usize,
+        height: usize,
         texels: Vec<[f32; 3]>,
         luminance_scale: f64,
         rotation_rad: f64,
@@ -163,9 +164,10 @@ impl ImageEnvironment {
         let mean_luminance = luminance_scale * distribution.mean() / solid_angle_mean;
         let rotation_turns = (rotation_rad / core::f64::consts::TAU).rem_euclid(1.0) as f32;
         let scale = luminance_scale as f32;
-        let patches = patches(
-            weights.iter().enumerate().map(|(k, w)| (f64::from(*w), solid_angle(k / width, height) / width as f64)),
-        );
+        let patches = patches(weights.iter().enumerate().map(|(k, weight)| EnvironmentCell {
+            weight: f64::from(*weight),
+            solid_angle: solid_angle(k / width, height) / width as f64,
+        }));
         Ok(Self { width, height, texels, scale, rotation_turns, distribution, mean_luminance, patches })
     }
 
@@ -272,7 +274,7 @@ mod tests {
 
     fn gradient(width: usize, height: usize, rotation_rad: f64) -> ImageEnvironment {
         let texels = (0..width * height).map(|i| [(i % 7) as f32, (i % 5) as f32, 0.5]).collect();
-        ImageEnvironment::new((width, height), texels, 1.0, rotation_rad).expect("surroundings")
+        ImageEnvironment::new(width, height, texels, 1.0, rotation_rad).expect("surroundings")
     }
 
     #[test]
@@ -322,7 +324,7 @@ mod tests {
     fn whatever_shines_can_be_drawn() {
         let mut texels = vec![[0.0; 3]; 32];
         texels[12] = [0.0, 0.0, 3.0];
-        let e = ImageEnvironment::new((8, 4), texels, 1.0, 0.0).expect("one star");
+        let e = ImageEnvironment::new(8, 4, texels, 1.0, 0.0).expect("one star");
         let w = Wavelengths::<1>::uniform(400.0, 700.0, 0.2);
         for i in 0..4096 {
             let u = Vec2::new(((i % 64) as f32 + 0.5) / 64.0, ((i / 64) as f32 + 0.5) / 64.0);
@@ -333,7 +335,7 @@ mod tests {
 
     #[test]
     fn faulty_surroundings_are_refused() {
-        let of = |texels: Vec<[f32; 3]>, scale| ImageEnvironment::new((2, 1), texels, scale, 0.0).err();
+        let of = |texels: Vec<[f32; 3]>, scale| ImageEnvironment::new(2, 1, texels, scale, 0.0).err();
         assert!(matches!(of(vec![[1.0; 3]], 1.0), Some(EnvironmentError::Size { .. })));
         assert_eq!(of(vec![[1.0; 3], [-1.0; 3]], 1.0), Some(EnvironmentError::Texel { texel: 1 }));
         assert_eq!(of(vec![[0.0; 3]; 2], 1.0), Some(EnvironmentError::Black));

@@ -11,8 +11,7 @@
 use core::f32::consts::{FRAC_1_PI, PI};
 use glam::{Mat3, Vec3};
 
-use super::four::{Four, at_least, at_most, each};
-use crate::materials::{About, Gloss, GlossLobe, ShadingFrame, TOLD, schlick};
+use crate::materials::{Gloss, GlossLobe, LobeCentre, ShadingFrame, TOLD, schlick};
 
 /// Share of what the lobes send back that the matt part counts at least.
 const LEAST: f32 = 0.05;
@@ -43,10 +42,18 @@ pub struct ReceiverGloss {
     lobes: [Lobe; TOLD],
 }
 
+/// Directions about a unit axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct DirectionCone {
+    pub(super) axis: Vec3,
+    /// Of the half angle.
+    pub(super) sin: f32,
+}
+
 /// A lobe relative to the matt part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Lobe {
-    about: About,
+    about: LobeCentre,
     width2: f32,
     peak: f32,
     f0: f32,
@@ -68,14 +75,14 @@ impl ReceiverGloss {
         let (viewer, normal) = (frame.turned_outward(frame.wo), frame.normal());
         let along =
             (viewer - normal * viewer.dot(normal)).try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
-        let lobe = |told: &GlossLobe| Lobe {
-            about: match told.about {
-                About::HalfVector => About::HalfVector,
-                About::Direction(axis) => About::Direction(frame.turned_outward(axis)),
+        let lobe = |lobe: &GlossLobe| Lobe {
+            about: match lobe.about {
+                LobeCentre::HalfVector => LobeCentre::HalfVector,
+                LobeCentre::Direction(axis) => LobeCentre::Direction(frame.turned_outward(axis)),
             },
-            width2: told.width * told.width,
-            peak: told.peak / matt,
-            f0: told.f0,
+            width2: lobe.width * lobe.width,
+            peak: lobe.peak / matt,
+            f0: lobe.f0,
         };
         let lobes = core::array::from_fn(|i| lobe(&gloss.lobes[i]));
         Some(Self { viewer, normal, along, across: normal.cross(along), lobes })
@@ -84,8 +91,8 @@ impl ReceiverGloss {
     /// The same gloss turned by a rotation.
     pub(super) fn turned(&self, rotation: &Mat3) -> Self {
         let lobe = |lobe: &Lobe| match lobe.about {
-            About::HalfVector => *lobe,
-            About::Direction(axis) => Lobe { about: About::Direction(*rotation * axis), ..*lobe },
+            LobeCentre::HalfVector => *lobe,
+            LobeCentre::Direction(axis) => Lobe { about: LobeCentre::Direction(*rotation * axis), ..*lobe },
         };
         let [viewer, normal, along, across] =
             [self.viewer, self.normal, self.along, self.across].map(|axis| *rotation * axis);
@@ -105,8 +112,8 @@ impl ReceiverGloss {
         let mut sum = [0.0; 4];
         for lobe in self.lobes.iter().filter(|lobe| lobe.peak > 0.0) {
             let of = match lobe.about {
-                About::HalfVector => self.of_half_vectors(lobe, directions, sin),
-                About::Direction(axis) => of_direction(lobe, axis, directions, sin),
+                LobeCentre::HalfVector => self.of_half_vectors(lobe, directions, sin),
+                LobeCentre::Direction(axis) => of_direction(lobe, axis, directions, sin),
             };
             sum = each(|i| sum[i] + of[i]);
         }
@@ -116,27 +123,29 @@ impl ReceiverGloss {
     /// About the most that lobes send of light from one place in a cone about the unit `direction` whose half angle has the sine
     /// `sin`, or anywhere where there is no cone, relative to what the matt part sends of light from above; 0 for lobes too narrow
     /// to be told apart.
-    pub(super) fn greatest(&self, cone: Option<(Vec3, f32)>) -> f32 {
+    pub(super) fn greatest(&self, cone: Option<DirectionCone>) -> f32 {
         self.lobes.iter().map(|lobe| self.greatest_of(lobe, cone)).sum()
     }
 
-    fn greatest_of(&self, lobe: &Lobe, cone: Option<(Vec3, f32)>) -> f32 {
+    fn greatest_of(&self, lobe: &Lobe, cone: Option<DirectionCone>) -> f32 {
         if lobe.peak <= 0.0 || lobe.width2 < RESOLVED * RESOLVED {
             return 0.0;
         }
         let at_axis = schlick(lobe.f0, self.viewer.dot(self.normal));
         let (aside2, fresnel) = match (lobe.about, cone) {
-            (About::HalfVector, None) => (0.0, at_axis),
-            (About::HalfVector, Some((direction, sin))) if sin > WIDE => (self.least_aside2(direction, sin), at_axis),
-            (About::HalfVector, Some((direction, sin))) => {
+            (LobeCentre::HalfVector, None) => (0.0, at_axis),
+            (LobeCentre::HalfVector, Some(DirectionCone { axis: direction, sin })) if sin > WIDE => {
+                (self.least_aside2(direction, sin), at_axis)
+            }
+            (LobeCentre::HalfVector, Some(DirectionCone { axis: direction, sin })) => {
                 let half = self.viewer + direction;
                 let height = half.dot(self.normal).max(LOWEST);
                 let outside = |of: Vec3, reach: f32| (half.dot(of).abs() / height - reach).max(0.0);
                 let (along, across) = (outside(self.along, 0.5 * sin), outside(self.across, sin / height));
                 (along * along + across * across, schlick(lobe.f0, 0.5 * half.length()))
             }
-            (About::Direction(_), None) => (0.0, 1.0),
-            (About::Direction(axis), Some((direction, sin))) => {
+            (LobeCentre::Direction(_), None) => (0.0, 1.0),
+            (LobeCentre::Direction(axis), Some(DirectionCone { axis: direction, sin })) => {
                 let reach = (2.0 - 2.0 * (1.0 - sin * sin).max(0.0).sqrt()).sqrt();
                 let outside = ((direction - axis).length() - reach).max(0.0);
                 (outside * outside, 1.0)
@@ -206,8 +215,8 @@ const LOWEST: f32 = 1e-4;
 fn brightness(lobe: &GlossLobe, cos_o: f32) -> f32 {
     let at_axis = lobe.peak * lobe.fresnel_at_axis(cos_o);
     match lobe.about {
-        About::HalfVector => at_axis,
-        About::Direction(axis) => at_axis / axis.z.max(LOWEST),
+        LobeCentre::HalfVector => at_axis,
+        LobeCentre::Direction(axis) => at_axis / axis.z.max(LOWEST),
     }
 }
 
@@ -216,9 +225,30 @@ fn albedo(lobe: &GlossLobe, cos_o: f32) -> f32 {
     let solid = PI * lobe.width * lobe.width;
     match lobe.about {
         // Directions move twice as far as half vectors, and about the mirror direction across only cos θ as much.
-        About::HalfVector => 4.0 * solid * cos_o * lobe.peak * lobe.fresnel_at_axis(cos_o),
-        About::Direction(_) => solid * lobe.peak,
+        LobeCentre::HalfVector => 4.0 * solid * cos_o * lobe.peak * lobe.fresnel_at_axis(cos_o),
+        LobeCentre::Direction(_) => solid * lobe.peak,
     }
+}
+
+/// What goes side by side.
+pub(super) type Four = [f32; 4];
+
+/// Each of the four by its place.
+#[inline(always)]
+pub(super) fn each(f: impl Fn(usize) -> f32) -> Four {
+    [f(0), f(1), f(2), f(3)]
+}
+
+/// The greater of two numbers, as one instruction.
+#[inline(always)]
+pub(super) fn at_least(x: f32, low: f32) -> f32 {
+    if x > low { x } else { low }
+}
+
+/// The smaller of two numbers, as one instruction.
+#[inline(always)]
+pub(super) fn at_most(x: f32, high: f32) -> f32 {
+    if x < high { x } else { high }
 }
 
 #[cfg(test)]
@@ -237,7 +267,7 @@ mod tests {
     }
 
     /// A surface facing up with one lobe that mirrors all light, so that Fresnel's factor is 1 everywhere.
-    fn mirror(viewer: Vec3, width: f32, about: About) -> ReceiverGloss {
+    fn mirror(viewer: Vec3, width: f32, about: LobeCentre) -> ReceiverGloss {
         let along = Vec3::new(viewer.x, viewer.y, 0.0).normalize();
         let lobe = Lobe { about, width2: width * width, peak: 1e4, f0: 1.0 };
         let none = Lobe { peak: 0.0, ..lobe };
@@ -252,7 +282,7 @@ mod tests {
             let viewer = direction(i, 0);
             let viewer = Vec3::new(viewer.x, viewer.y, viewer.z.abs().max(0.02)).normalize();
             let width = [0.01, 0.06, 0.3][i as usize % 3];
-            let about = if i % 2 == 0 { About::HalfVector } else { About::Direction(direction(i, 2)) };
+            let about = if i % 2 == 0 { LobeCentre::HalfVector } else { LobeCentre::Direction(direction(i, 2)) };
             let gloss = mirror(viewer, width, about);
             let (axis, sin) = (direction(i, 4), 0.2 + 0.8 * number(i, 6));
             let least = (1.0 - sin * sin).max(0.0).sqrt();
@@ -262,7 +292,8 @@ mod tests {
                 direction(i, 7) * if i % 4 < 2 { 1.0 } else { 0.1 } + mirrored * if i % 4 < 2 { 0.0 } else { 1.0 };
             let light = light.normalize();
             if light.dot(axis) >= least && light.z > 0.0 {
-                let (counts, greatest) = (gloss.relative(light, 0.0), gloss.greatest(Some((axis, sin))));
+                let (counts, greatest) =
+                    (gloss.relative(light, 0.0), gloss.greatest(Some(DirectionCone { axis, sin })));
                 // Some roundings of f32 in half vectors near grazing.
                 assert!(counts <= 1.01 * greatest, "{i}: {counts} of at most {greatest}");
                 assert!(counts <= 1.01 * gloss.greatest(None), "{i}: {counts} all around");

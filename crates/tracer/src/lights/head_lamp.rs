@@ -16,7 +16,7 @@
 
 use etendue_core::maths;
 
-use super::profile::{Web, WebAxes};
+use super::profile::{PhotometricAxes, PhotometricGrid};
 
 /// The side of the road that traffic keeps to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,13 +29,13 @@ pub enum Traffic {
 
 /// A low beam, cd.
 #[must_use]
-pub fn low_beam(traffic: Traffic) -> Web {
+pub fn low_beam(traffic: Traffic) -> PhotometricGrid {
     grid(|v, h| low(v, mirrored(h, traffic)))
 }
 
 /// A high beam, cd.
 #[must_use]
-pub fn high_beam() -> Web {
+pub fn high_beam() -> PhotometricGrid {
     grid(|v, h| 52_000.0 * bell(h, 3.5) * bell(v, 1.5) + 6_000.0 * bell(h, 12.0) * bell(v + 0.5, 3.5))
 }
 
@@ -74,11 +74,12 @@ fn angles(fine: f64, near: f64, most: f64) -> Vec<f64> {
     right.iter().skip(1).rev().map(|a| -a).chain(right.iter().copied()).collect()
 }
 
-fn grid(candela: impl Fn(f64, f64) -> f64) -> Web {
+fn grid(candela: impl Fn(f64, f64) -> f64) -> PhotometricGrid {
     let (vertical, horizontal) = (angles(0.05, 2.0, 30.0), angles(0.2, 6.0, 75.0));
     let values = horizontal.iter().flat_map(|h| vertical.iter().map(|v| candela(*v, *h) as f32).collect::<Vec<_>>());
     let (rows, columns) = (vertical.iter().map(|v| *v as f32), horizontal.iter().map(|h| *h as f32));
-    Web::new(WebAxes::A, rows.collect(), columns.collect(), values.collect()).expect("rising angles and finite values")
+    PhotometricGrid::new(PhotometricAxes::A, rows.collect(), columns.collect(), values.collect())
+        .expect("rising angles and finite values")
 }
 
 #[cfg(test)]
@@ -89,8 +90,8 @@ mod tests {
     #[test]
     fn beams_are_as_strong_as_lamps_are() {
         for (lamp, peak, flux) in [
-            (Profile::Web(low_beam(Traffic::Right)), 25e3..30e3, 700.0..1000.0),
-            (Profile::Web(high_beam()), 50e3..70e3, 700.0..1100.0),
+            (Profile::PhotometricGrid(low_beam(Traffic::Right)), 25e3..30e3, 700.0..1000.0),
+            (Profile::PhotometricGrid(high_beam()), 50e3..70e3, 700.0..1100.0),
         ] {
             assert!(peak.contains(&lamp.peak()) && flux.contains(&lamp.flux_sr()), "{lamp:?}");
         }

@@ -11,7 +11,7 @@
 
 use std::sync::Arc;
 
-use etendue_core::{Motion, Spectral, TimeInterval, Waveform, Wavelengths, maths};
+use etendue_core::{Motion, Spectral, TimeInterval, Waveform, WavelengthRange, maths};
 use etendue_spectra::Spectrum;
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 
@@ -20,7 +20,7 @@ use super::opening::Opening;
 use super::profile::Profile;
 use super::tree::LightBounds;
 use super::{BRIGHTEST, LightSample, LightSampleContext};
-use crate::materials::choice_level;
+use crate::materials::{EmissionQuery, choice_level};
 
 /// Why a lamp is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -211,16 +211,12 @@ pub(super) struct LampLight {
 
 impl LampLight {
     /// The lamp where `to_render` places it, from its frame to the render frame, in a view of an `interval`.
-    pub(super) fn new(
-        lamp: Lamp,
-        (to_render, interval): (&DAffine3, TimeInterval),
-        (low_nm, high_nm): (f64, f64),
-    ) -> Self {
+    pub(super) fn new(lamp: Lamp, to_render: &DAffine3, interval: TimeInterval, range: WavelengthRange) -> Self {
         let counts = lamp.modulation().map_or(1.0, |modulation| choice_level(modulation, interval));
         Self {
             position: to_render.translation.as_vec3(),
             to_lamp: to_render.matrix3.transpose().as_mat3(),
-            mean_intensity: (lamp.intensity.band_mean(low_nm, high_nm) * counts) as f32,
+            mean_intensity: (lamp.intensity.band_mean(range.low_nm, range.high_nm) * counts) as f32,
             attenuation: lamp.attenuation_per_m as f32,
             intensity: lamp.intensity,
             profile: lamp.profile,
@@ -285,20 +281,16 @@ impl LampLight {
     }
 
     /// Spectral intensity along the unit `direction` of the lamp's frame, W·sr⁻¹·nm⁻¹.
-    pub(super) fn intensity_along<const N: usize>(
-        &self,
-        direction: Vec3,
-        asked: (&Wavelengths<N>, &TimeInterval),
-    ) -> Spectral<N> {
-        self.intensity(asked) * self.profile.value(direction)
+    pub(super) fn intensity_along<const N: usize>(&self, direction: Vec3, query: EmissionQuery<'_, N>) -> Spectral<N> {
+        self.intensity(query) * self.profile.value(direction)
     }
 
     /// Spectral intensity where the profile is 1, W·sr⁻¹·nm⁻¹, averaged over a time.
-    fn intensity<const N: usize>(&self, (wavelengths, lit): (&Wavelengths<N>, &TimeInterval)) -> Spectral<N> {
-        let intensity = self.intensity.sample(wavelengths);
+    fn intensity<const N: usize>(&self, query: EmissionQuery<'_, N>) -> Spectral<N> {
+        let intensity = self.intensity.sample(query.wavelengths);
         match &self.modulation {
             None => intensity,
-            Some(modulation) => intensity * (modulation.mean(*lit) as f32),
+            Some(modulation) => intensity * (modulation.mean(*query.interval) as f32),
         }
     }
 
@@ -312,13 +304,9 @@ impl LampLight {
         (factor > 0.0 && factor.is_finite()).then_some((direction, factor))
     }
 
-    pub(super) fn sample<const N: usize>(
-        &self,
-        from: Vec3,
-        asked: (&Wavelengths<N>, &TimeInterval),
-    ) -> Option<LightSample<N>> {
+    pub(super) fn sample<const N: usize>(&self, from: Vec3, query: EmissionQuery<'_, N>) -> Option<LightSample<N>> {
         let (direction, factor) = self.reach(from)?;
-        let radiance = self.intensity(asked) * factor;
+        let radiance = self.intensity(query) * factor;
         let target = Some(self.position);
         Some(LightSample { direction, target, radiance, pdf: 1.0, delta: true, surrounds: false })
     }

@@ -1,8 +1,7 @@
 //! A light in the scene: the closed list.
 
-use super::carried::CarriedLamp;
 use super::lamp::LampLight;
-use super::moving::MovingLight;
+use super::moving::{MovingLamp, MovingLight};
 use super::opening_light::OpeningLight;
 use super::sphere::SphereLight;
 use super::triangle::TriangleLight;
@@ -15,7 +14,7 @@ pub(super) enum Light {
     Lamp(LampLight),
     Opening(OpeningLight),
     Moving(Box<MovingLight>),
-    Carried(Box<CarriedLamp>),
+    MovingLamp(Box<MovingLamp>),
 }
 
 impl Light {
@@ -31,7 +30,7 @@ impl Light {
     pub(super) fn is_point(&self) -> bool {
         match self {
             Self::Lamp(_) => true,
-            Self::Carried(lamp) => !lamp.is_open(),
+            Self::MovingLamp(lamp) => !lamp.is_open(),
             _ => false,
         }
     }
@@ -40,7 +39,7 @@ impl Light {
     pub(super) fn is_open(&self) -> bool {
         match self {
             Self::Opening(_) => true,
-            Self::Carried(lamp) => lamp.is_open(),
+            Self::MovingLamp(lamp) => lamp.is_open(),
             _ => false,
         }
     }
@@ -51,5 +50,39 @@ impl Light {
             Self::Moving(light) => light.triangles(),
             _ => 0,
         }
+    }
+}
+
+const NONE: u32 = u32::MAX;
+
+/// The light of every primitive of the instances that glow.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Primitives {
+    /// For each instance the place of its first primitive in `lights`, `NONE` where it does not glow.
+    first: Vec<u32>,
+    lights: Vec<u32>,
+}
+
+impl Primitives {
+    /// Adds the next instance: one entry a primitive, empty where none of them glows.
+    pub(super) fn push(&mut self, lights: impl IntoIterator<Item = Option<u32>>) {
+        let first = self.lights.len();
+        self.lights.extend(lights.into_iter().map(|l| l.unwrap_or(NONE)));
+        self.first.push(if self.lights.len() > first { first as u32 } else { NONE });
+    }
+
+    /// Tells that all `count` primitives of an instance that does not glow by itself are one light.
+    pub(super) fn assign(&mut self, instance: u32, count: usize, light: u32) {
+        self.first[instance as usize] = self.lights.len() as u32;
+        self.lights.extend(core::iter::repeat_n(light, count));
+    }
+
+    pub(super) fn light(&self, instance: u32, primitive: u32) -> Option<usize> {
+        let first = self.first[instance as usize];
+        if first == NONE {
+            return None;
+        }
+        let light = self.lights[(first + primitive) as usize];
+        (light != NONE).then_some(light as usize)
     }
 }

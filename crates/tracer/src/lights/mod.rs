@@ -14,54 +14,47 @@
 //!   dark throughout that interval is never drawn; what others count in the choice is their level over it
 //!   ([`crate::materials::choice_level`]).
 
-mod along;
-mod carried;
-mod choice;
 mod collect;
 mod environment;
-mod four;
 mod gloss;
 pub mod head_lamp;
 mod lamp;
+mod lamp_along_ray;
 mod light;
-mod light_counts;
 mod light_sample;
+mod light_sampler;
 mod moving;
 mod near;
 mod opening;
 mod opening_light;
 mod patches;
 mod power;
-mod primitives;
 mod profile;
-mod sample_context;
 mod scene_lights;
 mod sky;
-mod sources;
 mod sphere;
-mod spherical;
 mod sun;
 pub mod sun_position;
 mod surface;
 mod tree;
 mod triangle;
-mod way;
 
 use light::Light;
-use surface::{Glowing, ROUNDING, SurfaceSample, solid_angle_pdf};
+use surface::{ROUNDING, SurfaceEmission, SurfaceSample, solid_angle_pdf};
 
-pub use crate::limit::BRIGHTEST;
+pub use crate::BRIGHTEST;
 pub use collect::LightError;
 pub use environment::{Environment, EnvironmentError, ImageEnvironment};
 pub use gloss::ReceiverGloss;
 pub use lamp::{Lamp, LampError};
-pub use light_counts::LightCounts;
-pub use light_sample::{DistantLight, LightHit, LightSample};
+pub(crate) use lamp_along_ray::RaySegment;
+pub use light_sample::{DistantLight, LightHit, LightSample, LightSampleContext};
 pub use opening::{Opening, OpeningBody, OpeningError};
 pub use power::spectral_fluxes;
-pub use profile::{Cone, ConeError, MaskImage, MaskImageError, Masked, Profile, Web, WebAxes, WebError};
-pub use sample_context::LightSampleContext;
-pub use scene_lights::Lights;
+pub use profile::{
+    Cone, ConeError, MaskImage, MaskImageError, MaskedProfile, PhotometricAxes, PhotometricGrid, PhotometricGridError,
+    Profile,
+};
+pub use scene_lights::{LightCounts, Lights, Sources};
 pub use sky::SkyEnvironment;
-pub use sources::Sources;
 pub use sun::{SUN_ANGULAR_DIAMETER_DEG, Sun, SunError};

@@ -1,24 +1,27 @@
-//! Glowing surfaces that move: each is asked as the light that it is at the receiver's time.
+//! Lights that move: emitting surfaces and lamps. Each is evaluated as the light that it is at the receiver's time.
 //!
 //! What the choice among lights knows of one holds for the whole interval of the view, and so does the probability of its choice;
-//! everything else, drawn or met, is that of the light made for the moment.
+//! everything else, drawn or hit, is that of the light made for the moment.
 
-use super::light_sample::{LightHit, LightSample};
-use super::sample_context::LightSampleContext;
+use core::f32::consts::PI;
+use etendue_core::{Motion, Spectral, TimeInterval};
+use glam::{DAffine3, DVec3, Vec2, Vec3};
+
+use super::lamp::LampLight;
+use super::light_sample::{LampIrradiance, LightHit, LightSample, LightSampleContext};
+use super::opening_light::OpeningLight;
 use super::sphere::{SphereLight, SphereLook};
 use super::tree::LightBounds;
 use super::triangle::{Facets, TriangleLight};
-use super::way::Way;
 use crate::MaterialId;
-use crate::materials::MaterialTable;
-use etendue_core::{TimeInterval, Wavelengths};
-use glam::{DVec3, Vec2};
+use crate::geometry::SurfacePoint;
+use crate::materials::{EmissionQuery, MaterialTable};
 
 /// A triangle, a parallelogram or a sphere in motion.
 #[derive(Clone, Debug)]
 pub(super) struct MovingLight {
     shape: Shape,
-    way: Way,
+    motion: LightMotion,
     material: MaterialId,
 }
 
@@ -29,12 +32,17 @@ enum Shape {
 }
 
 impl MovingLight {
-    pub(super) fn of_facets(facets: Facets, way: Way, material: MaterialId) -> Self {
-        Self { shape: Shape::Facets(facets), way, material }
+    pub(super) fn of_facets(facets: Facets, motion: LightMotion, material: MaterialId) -> Self {
+        Self { shape: Shape::Facets(facets), motion, material }
     }
 
-    pub(super) fn of_sphere(radius_m: f64, way: Way, material: MaterialId, material_table: &MaterialTable) -> Self {
-        Self { shape: Shape::Sphere { radius_m, look: SphereLook::of(material, material_table) }, way, material }
+    pub(super) fn of_sphere(
+        radius_m: f64,
+        motion: LightMotion,
+        material: MaterialId,
+        material_table: &MaterialTable,
+    ) -> Self {
+        Self { shape: Shape::Sphere { radius_m, look: SphereLook::of(material, material_table) }, motion, material }
     }
 
     /// How many triangles it is.
@@ -48,18 +56,20 @@ impl MovingLight {
     /// For the choice among lights, at a mean radiance, `both` sides of triangles glow or only the front; `None` where it has no
     /// area at any moment.
     pub(super) fn bounds(&self, radiance: f64, both: bool) -> Option<LightBounds> {
-        let Way { to_world, interval, .. } = &self.way;
+        let LightMotion { to_world, interval, .. } = &self.motion;
         match &self.shape {
             Shape::Facets(facets) => {
-                let moments = self.way.moments().filter_map(|place| facets.light(&place, self.material));
+                let moments = self.motion.moments().filter_map(|place| facets.light(&place, self.material));
                 let bounds = moments.map(|light| light.bounds(radiance, both)).collect();
-                self.way.bounds(bounds, to_world.bounds_over(*interval, facets.own_box()))
+                let (low, high) = to_world.bounds_over(*interval, facets.own_box());
+                self.motion.bounds(bounds, low, high)
             }
             Shape::Sphere { radius_m, look } => {
                 let moments =
-                    self.way.moments().map(|place| SphereLight::seen(*radius_m, &place, self.material, *look));
+                    self.motion.moments().map(|place| SphereLight::with_look(*radius_m, &place, self.material, *look));
                 let bounds = moments.map(|light| light.bounds(radiance)).collect();
-                self.way.bounds(bounds, to_world.bounds_of_ball(*interval, DVec3::ZERO, *radius_m))
+                let (low, high) = to_world.bounds_of_ball(*interval, DVec3::ZERO, *radius_m);
+                self.motion.bounds(bounds, low, high)
             }
         }
     }
@@ -71,31 +81,31 @@ impl MovingLight {
         u: Vec2,
         spread_rad: f32,
         material_table: &MaterialTable,
-        asked: (&Wavelengths<N>, &TimeInterval),
+        query: EmissionQuery<'_, N>,
     ) -> Option<LightSample<N>> {
         let from = receiver.position;
-        let (glowing, drawn) = match self.at(receiver.time_s)? {
+        let (emission, sample) = match self.at(receiver.time_s)? {
             Moment::Triangle(light) => (light.glowing(material_table), light.sample(from, u)?),
             Moment::Sphere(light) => (light.glowing(material_table), light.sample(from, u)?),
         };
-        glowing.towards(&drawn, from, spread_rad, asked)
+        emission.towards(&sample, from, spread_rad, query)
     }
 
-    /// Density of what was met, without the probability of the choice, 1/sr.
-    pub(super) fn pdf(&self, met: &LightHit<'_>) -> f32 {
-        match self.at(met.point.time_s) {
-            Some(Moment::Triangle(light)) => light.pdf(met),
-            Some(Moment::Sphere(light)) => light.pdf(met),
+    /// Density of what was hit, without the probability of the choice, 1/sr.
+    pub(super) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
+        match self.at(hit.point.time_s) {
+            Some(Moment::Triangle(light)) => light.pdf(hit),
+            Some(Moment::Sphere(light)) => light.pdf(hit),
             None => 0.0,
         }
     }
 
     fn at(&self, time_s: f32) -> Option<Moment> {
-        let place = self.way.at(self.way.interval.moment(time_s));
+        let place = self.motion.at(self.motion.interval.moment(time_s));
         match &self.shape {
             Shape::Facets(facets) => Some(Moment::Triangle(facets.light(&place, self.material)?)),
             Shape::Sphere { radius_m, look } => {
-                Some(Moment::Sphere(SphereLight::seen(*radius_m, &place, self.material, *look)))
+                Some(Moment::Sphere(SphereLight::with_look(*radius_m, &place, self.material, *look)))
             }
         }
     }
@@ -105,6 +115,228 @@ impl MovingLight {
 enum Moment {
     Triangle(TriangleLight),
     Sphere(SphereLight),
+}
+
+// Lamps that move, as points or with an opening.
+//
+// A lamp moves without changing its shape, so that its light of a moment is that of the lamp at the interval's start, asked for
+// from where the receiver would be had it moved back with the lamp: nothing of the lamp is made anew. The surface of an opening
+// is an instance of the world and moves as such. What the choice among clusters of lights knows of a lamp holds for the whole
+// interval; what the lamp by itself counts is that of the receiver's time.
+
+/// A lamp in motion.
+#[derive(Clone, Debug)]
+pub(super) struct MovingLamp {
+    motion: LightMotion,
+    /// To the render frame at the interval's start, from the lamp's.
+    start: DAffine3,
+    lamp: LampAtStart,
+}
+
+/// The lamp where it is at the interval's start.
+#[derive(Clone, Debug)]
+enum LampAtStart {
+    Point(LampLight),
+    Opening(OpeningLight),
+}
+
+/// A rigid motion of the render frame, and back.
+struct RigidMotion {
+    forward: DAffine3,
+    back: DAffine3,
+}
+
+impl MovingLamp {
+    /// A lamp made for the interval's start.
+    pub(super) fn of_point(motion: LightMotion, lamp: LampLight) -> Self {
+        let start = motion.at(motion.interval.start_s());
+        Self { motion, start, lamp: LampAtStart::Point(lamp) }
+    }
+
+    /// A lamp with an opening made for the interval's start.
+    pub(super) fn of_opening(motion: LightMotion, opening: OpeningLight) -> Self {
+        let start = motion.at(motion.interval.start_s());
+        let reach = DVec3::splat(f64::from(opening.bounds().radius));
+        let (low, high) = motion.to_world.bounds_over(motion.interval, (-reach, reach));
+        let [low, high] = motion.render_box(low, high);
+        let farthest_m = low.abs().max(high.abs()).max_element();
+        Self { motion, start, lamp: LampAtStart::Opening(opening.carried_within(farthest_m)) }
+    }
+
+    /// Whether it has an opening.
+    pub(super) fn is_open(&self) -> bool {
+        matches!(self.lamp, LampAtStart::Opening(_))
+    }
+
+    /// Where a lamp without an opening is at a time, render frame, m, and its greatest intensity, W·sr⁻¹·nm⁻¹; of one with an opening 0.
+    pub(super) fn point(&self, time_s: f32) -> (Vec3, f32) {
+        let at = self.motion.at(self.motion.interval.moment(time_s)).translation.as_vec3();
+        match &self.lamp {
+            LampAtStart::Point(lamp) => (at, lamp.greatest()),
+            LampAtStart::Opening(_) => (at, 0.0),
+        }
+    }
+
+    /// For the choice among lights: a box of all the motion, the cone of the start opened by how far the lamp turns.
+    pub(super) fn bounds(&self) -> LightBounds {
+        let at_start = match &self.lamp {
+            LampAtStart::Point(lamp) => lamp.bounds(),
+            LampAtStart::Opening(opening) => opening.bounds(),
+        };
+        let LightMotion { to_world, interval, .. } = &self.motion;
+        let reach_m = f64::from(at_start.radius);
+        let (low, high) = to_world.bounds_of_ball(*interval, DVec3::ZERO, reach_m);
+        let [low, high] = self.motion.render_box(low, high);
+        let radius = (high * 0.5 - low * 0.5).length() * (1.0 + 1e-5);
+        LightBounds { low, high, radius, theta_o: (at_start.theta_o + self.motion.turning()).min(PI), ..at_start }
+    }
+
+    /// Mean irradiance at a receiver, at its time.
+    pub(super) fn irradiance(&self, receiver: &LightSampleContext) -> LampIrradiance {
+        let at_start = self.motion_since_start(receiver.time_s).receiver(receiver);
+        match &self.lamp {
+            LampAtStart::Point(lamp) => lamp.irradiance(&at_start),
+            LampAtStart::Opening(opening) => opening.irradiance(&at_start),
+        }
+    }
+
+    /// Light drawn for a receiver, without the probability of the choice.
+    pub(super) fn sample<const N: usize>(
+        &self,
+        receiver: &LightSampleContext,
+        u: Vec2,
+        query: EmissionQuery<'_, N>,
+    ) -> Option<LightSample<N>> {
+        let motion = self.motion_since_start(receiver.time_s);
+        let from = motion.point_back(receiver.position);
+        let drawn = match &self.lamp {
+            LampAtStart::Point(lamp) => lamp.sample(from, query),
+            LampAtStart::Opening(opening) => opening.sample(from, u, query),
+        }?;
+        let direction = motion.direction_forward(drawn.direction);
+        // By the vector to it, which is the same in both frames, so that it is rounded but once.
+        let target = |target: Vec3| receiver.position + motion.vector_forward(target - from);
+        Some(LightSample { direction, target: drawn.target.map(target), ..drawn })
+    }
+
+    /// Density of what was hit, without the probability of the choice, 1/sr.
+    pub(super) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
+        let LampAtStart::Opening(opening) = &self.lamp else { return 0.0 };
+        let motion = self.motion_since_start(hit.point.time_s);
+        let (receiver, point) = (motion.place_of(hit.receiver), motion.surface(hit.point));
+        let direction = motion.direction_back(hit.direction);
+        opening.pdf(&LightHit { receiver: &receiver, point: &point, direction, distance_m: hit.distance_m })
+    }
+
+    /// Radiance against a ray of unit `direction` at a point of the opening; `None` where its side does not emit.
+    pub(super) fn emitted<const N: usize>(
+        &self,
+        point: &SurfacePoint,
+        direction: Vec3,
+        query: EmissionQuery<'_, N>,
+    ) -> Option<Spectral<N>> {
+        let LampAtStart::Opening(opening) = &self.lamp else { return None };
+        let motion = self.motion_since_start(point.time_s);
+        opening.emitted(&motion.surface(point), motion.direction_back(direction), query)
+    }
+
+    fn motion_since_start(&self, time_s: f32) -> RigidMotion {
+        let now = self.motion.at(self.motion.interval.moment(time_s));
+        RigidMotion { forward: now * self.start.inverse(), back: self.start * now.inverse() }
+    }
+}
+
+impl RigidMotion {
+    fn point_back(&self, point: Vec3) -> Vec3 {
+        self.back.transform_point3(point.as_dvec3()).as_vec3()
+    }
+
+    fn direction_back(&self, direction: Vec3) -> Vec3 {
+        self.back.transform_vector3(direction.as_dvec3()).normalize_or_zero().as_vec3()
+    }
+
+    fn vector_forward(&self, vector: Vec3) -> Vec3 {
+        self.forward.transform_vector3(vector.as_dvec3()).as_vec3()
+    }
+
+    fn direction_forward(&self, direction: Vec3) -> Vec3 {
+        self.forward.transform_vector3(direction.as_dvec3()).normalize_or_zero().as_vec3()
+    }
+
+    /// A receiver, with its gloss.
+    fn receiver(&self, receiver: &LightSampleContext) -> LightSampleContext {
+        let gloss = receiver.gloss.as_ref().map(|gloss| gloss.turned(&self.back.matrix3.as_mat3()));
+        LightSampleContext { gloss, ..self.place_of(receiver) }
+    }
+
+    /// A receiver's place and normal.
+    fn place_of(&self, receiver: &LightSampleContext) -> LightSampleContext {
+        let (position, normal) = (self.point_back(receiver.position), self.direction_back(receiver.normal));
+        LightSampleContext { position, normal, gloss: None, ..*receiver }
+    }
+
+    /// What of a surface point an opening looks at.
+    fn surface(&self, point: &SurfacePoint) -> SurfacePoint {
+        SurfacePoint {
+            position: self.point_back(point.position),
+            geometric_normal: self.direction_back(point.geometric_normal),
+            ..*point
+        }
+    }
+}
+
+/// Moments of an interval at which a light's intensity is looked at.
+const MOMENTS: u32 = 16;
+
+/// The motion of a light during a view's interval.
+#[derive(Clone, Debug)]
+pub(super) struct LightMotion {
+    /// That of its instance.
+    pub(super) to_world: Motion,
+    /// The origin of the render frame in the world, m.
+    pub(super) origin_m: DVec3,
+    /// The view's.
+    pub(super) interval: TimeInterval,
+}
+
+impl LightMotion {
+    /// To the render frame at a simulated time, s.
+    pub(super) fn at(&self, time_s: f64) -> DAffine3 {
+        let mut to_render = self.to_world.at(time_s);
+        to_render.translation -= self.origin_m;
+        to_render
+    }
+
+    /// To the render frame at even moments of the interval, both its ends among them.
+    pub(super) fn moments(&self) -> impl Iterator<Item = DAffine3> {
+        let part = |i: u32| f64::from(i) / f64::from(MOMENTS);
+        (0..=MOMENTS).map(move |i| self.at(self.interval.start_s() + self.interval.length_s() * part(i)))
+    }
+
+    /// Bounds from those at some moments, and the box of all the motion: intensity is the greatest, the cone that of the start
+    /// opened by how far the light turns, or all directions where there is none at some of them.
+    pub(super) fn bounds(&self, moments: Vec<LightBounds>, low: DVec3, high: DVec3) -> Option<LightBounds> {
+        let first = *moments.first()?;
+        let intensity = moments.iter().map(|bounds| bounds.intensity).fold(0.0, f64::max);
+        let whole = LightBounds::of_surface(&self.render_box(low, high), intensity, None);
+        let theta_o = first.theta_o + self.turning();
+        if theta_o >= PI || moments.len() <= MOMENTS as usize {
+            return Some(whole);
+        }
+        Some(LightBounds { axis: first.axis, theta_o, theta_e: first.theta_e, ..whole })
+    }
+
+    /// Least and greatest coordinates, render frame, m, of a box of the world, with room for rounding to f32.
+    pub(super) fn render_box(&self, low: DVec3, high: DVec3) -> [Vec3; 2] {
+        let box_of = [low, high].map(|corner| (corner - self.origin_m).as_vec3());
+        let room = (box_of[0].abs().max(box_of[1].abs()) + Vec3::splat(f32::MIN_POSITIVE)) * f32::EPSILON;
+        [box_of[0] - room, box_of[1] + room]
+    }
+
+    /// A bound of the angle by which directions turn from where they are at the start, rad, with room for rounding.
+    pub(super) fn turning(&self) -> f32 {
+        self.to_world.turning_over(self.interval) as f32 * (1.0 + 1e-5) + 1e-5
+    }
 }
 
 #[cfg(test)]
@@ -128,8 +360,8 @@ mod tests {
         for how in [Interpolation::Linear, Interpolation::Smooth] {
             let to_world = Track::new(&[0.0, 1.0, 3.0].map(key), how).expect("legal").into();
             let interval = TimeInterval::new(0.4, 1.3).expect("in order");
-            let way = Way { to_world, origin_m: DVec3::new(0.5, 0.2, 0.1), interval };
-            let light = MovingLight::of_facets(Facets::one(&mesh, 0), way, MaterialId(0));
+            let motion = LightMotion { to_world, origin_m: DVec3::new(0.5, 0.2, 0.1), interval };
+            let light = MovingLight::of_facets(Facets::one(&mesh, 0), motion, MaterialId(0));
             let bounds = light.bounds(3.0, false).expect("an area");
             assert!(bounds.theta_o > 0.2 && bounds.theta_o < 2.0, "{bounds:?}");
             let mut widest: f32 = 0.0;

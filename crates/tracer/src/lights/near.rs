@@ -4,9 +4,8 @@
 //! of magnitude: almost all draws go to parts that give almost nothing, and the part that gives the light is left to chance. Drawn by
 //! solid angle the density is 1/Ω everywhere.
 
+use etendue_core::maths::f64::{atan2, sin_cos};
 use glam::{DVec2, DVec3, Vec2, Vec3};
-
-use super::spherical::SphericalTriangle;
 
 /// Least solid angle that is drawn by, sr: below, by area (as pbrt-v4 does from 3e-4 on, in f32).
 const MIN_SR: f64 = 1e-5;
@@ -19,13 +18,13 @@ const EARLY: f32 = 4.0 * 0.5 * f32::EPSILON;
 
 /// A flat light: a corner and the two edges from it; with as much again beyond the side that they leave open where it is `doubled`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Flat {
+pub(super) struct FlatLight {
     pub(super) corner: Vec3,
     pub(super) edges: [Vec3; 2],
     pub(super) doubled: bool,
 }
 
-impl Flat {
+impl FlatLight {
     /// A point, in shares of the edges.
     pub(super) fn at(&self, shares: Vec2) -> Vec3 {
         self.corner + self.edges[0] * shares.x + self.edges[1] * shares.y
@@ -48,13 +47,13 @@ impl Flat {
 
 /// Up to where a point is near to a flat light.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Nearness {
+pub(super) struct NearRegion {
     centre: Vec3,
     radius2: f32,
 }
 
-impl Nearness {
-    pub(super) fn of(flat: &Flat) -> Self {
+impl NearRegion {
+    pub(super) fn of(flat: &FlatLight) -> Self {
         let centre = flat.at(Vec2::splat(if flat.doubled { 0.5 } else { 1.0 / 3.0 }));
         let extent2 = flat.corners().map(|corner| corner.distance_squared(centre)).into_iter().fold(0.0, f32::max);
         Self { centre, radius2: NEAR * NEAR * extent2 }
@@ -67,7 +66,7 @@ impl Nearness {
 
 /// A flat light as seen from a point near by.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Near {
+pub(super) struct NearView {
     /// From the point to the corner, and the edges.
     corner: DVec3,
     edges: [DVec3; 2],
@@ -78,9 +77,9 @@ pub(super) struct Near {
     pub(super) per_sr: f32,
 }
 
-impl Near {
+impl NearView {
     /// `None` where it fills too little of the directions, as edge-on.
-    pub(super) fn new(flat: &Flat, from: Vec3) -> Option<Self> {
+    pub(super) fn new(flat: &FlatLight, from: Vec3) -> Option<Self> {
         let corner = flat.corner.as_dvec3() - from.as_dvec3();
         let edges = flat.edges.map(|edge| edge.as_dvec3());
         let [along, across] = edges.map(|edge| corner + edge);
@@ -99,19 +98,77 @@ impl Near {
             Some(far) if u.x >= share => far.sample(DVec2::new((u.x - share) / (1.0 - share), u.y)),
             _ => self.triangle.sample(DVec2::new((u.x / share).min(1.0), u.y)),
         };
-        let place = self.met(direction);
+        let place = self.plane_coordinates(direction);
         let place = if self.far.is_some() { place } else { place / place.element_sum().max(1.0) };
         place.is_finite().then(|| place.as_vec2())
     }
 
     /// Where a direction meets the light's plane, in shares of the edges, held within the light.
-    fn met(&self, direction: DVec3) -> DVec2 {
+    fn plane_coordinates(&self, direction: DVec3) -> DVec2 {
         let [along, across] = self.edges;
         let normal = along.cross(across);
         let aside = direction * (normal.dot(self.corner) / normal.dot(direction)) - self.corner;
         let place = DVec2::new(aside.cross(across).dot(normal), along.cross(aside).dot(normal));
         (place / normal.length_squared()).clamp(DVec2::ZERO, DVec2::ONE)
     }
+}
+
+// Spherical triangles: what a flat triangle fills of the directions about a point.
+//
+// The solid angle Ω is that of Van Oosterom & Strackee 1983, tan(Ω/2) = |a·(b×c)| / (1 + a·b + b·c + c·a) for the unit
+// directions a, b, c of the corners. Directions are drawn uniformly after Arvo 1995 ("Stratified sampling of spherical
+// triangles"), in f64: the triangles may be needles, or fill nearly half of all directions.
+
+/// A triangle as seen from a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SphericalTriangle {
+    /// Unit directions of the corners.
+    corners: [DVec3; 3],
+    /// a·(b×c), 0 or more.
+    volume: f64,
+    solid_angle_sr: f64,
+}
+
+impl SphericalTriangle {
+    /// Of corners relative to the point; no number where the point lies at one of them.
+    pub(super) fn new(corners: [DVec3; 3]) -> Self {
+        let [a, b, c] = corners;
+        let lengths = corners.map(DVec3::length);
+        // By the edges: of the corners' own product few digits are left where the triangle is small or far.
+        let volume = a.dot((b - a).cross(c - a)).abs() / (lengths[0] * lengths[1] * lengths[2]);
+        let corners = [a / lengths[0], b / lengths[1], c / lengths[2]];
+        let [a, b, c] = corners;
+        let solid_angle_sr = 2.0 * atan2(volume, 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+        Self { corners, volume, solid_angle_sr }
+    }
+
+    pub(super) fn solid_angle_sr(&self) -> f64 {
+        self.solid_angle_sr
+    }
+
+    /// A unit direction, uniformly by solid angle; no number where the triangle has no area.
+    pub(super) fn sample(&self, u: DVec2) -> DVec3 {
+        let [a, b, c] = self.corners;
+        let cos_side = a.dot(b);
+        // The angle at a, between the planes of its sides.
+        let (ab, ac) = (a.cross(b), a.cross(c));
+        let per_sides = 1.0 / (ab.length() * ac.length());
+        let (sin_a, cos_a) = (self.volume * per_sides, ab.dot(ac) * per_sides);
+        // The corner c' on the side ac that cuts off the share u.x of the solid angle.
+        let (sin, cos) = sin_cos(u.x * self.solid_angle_sr);
+        let (s, t) = (sin * cos_a - cos * sin_a, cos * cos_a + sin * sin_a);
+        let (p, q) = (t - cos_a, s + sin_a * cos_side);
+        let cos_cut = ((q * t - p * s) * cos_a - q) / ((q * s + p * t) * sin_a);
+        let cut = towards(a, c, cos_cut.clamp(a.dot(c), 1.0));
+        let cos_along = 1.0 - u.y * (1.0 - cut.dot(b));
+        towards(b, cut, cos_along)
+    }
+}
+
+/// The unit direction at an angle of this cosine from `from` on the way to `to`.
+fn towards(from: DVec3, to: DVec3, cos: f64) -> DVec3 {
+    let aside = (to - from * from.dot(to)).normalize_or_zero();
+    from * cos + aside * (1.0 - cos * cos).max(0.0).sqrt()
 }
 
 #[cfg(test)]
@@ -124,12 +181,12 @@ mod tests {
     /// Draws along each number.
     const DRAWS: usize = 300;
 
-    fn flat(corner: Vec3, along: Vec3, across: Vec3, doubled: bool) -> Flat {
-        Flat { corner, edges: [along, across], doubled }
+    fn flat(corner: Vec3, along: Vec3, across: Vec3, doubled: bool) -> FlatLight {
+        FlatLight { corner, edges: [along, across], doubled }
     }
 
     /// Squares, needles and slanted ones, close by, grazing and far.
-    fn flats() -> Vec<Flat> {
+    fn flats() -> Vec<FlatLight> {
         let strip = Vec3::new(0.0, 2.4, 0.0);
         let mut all = Vec::new();
         for doubled in [true, false] {
@@ -143,7 +200,7 @@ mod tests {
     }
 
     /// Solid angle of the part between shares of the edges, cut along the light's own diagonal.
-    fn of_part(flat: &Flat, [i, j]: [usize; 2]) -> f64 {
+    fn of_part(flat: &FlatLight, [i, j]: [usize; 2]) -> f64 {
         let at = |i: usize, j: usize| flat.at(Vec2::new(i as f32, j as f32) / CELLS as f32).as_dvec3();
         let solid_angle_sr = |corners: [DVec3; 3]| SphericalTriangle::new(corners).solid_angle_sr();
         let within = flat.doubled || i + j + 1 < CELLS;
@@ -155,7 +212,7 @@ mod tests {
     #[test]
     fn points_are_drawn_by_solid_angle() {
         for flat in flats() {
-            let near = Near::new(&flat, Vec3::ZERO).expect("it fills some of the directions");
+            let near = NearView::new(&flat, Vec3::ZERO).expect("it fills some of the directions");
             let mut counts = vec![0; CELLS * CELLS];
             for k in 0..DRAWS * DRAWS {
                 // A lattice of rank one: even, but in step with no cell.
@@ -179,14 +236,14 @@ mod tests {
     #[test]
     fn what_is_seen_edge_on_or_from_its_corner_is_not_drawn_by_solid_angle() {
         let square = flat(Vec3::new(1.0, 0.0, 0.0), Vec3::X, Vec3::Y, true);
-        assert!(Near::new(&square, Vec3::ZERO).is_none());
-        assert!(Near::new(&square, Vec3::X).is_none());
+        assert!(NearView::new(&square, Vec3::ZERO).is_none());
+        assert!(NearView::new(&square, Vec3::X).is_none());
     }
 
     #[test]
     fn the_solid_angle_of_a_cubes_side_is_a_sixth_of_all() {
         let side = flat(Vec3::new(-1.0, -1.0, 1.0), Vec3::X * 2.0, Vec3::Y * 2.0, true);
-        let near = Near::new(&side, Vec3::ZERO).expect("a side");
+        let near = NearView::new(&side, Vec3::ZERO).expect("a side");
         assert!((near.solid_angle_sr - 4.0 * core::f64::consts::PI / 6.0).abs() < 1e-12);
     }
 }

@@ -1,15 +1,16 @@
 //! A lamp with its opening, in the render frame.
 
-use etendue_core::{Spectral, TimeInterval, Wavelengths};
+use etendue_core::Spectral;
 use glam::{DAffine3, Vec2, Vec3};
 
-use super::opening::{Drawn, Facets, Opening};
+use super::lamp::LampLight;
+use super::light_sample::LampIrradiance;
+use super::opening::{FacetSample, Facets, Opening};
+use super::sphere::SphereLight;
+use super::tree::LightBounds;
+use super::{LightHit, LightSample, LightSampleContext, ROUNDING};
 use crate::geometry::{Mesh, SurfacePoint};
-use crate::lights::lamp::LampLight;
-use crate::lights::light_sample::LampIrradiance;
-use crate::lights::sphere::SphereLight;
-use crate::lights::tree::LightBounds;
-use crate::lights::{LightHit, LightSample, LightSampleContext, ROUNDING};
+use crate::materials::EmissionQuery;
 
 /// A lamp that shines from a surface.
 #[derive(Clone, Debug)]
@@ -34,7 +35,8 @@ impl OpeningLight {
     pub(super) fn of_mesh(
         lamp: LampLight,
         opening: Opening,
-        (mesh, to_render): (&Mesh, &DAffine3),
+        mesh: &Mesh,
+        to_render: &DAffine3,
         material: crate::MaterialId,
     ) -> Option<Self> {
         let facets = Facets::new(&opening, mesh, to_render, material)?;
@@ -76,9 +78,9 @@ impl OpeningLight {
     }
 
     /// Spectral radiance that leaves along the unit `direction`, W·m⁻²·sr⁻¹·nm⁻¹, on a side that shines.
-    fn radiance<const N: usize>(&self, direction: Vec3, asked: (&Wavelengths<N>, &TimeInterval)) -> Spectral<N> {
+    fn radiance<const N: usize>(&self, direction: Vec3, query: EmissionQuery<'_, N>) -> Spectral<N> {
         let own = self.lamp.to_lamp(direction);
-        self.lamp.intensity_along(own, asked) / self.opening.seen_area_m2(own)
+        self.lamp.intensity_along(own, query) / self.opening.seen_area_m2(own)
     }
 
     /// Whether the side that `direction` leaves from shines.
@@ -86,43 +88,43 @@ impl OpeningLight {
         self.opening.flat_axis().is_some() || normal.dot(direction) > 0.0
     }
 
-    /// What a ray of unit `direction` finds at a point of the opening.
-    pub(super) fn met<const N: usize>(
+    /// Radiance against a ray of unit `direction` at a point of the opening; `None` where its side does not emit.
+    pub(super) fn emitted<const N: usize>(
         &self,
         point: &SurfacePoint,
         direction: Vec3,
-        asked: (&Wavelengths<N>, &TimeInterval),
+        query: EmissionQuery<'_, N>,
     ) -> Option<Spectral<N>> {
-        self.leaves(point.geometric_normal, -direction).then(|| self.radiance(-direction, asked))
+        self.leaves(point.geometric_normal, -direction).then(|| self.radiance(-direction, query))
     }
 
     pub(super) fn sample<const N: usize>(
         &self,
         from: Vec3,
         u: Vec2,
-        asked: (&Wavelengths<N>, &TimeInterval),
+        query: EmissionQuery<'_, N>,
     ) -> Option<LightSample<N>> {
-        let Drawn { surface, error_m, early_m } = match &self.surface {
+        let FacetSample { surface, error_m, early_m } = match &self.surface {
             Surface::Facets(facets) => facets.sample(from, u)?,
             Surface::Sphere(sphere) => {
-                Drawn { surface: sphere.sample(from, u)?, error_m: sphere.error_m(), early_m: 0.0 }
+                FacetSample { surface: sphere.sample(from, u)?, error_m: sphere.error_m(), early_m: 0.0 }
             }
         };
         let direction = surface.direction().filter(|direction| self.leaves(surface.normal, -*direction))?;
         Some(LightSample {
             direction,
             target: Some(surface.target(from, direction, error_m + self.room_m, early_m)),
-            radiance: self.radiance(-direction, asked),
+            radiance: self.radiance(-direction, query),
             pdf: surface.pdf,
             delta: false,
             surrounds: false,
         })
     }
 
-    pub(super) fn pdf(&self, met: &LightHit<'_>) -> f32 {
+    pub(super) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
         match &self.surface {
-            Surface::Sphere(sphere) => sphere.pdf(met),
-            Surface::Facets(facets) => facets.pdf(met),
+            Surface::Sphere(sphere) => sphere.pdf(hit),
+            Surface::Facets(facets) => facets.pdf(hit),
         }
     }
 }

@@ -3,21 +3,31 @@
 /// How many times as bright as the mean of all directions bright patches are.
 const BRIGHT: f64 = 8.0;
 
+/// A cell of surroundings.
+pub(super) struct EnvironmentCell {
+    pub(super) weight: f64,
+    pub(super) solid_angle: f64,
+}
+
 /// Share of light that comes from bright patches beyond [`BRIGHT`] times the mean: of cells of a weight in proportion to radiance and solid angle, and
 /// of a solid angle in units of the whole sphere.
-pub(super) fn patches(cells: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
-    let all: f64 = cells.clone().map(|(weight, _)| weight).sum();
-    cells.map(|(weight, solid_angle)| (weight - BRIGHT * all * solid_angle).max(0.0)).sum::<f64>() / all
+pub(super) fn patches(cells: impl Iterator<Item = EnvironmentCell> + Clone) -> f64 {
+    let all: f64 = cells.clone().map(|cell| cell.weight).sum();
+    cells.map(|cell| (cell.weight - BRIGHT * all * cell.solid_angle).max(0.0)).sum::<f64>() / all
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::lights::{Environment, ImageEnvironment};
+    use etendue_core::WavelengthRange;
 
     #[test]
     fn patches_are_what_is_beyond_eight_times_the_mean() {
-        let sphere = |weights: [f64; 4], shares: [f64; 4]| patches(weights.into_iter().zip(shares));
+        let sphere = |weights: [f64; 4], shares: [f64; 4]| {
+            let cell = |(weight, solid_angle)| EnvironmentCell { weight, solid_angle };
+            patches(weights.into_iter().zip(shares).map(cell))
+        };
         assert_eq!(sphere([1.0, 1.0, 1.0, 1.0], [0.25; 4]), 0.0);
         // Half the sphere dark, and a fortieth of it forty times as bright as the rest.
         let (shares, bright) = ([0.5, 0.475, 0.0125, 0.0125], 0.5 / 0.975);
@@ -30,9 +40,11 @@ mod tests {
     fn surroundings_are_drawn_by_what_suns_and_scattered_rays_leave() {
         let mut texels = vec![[1.0; 3]; 64 * 32];
         let picture = |texels: Vec<[f32; 3]>| {
-            Environment::Image(ImageEnvironment::new((64, 32), texels, 1.0, 0.0).expect("a picture"))
+            Environment::Image(ImageEnvironment::new(64, 32, texels, 1.0, 0.0).expect("a picture"))
         };
-        let drawn = |surroundings: &Environment, of_suns: f64| surroundings.drawn_irradiance((400.0, 700.0), of_suns);
+        let drawn = |surroundings: &Environment, of_suns: f64| {
+            surroundings.drawn_irradiance(WavelengthRange { low_nm: 400.0, high_nm: 700.0 }, of_suns)
+        };
         let even = picture(texels.clone());
         let all = drawn(&even, 0.0);
         assert!(all > 0.0 && (drawn(&even, 0.75 * all) / all - 0.25).abs() < 1e-6 && drawn(&even, all) == 0.0);

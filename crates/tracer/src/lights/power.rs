@@ -7,7 +7,7 @@
 
 use super::environment::Environment;
 use super::lamp::Lamp;
-use super::sources::Sources;
+use super::scene_lights::Sources;
 use super::sun::Sun;
 use crate::MaterialId;
 use crate::accel::World;

@@ -1,30 +1,27 @@
 //! All lights of a view, and how they share the draws.
 
-use super::choice::{Choice, Chosen};
+use etendue_core::{Spectral, WavelengthRange, Wavelengths};
+use glam::{Vec2, Vec3};
+
 use super::collect;
 use super::collect::LightError;
 use super::environment::Environment;
-use super::light::Light;
-use super::light_counts::LightCounts;
-use super::light_sample::LampIrradiance;
-use super::light_sample::{DistantLight, LightHit, LightSample};
-use super::primitives::Primitives;
-use super::sample_context::LightSampleContext;
-use super::sources::Sources;
+use super::lamp::Lamp;
+use super::light::{Light, Primitives};
+use super::light_sample::{DistantLight, LampIrradiance, LightHit, LightSample, LightSampleContext};
+use super::light_sampler::{LightId, LightSampler, SampledLight, WeightedSun};
 use super::sun::Sun;
 use super::tree::{Start, TreeQuery};
 use crate::geometry::SurfacePoint;
-use crate::materials::MaterialTable;
+use crate::materials::{EmissionQuery, MaterialTable};
 use crate::render_space::RenderSpace;
 use crate::{ALL_EFFECTS, is_optional};
-use etendue_core::{Spectral, TimeInterval, Wavelengths};
-use glam::{Vec2, Vec3};
 
 /// All lights of a view.
 #[derive(Clone, Debug)]
 pub struct Lights {
     pub(super) lights: Vec<Light>,
-    pub(super) choice: Choice,
+    pub(super) sampler: LightSampler,
     pub(super) primitives: Primitives,
     /// Lamps without an opening, by their places.
     pub(super) points: Vec<usize>,
@@ -35,8 +32,8 @@ pub struct Lights {
 }
 
 impl Lights {
-    /// The lights of a view: its surfaces that glow, and `sources`. Wavelengths from `low_nm`
-    /// to `high_nm` decide how the lights share the draws.
+    /// The lights of a view: its surfaces that glow, and `sources`. The wavelengths of `range` decide
+    /// how the lights share the draws.
     ///
     /// # Errors
     /// Where an instance names a material that the material_table does not have.
@@ -44,23 +41,24 @@ impl Lights {
         view: &RenderSpace<'_>,
         material_table: &MaterialTable,
         sources: Sources,
-        (low_nm, high_nm): (f64, f64),
+        range: WavelengthRange,
     ) -> Result<Self, LightError> {
         let are_modulated = sources.is_modulated();
         let Sources { suns, lamps, environment } = sources;
-        let mut gathered = collect::of_surfaces(view, material_table, (low_nm, high_nm))?;
+        let mut scene_lights = collect::of_surfaces(view, material_table, range)?;
         for lamp in lamps {
-            gathered.add_lamp(lamp, view, material_table, (low_nm, high_nm))?;
+            scene_lights.add_lamp(lamp, view, material_table, range)?;
         }
-        let points = (0..gathered.lights.len()).filter(|i| gathered.lights[*i].is_point()).collect();
-        let has_openings = gathered.lights.iter().any(Light::is_open);
-        let weighed: Vec<_> =
-            suns.iter().map(|sun| (sun.clone(), sun.mean_irradiance(low_nm, high_nm) as f32)).collect();
-        let of_suns = weighed.iter().map(|(_, irradiance)| f64::from(*irradiance)).sum();
-        let surroundings = environment.as_ref().map_or(0.0, |e| e.drawn_irradiance((low_nm, high_nm), of_suns)) as f32;
-        let choice = Choice::new(&gathered.bounds, weighed, surroundings);
-        let collect::Gathered { lights, primitives, .. } = gathered;
-        Ok(Self { lights, choice, primitives, points, has_openings, are_modulated, suns, environment })
+        let points = (0..scene_lights.lights.len()).filter(|i| scene_lights.lights[*i].is_point()).collect();
+        let has_openings = scene_lights.lights.iter().any(Light::is_open);
+        let irradiance = |sun: &Sun| sun.mean_irradiance(range.low_nm, range.high_nm) as f32;
+        let weighted_suns: Vec<_> =
+            suns.iter().map(|sun| WeightedSun { sun: sun.clone(), irradiance: irradiance(sun) }).collect();
+        let of_suns = weighted_suns.iter().map(|sun| f64::from(sun.irradiance)).sum();
+        let surroundings = environment.as_ref().map_or(0.0, |e| e.drawn_irradiance(range, of_suns)) as f32;
+        let sampler = LightSampler::new(&scene_lights.bounds, weighted_suns, surroundings);
+        let collect::SceneLights { lights, primitives, .. } = scene_lights;
+        Ok(Self { lights, sampler, primitives, points, has_openings, are_modulated, suns, environment })
     }
 
     /// How many lights of each kind there are.
@@ -88,60 +86,62 @@ impl Lights {
     /// Whether any light can be drawn.
     #[must_use]
     pub fn can_be_drawn(&self) -> bool {
-        self.choice.is_possible()
+        self.sampler.is_possible()
     }
 
     /// Whether there is more than one light to choose from; [`Lights::sample`] does not look at the number that chooses
     /// where there is not.
     #[must_use]
     pub fn are_many(&self) -> bool {
-        self.choice.is_open()
+        self.sampler.is_open()
     }
 
     /// A light and a direction towards it from the `receiver`; `None` where the light drawn sends nothing there.
-    /// `spread_rad` is the width of the path's cone, for the footprint of textures. Light is asked for at wavelengths, and averaged
-    /// over a time within the view's interval.
+    /// `spread_rad` is the width of the path's cone, for the footprint of textures. Light is averaged
+    /// over an interval within that of the view.
     #[must_use]
     pub fn sample<const N: usize>(
         &self,
         receiver: &LightSampleContext,
-        u: (f32, Vec2),
+        choice: f32,
+        u: Vec2,
         spread_rad: f32,
         material_table: &MaterialTable,
-        asked: (&Wavelengths<N>, &TimeInterval),
+        query: EmissionQuery<'_, N>,
     ) -> Option<LightSample<N>> {
-        self.drawing(receiver).sample(u, spread_rad, material_table, asked)
+        self.sampler_for(receiver).sample(choice, u, spread_rad, material_table, query)
     }
 
-    /// What the receiver draws lights from: made once for all its draws.
+    /// The sampler of a receiver: made once for all its draws.
     #[inline(always)]
-    pub(crate) fn drawing<'a>(&'a self, receiver: &'a LightSampleContext) -> LightDrawing<'a> {
+    pub(crate) fn sampler_for<'a>(&'a self, receiver: &'a LightSampleContext) -> ReceiverLightSampler<'a> {
         let question = self.question(receiver);
-        let start = self.choice.start(&question);
-        let local = self.choice.local_share(&question, &start);
-        LightDrawing { lights: self, receiver, start, local }
+        let start = self.sampler.start(&question);
+        let local = self.sampler.local_share(&question, &start);
+        ReceiverLightSampler { lights: self, receiver, start, local }
     }
 
     /// A drawn light and a direction towards it.
     #[inline(always)]
     fn sample_of<const N: usize>(
         &self,
-        (chosen, probability): (Chosen, f32),
+        light: SampledLight,
         receiver: &LightSampleContext,
         u: Vec2,
         spread_rad: f32,
-        (material_table, asked): (&MaterialTable, (&Wavelengths<N>, &TimeInterval)),
+        material_table: &MaterialTable,
+        query: EmissionQuery<'_, N>,
     ) -> Option<LightSample<N>> {
         let from = receiver.position;
-        let sample = if let Chosen::Local(i) = chosen
+        let sample = if let LightId::Local(i) = light.id
             && let Light::Triangle(t) = &self.lights[i]
         {
-            t.glowing(material_table).towards(&t.sample(from, u)?, from, spread_rad, asked)?
+            t.glowing(material_table).towards(&t.sample(from, u)?, from, spread_rad, query)?
         } else {
             is_optional();
-            self.sample_of_other(chosen, receiver, u, spread_rad, (material_table, asked))?
+            self.sample_of_other(light.id, receiver, u, spread_rad, material_table, query)?
         };
-        let pdf = sample.pdf * probability * receiver.draws as f32;
+        let pdf = sample.pdf * light.probability * receiver.draws as f32;
         (pdf > 0.0).then_some(LightSample { pdf, ..sample })
     }
 
@@ -149,24 +149,25 @@ impl Lights {
     #[inline(never)]
     fn sample_of_other<const N: usize>(
         &self,
-        chosen: Chosen,
+        id: LightId,
         receiver: &LightSampleContext,
         u: Vec2,
         spread_rad: f32,
-        (material_table, asked): (&MaterialTable, (&Wavelengths<N>, &TimeInterval)),
+        material_table: &MaterialTable,
+        query: EmissionQuery<'_, N>,
     ) -> Option<LightSample<N>> {
         let from = receiver.position;
-        match chosen {
-            Chosen::Local(i) => match &self.lights[i] {
-                Light::Triangle(t) => t.glowing(material_table).towards(&t.sample(from, u)?, from, spread_rad, asked),
-                Light::Sphere(s) => s.glowing(material_table).towards(&s.sample(from, u)?, from, spread_rad, asked),
-                Light::Lamp(lamp) => lamp.sample(from, asked),
-                Light::Opening(opening) => opening.sample(from, u, asked),
-                Light::Moving(light) => light.sample(receiver, u, spread_rad, material_table, asked),
-                Light::Carried(lamp) => lamp.sample(receiver, u, asked),
+        match id {
+            LightId::Local(i) => match &self.lights[i] {
+                Light::Triangle(t) => t.glowing(material_table).towards(&t.sample(from, u)?, from, spread_rad, query),
+                Light::Sphere(s) => s.glowing(material_table).towards(&s.sample(from, u)?, from, spread_rad, query),
+                Light::Lamp(lamp) => lamp.sample(from, query),
+                Light::Opening(opening) => opening.sample(from, u, query),
+                Light::Moving(light) => light.sample(receiver, u, spread_rad, material_table, query),
+                Light::MovingLamp(lamp) => lamp.sample(receiver, u, query),
             },
-            Chosen::Sun(i) => Some(self.suns[i].sample(u, asked.0)),
-            Chosen::Environment => self.environment.as_ref()?.sample(u, asked.0),
+            LightId::Sun(i) => Some(self.suns[i].sample(u, query.wavelengths)),
+            LightId::Environment => self.environment.as_ref()?.sample(u, query.wavelengths),
         }
     }
 
@@ -177,44 +178,46 @@ impl Lights {
         let lamp = |i: u32| match &self.lights[i as usize] {
             Light::Lamp(lamp) => lamp.irradiance(receiver),
             Light::Opening(opening) => opening.irradiance(receiver),
-            Light::Carried(lamp) => lamp.irradiance(receiver),
+            Light::MovingLamp(lamp) => lamp.irradiance(receiver),
             Light::Triangle(_) | Light::Sphere(_) | Light::Moving(_) => LampIrradiance::default(),
         };
         TreeQuery { receiver, lamp }
     }
 
-    /// Density by which the receiver's draws would have given the direction to a surface point that was met, 1/sr; 0
+    /// Density by which the receiver's draws would have given the direction to a surface point that was hit, 1/sr; 0
     /// where the surface is no light.
     #[must_use]
-    pub fn light_pdf(&self, met: &LightHit<'_>) -> f32 {
-        let Some(i) = self.primitives.light(met.point.instance, met.point.primitive) else { return 0.0 };
+    pub fn light_pdf(&self, hit: &LightHit<'_>) -> f32 {
+        let Some(i) = self.primitives.light(hit.point.instance, hit.point.primitive) else { return 0.0 };
         let pdf = match &self.lights[i] {
-            Light::Triangle(light) => light.pdf(met),
+            Light::Triangle(light) => light.pdf(hit),
             _ if !ALL_EFFECTS => unreachable!("triangles alone glow"),
-            Light::Sphere(light) => light.pdf(met),
-            Light::Opening(light) => light.pdf(met),
-            Light::Moving(light) => light.pdf(met),
-            Light::Carried(lamp) => lamp.pdf(met),
+            Light::Sphere(light) => light.pdf(hit),
+            Light::Opening(light) => light.pdf(hit),
+            Light::Moving(light) => light.pdf(hit),
+            Light::MovingLamp(lamp) => lamp.pdf(hit),
             Light::Lamp(_) => 0.0,
         };
-        let probability = self.choice.probability(&self.question(met.receiver), Chosen::Local(i));
-        pdf * probability * met.receiver.draws as f32
+        let probability = self.sampler.probability(&self.question(hit.receiver), LightId::Local(i));
+        pdf * probability * hit.receiver.draws as f32
     }
 
-    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, of a lamp's opening that a ray of unit `direction` has met at `point`; `None` where
+    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, of a lamp's opening that a ray of unit `direction` has hit at `point`; `None` where
     /// the surface is none, or its side does not shine.
     #[inline(always)]
     pub(crate) fn of_opening<const N: usize>(
         &self,
         point: &SurfacePoint,
         direction: Vec3,
-        asked: (&Wavelengths<N>, &TimeInterval),
+        query: EmissionQuery<'_, N>,
     ) -> Option<Spectral<N>> {
-        let light =
-            (ALL_EFFECTS && self.has_openings).then(|| self.primitives.light(point.instance, point.primitive))??;
+        if !(ALL_EFFECTS && self.has_openings) {
+            return None;
+        }
+        let light = self.primitives.light(point.instance, point.primitive)?;
         match &self.lights[light] {
-            Light::Opening(opening) => opening.met(point, direction, asked),
-            Light::Carried(lamp) => lamp.met(point, direction, asked),
+            Light::Opening(opening) => opening.emitted(point, direction, query),
+            Light::MovingLamp(lamp) => lamp.emitted(point, direction, query),
             Light::Lamp(_) | Light::Triangle(_) | Light::Sphere(_) | Light::Moving(_) => None,
         }
     }
@@ -227,29 +230,29 @@ impl Lights {
         receiver: Option<&'a LightSampleContext>,
         wavelengths: &'a Wavelengths<N>,
     ) -> impl Iterator<Item = DistantLight<N>> + 'a {
-        let drawn = move |light: Chosen| {
+        let drawn = move |light: LightId| {
             receiver.map_or(0.0, |receiver| {
-                self.choice.probability(&self.question(receiver), light) * receiver.draws as f32
+                self.sampler.probability(&self.question(receiver), light) * receiver.draws as f32
             })
         };
         let suns =
             self.suns.iter().filter(|_| ALL_EFFECTS).enumerate().filter(move |(_, sun)| sun.covers(direction)).map(
                 move |(i, sun)| {
-                    let pdf = sun.pdf() * drawn(Chosen::Sun(i));
+                    let pdf = sun.pdf() * drawn(LightId::Sun(i));
                     DistantLight { radiance: sun.radiance_from(direction, wavelengths), pdf, surrounds: false }
                 },
             );
         let environment = self.environment.iter().filter(|_| ALL_EFFECTS).map(move |environment| {
-            let (radiance, pdf) = environment.seen(direction, receiver.is_some(), wavelengths);
-            let pdf = if pdf > 0.0 { pdf * drawn(Chosen::Environment) } else { 0.0 };
+            let (radiance, pdf) = environment.radiance_and_pdf(direction, receiver.is_some(), wavelengths);
+            let pdf = if pdf > 0.0 { pdf * drawn(LightId::Environment) } else { 0.0 };
             DistantLight { radiance, pdf, surrounds: true }
         });
         suns.chain(environment)
     }
 }
 
-/// A receiver with what it draws lights from. Large: it stays where it is made.
-pub(crate) struct LightDrawing<'a> {
+/// Samples lights for a receiver. Large: it stays where it is made.
+pub(crate) struct ReceiverLightSampler<'a> {
     lights: &'a Lights,
     receiver: &'a LightSampleContext,
     start: Start,
@@ -257,23 +260,73 @@ pub(crate) struct LightDrawing<'a> {
     local: f32,
 }
 
-impl LightDrawing<'_> {
+impl ReceiverLightSampler<'_> {
     /// One draw, as [`Lights::sample`].
     #[inline(always)]
     pub(crate) fn sample<const N: usize>(
         &self,
-        (choice, u): (f32, Vec2),
+        choice: f32,
+        u: Vec2,
         spread_rad: f32,
         material_table: &MaterialTable,
-        asked: (&Wavelengths<N>, &TimeInterval),
+        query: EmissionQuery<'_, N>,
     ) -> Option<LightSample<N>> {
         let Self { lights, receiver, start, local } = self;
         // Deep in a tree more digits are needed than the one number has; the other's place on the light is not felt.
         let fine = f64::from(choice) + f64::from(u.x) * DIGIT;
-        let chosen = lights.choice.pick(&lights.question(receiver), (start, *local), fine)?;
-        lights.sample_of(chosen, receiver, u, spread_rad, (material_table, asked))
+        let light = lights.sampler.sample(&lights.question(receiver), start, *local, fine)?;
+        lights.sample_of(light, receiver, u, spread_rad, material_table, query)
     }
 }
 
 /// Weight of the digits that a second number adds to the 24 bits of the first: 2⁻²⁴.
 pub(super) const DIGIT: f64 = 0.5 * 1.192_092_895_507_812_5e-7;
+
+/// What shines but is no surface that glows by its material.
+#[derive(Clone, Debug, Default)]
+pub struct Sources {
+    /// Suns.
+    pub suns: Vec<Sun>,
+    /// Lamps, as points or with the instances of the world that are their openings.
+    pub lamps: Vec<Lamp>,
+    /// What surrounds the scene.
+    pub environment: Option<Environment>,
+}
+
+impl Sources {
+    /// Whether the strength of any of them changes over time; [`crate::materials::MaterialTable::is_modulated`] tells it of surfaces.
+    #[must_use]
+    pub fn is_modulated(&self) -> bool {
+        self.lamps.iter().any(|lamp| lamp.modulation().is_some())
+    }
+}
+
+/// What is lit by what: for the plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LightCounts {
+    /// Emissive triangles.
+    pub triangles: usize,
+    /// Emissive spheres.
+    pub spheres: usize,
+    /// Lamps without an opening.
+    pub lamps: usize,
+    /// Lamps with a luminous opening.
+    pub openings: usize,
+    /// Suns.
+    pub suns: usize,
+    /// Whether an environment of one radiance above 0 surrounds the scene.
+    pub uniform_environment: bool,
+    /// Whether a picture surrounds the scene.
+    pub image_environment: bool,
+    /// Whether a clear sky surrounds the scene.
+    pub sky: bool,
+}
+
+impl LightCounts {
+    /// Whether nothing gives light.
+    #[must_use]
+    pub fn is_dark(&self) -> bool {
+        let environment = self.uniform_environment || self.image_environment || self.sky;
+        self.triangles + self.spheres + self.lamps + self.openings + self.suns == 0 && !environment
+    }
+}

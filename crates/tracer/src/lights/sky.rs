@@ -21,7 +21,7 @@ use etendue_spectra::sky::{BANDS, FIRST_NM, STEP_NM, SkyModel};
 use glam::{DVec3, Vec2, Vec3};
 
 use super::LightSample;
-use super::patches::patches;
+use super::patches::{EnvironmentCell, patches};
 
 /// Intervals of the tables.
 const STEPS: usize = 4096;
@@ -82,7 +82,10 @@ impl SkyEnvironment {
         let glow = towards(azimuth_rad, model.glow_elevation_rad());
         let [gradient, around] = tables(model);
         let weights = weights(model);
-        let cells = weights.iter().enumerate().map(|(k, weight)| (f64::from(*weight), solid_angle(k / COLUMNS)));
+        let cells = weights
+            .iter()
+            .enumerate()
+            .map(|(k, weight)| EnvironmentCell { weight: f64::from(*weight), solid_angle: solid_angle(k / COLUMNS) });
         Some(Self {
             glow: glow.as_vec3(),
             azimuth_turns: (azimuth_rad / core::f64::consts::TAU).rem_euclid(1.0) as f32,

@@ -11,7 +11,7 @@ use etendue_core::warp::{uniform_cone, uniform_sphere};
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3};
 
 use super::tree::LightBounds;
-use super::{Glowing, LightHit, ROUNDING, SurfaceSample, solid_angle_pdf};
+use super::{LightHit, ROUNDING, SurfaceEmission, SurfaceSample, solid_angle_pdf};
 use crate::MaterialId;
 use crate::geometry::sphere;
 use crate::materials::MaterialTable;
@@ -63,11 +63,11 @@ impl SphereLight {
         material: MaterialId,
         material_table: &MaterialTable,
     ) -> Self {
-        Self::seen(radius_m, to_render, material, SphereLook::of(material, material_table))
+        Self::with_look(radius_m, to_render, material, SphereLook::of(material, material_table))
     }
 
     /// Of a material of which all is known that matters.
-    pub(super) fn seen(radius_m: f64, to_render: &DAffine3, material: MaterialId, look: SphereLook) -> Self {
+    pub(super) fn with_look(radius_m: f64, to_render: &DAffine3, material: MaterialId, look: SphereLook) -> Self {
         let linear = to_render.matrix3 * radius_m;
         let centre = to_render.translation.as_vec3();
         let longest = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
@@ -151,13 +151,13 @@ impl SphereLight {
         (sphere::uv(unit).as_vec2(), sphere::uv_per_m(mean_radius_m) as f32)
     }
 
-    pub(super) fn pdf(&self, met: &LightHit<'_>) -> f32 {
-        if let Some((cone, _)) = self.cone(met.receiver.position) {
+    pub(super) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
+        if let Some((cone, _)) = self.cone(hit.receiver.position) {
             return 1.0 / (TAU * cone.one_minus_cos);
         }
-        let normal = met.point.geometric_normal;
+        let normal = hit.point.geometric_normal;
         let stretch = self.determinant / (self.linear.transpose() * normal).length();
-        solid_angle_pdf(1.0 / (4.0 * PI * stretch), met.direction * met.distance_m, met.distance_m, normal)
+        solid_angle_pdf(1.0 / (4.0 * PI * stretch), hit.direction * hit.distance_m, hit.distance_m, normal)
     }
 
     /// How far a stored point may be from where the accelerator sees it, m.
@@ -165,8 +165,8 @@ impl SphereLight {
         self.error_m
     }
 
-    pub(super) fn glowing<'a>(&self, material_table: &'a MaterialTable) -> Glowing<'a> {
-        Glowing { material: self.material, error_m: self.error_m, early_m: 0.0, material_table }
+    pub(super) fn glowing<'a>(&self, material_table: &'a MaterialTable) -> SurfaceEmission<'a> {
+        SurfaceEmission { material: self.material, error_m: self.error_m, early_m: 0.0, material_table }
     }
 }
 

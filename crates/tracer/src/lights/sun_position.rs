@@ -73,13 +73,36 @@ pub enum SunPositionError {
     },
 }
 
+/// A day of the Gregorian calendar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CalendarDate {
+    /// 1900 to 2100.
+    pub year: i32,
+    /// 1 to 12.
+    pub month: u32,
+    /// From 1 on.
+    pub day: u32,
+}
+
+/// A time of day.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClockTime {
+    /// 0 to 23.
+    pub hour: u32,
+    /// 0 to 59.
+    pub minute: u32,
+    /// 0 or more, below 60.
+    pub second: f64,
+}
+
 impl UtcTime {
-    /// A date and a time of day: (year 1900 to 2100, month, day), (hour, minute, second below 60).
+    /// The time of a date and a time of day.
     ///
     /// # Errors
     /// Where the calendar or the day has no such moment, or the year is out of range.
-    pub fn new(date: (i32, u32, u32), time: (u32, u32, f64)) -> Result<Self, SunPositionError> {
-        let ((year, month, day), (hour, minute, second)) = (date, time);
+    pub fn new(date: CalendarDate, time: ClockTime) -> Result<Self, SunPositionError> {
+        let CalendarDate { year, month, day } = date;
+        let ClockTime { hour, minute, second } = time;
         if !(1900..=2100).contains(&year) {
             return Err(SunPositionError::Year { found: year });
         }
@@ -137,12 +160,12 @@ pub fn sun_position(time: UtcTime, latitude_deg: f64, longitude_deg: f64) -> Res
 }
 
 /// The Sun's place among the turning Earth's meridians and parallels.
-struct Apparent {
+struct ApparentSun {
     greenwich_hour_angle_rad: f64,
     declination_rad: f64,
 }
 
-fn apparent(time: UtcTime) -> Apparent {
+fn apparent(time: UtcTime) -> ApparentSun {
     const AHEAD_DAYS: f64 = 69.0 / 86400.0;
     let t = (time.days + AHEAD_DAYS) / 36525.0;
     let node = (125.04 - 1934.136 * t).to_radians();
@@ -153,7 +176,7 @@ fn apparent(time: UtcTime) -> Apparent {
     let right_ascension = atan2(cos_obliquity * sin(longitude), cos(longitude));
     let sidereal_deg =
         280.460_618_37 + 360.985_647_366_29 * time.days + 0.000_387_933 * t * t + nutation_deg * cos_obliquity;
-    Apparent {
+    ApparentSun {
         greenwich_hour_angle_rad: sidereal_deg.rem_euclid(360.0).to_radians() - right_ascension,
         declination_rad: asin(sin_obliquity * sin(longitude)),
     }
@@ -174,15 +197,23 @@ mod tests {
     use super::*;
     use serde_json::Value;
 
-    fn utc(date: (i32, u32, u32), time: (u32, u32, f64)) -> UtcTime {
+    fn utc(date: CalendarDate, time: ClockTime) -> UtcTime {
         UtcTime::new(date, time).expect("a moment")
+    }
+
+    fn date(year: i32, month: u32, day: u32) -> CalendarDate {
+        CalendarDate { year, month, day }
+    }
+
+    fn time(hour: u32, minute: u32, second: f64) -> ClockTime {
+        ClockTime { hour, minute, second }
     }
 
     /// A time written as 2024-06-21T11:30:00.
     fn parsed(text: &str) -> UtcTime {
         let part = |from: usize, to: usize| text[from..to].parse::<u32>().expect("a number");
         let second = text[17..].parse().expect("a number");
-        utc((part(0, 4) as i32, part(5, 7), part(8, 10)), (part(11, 13), part(14, 16), second))
+        utc(date(part(0, 4) as i32, part(5, 7), part(8, 10)), time(part(11, 13), part(14, 16), second))
     }
 
     /// Figures of `tests/oracles/sun_position.py`: NREL's algorithm in pvlib, good to 0.0003°.
@@ -214,26 +245,26 @@ mod tests {
 
     #[test]
     fn the_calendar() {
-        assert_eq!(utc((2000, 1, 1), (12, 0, 0.0)).days, 0.0);
+        assert_eq!(utc(date(2000, 1, 1), time(12, 0, 0.0)).days, 0.0);
         // Meeus, chapter 7: JD of 31.0 January 1999, 19.5 June 1987.
-        assert_eq!(utc((1999, 1, 1), (0, 0, 0.0)).days, 2_451_179.5 - 2_451_545.0);
-        assert_eq!(utc((1987, 6, 19), (12, 0, 0.0)).days, 2_446_966.0 - 2_451_545.0);
-        assert_eq!(utc((1900, 1, 1), (0, 0, 0.0)).days, 2_415_020.5 - 2_451_545.0);
-        assert_eq!(utc((2000, 3, 1), (0, 0, 0.0)).days - utc((2000, 2, 29), (0, 0, 0.0)).days, 1.0);
-        assert!((utc((2100, 12, 31), (23, 59, 59.9)).days - 36_889.5).abs() < 1e-5);
+        assert_eq!(utc(date(1999, 1, 1), time(0, 0, 0.0)).days, 2_451_179.5 - 2_451_545.0);
+        assert_eq!(utc(date(1987, 6, 19), time(12, 0, 0.0)).days, 2_446_966.0 - 2_451_545.0);
+        assert_eq!(utc(date(1900, 1, 1), time(0, 0, 0.0)).days, 2_415_020.5 - 2_451_545.0);
+        assert_eq!(utc(date(2000, 3, 1), time(0, 0, 0.0)).days - utc(date(2000, 2, 29), time(0, 0, 0.0)).days, 1.0);
+        assert!((utc(date(2100, 12, 31), time(23, 59, 59.9)).days - 36_889.5).abs() < 1e-5);
     }
 
     #[test]
     fn what_is_no_time_or_place_is_told() {
         let error = |date, time| UtcTime::new(date, time).expect_err("a fault").to_string();
-        assert!(error((1899, 1, 1), (0, 0, 0.0)).starts_with("year 1899 is outside 1900 to 2100"));
-        assert!(error((2023, 2, 29), (0, 0, 0.0)).starts_with("2023-02-29 is not a date"));
-        assert!(error((2100, 2, 29), (0, 0, 0.0)).starts_with("2100-02-29 is not a date"));
-        assert!(error((2024, 13, 1), (0, 0, 0.0)).starts_with("2024-13-01 is not a date"));
-        assert!(error((2024, 4, 0), (0, 0, 0.0)).starts_with("2024-04-00 is not a date"));
-        assert!(error((2024, 4, 1), (24, 0, 0.0)).starts_with("24:00:0 is not a time"));
-        assert!(error((2024, 4, 1), (12, 0, f64::NAN)).starts_with("12:00:NaN is not a time"));
-        let noon = utc((2024, 6, 21), (12, 0, 0.0));
+        assert!(error(date(1899, 1, 1), time(0, 0, 0.0)).starts_with("year 1899 is outside 1900 to 2100"));
+        assert!(error(date(2023, 2, 29), time(0, 0, 0.0)).starts_with("2023-02-29 is not a date"));
+        assert!(error(date(2100, 2, 29), time(0, 0, 0.0)).starts_with("2100-02-29 is not a date"));
+        assert!(error(date(2024, 13, 1), time(0, 0, 0.0)).starts_with("2024-13-01 is not a date"));
+        assert!(error(date(2024, 4, 0), time(0, 0, 0.0)).starts_with("2024-04-00 is not a date"));
+        assert!(error(date(2024, 4, 1), time(24, 0, 0.0)).starts_with("24:00:0 is not a time"));
+        assert!(error(date(2024, 4, 1), time(12, 0, f64::NAN)).starts_with("12:00:NaN is not a time"));
+        let noon = utc(date(2024, 6, 21), time(12, 0, 0.0));
         for (latitude, longitude) in [(90.1, 0.0), (0.0, -180.5), (f64::NAN, 0.0)] {
             let message = sun_position(noon, latitude, longitude).expect_err("a fault").to_string();
             assert!(message.ends_with("(east is positive)"), "{message}");

@@ -1,9 +1,8 @@
 //! What lights that are surfaces have in common.
 
 use super::light_sample::LightSample;
-use crate::materials::MaterialTable;
+use crate::materials::{EmissionQuery, MaterialTable};
 use crate::textures::Lookup;
-use etendue_core::{TimeInterval, Wavelengths};
 use glam::{Vec2, Vec3};
 
 /// A point of a light's surface, drawn for a point of the scene.
@@ -36,7 +35,7 @@ impl SurfaceSample {
 }
 
 /// What surface lights have in common.
-pub(super) struct Glowing<'a> {
+pub(super) struct SurfaceEmission<'a> {
     pub(super) material: crate::MaterialId,
     pub(super) error_m: f32,
     /// How far before the point, along the ray to it, the accelerator may already meet the surface.
@@ -44,15 +43,15 @@ pub(super) struct Glowing<'a> {
     pub(super) material_table: &'a MaterialTable,
 }
 
-impl Glowing<'_> {
-    /// The light sample of a surface sample seen from `from`, with the strength of the time that is `asked` for; `None` where the side seen does not glow.
+impl SurfaceEmission<'_> {
+    /// The light sample of a surface sample seen from `from`, with the strength of the time that is queried; `None` where the side seen does not glow.
     #[inline(always)]
     pub(super) fn towards<const N: usize>(
         &self,
         surface: &SurfaceSample,
         from: Vec3,
         spread_rad: f32,
-        asked: (&Wavelengths<N>, &TimeInterval),
+        query: EmissionQuery<'_, N>,
     ) -> Option<LightSample<N>> {
         let distance = surface.distance;
         let direction = surface.direction()?;
@@ -61,7 +60,7 @@ impl Glowing<'_> {
         Some(LightSample {
             direction,
             target: Some(surface.target(from, direction, self.error_m, self.early_m)),
-            radiance: self.material_table.radiance(self.material, emission, &lookup, asked),
+            radiance: self.material_table.radiance(self.material, emission, &lookup, query),
             pdf: surface.pdf,
             delta: false,
             surrounds: false,

@@ -6,9 +6,9 @@
 use etendue_core::warp::uniform_triangle;
 use glam::{DAffine3, DVec3, Mat3, Vec2, Vec3};
 
-use super::near::{Flat, Near, Nearness};
+use super::near::{FlatLight, NearRegion, NearView};
 use super::tree::LightBounds;
-use super::{Glowing, LightHit, ROUNDING, SurfaceSample, solid_angle_pdf};
+use super::{LightHit, ROUNDING, SurfaceEmission, SurfaceSample, solid_angle_pdf};
 use crate::MaterialId;
 use crate::geometry::Mesh;
 use crate::materials::MaterialTable;
@@ -16,12 +16,12 @@ use crate::materials::MaterialTable;
 /// A glowing triangle in the render frame, or a parallelogram.
 #[derive(Clone, Debug)]
 pub(super) struct TriangleLight {
-    flat: Flat,
+    flat: FlatLight,
     /// On the same side as the surface's geometric normal: that of the winding in the mesh's own frame.
     normal: Vec3,
     per_area: f32,
     /// Where it is drawn by solid angle.
-    nearness: Nearness,
+    nearness: NearRegion,
     uvs: [Vec2; 3],
     uv_per_m: f32,
     error_m: f32,
@@ -41,12 +41,12 @@ impl TriangleLight {
         let per_area = (2.0 / doubled.length()) as f32;
         let uv_area = (uvs[1] - uvs[0]).perp_dot(uvs[2] - uvs[0]).abs();
         let linear = to_render.matrix3.as_mat3();
-        let flat = Flat { corner: a.as_vec3(), edges: [(b - a).as_vec3(), (c - a).as_vec3()], doubled: false };
+        let flat = FlatLight { corner: a.as_vec3(), edges: [(b - a).as_vec3(), (c - a).as_vec3()], doubled: false };
         let light = Self {
             flat,
             normal: doubled.normalize_or_zero().as_vec3(),
             per_area,
-            nearness: Nearness::of(&flat),
+            nearness: NearRegion::of(&flat),
             uvs,
             uv_per_m: (0.5 * uv_area * per_area).sqrt(),
             error_m: error_bound(own, linear, to_render.translation.as_vec3()),
@@ -84,7 +84,7 @@ impl TriangleLight {
         self.flat.at(Vec2::splat(0.5))
     }
 
-    /// How far a stored point may be from where the accelerator sees it, and how far before it a ray may be met, m.
+    /// How far a stored point may be from where the accelerator sees it, and how far before it a ray may be hit, m.
     pub(super) fn rounding_m(&self) -> (f32, f32) {
         (self.error_m, self.flat.early_m())
     }
@@ -112,14 +112,14 @@ impl TriangleLight {
         (pdf > 0.0).then_some(SurfaceSample { way, distance, normal: self.normal, pdf, uv, uv_per_m: self.uv_per_m })
     }
 
-    pub(super) fn pdf(&self, met: &LightHit<'_>) -> f32 {
-        let near = self.near(met.receiver.position);
-        self.density(near.as_ref(), met.direction * met.distance_m, met.distance_m)
+    pub(super) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
+        let near = self.near(hit.receiver.position);
+        self.density(near.as_ref(), hit.direction * hit.distance_m, hit.distance_m)
     }
 
     /// Density by solid angle of the point at the end of `way`.
     #[inline(always)]
-    fn density(&self, near: Option<&Near>, way: Vec3, distance: f32) -> f32 {
+    fn density(&self, near: Option<&NearView>, way: Vec3, distance: f32) -> f32 {
         match near {
             Some(near) => near.per_sr,
             None => solid_angle_pdf(self.per_area, way, distance, self.normal),
@@ -128,12 +128,12 @@ impl TriangleLight {
 
     /// The light as seen from near by; `None` from afar, or where it fills too little.
     #[inline(always)]
-    fn near(&self, from: Vec3) -> Option<Near> {
-        if self.nearness.holds(from) { Near::new(&self.flat, from) } else { None }
+    fn near(&self, from: Vec3) -> Option<NearView> {
+        if self.nearness.holds(from) { NearView::new(&self.flat, from) } else { None }
     }
 
-    pub(super) fn glowing<'a>(&self, material_table: &'a MaterialTable) -> Glowing<'a> {
-        Glowing { material: self.material, error_m: self.error_m, early_m: self.flat.early_m(), material_table }
+    pub(super) fn glowing<'a>(&self, material_table: &'a MaterialTable) -> SurfaceEmission<'a> {
+        SurfaceEmission { material: self.material, error_m: self.error_m, early_m: self.flat.early_m(), material_table }
     }
 }
 
@@ -173,8 +173,14 @@ impl Facets {
         let single = TriangleLight::of_corners(&self.near, to_render, material)?;
         let Some(far) = &self.far else { return Some(single) };
         let error_m = single.error_m.max(TriangleLight::of_corners(far, to_render, material)?.error_m);
-        let flat = Flat { doubled: true, ..single.flat };
-        Some(TriangleLight { flat, nearness: Nearness::of(&flat), per_area: 0.5 * single.per_area, error_m, ..single })
+        let flat = FlatLight { doubled: true, ..single.flat };
+        Some(TriangleLight {
+            flat,
+            nearness: NearRegion::of(&flat),
+            per_area: 0.5 * single.per_area,
+            error_m,
+            ..single
+        })
     }
 }
 

@@ -10,23 +10,18 @@
 //! incidence the lobe loses energy, as it has no Fresnel factor; shadowing is left out.
 
 use core::f32::consts::{FRAC_1_PI, TAU};
-use etendue_core::Spectral;
-use etendue_core::maths;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
+use etendue_core::{Spectral, maths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
-use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
-use super::energy::{self, AlbedoTable, EnergyGain};
-use super::error::MaterialError;
-use super::gloss::{About, Gloss, GlossLobe};
+use super::energy::{self, AlbedoTable, WeightedLobe};
+use super::error::{EnergyGain, MaterialError};
+use super::gloss::{Gloss, GlossLobe, LobeCentre};
 use super::microfacet::{half_vector, mirrored};
-use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use super::parameter::Parameter;
-use super::reflectance::Reflectance;
-use super::shading_point::ShadingPoint;
-use super::texture_check::TextureCheck;
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 
 /// The sharpest lobe: about 0.2° wide.
 const MAX_EXPONENT: f64 = 1e5;
@@ -70,7 +65,7 @@ impl BlinnPhong {
 
     /// Refuses a base with which more is sent back than arrives.
     fn refuse_gain(&self, base: &Spectrum) -> Result<(), EnergyGain> {
-        energy::check(base, &[(&self.gloss, &self.albedo)])
+        energy::check(base, &[WeightedLobe { weight: &self.gloss, albedo: &self.albedo }])
     }
 }
 
@@ -206,7 +201,12 @@ impl<const N: usize> BsdfModel<N> for BlinnPhongBsdf<'_, N> {
         // cosⁿ of the half vector's angle and the kernel bend alike at the axis, t² n/2 = 2 t² (1/w² − 1).
         let width = (4.0 / (n + 4.0)).sqrt();
         let peak = self.gloss.mean() * scale * wo.z;
-        Gloss::over(self.base.mean() * FRAC_1_PI).with(GlossLobe { about: About::HalfVector, width, peak, f0: 1.0 })
+        Gloss::over(self.base.mean() * FRAC_1_PI).with(GlossLobe {
+            about: LobeCentre::HalfVector,
+            width,
+            peak,
+            f0: 1.0,
+        })
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

@@ -26,20 +26,15 @@ use etendue_spectra::Spectrum;
 use etendue_spectra::metal::ComplexIndex;
 use glam::{Vec2, Vec3};
 
-use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::coated::{COAT_INDICES, Coat, PlaceInRows};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable};
 use super::error::MaterialError;
-use super::factor::Factor;
 use super::fresnel;
-use super::gloss::{About, Gloss, GlossLobe};
+use super::gloss::{Gloss, GlossLobe, LobeCentre};
 use super::microfacet::{Ggx, half_vector, mirrored};
-use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use super::parameter::Parameter;
-use super::reflectance::Reflectance;
-use super::shading_point::ShadingPoint;
-use super::texture_check::TextureCheck;
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureCheck};
 
 /// What a metallic paint is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,12 +72,12 @@ pub struct CarPaint {
     coat: Coat,
     coat_alpha: f32,
     place: PlaceInRows,
-    inside: Inside,
+    inside: InsideCoat,
 }
 
 /// What flakes of reflectance 1 do inside the coat.
 #[derive(Clone, Debug, PartialEq)]
-struct Inside {
+struct InsideCoat {
     /// Share sent back, by the cosine outside.
     sent: AlbedoTable,
     /// Of it, what the coat turns round.
@@ -110,7 +105,7 @@ fn bent(w: Vec3, scale: f32, cos: f32) -> Vec3 {
     Vec3::new(w.x * scale, w.y * scale, cos)
 }
 
-impl Inside {
+impl InsideCoat {
     fn new(facets: Ggx, coat: &Coat, place: PlaceInRows) -> Self {
         const STEPS: usize = 64;
         let through = |cos: f32| outer_cos(cos, coat.n).map_or(0.0, |outer| coat.transmittance(place, outer));
@@ -168,7 +163,7 @@ impl CarPaint {
         let place = coat.place(parts.coat_alpha as f32);
         let facets = Ggx { alpha: parts.flake_alpha as f32 };
         Ok(Self {
-            inside: Inside::new(facets, &coat, place),
+            inside: InsideCoat::new(facets, &coat, place),
             coat_alpha: parts.coat_alpha as f32,
             pigment: parts.pigment,
             flakes: parts.flakes,
@@ -208,7 +203,7 @@ impl SurfaceModel for CarPaint {
             if round > 1e-6 { (sent / (round * (1.0 - round))).min(1.0 / out) } else { 0.0 }
         });
         // Outside, what flakes send on is spread by the coat's refraction as well.
-        let facets = Ggx { alpha: self.facets.alpha.max(point.least_alpha / self.coat.n) };
+        let facets = Ggx { alpha: self.facets.alpha.max(point.min_alpha / self.coat.n) };
         let coat_alpha = point.widened(self.coat_alpha);
         let (coat_facets, is_widened) = (Ggx::of(coat_alpha), coat_alpha > self.coat_alpha);
         CarPaintBsdf { paint: self, facets, coat_facets, is_widened, flakes, pigment, turned, again }
@@ -339,7 +334,7 @@ impl<const N: usize> BsdfModel<N> for CarPaintBsdf<'_, N> {
         let width = (self.facets.alpha * n * inner / wo.z).min(1.0);
         let mirror = Vec3::new(-wo.x, -wo.y, wo.z);
         let peak = self.flakes.mean() * both * self.flake(wo, mirror).0;
-        let flakes = GlossLobe { about: About::HalfVector, width, peak, f0: 1.0 };
+        let flakes = GlossLobe { about: LobeCentre::HalfVector, width, peak, f0: 1.0 };
         let gloss = Gloss::over(matt.mean() * both * FRAC_1_PI).with(flakes);
         match self.coat_facets {
             Some(facets) => gloss.with(facets.gloss(wo, fresnel::dielectric(1.0, n))),

@@ -5,9 +5,8 @@ use super::emission::Emission;
 use super::error::MaterialError;
 use super::material::Material;
 use super::mix::Mix;
-use super::parameter::Parameter;
-use super::texture_check::TextureCheck;
-use crate::limit::BRIGHTEST;
+use super::parameter::{Parameter, TextureCheck};
+use crate::BRIGHTEST;
 use crate::textures::ImageTexture;
 
 /// Checks material `index` of `materials`.
@@ -83,7 +82,7 @@ fn parts(materials: &[Material], index: usize, mix: &Mix) -> Result<(), Material
 mod tests {
     use super::*;
     use crate::MaterialId;
-    use crate::materials::factor::Factor;
+    use crate::materials::parameter::Factor;
 
     fn mix(a: u32, b: u32) -> Mix {
         Mix { a: MaterialId(a), b: MaterialId(b), weight: Factor::Number(0.25) }

@@ -18,17 +18,13 @@ use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
-use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable};
 use super::error::MaterialError;
 use super::gloss::Gloss;
 use super::microfacet::half_vector;
-use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use super::parameter::Parameter;
-use super::reflectance::Reflectance;
-use super::shading_point::ShadingPoint;
-use super::texture_check::TextureCheck;
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 
 /// A cloth.
 #[derive(Clone, Debug, PartialEq)]

@@ -18,21 +18,15 @@ use etendue_core::maths::f32::{exp, ln};
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use glam::{Vec2, Vec3};
 
-use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::energy::CosineTable;
 use super::error::MaterialError;
-use super::facets::Distribution;
-use super::factor::Factor;
 use super::fresnel;
 use super::gloss::Gloss;
-use super::microfacet::{Ggx, MIRROR_ALPHA, half_vector, mirrored};
-use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use super::parameter::Parameter;
+use super::microfacet::{Distribution, Ggx, MIRROR_ALPHA, half_vector, mirrored};
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureCheck};
 use super::puddles::Puddles;
-use super::reflectance::Reflectance;
-use super::shading_point::ShadingPoint;
 use super::slopes::SeenFacets;
-use super::texture_check::TextureCheck;
 
 /// Refractive indices that a coat may have: from a little above air's, below which the coat would do nothing that f32
 /// and the table resolve, to that of germanium. Scene files state the same range.
@@ -85,8 +79,8 @@ impl SurfaceModel for Coated {
     }
 
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> CoatedBsdf<'_, N> {
-        let told = point.factor(self.coat.alpha);
-        let alpha = self.puddles.as_ref().map_or(told, |puddles| puddles.alpha(told));
+        let own_alpha = point.factor(self.coat.alpha);
+        let alpha = self.puddles.as_ref().map_or(own_alpha, |puddles| puddles.alpha(own_alpha));
         let place = self.coat.place(alpha);
         let mean = self.coat.mean_transmittance(place);
         let n2 = self.coat.n * self.coat.n;

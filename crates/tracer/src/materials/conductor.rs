@@ -17,19 +17,13 @@ use etendue_spectra::Spectrum;
 use etendue_spectra::metal::ComplexIndex;
 use glam::{Vec2, Vec3};
 
-use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::error::MaterialError;
-use super::facets::{Distribution, Facets};
-use super::factor::Factor;
 use super::fresnel;
 use super::gloss::Gloss;
 use super::interreflection::{self, LossOfAlpha};
-use super::microfacet::{MIRROR_ALPHA, half_vector, mirrored};
-use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use super::parameter::Parameter;
-use super::reflectance::Reflectance;
-use super::shading_point::ShadingPoint;
-use super::texture_check::TextureCheck;
+use super::microfacet::{Distribution, Facets, MIRROR_ALPHA, half_vector, mirrored};
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureCheck};
 use crate::textures::TextureId;
 
 /// A metal, or another interface that light does not come out of again.
@@ -128,8 +122,8 @@ impl SurfaceModel for Conductor {
     }
 
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> ConductorBsdf<N> {
-        let told = point.factor(self.alpha);
-        let alpha = point.widened(told);
+        let own_alpha = point.factor(self.alpha);
+        let alpha = point.widened(own_alpha);
         let rough = alpha >= MIRROR_ALPHA;
         let fresnel = match &self.index {
             Index::Complex(index) => {
@@ -147,10 +141,10 @@ impl SurfaceModel for Conductor {
                     Fresnel::Schlick(normal) | Fresnel::Real(normal) | Fresnel::Complex(normal, _),
                 ) => normal.map(|normal| normal + (1.0 - normal) / 21.0),
             };
-            More { loss, tint: mean.map(|mean| loss.tint(mean)) }
+            MultipleScattering { loss, tint: mean.map(|mean| loss.tint(mean)) }
         });
         let facets = rough.then(|| self.distribution.of_alpha(alpha));
-        ConductorBsdf { fresnel, facets, is_widened: alpha > told, more }
+        ConductorBsdf { fresnel, facets, is_widened: alpha > own_alpha, more }
     }
 
     fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
@@ -198,7 +192,7 @@ enum Fresnel<const N: usize> {
 
 /// Light scattered among facets more than once.
 #[derive(Clone, Copy, Debug)]
-struct More<const N: usize> {
+struct MultipleScattering<const N: usize> {
     loss: LossOfAlpha<'static>,
     /// F_ms.
     tint: Spectral<N>,
@@ -212,7 +206,7 @@ pub struct ConductorBsdf<const N: usize> {
     facets: Option<Facets>,
     /// Whether they are rougher than the surface.
     is_widened: bool,
-    more: Option<More<N>>,
+    more: Option<MultipleScattering<N>>,
 }
 
 impl<const N: usize> ConductorBsdf<N> {
@@ -234,12 +228,19 @@ impl<const N: usize> ConductorBsdf<N> {
     }
 
     /// Probability of drawing from what is scattered more than once: about its share of what goes back.
-    fn share_of(&self, more: &More<N>, wo_loss: f32, wo: Vec3) -> f32 {
+    fn share_of(&self, more: &MultipleScattering<N>, wo_loss: f32, wo: Vec3) -> f32 {
         let (again, once) = (more.tint.mean() * wo_loss, self.fresnel(wo.z).mean() * (1.0 - wo_loss));
         if again + once > 0.0 { again / (again + once) } else { 0.0 }
     }
 
-    fn sample_both(&self, facets: Facets, more: &More<N>, wo: Vec3, (choice, u): (f32, Vec2)) -> Option<BsdfSample<N>> {
+    fn sample_both(
+        &self,
+        facets: Facets,
+        more: &MultipleScattering<N>,
+        wo: Vec3,
+        choice: f32,
+        u: Vec2,
+    ) -> Option<BsdfSample<N>> {
         let share = self.share_of(more, more.loss.at(wo.z), wo);
         let wi = if choice < share { more.loss.sample(u) } else { mirrored(wo, facets.sample(wo, u)) };
         if wi.z <= 0.0 {
@@ -278,7 +279,7 @@ impl<const N: usize> BsdfModel<N> for ConductorBsdf<N> {
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let Some(facets) = self.facets else { return Some(BsdfSample::mirror(wo, self.fresnel(wo.z))) };
         if let Some(more) = &self.more {
-            return self.sample_both(facets, more, wo, (choice, u));
+            return self.sample_both(facets, more, wo, choice, u);
         }
         let m = facets.sample(wo, u);
         let wi = mirrored(wo, m);

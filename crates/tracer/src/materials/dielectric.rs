@@ -22,16 +22,12 @@ use etendue_core::{Spectral, maths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
-use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::error::MaterialError;
-use super::factor::Factor;
 use super::fresnel;
 use super::gloss::Gloss;
 use super::microfacet::{Ggx, half_vector, mirrored};
-use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use super::parameter::Parameter;
-use super::shading_point::ShadingPoint;
-use super::texture_check::TextureCheck;
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::parameter::{Factor, Parameter, ShadingPoint, TextureCheck};
 
 /// Refractive indices against air that a solid or a pane may have: from that of a substance which nobody sees.
 pub const DIELECTRIC_INDICES: core::ops::RangeInclusive<f64> = 1.0..=4.0;
@@ -225,7 +221,7 @@ mod tests {
             for (cos, front) in [(1.0_f32, true), (0.3, true), (1e-4, true), (0.5, false), (1e-4, false)] {
                 let (lookup, wavelengths) = (Lookup::point(Vec2::ZERO), Wavelengths::<1>::uniform(400.0, 700.0, 0.5));
                 let point =
-                    ShadingPoint { textures: &[], lookup: &lookup, front, wavelengths: &wavelengths, least_alpha: 0.0 };
+                    ShadingPoint { textures: &[], lookup: &lookup, front, wavelengths: &wavelengths, min_alpha: 0.0 };
                 let bsdf = glass.resolve(&point);
                 let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
                 let cell = |i: u32| {

@@ -7,14 +7,10 @@ use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use glam::{Vec2, Vec3};
 
-use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::error::MaterialError;
 use super::gloss::Gloss;
-use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use super::parameter::Parameter;
-use super::reflectance::Reflectance;
-use super::shading_point::ShadingPoint;
-use super::texture_check::TextureCheck;
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 
 /// A reflectance alone is Lambert's law.
 impl SurfaceModel for Reflectance {

@@ -37,6 +37,15 @@ pub struct Emission {
     pub modulation: Option<Modulation>,
 }
 
+/// What emitted light is evaluated at.
+#[derive(Clone, Copy, Debug)]
+pub struct EmissionQuery<'a, const N: usize> {
+    /// The wavelengths.
+    pub wavelengths: &'a Wavelengths<N>,
+    /// The interval over which strengths that change over time are averaged.
+    pub interval: &'a TimeInterval,
+}
+
 impl Emission {
     /// Whether light leaves along `direction` from a surface of this geometric normal.
     #[must_use]
@@ -48,8 +57,9 @@ impl Emission {
         &self,
         textures: &[ImageTexture],
         lookup: &Lookup,
-        (wavelengths, lit): (&Wavelengths<N>, &TimeInterval),
+        query: EmissionQuery<'_, N>,
     ) -> Spectral<N> {
+        let EmissionQuery { wavelengths, interval } = query;
         let radiance = self.radiance.sample(wavelengths);
         let radiance = match self.factor {
             None => radiance,
@@ -59,7 +69,7 @@ impl Emission {
         match &self.modulation {
             None => radiance,
             Some(_) if !ALL_EFFECTS => unreachable!("nothing changes over time"),
-            Some(modulation) => radiance * modulation.mean(lookup.uv, *lit),
+            Some(modulation) => radiance * modulation.mean(lookup.uv, *interval),
         }
     }
 
@@ -85,7 +95,8 @@ mod tests {
         let emission =
             Emission { radiance: unit, factor: Some(TextureId(0)), sides: EmissionSides::Front, modulation: None };
         let wavelengths = Wavelengths::<8>::uniform(380.0, 780.0, 0.3);
-        let radiance = emission.at(&[picture], &Lookup::point(Vec2::ZERO), (&wavelengths, &TimeInterval::default()));
+        let query = EmissionQuery { wavelengths: &wavelengths, interval: &TimeInterval::default() };
+        let radiance = emission.at(&[picture], &Lookup::point(Vec2::ZERO), query);
         let expected = upsample::emission(colour, &wavelengths);
         for i in 0..8 {
             // Products of interpolated spectra, and the product interpolated: tables of D65 bend by 1e-3 over a nanometre.

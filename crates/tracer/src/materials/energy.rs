@@ -6,24 +6,9 @@
 
 use etendue_spectra::Spectrum;
 
-use super::Reflectance;
+use super::error::EnergyGain;
 use super::gauss::GAUSS;
-
-/// A surface that would send back more light than arrives.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "lit at {incidence_deg:.1}° from its normal, the surface would send back {albedo:.4} of the light at {wavelength_nm} \
-     nm, but none sends back more than arrives (1); lower its reflectances or weights to {:.4} of what they are",
-    1.0 / albedo
-)]
-pub struct EnergyGain {
-    /// The greatest albedo found.
-    pub albedo: f64,
-    /// The angle of incidence at which it was found, degrees.
-    pub incidence_deg: f64,
-    /// The wavelength at which it was found, nm.
-    pub wavelength_nm: u16,
-}
+use super::parameter::Reflectance;
 
 /// Segments of the tables of albedos.
 const SEGMENTS: usize = 128;
@@ -75,8 +60,16 @@ fn node_cos(i: usize, segments: usize) -> f32 {
     (t * t) * (t * t)
 }
 
+/// A lobe and its weight.
+#[derive(Clone, Copy)]
+pub(super) struct WeightedLobe<'a> {
+    pub(super) weight: &'a Spectrum,
+    /// At the weight 1.
+    pub(super) albedo: &'a AlbedoTable,
+}
+
 /// Refuses a surface of matt reflectance `base` and lobes (spectrum, albedo at spectrum 1) that gains energy anywhere.
-pub(super) fn check(base: &Spectrum, lobes: &[(&Spectrum, &AlbedoTable)]) -> Result<(), EnergyGain> {
+pub(super) fn check(base: &Spectrum, lobes: &[WeightedLobe<'_>]) -> Result<(), EnergyGain> {
     let greatest =
         (0..=SEGMENTS).map(|i| greatest(base, lobes, i)).reduce(|a, b| if b.albedo > a.albedo { b } else { a });
     match greatest {
@@ -85,9 +78,9 @@ pub(super) fn check(base: &Spectrum, lobes: &[(&Spectrum, &AlbedoTable)]) -> Res
     }
 }
 
-fn greatest(base: &Spectrum, lobes: &[(&Spectrum, &AlbedoTable)], node: usize) -> EnergyGain {
+fn greatest(base: &Spectrum, lobes: &[WeightedLobe<'_>], node: usize) -> EnergyGain {
     let albedo = |k: usize| -> f64 {
-        let lobe = |(spectrum, table): &(&Spectrum, &AlbedoTable)| f64::from(spectrum.nodes()[k] * table.0[node]);
+        let lobe = |lobe: &WeightedLobe<'_>| f64::from(lobe.weight.nodes()[k] * lobe.albedo.0[node]);
         f64::from(base.nodes()[k]) + lobes.iter().map(lobe).sum::<f64>()
     };
     let (k, albedo) = (0..base.nodes().len())
@@ -129,8 +122,9 @@ mod tests {
         let base =
             Spectrum::from_points(&[(400.0, 0.2), (600.0, 0.6)], etendue_spectra::Outside::Hold).expect("points");
         let table = AlbedoTable::new(|cos| f64::from(1.0 - cos));
-        assert_eq!(check(&base, &[(&Spectrum::constant(0.4), &table)]), Ok(()));
-        let gain = check(&base, &[(&Spectrum::constant(0.5), &table)]).expect_err("it gains");
+        assert_eq!(check(&base, &[WeightedLobe { weight: &Spectrum::constant(0.4), albedo: &table }]), Ok(()));
+        let gain =
+            check(&base, &[WeightedLobe { weight: &Spectrum::constant(0.5), albedo: &table }]).expect_err("it gains");
         assert_eq!((gain.wavelength_nm, gain.incidence_deg), (600, 90.0));
         assert!((gain.albedo - 1.1).abs() < 1e-6);
         assert!(gain.to_string().contains("90.0°") && gain.to_string().contains("0.9091"), "{gain}");

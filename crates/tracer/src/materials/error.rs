@@ -1,7 +1,5 @@
 //! Why materials are refused.
 
-use super::EnergyGain;
-
 /// Why a material is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MaterialError {
@@ -211,4 +209,20 @@ impl MaterialError {
             | Self::NormalStrength { .. } => None,
         }
     }
+}
+
+/// A surface that would send back more light than arrives.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "lit at {incidence_deg:.1}° from its normal, the surface would send back {albedo:.4} of the light at {wavelength_nm} \
+     nm, but none sends back more than arrives (1); lower its reflectances or weights to {:.4} of what they are",
+    1.0 / albedo
+)]
+pub struct EnergyGain {
+    /// The greatest albedo found.
+    pub albedo: f64,
+    /// The angle of incidence at which it was found, degrees.
+    pub incidence_deg: f64,
+    /// The wavelength at which it was found, nm.
+    pub wavelength_nm: u16,
 }

@@ -25,7 +25,7 @@ pub(crate) struct Gloss {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct GlossLobe {
     /// What t is measured from.
-    pub(crate) about: About,
+    pub(crate) about: LobeCentre,
     /// w, in units of t.
     pub(crate) width: f32,
     /// f cos θᵢ at the axis but for the Fresnel factor, 1/sr.
@@ -36,7 +36,7 @@ pub(crate) struct GlossLobe {
 
 /// The axis of a lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum About {
+pub(crate) enum LobeCentre {
     /// The normal, as which the half vector of viewer and light should lie: t is the tangent of their angle.
     HalfVector,
     /// A unit direction that light should come from: t is its distance on the unit sphere.
@@ -44,12 +44,12 @@ pub(crate) enum About {
 }
 
 impl GlossLobe {
-    const NONE: Self = Self { about: About::HalfVector, width: 1.0, peak: 0.0, f0: 0.0 };
+    const NONE: Self = Self { about: LobeCentre::HalfVector, width: 1.0, peak: 0.0, f0: 0.0 };
 
     /// A lobe about a unit direction whose whole share of light sent back is `albedo`: ∫ [w²/(w² + t²)]² 2π t dt = π w².
     pub(super) fn of_albedo(direction: Vec3, peak: f32, albedo: f32) -> Self {
         let width2 = core::f32::consts::FRAC_1_PI * albedo / peak.max(f32::MIN_POSITIVE);
-        Self { about: About::Direction(direction), width: width2.sqrt(), peak, f0: 1.0 }
+        Self { about: LobeCentre::Direction(direction), width: width2.sqrt(), peak, f0: 1.0 }
     }
 
     /// About the density by which the lobe alone is sampled at its axis, 1/sr: that of a kernel whose integral is 1.
@@ -57,8 +57,8 @@ impl GlossLobe {
         let kernel = core::f32::consts::FRAC_1_PI / (self.width * self.width).max(f32::MIN_POSITIVE);
         match self.about {
             // Half vectors turn by half of what directions do.
-            About::HalfVector => 0.25 * kernel,
-            About::Direction(_) => kernel,
+            LobeCentre::HalfVector => 0.25 * kernel,
+            LobeCentre::Direction(_) => kernel,
         }
     }
 

@@ -18,8 +18,8 @@ use glam::{Vec2, Vec3};
 use std::sync::LazyLock;
 
 use super::MIRROR_ALPHA;
-use super::facets::Distribution;
 use super::gauss::GAUSS;
+use super::microfacet::Distribution;
 use super::slopes::SeenFacets;
 
 /// Steps over the root of the roughness.

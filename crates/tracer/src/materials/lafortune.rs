@@ -14,22 +14,17 @@
 //! lobes were fitted to.
 
 use core::f32::consts::{FRAC_1_PI, TAU};
-use etendue_core::maths;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use etendue_core::{Basis, Spectral};
+use etendue_core::{Basis, Spectral, maths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
-use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
-use super::energy::{self, AlbedoTable, EnergyGain};
-use super::error::MaterialError;
-use super::gloss::{About, Gloss, GlossLobe};
-use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use super::parameter::Parameter;
-use super::reflectance::Reflectance;
-use super::shading_point::ShadingPoint;
-use super::texture_check::TextureCheck;
+use super::energy::{self, AlbedoTable, WeightedLobe};
+use super::error::{EnergyGain, MaterialError};
+use super::gloss::{Gloss, GlossLobe, LobeCentre};
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 
 /// The most lobes that a model may have.
 pub const MAX_LOBES: usize = 4;
@@ -80,7 +75,7 @@ impl Lobe {
         let (axis, n) = (self.axis(wo), self.exponent as f32);
         let length = axis.length().max(f32::MIN_POSITIVE);
         let peak = weight * maths::f32::pow(length, n) * (axis.z / length);
-        GlossLobe { about: About::Direction(axis / length), width: 2.0 / n.max(1.0).sqrt(), peak, f0: 1.0 }
+        GlossLobe { about: LobeCentre::Direction(axis / length), width: 2.0 / n.max(1.0).sqrt(), peak, f0: 1.0 }
     }
 
     fn check(&self, lobe: usize) -> Result<(), LafortuneError> {
@@ -155,7 +150,8 @@ impl Lafortune {
 
     /// Refuses a base under which more is sent back than arrives.
     fn refuse_gain(&self, base: &Spectrum) -> Result<(), EnergyGain> {
-        let lobes: Vec<_> = self.lobes.iter().map(|lobe| &lobe.weight).zip(&self.albedos).collect();
+        let lobes = self.lobes.iter().zip(&self.albedos);
+        let lobes: Vec<_> = lobes.map(|(lobe, albedo)| WeightedLobe { weight: &lobe.weight, albedo }).collect();
         energy::check(base, &lobes)
     }
 }
@@ -361,7 +357,7 @@ mod tests {
             lookup: &lookup,
             front: true,
             wavelengths: &wavelengths,
-            least_alpha: 0.0,
+            min_alpha: 0.0,
         });
         let (wo, wi) = (Vec3::new(0.8, 0.0, 0.6), Vec3::new(-0.8, 0.0, 0.6));
         let value = bsdf.evaluate(wo, wi);

@@ -1,15 +1,14 @@
 //! The materials and textures of a world, checked once.
 
-use etendue_core::{Spectral, TimeInterval, Wavelengths};
+use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 use glam::Vec3;
 
-use super::emission::Emission;
+use super::emission::{Emission, EmissionQuery};
 use super::error::MaterialError;
-use super::flags::{MaterialFlags, flags};
-use super::material::Material;
+use super::material::{Material, MaterialFlags, flags};
 use super::model::Passage;
-use super::shading_point::ShadingPoint;
+use super::parameter::ShadingPoint;
 use super::{Bsdf, DiffuseBsdf, Reflectance, Surface, check, mix};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
@@ -94,15 +93,15 @@ impl MaterialTable {
     }
 
     /// Radiance (W·m⁻²·sr⁻¹·nm⁻¹) of a glowing side at a point: as much as the material's opacity leaves of `emission`,
-    /// so that it counts before the path decides whether the surface is there. It is asked for at wavelengths, averaged over a time.
+    /// so that it counts before the path decides whether the surface is there.
     pub(crate) fn radiance<const N: usize>(
         &self,
         id: MaterialId,
         emission: &Emission,
         lookup: &Lookup,
-        asked: (&Wavelengths<N>, &TimeInterval),
+        query: EmissionQuery<'_, N>,
     ) -> Spectral<N> {
-        let full = emission.at(&self.textures, lookup, asked);
+        let full = emission.at(&self.textures, lookup, query);
         match self.materials[id.0 as usize].opacity {
             None => full,
             Some(opacity) => full * opacity.at(&self.textures, lookup),
@@ -232,10 +231,10 @@ impl MaterialTable {
         front: bool,
         wavelengths: &Wavelengths<N>,
     ) -> Bsdf<'_, N> {
-        self.widened_bsdf(id, lookup, (front, 0.0), wavelengths)
+        self.widened_bsdf(id, lookup, front, 0.0, wavelengths)
     }
 
-    /// The same with micro-facets of a roughness α of `least_alpha` at least: those of metals, coats, glass and paint, under the tables of
+    /// The same with micro-facets of a roughness α of `min_alpha` at least: those of metals, coats, glass and paint, under the tables of
     /// energy that they have by themselves. Other lobes are as they are.
     #[must_use]
     #[inline(always)]
@@ -243,10 +242,11 @@ impl MaterialTable {
         &self,
         id: MaterialId,
         lookup: &Lookup,
-        (front, least_alpha): (bool, f32),
+        front: bool,
+        min_alpha: f32,
         wavelengths: &Wavelengths<N>,
     ) -> Bsdf<'_, N> {
-        let point = ShadingPoint { least_alpha, ..self.point(lookup, front, wavelengths) };
+        let point = ShadingPoint { min_alpha, ..self.point(lookup, front, wavelengths) };
         self.materials[id.0 as usize].surface.resolve(&point)
     }
 
@@ -267,6 +267,6 @@ impl MaterialTable {
         front: bool,
         wavelengths: &'p Wavelengths<N>,
     ) -> ShadingPoint<'p, N> {
-        ShadingPoint { textures: &self.textures, lookup, front, wavelengths, least_alpha: 0.0 }
+        ShadingPoint { textures: &self.textures, lookup, front, wavelengths, min_alpha: 0.0 }
     }
 }

@@ -4,8 +4,7 @@
 //! of the mix is ever needed: a path draws its material at every vertex, and is then a path over that material. The
 //! parts may be mixes themselves, but never, by any way, of themselves.
 
-use super::factor::Factor;
-use super::parameter::Parameter;
+use super::parameter::{Factor, Parameter};
 use crate::MaterialId;
 
 /// Two materials side by side.

@@ -21,7 +21,6 @@
 
 mod beckmann;
 mod blinn_phong;
-mod bsdf;
 mod car_paint;
 mod check;
 mod cloth;
@@ -33,9 +32,6 @@ mod discrete_sampler;
 mod emission;
 mod energy;
 mod error;
-mod facets;
-mod factor;
-mod flags;
 pub mod fresnel;
 mod gauss;
 mod gloss;
@@ -54,42 +50,36 @@ mod modulation;
 mod normal_map;
 mod parameter;
 mod puddles;
-mod reflectance;
 mod retro;
 mod shading;
-mod shading_point;
 mod slopes;
 #[cfg(test)]
 mod tests;
-mod texture_check;
 mod thin_sheet;
 
 pub use blinn_phong::{BlinnPhong, BlinnPhongBsdf, BlinnPhongError, blinn_phong_normalisation};
-pub use bsdf::{BsdfSample, BsdfValue, Event};
 pub use car_paint::{CarPaint, CarPaintBsdf, CarPaintError, CarPaintParts, flake_reflectance};
 pub use cloth::{Cloth, ClothBsdf, ClothError};
 pub use coated::{COAT_INDICES, Coated, CoatedBsdf, WATER};
 pub use conductor::{Conductor, ConductorBsdf};
 pub use dielectric::{DIELECTRIC_INDICES, Dielectric, DielectricBsdf, absorption_of};
 pub use diffuse::DiffuseBsdf;
-pub use emission::{Emission, EmissionSides};
-pub use energy::EnergyGain;
-pub use error::MaterialError;
-pub use facets::Distribution;
-pub use factor::Factor;
-pub(crate) use gloss::{About, Gloss, GlossLobe, TOLD, schlick};
+pub use emission::{Emission, EmissionQuery, EmissionSides};
+pub use error::{EnergyGain, MaterialError};
+pub(crate) use gloss::{Gloss, GlossLobe, LobeCentre, TOLD, schlick};
 #[cfg(test)]
 pub(crate) use glossy_surfaces::glossy_surfaces;
 pub use lafortune::{Lafortune, LafortuneBsdf, LafortuneError, Lobe, MAX_LOBES};
 pub use leaf::{Leaf, LeafBsdf};
 pub use material::Material;
 pub use material_table::MaterialTable;
-pub use microfacet::{Ggx, MIRROR_ALPHA};
+pub use microfacet::{Distribution, Ggx, MIRROR_ALPHA};
 pub use mix::Mix;
+pub use model::{BsdfSample, BsdfValue, Event};
 pub use modulation::{Modulation, choice_level};
 pub use normal_map::{Green, NormalMap};
-pub use puddles::Puddles;
-pub use reflectance::Reflectance;
+pub use parameter::{Factor, Reflectance};
+pub use puddles::{GroundRelief, Puddles};
 pub use retro::{
     DayTime, MarkingBsdf, MarkingError, RetroTable, RetroTableError, RoadMarking, SHEETING_CLASSES, SHEETING_COLOURS,
     Sheeting, SheetingBsdf, SheetingError, SheetingPreset, marking_class,
@@ -101,9 +91,7 @@ use etendue_core::Spectral;
 use glam::{Vec2, Vec3};
 use list::surfaces;
 use model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use parameter::Parameter;
-use shading_point::ShadingPoint;
-use texture_check::TextureCheck;
+use parameter::{Parameter, ShadingPoint, TextureCheck};
 
 surfaces! {
     /// Lambert's law with a reflectance.

@@ -47,10 +47,10 @@ impl Modulation {
     }
 
     /// Mean level over a time at texture coordinates.
-    pub(crate) fn mean(&self, uv: Vec2, lit: TimeInterval) -> f32 {
+    pub(crate) fn mean(&self, uv: Vec2, interval: TimeInterval) -> f32 {
         let over = match self.rows {
-            None => lit,
-            Some((rows, step_s)) => lit.later(-step_s * f64::from(row(uv.y, rows))),
+            None => interval,
+            Some((rows, step_s)) => interval.later(-step_s * f64::from(row(uv.y, rows))),
         };
         self.waveform.mean(over) as f32
     }

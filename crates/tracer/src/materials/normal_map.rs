@@ -59,10 +59,10 @@ impl NormalMap {
     /// `normal`; it is `normal` itself where the tangents or the texel tell no direction.
     pub(super) fn at(&self, textures: &[ImageTexture], lookup: &Lookup, normal: Vec3, [u, v]: [Vec3; 2]) -> Vec3 {
         let [r, g, b] = textures[self.texture.0 as usize].sample(lookup);
-        let told = Vec3::new(centred(r) * self.slopes.x, centred(g) * self.slopes.y, centred(b).max(0.0));
+        let slopes = Vec3::new(centred(r) * self.slopes.x, centred(g) * self.slopes.y, centred(b).max(0.0));
         // Tangents of the shading normal's own plane, so that a flat map changes nothing.
         let along = |t: Vec3| (t - normal * normal.dot(t)).normalize_or_zero();
-        let bent = along(u) * told.x + along(v) * told.y + normal * told.z;
+        let bent = along(u) * slopes.x + along(v) * slopes.y + normal * slopes.z;
         bent.try_normalize().filter(|n| n.dot(normal) > 0.0).unwrap_or(normal)
     }
 }

@@ -10,7 +10,7 @@
 //! more slowly in heavy rain, and less in water shallower than the waves are long: it is an upper bound.
 
 use super::error::MaterialError;
-use super::factor::Factor;
+use super::parameter::Factor;
 
 /// Mean square slope of water by rain, per mm/h.
 const SLOPE2_PER_MM_H: f64 = 1.15e-3;
@@ -26,18 +26,25 @@ pub struct Puddles {
     ripple_alpha: f32,
 }
 
+/// Heights of ground that water stands on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroundRelief {
+    /// Height of the highest place over the lowest, mm.
+    pub relief_mm: f64,
+    /// Level of the water over the lowest place, mm.
+    pub level_mm: f64,
+    /// Height of the grains, mm.
+    pub grain_mm: f64,
+}
+
 impl Puddles {
     /// Water up to `level_mm` over the lowest place of ground whose heights are `height` (0 to 1) times `relief_mm`, of grains `grain_mm` high
     /// on which a film is as rough as `film_alpha` (GGX α), in rain of `rain_mm_h`.
     ///
     /// # Errors
     /// Where a length is not positive and finite (the level: not finite or negative), the roughness not in 0 to 1, or the rain not in 0 to 150.
-    pub fn new(
-        height: Factor,
-        (relief_mm, level_mm, grain_mm): (f64, f64, f64),
-        film_alpha: f64,
-        rain_mm_h: f64,
-    ) -> Result<Self, MaterialError> {
+    pub fn new(height: Factor, relief: GroundRelief, film_alpha: f64, rain_mm_h: f64) -> Result<Self, MaterialError> {
+        let GroundRelief { relief_mm, level_mm, grain_mm } = relief;
         for (what, value) in [("relief", relief_mm), ("grain", grain_mm)] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(MaterialError::WaterLength { what, value });
@@ -72,18 +79,22 @@ impl Puddles {
 mod tests {
     use super::*;
 
+    fn ground(relief_mm: f64, level_mm: f64, grain_mm: f64) -> GroundRelief {
+        GroundRelief { relief_mm, level_mm, grain_mm }
+    }
+
     #[test]
     fn water_flattens_what_lies_below_it() {
-        let puddles = Puddles::new(Factor::Number(0.0), (10.0, 4.0, 2.0), 0.3, 0.0).expect("legal");
+        let puddles = Puddles::new(Factor::Number(0.0), ground(10.0, 4.0, 2.0), 0.3, 0.0).expect("legal");
         assert_eq!(puddles.alpha(0.9), 0.3, "dry of standing water");
         assert_eq!(puddles.alpha(0.4), 0.3, "at the water's edge");
         assert_eq!(puddles.alpha(0.1), 0.0, "3 mm deep");
         assert!(puddles.alpha(0.3) > 0.1 && puddles.alpha(0.3) < 0.2, "half a grain deep");
-        let rained = Puddles::new(Factor::Number(0.0), (10.0, 4.0, 2.0), 0.3, 10.0).expect("legal");
+        let rained = Puddles::new(Factor::Number(0.0), ground(10.0, 4.0, 2.0), 0.3, 10.0).expect("legal");
         assert!((rained.alpha(0.0) - 0.0115_f32.sqrt()).abs() < 1e-6);
         assert_eq!(rained.alpha(1.0), 0.3);
-        assert!(Puddles::new(Factor::Number(0.0), (0.0, 4.0, 2.0), 0.3, 0.0).is_err());
-        assert!(Puddles::new(Factor::Number(0.0), (1.0, -1.0, 2.0), 0.3, 0.0).is_err());
-        assert!(Puddles::new(Factor::Number(0.0), (1.0, 1.0, 2.0), 0.3, 151.0).is_err());
+        assert!(Puddles::new(Factor::Number(0.0), ground(0.0, 4.0, 2.0), 0.3, 0.0).is_err());
+        assert!(Puddles::new(Factor::Number(0.0), ground(1.0, -1.0, 2.0), 0.3, 0.0).is_err());
+        assert!(Puddles::new(Factor::Number(0.0), ground(1.0, 1.0, 2.0), 0.3, 151.0).is_err());
     }
 }

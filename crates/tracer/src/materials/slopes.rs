@@ -13,8 +13,8 @@ use etendue_core::maths::f64::{atan, exp, sin_cos};
 use glam::Vec3;
 
 use super::beckmann::Beckmann;
-use super::facets::Distribution;
 use super::gauss::GAUSS;
+use super::microfacet::Distribution;
 
 /// Slopes of Beckmann's facets beyond are left out: their share is exp(−30).
 const STEEPEST: f64 = 5.5;
@@ -31,6 +31,13 @@ pub(super) struct SeenFacets {
     sin: f64,
     /// μ Λₒ.
     shadow: f64,
+}
+
+/// From a coordinate of a strip to another.
+#[derive(Clone, Copy)]
+struct Coordinates {
+    low: f64,
+    high: f64,
 }
 
 /// Facets of one slope y.
@@ -55,9 +62,11 @@ impl SeenFacets {
         let all = |strip: &Strip| strip.weight * self.along(strip, self.ends(strip), |_, _| 1.0);
         let below: f64 = below.iter().map(all).sum();
         let above = above.iter().map(|strip| {
-            let ([low, high], [left, right]) = (self.ends(strip), self.upward(strip));
-            let down = self.along(strip, [low, left], |_, _| 1.0) + self.along(strip, [right, high], |_, _| 1.0);
-            strip.weight * (down + self.along(strip, [left, right], |_, up| 1.0 - self.free(up)))
+            let (seen, up) = (self.ends(strip), self.upward(strip));
+            let (left, right) =
+                (Coordinates { low: seen.low, high: up.low }, Coordinates { low: up.high, high: seen.high });
+            let down = self.along(strip, left, |_, _| 1.0) + self.along(strip, right, |_, _| 1.0);
+            strip.weight * (down + self.along(strip, up, |_, up| 1.0 - self.free(up)))
         });
         above.sum::<f64>() + below
     }
@@ -81,11 +90,12 @@ impl SeenFacets {
         // Dense at the split, where the upward part shrinks like a root.
         let above = |(g, w): (f64, f64)| (split * (2.0 - g) * g, 2.0 * w * split * (1.0 - g));
         let below = |(g, w): (f64, f64)| (split + (end - split) * g, w * (end - split));
-        (GAUSS.map(|node| self.strip(above(node))), GAUSS.map(|node| self.strip(below(node))))
+        let strip = |(t, weight)| self.strip(t, weight);
+        (GAUSS.map(|node| strip(above(node))), GAUSS.map(|node| strip(below(node))))
     }
 
     /// Both signs of y.
-    fn strip(&self, (t, weight): (f64, f64)) -> Strip {
+    fn strip(&self, t: f64, weight: f64) -> Strip {
         match self.distribution {
             Distribution::Ggx => {
                 let (sin, cos) = sin_cos(t);
@@ -117,21 +127,24 @@ impl SeenFacets {
     }
 
     /// Coordinates between which facets of a strip are seen.
-    fn ends(&self, strip: &Strip) -> [f64; 2] {
-        [f64::NEG_INFINITY, self.cos / (self.alpha * self.sin)].map(|x| self.coordinate(x, strip.stretch))
+    fn ends(&self, strip: &Strip) -> Coordinates {
+        let at = |x| self.coordinate(x, strip.stretch);
+        Coordinates { low: at(f64::NEG_INFINITY), high: at(self.cos / (self.alpha * self.sin)) }
     }
 
     /// Coordinates between which facets of a strip send light up.
-    fn upward(&self, strip: &Strip) -> [f64; 2] {
+    fn upward(&self, strip: &Strip) -> Coordinates {
         let (steep, s) = (self.alpha * strip.y, self.sin);
         let root = (s * s + self.cos * self.cos * (1.0 - steep * steep)).max(0.0).sqrt();
         let left = -(s + root) / (self.cos * self.alpha);
         let right = self.cos * (1.0 - steep * steep) / (self.alpha * (s + root).max(1e-300));
-        [left, right.max(left)].map(|x| self.coordinate(x, strip.stretch))
+        let at = |x| self.coordinate(x, strip.stretch);
+        Coordinates { low: at(left), high: at(right.max(left)) }
     }
 
     /// ∫ of what is seen along a strip, times a function of the cosine at the facet and of the reflected light's.
-    fn along(&self, strip: &Strip, [low, high]: [f64; 2], of: impl Fn(f64, f64) -> f64) -> f64 {
+    fn along(&self, strip: &Strip, coordinates: Coordinates, of: impl Fn(f64, f64) -> f64) -> f64 {
+        let Coordinates { low, high } = coordinates;
         let at = |(g, w): &(f64, f64)| {
             let (x, density) = self.slope(low + (high - low) * g, strip.stretch);
             let towards = (self.cos - self.alpha * x * self.sin).max(0.0);

@@ -14,16 +14,12 @@
 use etendue_core::{Spectral, maths};
 use glam::{Vec2, Vec3};
 
-use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::dielectric::DIELECTRIC_INDICES;
 use super::error::MaterialError;
 use super::fresnel;
 use super::gloss::Gloss;
-use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use super::parameter::Parameter;
-use super::reflectance::Reflectance;
-use super::shading_point::ShadingPoint;
-use super::texture_check::TextureCheck;
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 
 /// A thin pane.
 #[derive(Clone, Debug, PartialEq)]

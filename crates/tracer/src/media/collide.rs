@@ -1,14 +1,22 @@
 //! Where light is next scattered.
 
 use etendue_core::random::{Draw, PathStream};
-use etendue_core::{Ray, Spectral, Wavelengths};
+use etendue_core::{Spectral, Wavelengths};
 
-use super::media::{Media, free_flight};
-use super::medium::Following;
+use super::media::{Media, MediaRay, free_flight};
 use super::phase::Phase;
 
 /// Flights, with those that met nothing, that one ray is followed by at most; beyond, its light is taken as lost.
 const MAX_FLIGHTS: u32 = 65_536;
+
+/// Random numbers of free flights.
+#[derive(Debug)]
+pub struct FlightRandom<'s> {
+    /// The stream.
+    pub stream: &'s PathStream,
+    /// How many the path has used.
+    pub draws: &'s mut u32,
+}
 
 /// A place where light is scattered.
 #[derive(Clone, Copy, Debug)]
@@ -21,21 +29,21 @@ pub struct Collision<'a> {
 
 impl<'a> Media<'a> {
     /// Follows a ray up to `end`, in lengths of its direction, or to where it is scattered; `None` where nothing scatters it. `throughput` is
-    /// weighed by what was absorbed and by the chances that were taken, zero where no light is left. `flights` counts the random numbers that
-    /// the path has used.
+    /// weighted by what was absorbed and by the probabilities that were taken, zero where no light is left.
     pub fn collide<const N: usize>(
         &self,
-        (ray, following): (&Ray, Following),
+        media_ray: MediaRay<'_>,
         end: f64,
-        (stream, flights): (&PathStream, &mut u32),
+        random: FlightRandom<'_>,
         wavelengths: &Wavelengths<N>,
         throughput: &mut Spectral<N>,
     ) -> Option<Collision<'a>> {
-        let length_m = f64::from(ray.direction.length());
+        let FlightRandom { stream, draws: flights } = random;
+        let length_m = f64::from(media_ray.ray.direction.length());
         let last = flights.saturating_add(MAX_FLIGHTS);
         let mut t = 0.0;
         while t < end {
-            let piece = self.piece((ray, following), t, end);
+            let piece = self.piece(media_ray, t, end);
             if piece.majorant_per_m <= 0.0 {
                 t = piece.end;
                 continue;
@@ -48,7 +56,7 @@ impl<'a> Media<'a> {
                 continue;
             }
             let u = stream.one(Draw::Collision, *flights);
-            match self.event((ray, following), t, piece.majorant_per_m as f32, u, wavelengths, throughput) {
+            match self.event(media_ray, t, piece.majorant_per_m as f32, u, wavelengths, throughput) {
                 Event::Null => {}
                 Event::Scattered(phase) => return Some(Collision { t: t as f32, phase }),
                 Event::Absorbed => return None,
@@ -64,20 +72,21 @@ impl<'a> Media<'a> {
     /// What happens at a tentative collision, drawn by what light counts that is scattered by each medium, or by none.
     fn event<const N: usize>(
         &self,
-        (ray, following): (&Ray, Following),
+        media_ray: MediaRay<'_>,
         t: f64,
         majorant_per_m: f32,
         u: f32,
         wavelengths: &Wavelengths<N>,
         throughput: &mut Spectral<N>,
     ) -> Event<'a> {
+        let MediaRay { ray, peak } = media_ray;
         let within = |i: usize| {
             let placed = &self.placed[i];
-            let inside = self.span(placed, ray, f64::INFINITY).is_some_and(|(from, to)| t >= from && t < to);
+            let inside = self.span(placed, ray, f64::INFINITY).is_some_and(|span| t >= span.from && t < span.to);
             let density = if inside { self.density(placed, ray, t) as f32 } else { 0.0 };
-            placed.medium.optics(following).extinction.sample(wavelengths) * density
+            placed.medium.optics(peak).extinction.sample(wavelengths) * density
         };
-        let scattered = |i: usize| within(i) * self.placed[i].medium.optics(following).albedo.sample(wavelengths);
+        let scattered = |i: usize| within(i) * self.placed[i].medium.optics(peak).albedo.sample(wavelengths);
         let extinction = (0..self.placed.len()).map(within).fold(Spectral::ZERO, |sum, of| sum + of);
         let null = extinction.map(|extinction| (majorant_per_m - extinction).max(0.0));
         let counts = |of: Spectral<N>| (*throughput * of).mean();
@@ -92,7 +101,7 @@ impl<'a> Media<'a> {
             let share = counts(scattered(i));
             if rest < share {
                 *throughput *= scattered(i) * (whole / share / majorant_per_m);
-                return Event::Scattered(&self.placed[i].medium.optics(following).phase);
+                return Event::Scattered(&self.placed[i].medium.optics(peak).phase);
             }
             rest -= share;
         }

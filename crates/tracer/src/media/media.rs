@@ -5,9 +5,9 @@ use etendue_core::random::{Draw, PathStream};
 use etendue_core::{Ray, Spectral, TimeInterval, Wavelengths};
 use glam::{DAffine3, DVec3, Vec3};
 
-use super::hollow::Hollow;
-use super::medium::{Following, Medium, Optics};
+use super::medium::{ForwardPeak, Medium, Optics};
 use super::phase::Phase;
+use super::shape::Hollow;
 
 /// What a medium counts for beside the part of a ray that lies in it, where light is drawn by middles of longer parts.
 const BESIDE: f32 = 0.05;
@@ -15,17 +15,42 @@ const BESIDE: f32 = 0.05;
 /// Steps of ratio tracking along one ray at most. Where more would be needed, nothing comes through.
 const MAX_STEPS: u32 = 4096;
 
+/// A ray through media.
+#[derive(Clone, Copy, Debug)]
+pub struct MediaRay<'r> {
+    /// The ray.
+    pub ray: &'r Ray,
+    /// How forward peaks scatter it.
+    pub peak: ForwardPeak,
+}
+
+/// Random numbers of a stream from a counter on.
+#[derive(Clone, Copy, Debug)]
+pub struct RandomCounter<'s> {
+    /// The stream.
+    pub stream: &'s PathStream,
+    /// Where its numbers begin.
+    pub counter: u32,
+}
+
+/// Where a part of a ray begins and ends, in lengths of its direction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RaySpan {
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+}
+
 /// All media of a view.
 #[derive(Clone, Debug)]
 pub struct Media<'a> {
-    pub(super) placed: Vec<Placed<'a>>,
+    pub(super) placed: Vec<PlacedMedium<'a>>,
     origin_m: DVec3,
     interval: TimeInterval,
 }
 
 /// A medium in the world.
 #[derive(Clone, Debug)]
-pub(super) struct Placed<'a> {
+pub(super) struct PlacedMedium<'a> {
     pub(super) medium: &'a Medium,
     /// From the render frame to the medium's own, where it stands still.
     to_local: Option<DAffine3>,
@@ -52,7 +77,7 @@ impl<'a> Media<'a> {
                 to_render.translation -= origin_m;
                 to_render.inverse()
             });
-            Placed { medium, to_local, hollow: None }
+            PlacedMedium { medium, to_local, hollow: None }
         };
         Self { placed: media.iter().map(place).collect(), origin_m, interval }
     }
@@ -67,7 +92,7 @@ impl<'a> Media<'a> {
     /// The phase function of a medium, by its place in the list.
     #[must_use]
     pub fn phase(&self, medium: usize) -> &'a Phase {
-        &self.placed[medium].medium.optics(Following::Exact).phase
+        &self.placed[medium].medium.optics(ForwardPeak::Exact).phase
     }
 
     /// Whether there are none.
@@ -77,21 +102,21 @@ impl<'a> Media<'a> {
     }
 
     /// Beginning and end of a ray's part in a medium, before `end`; in lengths of the ray's direction.
-    pub(super) fn span(&self, placed: &Placed<'_>, ray: &Ray, end: f64) -> Option<(f64, f64)> {
+    pub(super) fn span(&self, placed: &PlacedMedium<'_>, ray: &Ray, end: f64) -> Option<RaySpan> {
         let (origin, direction) = self.local(placed, ray);
-        placed.medium.shape.span(origin, direction, end)
+        placed.medium.shape.span(origin, direction, end).map(|(from, to)| RaySpan { from, to })
     }
 
     /// How much of a ray up to `end` lies in a medium, between where it begins and ends there; in lengths of the ray's direction.
-    pub(super) fn inside(&self, placed: &Placed<'_>, ray: &Ray, (from, to): (f64, f64)) -> f64 {
-        let Some(solid) = placed.medium.shape.gaps() else { return to - from };
+    pub(super) fn inside(&self, placed: &PlacedMedium<'_>, ray: &Ray, span: RaySpan) -> f64 {
+        let Some(solid) = placed.medium.shape.gaps() else { return span.to - span.from };
         let (origin, direction) = self.local(placed, ray);
-        solid.parts(origin, direction, to).iter().map(|(from, to)| to - from).sum()
+        solid.parts(origin, direction, span.to).iter().map(|(from, to)| to - from).sum()
     }
 
     /// A ray's origin and direction in a medium's own frame.
     #[inline]
-    fn local(&self, placed: &Placed<'_>, ray: &Ray) -> (DVec3, DVec3) {
+    fn local(&self, placed: &PlacedMedium<'_>, ray: &Ray) -> (DVec3, DVec3) {
         let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
         let to_local = placed.to_local.unwrap_or_else(|| {
             let mut to_render = placed.medium.to_world.at(self.interval.moment(ray.time_s));
@@ -102,24 +127,25 @@ impl<'a> Media<'a> {
     }
 
     /// From where to where, before `end`, any medium lies along a ray; `None` where none does. In lengths of the ray's direction.
-    pub(crate) fn reach(&self, ray: &Ray, end: f64) -> Option<(f64, f64)> {
+    pub(crate) fn reach(&self, ray: &Ray, end: f64) -> Option<RaySpan> {
         let spans = self.placed.iter().filter_map(|placed| self.span(placed, ray, end));
-        spans.reduce(|all, one| (all.0.min(one.0), all.1.max(one.1)))
+        spans.reduce(|all, one| RaySpan { from: all.from.min(one.from), to: all.to.max(one.to) })
     }
 
     /// What is scattered at `t` along a ray towards the unit `to`, of light that arrives from there: Σ β albedo p, 1/(m sr).
     pub(crate) fn scattering<const N: usize>(
         &self,
-        (ray, following): (&Ray, Following),
+        media_ray: MediaRay<'_>,
         t: f64,
         to: Vec3,
         wavelengths: &Wavelengths<N>,
     ) -> Spectral<N> {
+        let MediaRay { ray, peak } = media_ray;
         let mut sum = Spectral::ZERO;
         for placed in &self.placed {
-            if self.span(placed, ray, f64::INFINITY).is_some_and(|(from, end)| t >= from && t <= end) {
+            if self.span(placed, ray, f64::INFINITY).is_some_and(|span| t >= span.from && t <= span.to) {
                 let density = self.density(placed, ray, t) as f32;
-                let Optics { extinction, albedo, phase, .. } = placed.medium.optics(following);
+                let Optics { extinction, albedo, phase, .. } = placed.medium.optics(peak);
                 let values = Spectral(phase.values(ray.direction, to, wavelengths));
                 sum += extinction.sample(wavelengths) * albedo.sample(wavelengths) * values * density;
             }
@@ -133,8 +159,8 @@ impl<'a> Media<'a> {
     pub(crate) fn about<const N: usize>(&self, ray: &Ray, t: f64, to: Vec3, wavelengths: &Wavelengths<N>) -> f32 {
         let (mut scattered, mut depth) = (0.0, 0.0);
         for placed in &self.placed {
-            let Some((from, end)) = self.span(placed, ray, f64::INFINITY) else { continue };
-            let Optics { extinction, albedo, phase, .. } = placed.medium.optics(Following::Exact);
+            let Some(RaySpan { from, to: end }) = self.span(placed, ray, f64::INFINITY) else { continue };
+            let Optics { extinction, albedo, phase, .. } = placed.medium.optics(ForwardPeak::Exact);
             let extinction = extinction.sample(wavelengths);
             depth += f64::from(extinction.mean()) * (t.clamp(from, end) - from);
             let density = phase.density_at(ray.direction, to, wavelengths.nm[0]);
@@ -145,23 +171,24 @@ impl<'a> Media<'a> {
     }
 
     /// The part of a ray from `t` on in which the same media lie.
-    pub(super) fn piece(&self, (ray, following): (&Ray, Following), t: f64, end: f64) -> Piece {
+    pub(super) fn piece(&self, media_ray: MediaRay<'_>, t: f64, end: f64) -> Piece {
+        let MediaRay { ray, peak } = media_ray;
         let mut piece = Piece { end, majorant_per_m: 0.0 };
         for placed in &self.placed {
-            let Some((from, to)) = self.span(placed, ray, end) else { continue };
+            let Some(RaySpan { from, to }) = self.span(placed, ray, end) else { continue };
             if t < from {
                 piece.end = piece.end.min(from);
             } else if t < to {
                 piece.end = piece.end.min(to);
                 piece.majorant_per_m +=
-                    f64::from(placed.medium.optics(following).greatest_per_m * placed.medium.greatest_density());
+                    f64::from(placed.medium.optics(peak).greatest_per_m * placed.medium.greatest_density());
             }
         }
         piece
     }
 
     /// The density of a medium at `t` along a ray, over its mean.
-    pub(super) fn density(&self, placed: &Placed<'_>, ray: &Ray, t: f64) -> f64 {
+    pub(super) fn density(&self, placed: &PlacedMedium<'_>, ray: &Ray, t: f64) -> f64 {
         if let Some(hollow) = &placed.hollow {
             return hollow.density((ray.origin.as_dvec3() + ray.direction.as_dvec3() * t).length());
         }
@@ -179,33 +206,34 @@ impl<'a> Media<'a> {
     }
 
     /// The share of light that comes through along a ray up to its `t_max`: exact where densities are even, else an unbiased estimate by
-    /// random numbers of the sub-counter `vertex`; estimates that are multiplied with each other need counters of their own.
+    /// random numbers from the sub-counter of `random` on; estimates that are multiplied with each other need counters of their own.
     #[must_use]
     pub fn transmittance<const N: usize>(
         &self,
-        (ray, following): (&Ray, Following),
-        (stream, vertex): (&PathStream, u32),
+        media_ray: MediaRay<'_>,
+        random: RandomCounter<'_>,
         wavelengths: &Wavelengths<N>,
     ) -> Spectral<N> {
+        let MediaRay { ray, peak } = media_ray;
         let (mut depth, mut share) = ([0.0_f64; N], Spectral::ONE);
         let length_m = f64::from(ray.direction.length());
         for (i, placed) in self.placed.iter().enumerate() {
-            let Some((from, to)) = self.span(placed, ray, f64::from(ray.t_max)) else { continue };
-            let optics = placed.medium.optics(following);
+            let Some(span) = self.span(placed, ray, f64::from(ray.t_max)) else { continue };
+            let optics = placed.medium.optics(peak);
             let extinction = optics.extinction.sample(wavelengths);
             if let Some(hollow) = &placed.hollow {
-                let way = hollow.way((ray.origin.as_dvec3(), ray.direction.as_dvec3()), (from, to));
-                (0..N).for_each(|k| depth[k] += f64::from(extinction[k]) * way * length_m);
+                let length = hollow.path_length(ray.origin.as_dvec3(), ray.direction.as_dvec3(), span.from, span.to);
+                (0..N).for_each(|k| depth[k] += f64::from(extinction[k]) * length * length_m);
             } else if placed.medium.unevenness.is_none() {
-                let inside = self.inside(placed, ray, (from, to));
+                let inside = self.inside(placed, ray, span);
                 // No medium, no depth, however far.
                 (0..N)
                     .filter(|k| extinction[*k] > 0.0)
                     .for_each(|k| depth[k] += f64::from(extinction[k]) * inside * length_m);
             } else {
                 let majorant_per_m = optics.greatest_per_m * placed.medium.greatest_density();
-                let numbers = (stream, numbers_of(vertex, i));
-                share *= self.ratio_tracked(placed, ray, (from, to), numbers, (extinction, majorant_per_m));
+                let random = RandomCounter { counter: counter_of(random.counter, i), ..random };
+                share *= self.ratio_tracked(placed, ray, span, random, extinction, majorant_per_m);
             }
         }
         share * Spectral(depth.map(|depth| exp(-depth) as f32))
@@ -213,20 +241,21 @@ impl<'a> Media<'a> {
 
     fn ratio_tracked<const N: usize>(
         &self,
-        placed: &Placed<'_>,
+        placed: &PlacedMedium<'_>,
         ray: &Ray,
-        (from, to): (f64, f64),
-        (stream, first): (&PathStream, u32),
-        (extinction, majorant_per_m): (Spectral<N>, f32),
+        span: RaySpan,
+        random: RandomCounter<'_>,
+        extinction: Spectral<N>,
+        majorant_per_m: f32,
     ) -> Spectral<N> {
         let majorant = f64::from(majorant_per_m) * f64::from(ray.direction.length());
-        let (mut t, mut share) = (from, Spectral::ONE);
+        let (mut t, mut share) = (span.from, Spectral::ONE);
         if majorant == 0.0 {
             return share;
         }
         for step in 0..MAX_STEPS {
-            t += free_flight(stream.one(Draw::Transmittance, first.wrapping_add(step))) / majorant;
-            if t >= to {
+            t += free_flight(random.stream.one(Draw::Transmittance, random.counter.wrapping_add(step))) / majorant;
+            if t >= span.to {
                 return share;
             }
             let density = self.density(placed, ray, t) as f32;
@@ -240,11 +269,42 @@ impl<'a> Media<'a> {
 }
 
 /// The first of [`MAX_STEPS`] counters of a medium's random numbers at a vertex: those of 256 media and 4096 vertices are apart.
-fn numbers_of(vertex: u32, medium: usize) -> u32 {
+fn counter_of(vertex: u32, medium: usize) -> u32 {
     vertex.wrapping_mul(256).wrapping_add(medium as u32 & 255).wrapping_mul(MAX_STEPS)
 }
 
 /// The optical depth that a flight is longer than with the probability 1 − u.
 pub(super) fn free_flight(u: f32) -> f64 {
     -etendue_core::maths::f64::ln_1p(-f64::from(u))
+}
+
+/// Greatest number of steps of the quadrature along one ray.
+const MAX_QUADRATURE_STEPS: f64 = 8192.0;
+
+/// Steps to the smallest eddy.
+const STEPS_PER_EDDY: f64 = 6.0;
+
+impl Media<'_> {
+    /// ∫ density dt up to a ray's `t_max`, m, of each medium: the length of mean density that takes as much light. Infinite where the way is.
+    /// Uneven densities are summed at the middles of at least six steps to their smallest eddy, but of at most 8 192 steps.
+    #[must_use]
+    pub fn columns_m(&self, ray: &Ray) -> Vec<f64> {
+        self.placed.iter().map(|placed| self.column_m(placed, ray)).collect()
+    }
+
+    fn column_m(&self, placed: &PlacedMedium<'_>, ray: &Ray) -> f64 {
+        let Some(span) = self.span(placed, ray, f64::from(ray.t_max)) else { return 0.0 };
+        let RaySpan { from, to } = span;
+        let length_m = (to - from) * f64::from(ray.direction.length());
+        if let Some(hollow) = &placed.hollow {
+            let length = hollow.path_length(ray.origin.as_dvec3(), ray.direction.as_dvec3(), from, to);
+            return length * f64::from(ray.direction.length());
+        }
+        let Some(unevenness) = placed.medium.unevenness.filter(|_| length_m.is_finite()) else {
+            return self.inside(placed, ray, span) * f64::from(ray.direction.length());
+        };
+        let steps = (length_m / unevenness.noise.smallest_m() * STEPS_PER_EDDY).ceil().clamp(1.0, MAX_QUADRATURE_STEPS);
+        let middles = (0..steps as u32).map(|i| from + (f64::from(i) + 0.5) / steps * (to - from));
+        length_m * middles.map(|t| self.density(placed, ray, t)).sum::<f64>() / steps
+    }
 }

@@ -72,13 +72,13 @@ impl Optics {
     }
 }
 
-/// How exactly light through media is followed.
+/// Treatment of the forward peaks of phase functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Following {
-    /// By the phase function itself.
+pub enum ForwardPeak {
+    /// Light is scattered by the phase function itself.
     Exact,
-    /// Without the forward peak: light within it goes straight on. Precipitation is left out.
-    WithoutPeak,
+    /// Light within the forward peak counts as not scattered. Precipitation is left out.
+    Unscattered,
 }
 
 /// A medium.
@@ -98,7 +98,8 @@ impl Medium {
     /// # Errors
     /// Where a number is out of range, or the motion flattens the shape.
     pub fn new(
-        (extinction, albedo): (Spectrum, Spectrum),
+        extinction: Spectrum,
+        albedo: Spectrum,
         phase: impl Into<Arc<Phase>>,
         shape: Shape,
         to_world: Motion,
@@ -131,10 +132,10 @@ impl Medium {
     }
 
     #[inline(always)]
-    pub(super) fn optics(&self, following: Following) -> &Optics {
-        match following {
-            Following::Exact => &self.exact,
-            Following::WithoutPeak => &self.without_peak,
+    pub(super) fn optics(&self, peak: ForwardPeak) -> &Optics {
+        match peak {
+            ForwardPeak::Exact => &self.exact,
+            ForwardPeak::Unscattered => &self.without_peak,
         }
     }
 

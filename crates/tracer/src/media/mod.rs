@@ -8,8 +8,6 @@
 //! decomposition tracking", 2017); transmittance is exact where the density is even, and estimated by ratio tracking (Novák et al. 2014) where it is not.
 
 mod collide;
-mod column;
-mod hollow;
 #[allow(clippy::module_inception)]
 mod media;
 mod medium;
@@ -19,14 +17,14 @@ mod phase_table;
 mod shape;
 mod solid;
 
-pub use collide::Collision;
-pub use hollow::Hollow;
-pub use media::Media;
-pub use medium::{Following, Medium, MediumError, Unevenness};
+pub use collide::{Collision, FlightRandom};
+pub(crate) use media::RaySpan;
+pub use media::{Media, MediaRay, RandomCounter};
+pub use medium::{ForwardPeak, Medium, MediumError, Unevenness};
 pub use noise::Noise;
 pub use phase::Phase;
 pub use phase_table::SpectralTable;
-pub use shape::Shape;
+pub use shape::{Hollow, HollowPart, Shape};
 #[cfg(test)]
 pub(crate) use solid::cuboid;
 pub use solid::{Solid, SolidError};

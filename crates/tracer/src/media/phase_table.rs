@@ -36,9 +36,16 @@ const ORDERS: u32 = 12;
 /// Rays over a ball's radius.
 const RAYS: u32 = 60_000;
 
-/// What a ball of index n makes of even light: v and strength of each part. A ray that meets it at an angle of incidence i, refracted to r, leaves
+/// A part of scattered light.
+struct ScatteredPart {
+    /// 1 − cos of the angle over 2.
+    v: f64,
+    strength: f64,
+}
+
+/// What a ball of index n makes of even light. A ray that meets it at an angle of incidence i, refracted to r, leaves
 /// after p passages turned by 2 (i − r) + (p − 1)(π − 2 r), mirrored outside by π − 2 i (van de Hulst 1957, section 12.2).
-fn balls(n: f64) -> impl Iterator<Item = (f64, f64)> {
+fn balls(n: f64) -> impl Iterator<Item = ScatteredPart> {
     let ray = move |k: u32| {
         let b = (f64::from(k) + 0.5) / f64::from(RAYS);
         let (i, r) = (asin(b), asin(b / n));
@@ -50,7 +57,7 @@ fn balls(n: f64) -> impl Iterator<Item = (f64, f64)> {
             };
             let d = 2.0 * sin(0.5 * turned);
             let strength: f64 = planes.map(f64::from).map(|mirrored| of_order(order, mirrored)).iter().sum();
-            (0.5 * d * d, b * strength)
+            ScatteredPart { v: 0.5 * d * d, strength: b * strength }
         };
         (0..=ORDERS).map(part)
     };
@@ -91,8 +98,8 @@ impl PhaseTable {
         Self { v: v.into_iter().map(|v| v as f32).collect(), density, below }
     }
 
-    /// A table of light that is scattered in parts: v and strength of each.
-    fn of_parts(parts: impl Iterator<Item = (f64, f64)>) -> Self {
+    /// A table of light that is scattered in parts.
+    fn of_parts(parts: impl Iterator<Item = ScatteredPart>) -> Self {
         let v: Vec<f64> = angles()
             .map(|angle| {
                 let d = 2.0 * sin(0.5 * angle);
@@ -100,7 +107,7 @@ impl PhaseTable {
             })
             .collect();
         let mut sums = vec![0.0; v.len()];
-        for (at, strength) in parts {
+        for ScatteredPart { v: at, strength } in parts {
             let i = v.partition_point(|node| *node <= at).clamp(1, STEPS) - 1;
             let share = ((at - v[i]) / (v[i + 1] - v[i])).clamp(0.0, 1.0);
             sums[i] += strength * (1.0 - share);

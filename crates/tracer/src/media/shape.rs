@@ -1,8 +1,7 @@
 //! Where a medium is: all over, below a height, in a box, a ball or a closed mesh; in its own frame.
 
-use std::sync::Arc;
-
 use glam::DVec3;
+use std::sync::Arc;
 
 use super::solid::Solid;
 
@@ -84,6 +83,51 @@ fn ball(origin: DVec3, direction: DVec3, radius_m: f64) -> Option<(f64, f64)> {
     (half2 > 0.0).then(|| (middle - half2.sqrt(), middle + half2.sqrt()))
 }
 
+/// A part of an even medium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HollowPart {
+    /// The distance from which on it is there, m.
+    pub from_m: f64,
+    /// The fraction of the medium that it is.
+    pub fraction: f64,
+}
+
+/// Parts of an even medium, each of which begins at a distance of its own: nearer, particles are modelled by themselves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hollow {
+    /// In rising order of where they begin.
+    parts: Vec<HollowPart>,
+}
+
+impl Hollow {
+    /// From the parts, whose fractions are 1 together.
+    #[must_use]
+    pub fn new(mut parts: Vec<HollowPart>) -> Self {
+        parts.sort_by(|a, b| a.from_m.total_cmp(&b.from_m));
+        Self { parts }
+    }
+
+    /// What share of the medium is there at a distance, m.
+    #[must_use]
+    pub fn density(&self, distance_m: f64) -> f64 {
+        self.parts.iter().take_while(|part| part.from_m <= distance_m).map(|part| part.fraction).sum()
+    }
+
+    /// Length of a line through the medium between `from` and `to`, each part by its fraction; in lengths of the direction.
+    #[must_use]
+    pub fn path_length(&self, origin: DVec3, direction: DVec3, from: f64, to: f64) -> f64 {
+        let length2 = direction.length_squared();
+        let middle = -origin.dot(direction) / length2;
+        let aside2 = (origin + direction * middle).length_squared();
+        let outside = |radius: f64| {
+            let half = ((radius * radius - aside2) / length2).max(0.0).sqrt();
+            let inside = ((middle + half).min(to) - (middle - half).max(from)).max(0.0);
+            to - from - inside
+        };
+        self.parts.iter().filter(|part| part.fraction > 0.0).map(|part| part.fraction * outside(part.from_m)).sum()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -104,5 +148,21 @@ mod tests {
         let ball = Shape::Ball { radius_m: 2.0 };
         assert_eq!(ball.span(x * -4.0, x * 2.0, 9.0), Some((1.0, 3.0)), "in lengths of the direction");
         assert!(ball.span(x * 4.0, x, 9.0).is_none());
+    }
+
+    #[test]
+    fn the_way_is_the_integral_of_the_density() {
+        let hollow = Hollow::new(
+            [(5.0, 0.3), (0.0, 0.5), (2.0, 0.2)].map(|(from_m, fraction)| HollowPart { from_m, fraction }).to_vec(),
+        );
+        let (origin, direction) = (DVec3::new(0.3, -1.0, 0.2), DVec3::new(1.0, 2.0, -0.5));
+        let n = 200_000_u32;
+        let (from, to) = (0.1, 6.0);
+        let step = (to - from) / f64::from(n);
+        let at = |i: u32| hollow.density((origin + direction * (from + (f64::from(i) + 0.5) * step)).length());
+        let sum: f64 = (0..n).map(at).sum::<f64>() * step;
+        // Three steps of the density, each met to half a step.
+        assert!((hollow.path_length(origin, direction, from, to) - sum).abs() < 2.0 * step);
+        assert_eq!((hollow.density(0.0), hollow.density(1e9)), (0.5, 1.0));
     }
 }

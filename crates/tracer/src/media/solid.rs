@@ -5,6 +5,7 @@
 //! Wald, "Watertight ray/triangle intersection", JCGT 2, 2013), and a line that meets an edge or a vertex exactly is taken for one beside it, the
 //! same for all triangles.
 
+use core::ops::Range;
 use std::collections::BTreeMap;
 
 use glam::DVec3;
@@ -66,7 +67,7 @@ impl Solid {
         check_closed(&triangles)?;
         let mut nodes = vec![];
         let count = triangles.len();
-        build(&vertices, &mut triangles, (0, count), &mut nodes);
+        build(&vertices, &mut triangles, 0..count, &mut nodes);
         Ok(Self { vertices, triangles, nodes })
     }
 
@@ -130,7 +131,8 @@ fn check_closed(triangles: &[[u32; 3]]) -> Result<(), SolidError> {
 }
 
 /// Boxes over a range of triangles, halved by their number along the longest side.
-fn build(vertices: &[DVec3], triangles: &mut [[u32; 3]], (first, end): (usize, usize), nodes: &mut Vec<Node>) {
+fn build(vertices: &[DVec3], triangles: &mut [[u32; 3]], range: Range<usize>, nodes: &mut Vec<Node>) {
+    let Range { start: first, end } = range;
     let part = &mut triangles[first..end];
     let corners = || part.iter().flatten().map(|i| vertices[*i as usize]);
     let low = corners().reduce(DVec3::min).unwrap_or(DVec3::ZERO);
@@ -152,9 +154,9 @@ fn build(vertices: &[DVec3], triangles: &mut [[u32; 3]], (first, end): (usize, u
     let middle = |triangle: &[u32; 3]| triangle.iter().map(|i| vertices[*i as usize][axis]).sum::<f64>();
     part.sort_by(|a, b| middle(a).total_cmp(&middle(b)));
     let half = first.midpoint(end);
-    build(vertices, triangles, (first, half), nodes);
+    build(vertices, triangles, first..half, nodes);
     nodes[at].second = nodes.len() as u32;
-    build(vertices, triangles, (half, end), nodes);
+    build(vertices, triangles, half..end, nodes);
 }
 
 impl Node {

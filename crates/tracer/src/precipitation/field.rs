@@ -9,10 +9,8 @@ use etendue_core::maths::f64::{cbrt, exp};
 use etendue_core::random::{philox4x32, unit_f64};
 use glam::{DVec3, I64Vec3};
 
-use super::change_over::ChangeOver;
-use super::class::SizeClass;
-use super::region::SeenRegion;
-use super::size_law::SizeLaw;
+use super::change_over::{ChangeOver, SeenRegion};
+use super::size_law::{SizeClass, SizeLaw};
 
 /// Mean number of particles of a cube.
 const MEAN: f64 = 4.0;

@@ -5,21 +5,17 @@
 //! off, light behind the first matt surface or scattering goes through precipitation unhindered: over the tens of metres between the surfaces
 //! of a scene it turns some per cent of the light, mostly by less than 40°, and takes none.
 
+use etendue_core::maths::f64::cbrt;
+use etendue_core::{Motion, Ray, TimeInterval};
+use etendue_spectra::{Spectrum, dielectric};
+use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
-use etendue_core::{Ray, TimeInterval};
-use etendue_spectra::{Spectrum, dielectric};
-use glam::{DVec3, Vec3};
-
-use super::change_over::ChangeOver;
-use super::drop_optics::{Refracted, refracted};
+use super::change_over::{ChangeOver, SeenRegion};
 use super::field::{Field, Particle};
-use super::region::SeenRegion;
 use crate::accel::{Simd, Streak, Streaks};
-use crate::media::{Hollow, Media, Medium, MediumError, Phase, Shape, SpectralTable};
-use etendue_core::Motion;
-use etendue_core::maths::f64::cbrt;
-use glam::DAffine3;
+use crate::materials::fresnel;
+use crate::media::{Hollow, HollowPart, Media, Medium, MediumError, Phase, Shape, SpectralTable};
 
 /// Mean cosine of what a crystal of ice does to light that meets it, without diffraction: that of grains of snow by geometric optics (Warren,
 /// Rev. Geophys. 20, 1982: 0.89 with the half that is diffracted straight on).
@@ -39,7 +35,7 @@ impl Field {
         let extinction = Spectrum::constant(self.extinction_per_m());
         let shape = Shape::Below { top_m: self.top_m() };
         let place = Motion::still(DAffine3::IDENTITY);
-        let medium = Medium::new((extinction, Spectrum::constant(1.0)), Arc::new(phase), shape, place)?;
+        let medium = Medium::new(extinction, Spectrum::constant(1.0), Arc::new(phase), shape, place)?;
         Ok(medium.unless_without_peak())
     }
 
@@ -47,7 +43,10 @@ impl Field {
     #[must_use]
     pub fn hollow(&self, change_over: &ChangeOver) -> Hollow {
         let whole = self.extinction_per_m();
-        let part = |(class, radius): (&super::SizeClass, &f64)| (*radius, class.extinction_per_m / whole);
+        let part = |(class, radius_m): (&super::SizeClass, &f64)| HollowPart {
+            from_m: *radius_m,
+            fraction: class.extinction_per_m / whole,
+        };
         Hollow::new(self.classes().iter().zip(&change_over.radii_m).map(part).collect())
     }
 
@@ -56,7 +55,8 @@ impl Field {
     pub fn streak(
         &self,
         particle: &Particle,
-        (origin_m, interval): (DVec3, TimeInterval),
+        origin_m: DVec3,
+        interval: TimeInterval,
         change_over: &ChangeOver,
     ) -> Streak {
         let radius_m = 0.5e-3 * self.law().diameter_mm(particle.size_mm);
@@ -76,9 +76,20 @@ fn water() -> &'static Spectrum {
     &dielectric::named("water").expect("a name of the list").n
 }
 
+/// Where and when a view is.
+#[derive(Clone, Copy, Debug)]
+pub struct ViewPlacement {
+    /// The origin of its render frame in the world, m.
+    pub origin_m: DVec3,
+    /// Its interval.
+    pub interval: TimeInterval,
+    /// The instruction set of its accelerator.
+    pub simd: Simd,
+}
+
 /// The particles of a view, and the media as rays from its camera find them.
 #[derive(Clone, Debug)]
-pub struct Near<'a> {
+pub struct NearParticles<'a> {
     region: SeenRegion,
     streaks: Streaks,
     media: Media<'a>,
@@ -88,26 +99,28 @@ pub struct Near<'a> {
 
 /// A particle that a ray has met.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NearHit {
+pub struct ParticleHit {
     /// Where along the ray, in lengths of its direction.
     pub t: f32,
     /// Which one of the view.
     pub particle: u32,
 }
 
-impl<'a> Near<'a> {
-    /// Those of a view about `origin_m` of the world during an interval, `media` being those of the same view and `medium` the place of the
+impl<'a> NearParticles<'a> {
+    /// Those of a view, `media` being those of the same view and `medium` the place of the
     /// field's own among them.
     #[must_use]
     pub fn new(
         field: &Field,
-        (media, medium): (Media<'a>, usize),
-        (origin_m, interval, simd): (DVec3, TimeInterval, Simd),
+        media: Media<'a>,
+        medium: usize,
+        view: ViewPlacement,
         region: &SeenRegion,
         change_over: &ChangeOver,
     ) -> Self {
+        let ViewPlacement { origin_m, interval, simd } = view;
         let particles = field.about(origin_m, interval, region, change_over);
-        let streak = |particle| field.streak(particle, (origin_m, interval), change_over);
+        let streak = |particle| field.streak(particle, origin_m, interval, change_over);
         let streaks = Streaks::new(particles.iter().map(streak).collect(), interval.length_s() as f32, simd);
         let index = (!field.law().is_snow()).then(water);
         let phase = media.phase(medium);
@@ -140,15 +153,15 @@ impl<'a> Near<'a> {
 
     /// The first particle that a ray meets before `end`.
     #[must_use]
-    pub fn closest(&self, ray: &Ray, end: f32) -> Option<NearHit> {
-        self.streaks.closest(ray, end).map(|(t, particle)| NearHit { t, particle })
+    pub fn closest(&self, ray: &Ray, end: f32) -> Option<ParticleHit> {
+        self.streaks.closest(ray, end).map(|(t, particle)| ParticleHit { t, particle })
     }
 
     /// The ray that leaves a drop, from its centre; `None` for a flake. `drawn` as numbers in [0, 1).
     pub(crate) fn refracted(
         &self,
         ray: &Ray,
-        hit: &NearHit,
+        hit: &ParticleHit,
         wavelength_nm: f32,
         drawn: impl Fn(u32) -> f64,
     ) -> Option<(Vec3, Vec3)> {
@@ -160,8 +173,74 @@ impl<'a> Near<'a> {
         // On the spheroid, as rounding has left it.
         let place = (ray.at(hit.t) - centre).as_dvec3();
         let place = place / (place / scale).length();
-        let Refracted { place_m, direction } =
-            refracted(half_m, n, (place, ray.direction.as_dvec3().normalize()), drawn);
+        let incident = DropRay { place_m: place, direction: ray.direction.as_dvec3().normalize() };
+        let DropRay { place_m, direction } = refracted(half_m[0], half_m[1], n, incident, drawn);
         Some((centre + place_m.as_vec3(), direction.as_vec3().normalize()))
     }
+}
+
+// A ray through a drop: a spheroid of water about an upright axis.
+//
+// At each interface one of both ways is drawn, by Fresnel's equations of one polarisation, which is drawn at the first and kept. (In a ball the plane
+// of incidence is the same at all; in a flattened drop it turns a little, and the polarisation with it, which is left out.) Water absorbs nothing
+// over millimetres.
+
+/// Greatest number of passages through a drop that are traced; what is left comes out with the last.
+const MAX_PASSAGES: u32 = 12;
+
+/// A ray at the surface of a drop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct DropRay {
+    /// Where, from the drop's centre, m.
+    pub(crate) place_m: DVec3,
+    /// Where to; unit.
+    pub(crate) direction: DVec3,
+}
+
+/// Traces a ray that hits a spheroid of given half-axes and index `n`, and returns the ray that leaves it.
+/// `drawn` are numbers in [0, 1), one for each interface and one for the polarisation.
+pub(crate) fn refracted(
+    half_width_m: f64,
+    half_height_m: f64,
+    n: f64,
+    incident: DropRay,
+    drawn: impl Fn(u32) -> f64,
+) -> DropRay {
+    let DropRay { mut place_m, mut direction } = incident;
+    let half_m = DVec3::new(half_width_m, half_width_m, half_height_m);
+    let inverse2 = (half_m * half_m).recip();
+    let plane = usize::from(drawn(0) < 0.5);
+    for passage in 0..=MAX_PASSAGES {
+        // The normal against the ray.
+        let out = (place_m * inverse2).normalize();
+        let (normal, eta) = if passage == 0 { (out, n) } else { (-out, 1.0 / n) };
+        let cos = (-direction.dot(normal)).max(0.0);
+        let is_mirrored = drawn(1 + passage) < mirrored(cos, eta, plane);
+        let through = bent(direction, normal, cos, eta);
+        let leaves = (passage == 0) == is_mirrored || passage == MAX_PASSAGES;
+        direction = match through {
+            Some(through) if !is_mirrored || (passage == MAX_PASSAGES && leaves) => through,
+            _ => (direction + normal * (2.0 * cos)).normalize(),
+        };
+        if leaves {
+            return DropRay { place_m, direction };
+        }
+        let scaled = direction * inverse2;
+        place_m += direction * (-2.0 * place_m.dot(scaled) / direction.dot(scaled));
+    }
+    DropRay { place_m, direction }
+}
+
+/// Reflectance of one polarisation at an interface into `eta` times the index.
+fn mirrored(cos: f64, eta: f64, plane: usize) -> f64 {
+    if (eta * eta - 1.0) + cos * cos <= 0.0 {
+        return 1.0;
+    }
+    f64::from(fresnel::planes(cos as f32, eta as f32)[plane])
+}
+
+/// Snell's law; `None` beyond the critical angle.
+fn bent(direction: DVec3, normal: DVec3, cos: f64, eta: f64) -> Option<DVec3> {
+    let square = eta * eta - 1.0 + cos * cos;
+    (square > 0.0).then(|| ((direction + normal * (cos - square.sqrt())) / eta).normalize())
 }

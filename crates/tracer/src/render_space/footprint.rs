@@ -1,15 +1,15 @@
-//! How large textures and shapes are about a point, for filtering. Looked up where a material asks.
+//! How large textures and shapes are about a point, for filtering, and directions in which texture coordinates grow. Looked up where a material asks.
 
-use crate::geometry::InstanceTransform;
-use crate::geometry::{Footprint, MeshPose, sphere};
 use core::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3, Vec3};
 
-pub(super) fn of_mesh(mesh: &MeshPose<'_>, placed: &InstanceTransform, primitive: u32) -> Footprint {
+use crate::geometry::{Footprint, InstanceTransform, MeshPose, sphere};
+
+pub(super) fn mesh_footprint(mesh: &MeshPose<'_>, placed: &InstanceTransform, primitive: u32) -> Footprint {
     Footprint { uv_per_m: uv_per_m(mesh, placed, primitive), local_per_m: local_per_m(placed) }
 }
 
-pub(super) fn of_sphere(radius_m: f64, placed: &InstanceTransform) -> Footprint {
+pub(super) fn sphere_footprint(radius_m: f64, placed: &InstanceTransform) -> Footprint {
     let uv_per_m = sphere::uv_per_m(radius_m * placed.mean_scale()) as f32;
     Footprint { uv_per_m, local_per_m: local_per_m(placed) }
 }
@@ -49,4 +49,30 @@ fn uv_per_m(mesh: &MeshPose<'_>, placed: &InstanceTransform, primitive: u32) -> 
 
 fn local_per_m(placed: &InstanceTransform) -> f32 {
     (1.0 / placed.mean_scale()) as f32
+}
+
+/// ∂p/∂u and ∂p/∂v of a triangle in its own frame, up to their lengths: texture coordinates are linear over it.
+pub(super) fn mesh_tangents(mesh: &MeshPose<'_>, primitive: u32) -> Option<[DVec3; 2]> {
+    let uvs = mesh.uvs(primitive)?;
+    let [a, b, c] = mesh.corners(primitive).map(Vec3::as_dvec3);
+    let (along, across) = (b - a, c - a);
+    let [a, b, c]: [DVec2; 3] = uvs.map(|uv| uv.as_dvec2());
+    let (uv_along, uv_across) = (b - a, c - a);
+    let turn = uv_along.perp_dot(uv_across);
+    let side = if turn < 0.0 { -1.0 } else { 1.0 };
+    let u = (along * uv_across.y - across * uv_along.y) * side;
+    let v = (across * uv_along.x - along * uv_across.x) * side;
+    (turn != 0.0).then_some([u, v])
+}
+
+/// East and north at a point of a sphere about the origin, up to their lengths; `None` at the poles.
+pub(super) fn sphere_tangents(point: DVec3) -> Option<[DVec3; 2]> {
+    let east = DVec3::Z.cross(point);
+    (east != DVec3::ZERO).then(|| [east, point.cross(east)])
+}
+
+/// Two directions of the instance's frame as unit ones of the render frame.
+pub(super) fn tangents_to_render(local: [DVec3; 2], placed: &InstanceTransform) -> Option<[Vec3; 2]> {
+    let [u, v] = local.map(|d| placed.vector_to_render(d).try_normalize());
+    Some([u?.as_vec3(), v?.as_vec3()])
 }

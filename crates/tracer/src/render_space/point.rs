@@ -26,7 +26,7 @@ pub(super) fn of_mesh(
     let normals = if facet.is_flat { None } else { mesh.normals(hit.primitive) };
     let (shading, own) = match normals {
         None => (flat, facet.normal),
-        Some(normals) => bent(mesh, (hit.primitive, normals), weights, placed, flat),
+        Some(normals) => bent(mesh, hit.primitive, normals, weights, placed, flat),
     };
     SurfacePoint {
         position,
@@ -47,7 +47,8 @@ pub(super) fn of_mesh(
 /// In f32, but for lengths of which f32 has no squares.
 fn bent(
     mesh: &MeshPose<'_>,
-    (primitive, [a, b, c]): (u32, [Vec3; 3]),
+    primitive: u32,
+    [a, b, c]: [Vec3; 3],
     weights: [f64; 3],
     placed: &InstanceTransform,
     flat: Vec3,

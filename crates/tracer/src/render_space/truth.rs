@@ -87,7 +87,7 @@ impl RenderSpace<'_> {
             }
             Shape::Sphere { radius_m } => {
                 let about = passed.then_some(start + f64::from(hit.t));
-                on_sphere(radius_m, placed, (origin, along), about)
+                on_sphere(radius_m, placed, origin, along, about)
             }
         };
         let position_m = self.origin_m + origin_m + direction * t;
@@ -138,7 +138,8 @@ pub(super) fn plane([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> O
 fn on_sphere(
     radius_m: f64,
     placed: &InstanceTransform,
-    (origin, direction): (DVec3, DVec3),
+    origin: DVec3,
+    direction: DVec3,
     passed_to: Option<f64>,
 ) -> (f64, DVec3, usize) {
     // A ray that only its f32 form grazes: the point of closest approach.

@@ -6,17 +6,16 @@
 //! places would leave gaps. Longer footprints are read with gaps: nothing is blurred further, and the samples of the pixel
 //! fill them.
 
+use etendue_core::blocks::Blocks;
 use etendue_core::maths::f32::log2;
 use glam::{Vec2, Vec3};
+use std::sync::Arc;
 
-use super::error::{TextureError, TiledError};
 use super::mipmap::{Level, Resolution, pyramid, weighted_pyramid};
 use super::projection::{Place, Projection};
-use super::texels::{Store, Texel, TexelEncoding, Texels};
+use super::texels::{Store, Texel, TexelEncoding, Texels, TextureError, TiledError};
 use super::tiled::{TileMemory, TiledLevel, levels};
 use super::{Channel, Lookup, Wrap};
-use etendue_core::blocks::Blocks;
-use std::sync::Arc;
 
 /// Most readings along a long footprint.
 const MAX_PROBES: f32 = 8.0;
@@ -128,13 +127,15 @@ impl ImageTexture {
     /// # Errors
     /// As [`ImageTexture::new`], or where the tiles cannot be read.
     pub fn tiled(
-        (width, height): (u32, u32),
+        width: u32,
+        height: u32,
         encoding: TexelEncoding,
-        (blocks, memory): (Arc<dyn Blocks>, &Arc<TileMemory>),
+        blocks: Arc<dyn Blocks>,
+        memory: &Arc<TileMemory>,
         sampling: Sampling,
     ) -> Result<Self, TiledError> {
         sampling.check()?;
-        let (mut levels, statistics) = levels((width, height), encoding, blocks, memory).map_err(TiledError::Tiles)?;
+        let (mut levels, statistics) = levels(width, height, encoding, blocks, memory).map_err(TiledError::Tiles)?;
         if sampling.filter == Filter::Bilinear {
             levels.truncate(1);
         }

@@ -7,22 +7,16 @@
 //! - A lookup names its footprint, of what it stands for: the width of its short side, in texture coordinates and in the
 //!   shape's own frame, and where it is longer one way, that side with its direction.
 
-mod channel;
-mod error;
 mod image;
 mod mipmap;
 mod projection;
-#[cfg(test)]
-mod tests;
 mod texels;
 mod tiled;
 mod wrap;
 
-pub use channel::Channel;
-pub use error::{TextureError, TiledError};
 pub use image::{Filter, ImageTexture, Sampling};
 pub use projection::Projection;
-pub use texels::{TexelEncoding, Texels};
+pub use texels::{Channel, TexelEncoding, Texels, TextureError, TiledError};
 pub use tiled::{PyramidWriter, TileMemory};
 pub use wrap::Wrap;
 
@@ -68,5 +62,20 @@ impl Lookup {
             width_local: 0.0,
             long_local: Vec3::ZERO,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    mod alpha;
+    mod grazing;
+    mod tiled;
+
+    use super::*;
+
+    fn picture(width: u32, height: u32, sampling: Sampling, texel: impl Fn(u32, u32) -> f32) -> ImageTexture {
+        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let texels = places.map(|(x, y)| [texel(x, y); 3]).collect();
+        ImageTexture::new(width, height, Texels::Float(texels), sampling).expect("a picture")
     }
 }

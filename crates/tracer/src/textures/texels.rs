@@ -2,6 +2,7 @@
 
 use core::ops::{Add, Mul};
 use etendue_spectra::colour;
+use etendue_spectra::colour::XYZ_FROM_SRGB;
 use glam::Vec3;
 
 /// The texels of a picture, row by row from the top.
@@ -139,4 +140,89 @@ impl<T: Texel> Store<T> {
 
 fn table(decode: impl Fn(u8) -> f32) -> Box<[f32; 256]> {
     Box::new(core::array::from_fn(|i| decode(i as u8)))
+}
+
+/// Which number of a picture is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// Red.
+    Red,
+    /// Green.
+    Green,
+    /// Blue.
+    Blue,
+    /// How opaque a texel is, of pictures that say so; 1 of others.
+    Alpha,
+    /// The luminance of the linear colour, 1 for white; of a grey picture, its grey.
+    Luminance,
+}
+
+impl Channel {
+    /// The channel of a colour.
+    pub(super) fn of(self, [r, g, b]: [f32; 3]) -> f32 {
+        match self {
+            Self::Red => r,
+            Self::Green => g,
+            Self::Blue => b,
+            Self::Alpha => 1.0,
+            Self::Luminance => {
+                let [wr, wg, wb] = XYZ_FROM_SRGB[1].map(|w| w as f32);
+                // Rounding must not take white beyond 1.
+                (wr * r + wg * g + wb * b).clamp(r.min(g).min(b), r.max(g).max(b))
+            }
+        }
+    }
+}
+
+/// Why a texture is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum TextureError {
+    /// The texels do not fill the picture.
+    #[error("a picture of {width} × {height} needs as many texels, but {found} were given; check its size")]
+    Size {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Texels given.
+        found: usize,
+    },
+    /// A texel is not a finite number.
+    #[error("texel {texel} of the picture is not a finite number; correct the file")]
+    NonFinite {
+        /// The texel, counted by rows from the top.
+        texel: usize,
+    },
+    /// The size or sharpness of a projection from three sides is out of range.
+    #[error("a picture laid on from three sides needs a size above 0 m and a sharpness of 1 to 64; correct them")]
+    Projection,
+    /// Scale or offset are not finite numbers.
+    #[error("the texture's scale and offset must be finite numbers; correct them")]
+    Placement,
+}
+
+/// Why a picture in tiles is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TiledError {
+    /// As any picture.
+    #[error(transparent)]
+    Texture(#[from] TextureError),
+    /// A tile cannot be written or read; in words for the user.
+    #[error("{0}")]
+    Tiles(String),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn luminance_keeps_greys_and_weighs_colours() {
+        for grey in [0.0, 0.2, 1.0, 1.0_f32.next_down()] {
+            assert_eq!(Channel::Luminance.of([grey; 3]), grey);
+        }
+        // Y of the primaries: IEC 61966-2-1 with this crate's white, 0.2127, 0.7152, 0.0722.
+        assert!((Channel::Luminance.of([0.0, 1.0, 0.0]) - 0.7152).abs() < 1e-4);
+        assert_eq!(Channel::Blue.of([0.1, 0.2, 0.3]), 0.3);
+    }
 }

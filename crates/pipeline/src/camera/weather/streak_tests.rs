@@ -61,8 +61,9 @@ fn precipitation(law: SizeLaw, seed: u32, smallest_px: f64) -> Precipitation {
 
 fn weather(precipitation: Precipitation, exposure_s: f64, airlight: f64) -> Weather {
     // Of even phase, so that the table of drops need not be made.
-    let optics = (Spectrum::constant(precipitation.field.extinction_per_m()), Spectrum::constant(1.0));
-    let medium = Medium::new(optics, Phase::Isotropic, Shape::Everywhere, Motion::still(DAffine3::IDENTITY));
+    let (extinction, albedo) = (Spectrum::constant(precipitation.field.extinction_per_m()), Spectrum::constant(1.0));
+    let medium =
+        Medium::new(extinction, albedo, Phase::Isotropic, Shape::Everywhere, Motion::still(DAffine3::IDENTITY));
     Weather {
         airlight: Airlight::Uniform(Spectrum::constant(airlight)),
         media: vec![medium.expect("legal")],

@@ -60,10 +60,10 @@ impl Falling {
         let region = region_of_projection(projection, image.pose.rotation);
         let resolution = precipitation.resolution(projection.pitch_tan(), *exposure_s);
         let change_over = ChangeOver::new(field.classes(), &resolution, &region);
-        let view = (image.pose.position_m, interval);
-        let particles = field.about(view.0, interval, &region, &change_over);
-        let mut streaks: Vec<Streak> =
-            particles.iter().map(|particle| field.streak(particle, view, &change_over)).collect();
+        let origin_m = image.pose.position_m;
+        let particles = field.about(origin_m, interval, &region, &change_over);
+        let streak = |particle| field.streak(particle, origin_m, interval, &change_over);
+        let mut streaks: Vec<Streak> = particles.iter().map(streak).collect();
         let middle_s = (0.5 * exposure_s) as f32;
         streaks.sort_by(|a, b| a.centre(middle_s).length().total_cmp(&b.centre(middle_s).length()));
         Streaks { streaks, exposure_s: *exposure_s, hollow: field.hollow(&change_over), medium: precipitation.medium }

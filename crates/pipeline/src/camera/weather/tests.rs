@@ -24,8 +24,8 @@ fn seen(fog: Medium, airlight: Airlight) -> Result<Weathered, WeatherError> {
 }
 
 fn fog(extinction_per_m: f64, shape: Shape) -> Medium {
-    let optics = (Spectrum::constant(extinction_per_m), Spectrum::constant(1.0));
-    Medium::new(optics, Phase::Isotropic, shape, Motion::still(DAffine3::IDENTITY)).expect("legal")
+    let (extinction, albedo) = (Spectrum::constant(extinction_per_m), Spectrum::constant(1.0));
+    Medium::new(extinction, albedo, Phase::Isotropic, shape, Motion::still(DAffine3::IDENTITY)).expect("legal")
 }
 
 fn of(seen: &Weathered, i: usize) -> [f32; 3] {

@@ -34,9 +34,9 @@ pub(super) fn tiled(
     memory: &Arc<TileMemory>,
 ) -> Result<ImageTexture, Refusal> {
     let TexelUse { reading, sampling } = usage;
-    let (size, encoding) = ((image.width, image.height), reading.encoding(image.format));
-    let (key, lengths) = (key(image, reading), PyramidWriter::lengths(size.0, size.1, encoding));
-    let texture = |blocks| ImageTexture::tiled(size, encoding, (blocks, memory), sampling);
+    let encoding = reading.encoding(image.format);
+    let (key, lengths) = (key(image, reading), PyramidWriter::lengths(image.width, image.height, encoding));
+    let texture = |blocks| ImageTexture::tiled(image.width, image.height, encoding, blocks, memory, sampling);
     match store.blocks.find(&key, &lengths).map(texture) {
         Some(Ok(texture)) => return Ok(texture),
         Some(Err(TiledError::Texture(error))) => return Err(Refusal::Picture(error.to_string())),

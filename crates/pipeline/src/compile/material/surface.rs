@@ -11,8 +11,8 @@ use etendue_scene::record::material::{
 };
 use etendue_spectra::{Outside, Spectrum};
 use etendue_tracer::materials::{
-    BlinnPhong, CarPaint, CarPaintParts, Cloth, Coated, Conductor, Dielectric, Distribution, Lafortune, Leaf, Lobe,
-    Mix, Puddles, Reflectance, Surface, ThinSheet, WATER, absorption_of, flake_reflectance,
+    BlinnPhong, CarPaint, CarPaintParts, Cloth, Coated, Conductor, Dielectric, Distribution, GroundRelief, Lafortune,
+    Leaf, Lobe, Mix, Puddles, Reflectance, Surface, ThinSheet, WATER, absorption_of, flake_reflectance,
 };
 
 /// The index of a coat or a pane that does not state one.
@@ -81,9 +81,13 @@ impl MaterialCompiler<'_, '_> {
             return self.context.accept(&r.place, Coated::new(base, WATER, film_alpha)).map(Surface::from);
         };
         let height = self.factor(&record::Factor::Texture(puddles.height.clone()))?;
-        let lengths_mm = (puddles.relief_mm.value, puddles.level_mm.value, number(puddles.grain_mm.as_ref(), GRAIN_MM));
+        let relief = GroundRelief {
+            relief_mm: puddles.relief_mm.value,
+            level_mm: puddles.level_mm.value,
+            grain_mm: number(puddles.grain_mm.as_ref(), GRAIN_MM),
+        };
         let rain_mm_h = number(puddles.rain_mm_h.as_ref(), 0.0);
-        let puddles = self.context.accept(&puddles.place, Puddles::new(height, lengths_mm, film_alpha, rain_mm_h))?;
+        let puddles = self.context.accept(&puddles.place, Puddles::new(height, relief, film_alpha, rain_mm_h))?;
         Some(Surface::from(Coated::under_water(base, puddles)))
     }
 

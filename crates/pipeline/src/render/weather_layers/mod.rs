@@ -26,8 +26,8 @@ use etendue_optics::PRINCIPAL_NM;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::integrator::{PathSettings, PathTracer};
 use etendue_tracer::materials::MaterialTable;
-use etendue_tracer::media::{Following, Media};
-use etendue_tracer::precipitation::Near;
+use etendue_tracer::media::{ForwardPeak, Media, MediaRay, RandomCounter};
+use etendue_tracer::precipitation::NearParticles;
 use etendue_tracer::render_space::RenderSpace;
 
 /// What weather does to the pixels of a film.
@@ -132,7 +132,7 @@ struct Shares<'a> {
     view: &'a RenderSpace<'a>,
     material_table: &'a MaterialTable,
     media: &'a Media<'a>,
-    near: Option<&'a Near<'a>>,
+    near: Option<&'a NearParticles<'a>>,
     of: Share,
 }
 
@@ -150,9 +150,10 @@ impl RadianceField<1> for Shares<'_> {
                 Spectral::splat(if is_met { 1.0 } else { 0.0 })
             }
             Share::Transmittance => {
-                let media = near.map_or(self.media, Near::media);
+                let media = near.map_or(self.media, NearParticles::media);
                 let at = Wavelengths { nm: [PRINCIPAL_NM as f32], pdf: [1.0] };
-                media.transmittance((&ray, Following::Exact), (&asked.stream, 0), &at)
+                let random = RandomCounter { stream: &asked.stream, counter: 0 };
+                media.transmittance(MediaRay { ray: &ray, peak: ForwardPeak::Exact }, random, &at)
             }
         }
     }

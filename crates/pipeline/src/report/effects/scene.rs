@@ -114,7 +114,7 @@ fn lamps(lights: &LightCounts) -> PlannedEffect {
 
 fn measured_lamps(plan: &Plan) -> PlannedEffect {
     let is_measured =
-        |profile: &Profile| matches!(profile, Profile::Web(_) | Profile::Masked(_) | Profile::MaskImage(_));
+        |profile: &Profile| matches!(profile, Profile::PhotometricGrid(_) | Profile::Masked(_) | Profile::MaskImage(_));
     let count = plan.sources.lamps.iter().filter(|lamp| is_measured(lamp.profile())).count();
     let text = format!("{count} lamps; intensities by direction are looked up for these alone");
     let status = where_needed(count > 0, text, "no lamp has one");

@@ -8,16 +8,14 @@
 //! The same boxes give the same tree, whatever the number of threads.
 
 mod partition;
-mod pieces;
 mod reference;
 mod reinsertion;
-mod top_down;
-
-use super::binary::BinaryNode;
-use super::boxes::Box3;
 use glam::Vec3;
+use partition::{Cut, Range, cut, halve};
 use reference::Reference;
 use reinsertion::Effort;
+
+use super::boxes::{BinaryKind, BinaryNode, Box3};
 
 /// What is spent on the trees of meshes. Every choice gives the same answers to rays; docs/performance.md has the price of
 /// each.
@@ -47,10 +45,10 @@ pub(super) fn over_triangles(
     quality: TreeQuality,
 ) -> Vec<BinaryNode> {
     let mut references = match quality {
-        TreeQuality::Fast => pieces::whole(count, &corners),
-        TreeQuality::Default | TreeQuality::Best => pieces::cut_large(count, &corners),
+        TreeQuality::Fast => reference::whole(count, &corners),
+        TreeQuality::Default | TreeQuality::Best => reference::cut_large(count, &corners),
     };
-    let binary = top_down::build(&mut references);
+    let binary = build_top_down(&mut references);
     drop(references);
     match quality {
         TreeQuality::Fast => binary,
@@ -62,8 +60,8 @@ pub(super) fn over_triangles(
 /// A binary tree over triangles that move, each in its box for all of an interval; empty without triangles. Places found at times in between
 /// may be rounded out of those boxes by a unit in the last place of f32, 1.2e-7 of their coordinates, for which there is room too.
 pub(super) fn over_moving(count: usize, swept: impl Fn(u32) -> Box3 + Sync, quality: TreeQuality) -> Vec<BinaryNode> {
-    let mut references = pieces::swept(count, &swept);
-    let binary = top_down::build(&mut references);
+    let mut references = reference::swept(count, &swept);
+    let binary = build_top_down(&mut references);
     match quality {
         TreeQuality::Fast => binary,
         TreeQuality::Default | TreeQuality::Best => reinsertion::improved(binary, LARGEST),
@@ -74,5 +72,65 @@ pub(super) fn over_moving(count: usize, swept: impl Fn(u32) -> Box3 + Sync, qual
 pub(super) fn over_boxes(boxes: &[Box3]) -> Vec<BinaryNode> {
     let reference = |(b, number): (&Box3, u32)| Reference::new(&b.grown(b.padding()), number);
     let mut references: Vec<_> = boxes.iter().zip(0..).map(reference).collect();
-    reinsertion::improved(top_down::build(&mut references), ALL)
+    reinsertion::improved(build_top_down(&mut references), ALL)
+}
+
+// Trees from the top down: a range of references is cut in two again and again ([`super::partition`]).
+//
+// What is below a node has its place before it is built, since a range of n references becomes 2n − 1 nodes: so any thread
+// can build any range, and the tree is the same for any number of them.
+
+/// Ranges of fewer references are built by one thread.
+const ALONE: usize = 2048;
+/// Cuts one below the other, after which ranges are halved by number: what lies within each other in ever smaller boxes
+/// would be cut off one by one.
+const DEEPEST: u32 = 64;
+
+/// The binary tree over references, which change places; empty without references.
+fn build_top_down(references: &mut [Reference]) -> Vec<BinaryNode> {
+    let range = Range::of(references);
+    let root = BinaryNode::new(range.extent.bounds(), BinaryKind::Leaf(0));
+    let mut nodes = vec![root; (2 * references.len()).saturating_sub(1)];
+    if let [root, below @ ..] = nodes.as_mut_slice() {
+        Growth { first: 1, depth: 0 }.grow(references, &range, root, below);
+    }
+    nodes
+}
+
+/// Where what is below a node stands.
+#[derive(Clone, Copy)]
+struct Growth {
+    /// Index of the first child.
+    first: u32,
+    /// Cuts above.
+    depth: u32,
+}
+
+impl Growth {
+    /// Builds the node of a range and all that is `below` it.
+    fn grow(self, references: &mut [Reference], range: &Range, node: &mut BinaryNode, below: &mut [BinaryNode]) {
+        let bounds = range.extent.bounds();
+        if let [only] = references {
+            *node = BinaryNode::new(bounds, BinaryKind::Leaf(only.primitive()));
+            return;
+        }
+        *node = BinaryNode::new(bounds, BinaryKind::Inner(self.first));
+        let Cut { at, ranges: [left_range, right_range] } =
+            if self.depth < DEEPEST { cut(references, range) } else { halve(references, range) };
+        let (left, right) = references.split_at_mut(at);
+        let (children, below) = below.split_at_mut(2);
+        let (left_below, right_below) = below.split_at_mut(2 * left.len() - 2);
+        let [left_node, right_node] = children else { unreachable!("two children") };
+        let (first, depth) = (self.first + 2, self.depth + 1);
+        let right_first = first + left_below.len() as u32;
+        let is_large = left.len() + right.len() >= ALONE;
+        let mut left = || Self { first, depth }.grow(left, &left_range, left_node, left_below);
+        let mut right = || Self { first: right_first, depth }.grow(right, &right_range, right_node, right_below);
+        if is_large {
+            rayon::join(left, right);
+        } else {
+            left();
+            right();
+        }
+    }
 }

@@ -3,13 +3,13 @@
 //! Subtrees are taken out and put in where they cost least, over and over (Meister, Bittner 2018, "Parallel reinsertion for
 //! bounding volume hierarchy optimization"). Most is won among the largest: below them the tree may stay as it is.
 
-use crate::accel::binary::{BinaryKind, BinaryNode};
-use crate::accel::boxes::Box3;
 use glam::{DVec3, Vec3};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::bvh2::{Bvh2, DEFAULT_MAX_STACK_DEPTH};
+
+use crate::accel::boxes::{BinaryKind, BinaryNode, Box3};
 
 /// More boxes than this about one point are a crowd. The library compares all of them with each other: a thousand times a
 /// thousand steps are still nothing.

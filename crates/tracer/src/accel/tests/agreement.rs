@@ -1,15 +1,15 @@
 //! Trees against brute force, instruction sets against each other, any against closest.
 
-use super::shapes::{Random, medley, soup, world_of};
-use crate::accel::lanes::Plain;
-use crate::accel::local::LocalRay;
-use crate::accel::packet::{Half, Packet, RayLanes};
-use crate::accel::{Simd, World};
-use crate::geometry::Hit;
-use crate::geometry::{Shape, sphere};
-use crate::render_space::RenderSpace;
 use etendue_core::{Ray, TimeInterval};
 use glam::{DAffine3, DVec3, Vec3};
+
+use super::shapes::{Random, medley, soup, world_of};
+use crate::accel::lanes::Plain;
+use crate::accel::packet::{Half, Packet, RayLanes};
+use crate::accel::ray::LocalRay;
+use crate::accel::{Simd, World};
+use crate::geometry::{Hit, Shape, sphere};
+use crate::render_space::RenderSpace;
 
 fn rays(count: u32, reach: f64, seed: u32) -> impl Iterator<Item = Ray> {
     let mut random = Random::new(seed);

@@ -3,7 +3,7 @@
 use super::shapes::{Random, instance, mesh, world_of};
 use crate::MaterialId;
 use crate::accel::{WorldBuilder, WorldError};
-use crate::geometry::{Dropped, Mesh, MeshId, Shape};
+use crate::geometry::{DroppedTriangles, Mesh, MeshId, Shape};
 use etendue_core::{Motion, Ray, TimeInterval};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
@@ -33,7 +33,7 @@ fn an_empty_world_is_met_by_nothing() {
 fn twenty_thousand_coincident_triangles_are_one() {
     let positions = vec![Vec3::new(1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::new(1.0, 0.0, 1.0)];
     let (mesh, dropped) = Mesh::new(positions, vec![], vec![], vec![[0, 1, 2]; 20_000], vec![]).expect("legal");
-    assert_eq!(dropped, Dropped { zero_area: 0, duplicate: 19_999 });
+    assert_eq!(dropped, DroppedTriangles { zero_area: 0, duplicate: 19_999 });
     let world = world_of(mesh, DAffine3::IDENTITY);
     assert_eq!(world.render_space(DVec3::ZERO).closest(&Ray::new(Vec3::ZERO, Vec3::X, 0.0)).map(|h| h.t), Some(1.0));
 }

@@ -1,14 +1,15 @@
 //! A million needles and slivers against brute force, by every quality of tree; the same tree on any number of threads.
 
+use etendue_core::Ray;
+use glam::{DAffine3, DVec3};
+
 use super::shapes::{Random, instance, soup};
 use crate::accel::blas::Blas;
 use crate::accel::lanes::Plain;
-use crate::accel::local::LocalRay;
 use crate::accel::packet::{Half, Packet, RayLanes};
+use crate::accel::ray::LocalRay;
 use crate::accel::{TreeQuality, WorldBuilder};
 use crate::geometry::{Mesh, Shape};
-use etendue_core::Ray;
-use glam::{DAffine3, DVec3};
 
 /// Triangles of lengths from 1 mm to 10 m, a hundred to a hundred thousand times as long as wide, in a cube of 20 m.
 fn needles(count: u32, seed: u32) -> Mesh {

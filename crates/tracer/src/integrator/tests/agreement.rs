@@ -10,11 +10,11 @@ fn mixed(floor: Surface) -> Ready {
     let sources = Sources {
         suns: vec![Sun::of_radiance(DVec3::new(-1.0, 0.3, 1.0), 20.0, Spectrum::constant(0.02)).expect("a sun")],
         lamps: vec![],
-        environment: Some(Environment::Image(ImageEnvironment::new((16, 8), picture, 1.0, 1.0).expect("a picture"))),
+        environment: Some(Environment::Image(ImageEnvironment::new(16, 8, picture, 1.0, 1.0).expect("a picture"))),
     };
     let mut scene = Scene { sources, ..Scene::default() };
     let floor = scene.material(floor, None);
-    let lamp = scene.material(matt(0.2), Some((0.05, EmissionSides::Both)));
+    let lamp = scene.material(matt(0.2), Some(Glow { radiance: 0.05, sides: EmissionSides::Both }));
     let block = scene.material(matt(0.7), None);
     scene.square(Vec3::ZERO, 5.0, floor);
     scene.square(Vec3::new(1.0, 0.0, 1.5), 0.5, lamp);
@@ -50,7 +50,7 @@ fn surroundings_beside_a_sun_are_found_however_they_are_drawn() {
     for (texel, radiance) in [(1.0, 2e3), (1.0, 2.0), (400.0, 2e3), (400.0, 2.0)] {
         let mut texels = vec![[1.0; 3]; 32 * 16];
         texels[3 * 32 + 5] = [texel; 3];
-        let picture = ImageEnvironment::new((32, 16), texels, 1.0, 0.0).expect("a picture");
+        let picture = ImageEnvironment::new(32, 16, texels, 1.0, 0.0).expect("a picture");
         let sun = Sun::of_radiance(DVec3::new(1.0, 0.0, 1.0), 2.0, Spectrum::constant(radiance * 1e-3)).expect("a sun");
         let sources = Sources { suns: vec![sun], lamps: vec![], environment: Some(Environment::Image(picture)) };
         let mut scene = Scene { sources, ..Scene::default() };
@@ -95,8 +95,10 @@ fn lights_are_counted_by_kind() {
 fn a_lamp_far_from_the_origin_of_its_mesh_still_shines() {
     // The camera stands at the origin; the lamp's own frame is 100 km away, where f32 resolves 8 mm.
     let mut scene = Scene::default();
-    let (floor, lamp) =
-        (scene.material(matt(0.5), None), scene.material(Surface::Absorber, Some((1.0, EmissionSides::Both))));
+    let (floor, lamp) = (
+        scene.material(matt(0.5), None),
+        scene.material(Surface::Absorber, Some(Glow { radiance: 1.0, sides: EmissionSides::Both })),
+    );
     scene.square(Vec3::new(0.0, 0.0, -1.0), 50.0, floor);
     let far = Vec3::new(1e5, 0.0, 0.0);
     let positions =
@@ -130,7 +132,7 @@ fn paths_of_one_four_and_eight_wavelengths_agree_where_nothing_disperses() {
     let ready = mixed(matt(0.7));
     let view = ready.world.render_space(DVec3::ZERO);
     let sources = Sources { environment: None, ..ready.sources.clone() };
-    let lights = Lights::new(&view, &ready.material_table, sources, (380.0, 780.0)).expect("lights");
+    let lights = Lights::new(&view, &ready.material_table, sources, VISIBLE).expect("lights");
     let tracer = PathTracer::new(&view, &ready.material_table, &lights, bounces(2));
     let address = PixelAddress {
         frame: FrameAddress { seed: 1, ..FrameAddress::default() },

@@ -101,10 +101,11 @@ fn densities_are_those_of_all_draws() {
     let lights = ready.lights(&view);
     let one = LightSampleContext { in_view: true, ..LightSampleContext::matt(Vec3::new(0.2, -0.5, 0.0), Vec3::Z) };
     let five = LightSampleContext { draws: 5, ..one };
-    let asked = (&WAVELENGTHS, &TimeInterval::default());
+    let interval = TimeInterval::default();
     for k in 0..64 {
-        let u = ((k as f32 + 0.5) / 64.0, Vec2::new(0.3, 0.6));
-        let [a, b] = [&one, &five].map(|receiver| lights.sample(receiver, u, 0.0, &ready.material_table, asked));
+        let (choice, u) = ((k as f32 + 0.5) / 64.0, Vec2::new(0.3, 0.6));
+        let [a, b] = [&one, &five]
+            .map(|receiver| lights.sample(receiver, choice, u, 0.0, &ready.material_table, query(&interval)));
         let (Some(a), Some(b)) = (a, b) else { panic!("the floor sees every light") };
         assert!((b.pdf / a.pdf - 5.0).abs() < 1e-5 && b.direction == a.direction && b.radiance == a.radiance);
         let met =

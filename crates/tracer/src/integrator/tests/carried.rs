@@ -53,7 +53,7 @@ fn scene(floor: Surface, openings: &[Option<Opening>]) -> Ready {
         let profile = match i % 3 {
             0 => Profile::Cone(Cone::new(0.4, 1.3).expect("a spot")),
             1 => Profile::Isotropic,
-            _ => Profile::Web(head_lamp::high_beam()),
+            _ => Profile::PhotometricGrid(head_lamp::high_beam()),
         };
         let lamp =
             Lamp::moving(carried(place, 1.5), Spectrum::constant(1.0 / profile.peak()), profile).expect("a lamp");
@@ -119,10 +119,11 @@ fn a_moving_lamp_is_the_frozen_lamp_of_its_moment() {
             let ask = |lights: &Lights, receiver| {
                 lights.sample(
                     receiver,
-                    (0.5, Vec2::new(at(4), at(5))),
+                    0.5,
+                    Vec2::new(at(4), at(5)),
                     0.0,
                     &ready.material_table,
-                    (&WAVELENGTHS, &TimeInterval::default()),
+                    query(&TimeInterval::default()),
                 )
             };
             let (Some(sample), Some(expected)) = (ask(&lights, &receiver), ask(&frozen, &still)) else { continue };
@@ -144,8 +145,7 @@ fn a_moving_lamp_is_the_frozen_lamp_of_its_moment() {
             drawn += 1;
             let point = view.surface(&ray, &hit);
             let met = LightHit { receiver: &receiver, point: &point, direction: ray.direction, distance_m: hit.t };
-            let seen =
-                lights.of_opening(&point, ray.direction, (&WAVELENGTHS, &TimeInterval::default())).expect("it shines");
+            let seen = lights.of_opening(&point, ray.direction, query(&TimeInterval::default())).expect("it shines");
             assert!((seen[1] - sample.radiance[1]).abs() <= 1e-3 * sample.radiance[1], "{seen:?} {sample:?}");
             // A ray to the far side of a stretched ball meets the near one.
             let relative = lights.light_pdf(&met) / sample.pdf;

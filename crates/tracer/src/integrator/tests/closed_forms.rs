@@ -25,13 +25,13 @@ fn a_white_sphere_vanishes_in_a_uniform_environment() {
 fn a_glowing_cavity_has_its_geometric_sum() {
     for albedo in [0.5, 0.9, 0.98] {
         let mut sphere = Scene::default();
-        let glowing = sphere.material(matt(albedo), Some((1.0, EmissionSides::Both)));
+        let glowing = sphere.material(matt(albedo), Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
         sphere.sphere(DVec3::new(0.3, 0.0, 0.1), 2.0, glowing);
         let estimate = sphere.ready().look(&ray([0.0; 3], [1.0, 0.5, 0.2]), 128, bounces(10_000));
         agrees(&estimate, 1.0 / (1.0 - albedo));
 
         let mut cube = Scene::default();
-        let glowing = cube.material(matt(albedo), Some((1.0, EmissionSides::Both)));
+        let glowing = cube.material(matt(albedo), Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
         let corner = |i: u32| Vec3::new((i & 1) as f32 - 0.4, (i >> 1 & 1) as f32 - 0.5, (i >> 2) as f32 - 0.6);
         let sides = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
         let triangles = sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
@@ -49,7 +49,7 @@ fn branched(max_bounces: u32) -> [PathSettings; 2] {
 #[test]
 fn a_bounce_more_adds_its_term() {
     let mut scene = Scene::default();
-    let glowing = scene.material(matt(0.5), Some((1.0, EmissionSides::Both)));
+    let glowing = scene.material(matt(0.5), Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
     scene.sphere(DVec3::ZERO, 1.0, glowing);
     let ready = scene.ready();
     for (max_bounces, expected) in [(0, 1.0), (1, 1.5), (2, 1.75), (3, 1.875)] {
@@ -66,8 +66,10 @@ fn a_sphere_lights_a_plane_by_its_closed_form() {
         [(DVec3::new(0.0, 0.0, 2.0), 0.5), (DVec3::new(3.0, 0.0, 2.0), 1.5), (DVec3::new(4.0, 1.0, 9.0), 1e-3)]
     {
         let mut scene = Scene::default();
-        let (floor, lamp) =
-            (scene.material(matt(0.6), None), scene.material(Surface::Absorber, Some((7.0, EmissionSides::Front))));
+        let (floor, lamp) = (
+            scene.material(matt(0.6), None),
+            scene.material(Surface::Absorber, Some(Glow { radiance: 7.0, sides: EmissionSides::Front })),
+        );
         scene.square(Vec3::ZERO, 10.0, floor);
         scene.sphere(centre, radius, lamp);
         let d = centre.length();
@@ -99,8 +101,10 @@ fn a_sun_lights_a_plane_by_its_irradiance() {
 #[test]
 fn a_mirror_shows_the_lamp_by_fresnel() {
     let mut scene = Scene::default();
-    let (mirror, lamp) =
-        (scene.material(aluminium(0.0), None), scene.material(Surface::Absorber, Some((5.0, EmissionSides::Both))));
+    let (mirror, lamp) = (
+        scene.material(aluminium(0.0), None),
+        scene.material(Surface::Absorber, Some(Glow { radiance: 5.0, sides: EmissionSides::Both })),
+    );
     scene.square(Vec3::ZERO, 1.0, mirror);
     scene.square(Vec3::new(0.0, 0.0, 10.0), 1.0, lamp);
     let estimate = scene.ready().look(&ray([0.0, 0.0, 5.0], [0.0; 3]), 4, bounces(1));
@@ -113,8 +117,10 @@ fn a_mirror_shows_the_lamp_by_fresnel() {
 fn radiance_keeps_its_digits_over_the_whole_range() {
     for scale in [1e-9, 1e12] {
         let mut scene = Scene::default();
-        let (floor, lamp) =
-            (scene.material(matt(0.6), None), scene.material(matt(0.5), Some((scale, EmissionSides::Front))));
+        let (floor, lamp) = (
+            scene.material(matt(0.6), None),
+            scene.material(matt(0.5), Some(Glow { radiance: scale, sides: EmissionSides::Front })),
+        );
         scene.square(Vec3::ZERO, 10.0, floor);
         scene.sphere(DVec3::new(0.0, 0.0, 2.0), 0.5, lamp);
         let estimate = scene.ready().look(&ray([-1.0, 0.5, 1.0], [0.0; 3]), 64, bounces(1));

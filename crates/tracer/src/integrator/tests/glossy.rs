@@ -51,7 +51,10 @@ fn drawn_and_met_light_agree_on_gloss() {
         scene.square(Vec3::ZERO, 20.0, floor);
         for i in 0..30_u8 {
             let at = Vec3::new(f32::from(i % 6) * 3.0 - 7.5, f32::from(i / 6) * 3.0 - 6.0, 0.6 + 0.1 * f32::from(i));
-            let lamp = scene.material(Surface::Absorber, Some((0.5 + f64::from(i % 4), EmissionSides::Both)));
+            let lamp = scene.material(
+                Surface::Absorber,
+                Some(Glow { radiance: 0.5 + f64::from(i % 4), sides: EmissionSides::Both }),
+            );
             scene.square(at, 0.15, lamp);
             scene.sphere((at + Vec3::new(1.0, 0.0, 0.4)).as_dvec3(), 0.1, lamp);
         }
@@ -95,7 +98,7 @@ fn what_gloss_shows_of_a_mirror_is_left_out_in_both_ways_of_finding_it() {
     };
     let mut scene = Scene::default();
     let (road, varnish) = (scene.material(named("wet road"), None), scene.material(named("varnish"), None));
-    let lamp = scene.material(Surface::Absorber, Some((50.0, EmissionSides::Both)));
+    let lamp = scene.material(Surface::Absorber, Some(Glow { radiance: 50.0, sides: EmissionSides::Both }));
     scene.square(Vec3::ZERO, 20.0, road);
     scene.sphere(DVec3::new(1.5, 0.0, 0.8), 0.7, varnish);
     scene.sphere(DVec3::new(-1.0, 0.5, 3.0), 0.4, lamp);
@@ -121,7 +124,7 @@ fn widened_lobes_are_told_alike_by_both_ways_of_finding_light() {
         let mut scene = Scene::default();
         let floor = scene.material(matt(0.8), None);
         let ball = scene.material(surface, None);
-        let lamp = scene.material(Surface::Absorber, Some((50.0, EmissionSides::Both)));
+        let lamp = scene.material(Surface::Absorber, Some(Glow { radiance: 50.0, sides: EmissionSides::Both }));
         scene.square(Vec3::ZERO, 20.0, floor);
         scene.sphere(DVec3::new(1.5, 0.0, 0.8), 0.7, ball);
         scene.sphere(DVec3::new(-1.0, 0.5, 3.0), 0.4, lamp);

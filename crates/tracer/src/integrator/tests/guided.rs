@@ -34,7 +34,8 @@ fn looks(
     ready: &Ready,
     targets: &[[f32; 3]],
     samples: u32,
-    (strategies, guided): (Strategies, bool),
+    strategies: Strategies,
+    guided: bool,
 ) -> Vec<ReplicateEstimate> {
     let view = ready.world.render_space(DVec3::ZERO);
     let lights = ready.lights(&view);
@@ -58,7 +59,7 @@ fn a_guide_leaves_every_mean() {
     for (floor, glows) in [(matt(0.7), true), (matt(0.7), false), (paint(0.6, 0.2), true), (leaf, true)] {
         let ready = corner(floor, glows);
         for strategies in [Strategies::Both, Strategies::Lights] {
-            let [guided, alone] = [true, false].map(|guided| looks(&ready, &TARGETS, 256, (strategies, guided)));
+            let [guided, alone] = [true, false].map(|guided| looks(&ready, &TARGETS, 256, strategies, guided));
             guided.iter().zip(&alone).for_each(|(a, b)| agree(a, b));
         }
     }
@@ -86,9 +87,9 @@ fn light_that_is_met_by_a_guided_path_is_weighed_by_its_density() {
     let mut ready = corner(matt(0.7), true);
     ready.sources.suns.clear();
     let close: Vec<_> = (0..4).map(|i| [0.9 + 0.05 * i as f32, 0.5, 0.0]).collect();
-    let alone = looks(&ready, &close, 512, (Strategies::Both, false));
+    let alone = looks(&ready, &close, 512, Strategies::Both, false);
     for strategies in [Strategies::Both, Strategies::Scattering] {
-        let guided = looks(&ready, &close, 512, (strategies, true));
+        let guided = looks(&ready, &close, 512, strategies, true);
         guided.iter().zip(&alone).for_each(|(a, b)| agree(a, b));
         guided.iter().for_each(|e| assert!(e.standard_error() < 0.01 * e.mean, "{strategies:?} {e:?}"));
     }
@@ -100,7 +101,7 @@ fn a_guide_lowers_the_error_of_indirect_light() {
     let ready = corner(matt(0.7), false);
     let close: Vec<_> = (0..16).map(|i| [1.6 + 0.01 * (i % 4) as f32, -1.4 + 0.01 * (i / 4) as f32, 0.0]).collect();
     let relative = |e: &ReplicateEstimate| e.variance_of_mean / (e.mean * e.mean);
-    let error = |guided| looks(&ready, &close, 64, (Strategies::Both, guided)).iter().map(relative).sum::<f64>();
+    let error = |guided| looks(&ready, &close, 64, Strategies::Both, guided).iter().map(relative).sum::<f64>();
     let (alone, guided) = (error(false), error(true));
     assert!(guided < 0.8 * alone, "{guided} for {alone}");
 }

@@ -115,7 +115,7 @@ fn a_lamp_in_the_same_water_is_dimmed_on_its_way() {
         let mut scene = Scene::default();
         let water = scene.material(glass(absorption), None);
         cube(&mut scene, 2.0, water, 6);
-        let glow = scene.material(Surface::Absorber, Some((1.0, EmissionSides::Front)));
+        let glow = scene.material(Surface::Absorber, Some(Glow { radiance: 1.0, sides: EmissionSides::Front }));
         scene.sphere(DVec3::new(0.9, -1.5, 0.0), 0.2, glow);
         let towards = [0.9, -1.5, 0.0];
         scene.ready().look(&ray([0.0; 3], towards), 64, bounces(4)).mean

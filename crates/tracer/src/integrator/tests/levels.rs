@@ -37,7 +37,7 @@ fn flat_is_unshadowed_and_direct_is_shadowed() {
 fn only_paths_gather_light_of_other_surfaces() {
     let look = |level| {
         let mut scene = Scene::default();
-        let glowing = scene.material(matt(0.5), Some((1.0, EmissionSides::Both)));
+        let glowing = scene.material(matt(0.5), Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
         scene.sphere(DVec3::ZERO, 1.0, glowing);
         let settings = PathSettings { level, max_bounces: 64, roulette_start: 64, ..PathSettings::default() };
         scene.ready().look(&ray([0.1, 0.2, 0.3], [1.0, 0.3, 0.2]), 64, settings)
@@ -55,7 +55,7 @@ fn mirrors_show_the_surroundings_at_every_level_and_what_glows_from_direct_on() 
         let mirror = scene.material(aluminium(0.0), None);
         scene.square(Vec3::ZERO, 1.0, mirror);
         if glows {
-            let lamp = scene.material(Surface::Absorber, Some((5.0, EmissionSides::Both)));
+            let lamp = scene.material(Surface::Absorber, Some(Glow { radiance: 5.0, sides: EmissionSides::Both }));
             scene.square(Vec3::new(0.0, 0.0, 3.0), 1.0, lamp);
         }
         let settings = PathSettings { level, ..PathSettings::default() };

@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::lights::{Lamp, Profile};
-use crate::media::{Media, Medium, Noise, Phase, Shape as Region, Solid, Unevenness, cuboid};
+use crate::media::{
+    ForwardPeak, Media, MediaRay, Medium, Noise, Phase, RandomCounter, Shape as Region, Solid, Unevenness, cuboid,
+};
 use etendue_core::random::PixelAddress;
 use glam::DMat3;
 use std::sync::Arc;
@@ -11,7 +13,7 @@ const FORWARD: Phase = Phase::HenyeyGreenstein { g: 0.85 };
 
 pub(super) fn fog(extinction_per_m: f64, albedo: f64, phase: Phase, shape: Region) -> Medium {
     let of = |value| Spectrum::constant(value);
-    Medium::new((of(extinction_per_m), of(albedo)), phase, shape, Motion::still(DAffine3::IDENTITY)).expect("legal")
+    Medium::new(of(extinction_per_m), of(albedo), phase, shape, Motion::still(DAffine3::IDENTITY)).expect("legal")
 }
 
 fn uneven(medium: Medium, amplitude: f64) -> Medium {
@@ -52,10 +54,17 @@ fn fog_in_a_furnace_is_not_seen() {
     }
 }
 
-fn solid(boxes: &[(DVec3, DVec3)]) -> Region {
+/// A box by its centre and half sides, m.
+#[derive(Clone, Copy)]
+struct Cuboid {
+    centre: DVec3,
+    half: DVec3,
+}
+
+fn solid(boxes: [Cuboid; 2]) -> Region {
     let (mut vertices, mut triangles) = (vec![], vec![]);
-    for (centre, half) in boxes {
-        let (more, others) = cuboid(*centre, *half, vertices.len() as u32);
+    for Cuboid { centre, half } in boxes {
+        let (more, others) = cuboid(centre, half, vertices.len() as u32);
         vertices.extend(more);
         triangles.extend(others);
     }
@@ -65,7 +74,10 @@ fn solid(boxes: &[(DVec3, DVec3)]) -> Region {
 /// The same in a mesh of two parts, from inside one of them through a gap into the other.
 #[test]
 fn fog_within_a_mesh_in_a_furnace_is_not_seen() {
-    let shape = solid(&[(DVec3::ZERO, DVec3::ONE), (DVec3::Z * 4.0, DVec3::splat(2.0))]);
+    let shape = solid([
+        Cuboid { centre: DVec3::ZERO, half: DVec3::ONE },
+        Cuboid { centre: DVec3::Z * 4.0, half: DVec3::splat(2.0) },
+    ]);
     let settings = PathSettings { max_bounces: 4000, roulette_start: 4000, ..PathSettings::default() };
     let even = fog(0.7, 1.0, FORWARD, shape);
     for medium in [even.clone(), uneven(even, 0.9)] {
@@ -78,16 +90,16 @@ fn fog_within_a_mesh_in_a_furnace_is_not_seen() {
 #[test]
 fn fog_within_a_mesh_is_that_within_its_shape() {
     let mut scene = Scene::default();
-    let wall = scene.material(Surface::Absorber, Some((2.0, EmissionSides::Both)));
+    let wall = scene.material(Surface::Absorber, Some(Glow { radiance: 2.0, sides: EmissionSides::Both }));
     scene.square(Vec3::new(0.0, 0.0, 50.0), 30.0, wall);
     let ready = scene.ready();
     let half_m = DVec3::new(30.0, 30.0, 8.0);
     let moved = |shape, z: f64| {
         let place = Motion::still(DAffine3::from_translation(DVec3::Z * z));
-        Medium::new((Spectrum::constant(0.05), Spectrum::constant(0.6)), FORWARD, shape, place).expect("legal")
+        Medium::new(Spectrum::constant(0.05), Spectrum::constant(0.6), FORWARD, shape, place).expect("legal")
     };
     let boxes = [moved(Region::Box { half_m }, 0.0), moved(Region::Box { half_m }, 25.0)];
-    let mesh = [moved(solid(&[(DVec3::ZERO, half_m), (DVec3::Z * 25.0, half_m)]), 0.0)];
+    let mesh = [moved(solid([DVec3::ZERO, DVec3::Z * 25.0].map(|centre| Cuboid { centre, half: half_m })), 0.0)];
     let address = PixelAddress { frame: FrameAddress::default(), pixel: Pixel { x: 0, y: 0 }, replicate: 0 };
     let stream = PathStream::new(&address, 0);
     let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, 0.3);
@@ -95,7 +107,8 @@ fn fog_within_a_mesh_is_that_within_its_shape() {
     way.t_max = 40.0;
     let through = |media: &[Medium]| {
         let media = Media::new(media, DVec3::ZERO, TimeInterval::default());
-        media.transmittance((&way, crate::media::Following::Exact), (&stream, 0), &wavelengths)
+        let random = RandomCounter { stream: &stream, counter: 0 };
+        media.transmittance(MediaRay { ray: &way, peak: ForwardPeak::Exact }, random, &wavelengths)
     };
     assert!((through(&boxes) - through(&mesh)).max_value().abs() < 1e-7, "{:?}", through(&mesh));
     assert!((f64::from(through(&mesh)[0]) - maths::f64::exp(-0.05 * 24.0)).abs() < 1e-6);
@@ -108,7 +121,7 @@ fn fog_within_a_mesh_is_that_within_its_shape() {
 #[test]
 fn airlight_is_a_part_of_the_light() {
     let mut scene = even_surroundings();
-    let wall = scene.material(Surface::Absorber, Some((2.0, EmissionSides::Both)));
+    let wall = scene.material(Surface::Absorber, Some(Glow { radiance: 2.0, sides: EmissionSides::Both }));
     scene.square(Vec3::new(0.0, 0.0, 10.0), 30.0, wall);
     let ready = scene.ready();
     let shape = Region::Box { half_m: DVec3::new(9.0, 9.0, 6.0) };
@@ -131,7 +144,7 @@ fn airlight_is_a_part_of_the_light() {
 #[test]
 fn the_law_of_beer_and_lambert_through_fog() {
     let mut scene = Scene::default();
-    let wall = scene.material(Surface::Absorber, Some((2.0, EmissionSides::Both)));
+    let wall = scene.material(Surface::Absorber, Some(Glow { radiance: 2.0, sides: EmissionSides::Both }));
     scene.square(Vec3::new(0.0, 0.0, 50.0), 30.0, wall);
     let ready = scene.ready();
     let layer = Region::Box { half_m: DVec3::new(100.0, 100.0, 20.0) };
@@ -156,7 +169,7 @@ fn noise_of_no_amplitude_is_even() {
 #[test]
 fn fog_about_the_whole_scene_is_that_everywhere() {
     let mut scene = Scene::default();
-    let wall = scene.material(Surface::Absorber, Some((2.0, EmissionSides::Both)));
+    let wall = scene.material(Surface::Absorber, Some(Glow { radiance: 2.0, sides: EmissionSides::Both }));
     scene.square(Vec3::new(0.0, 0.0, 50.0), 30.0, wall);
     let ready = scene.ready();
     let settings = PathSettings { max_bounces: 8, ..PathSettings::default() };
@@ -219,7 +232,7 @@ fn light_of_a_lamp_scattered_once_in_uneven_fog() {
     let ball = |z: f64| {
         let to_world = Motion::still(DAffine3::from_translation(DVec3::Z * z));
         let of = Spectrum::constant;
-        Medium::new((of(0.2), of(1.0)), Phase::Isotropic, Region::Ball { radius_m: 2.0 }, to_world).expect("legal")
+        Medium::new(of(0.2), of(1.0), Phase::Isotropic, Region::Ball { radius_m: 2.0 }, to_world).expect("legal")
     };
     let thick = |seed| {
         let noise = Noise { scale_m: 6.0, octaves: 2, gain: 0.5, seed };
@@ -285,8 +298,8 @@ fn contrast(distance_m: f64, diameter_rad: f64, extinction_per_m: f64, samples: 
     let to_world = Motion::still(DAffine3::from_translation(DVec3::Z * 0.5 * distance_m));
     // A ball about target and eye.
     let ball = Region::Ball { radius_m: 0.75 * distance_m };
-    let optics = (Spectrum::constant(extinction_per_m), Spectrum::constant(1.0));
-    let medium = [Medium::new(optics, FORWARD, ball, to_world).expect("legal")];
+    let (extinction, albedo) = (Spectrum::constant(extinction_per_m), Spectrum::constant(1.0));
+    let medium = [Medium::new(extinction, albedo, FORWARD, ball, to_world).expect("legal")];
     let settings = PathSettings { max_bounces: 4000, roulette_start: 4000, ..PathSettings::default() };
     look(&scene.ready(), &medium, &up(), samples, settings)
 }

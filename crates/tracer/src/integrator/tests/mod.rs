@@ -29,17 +29,32 @@ use crate::geometry::{Instance, Mesh, Shape};
 use crate::lights::Lights;
 use crate::lights::{Environment, ImageEnvironment, Sources, Sun};
 use crate::materials::MaterialTable;
-use crate::materials::{Coated, Conductor, Emission, EmissionSides, Material, Reflectance, Surface};
+use crate::materials::{Coated, Conductor, Emission, EmissionQuery, EmissionSides, Material, Reflectance, Surface};
 use crate::render_space::RenderSpace;
 use core::f64::consts::PI;
 use etendue_core::random::{FrameAddress, PathStream, Pixel, PixelAddress};
-use etendue_core::{FieldRay, RadianceField, Ray, TimeInterval, Wavelengths};
+use etendue_core::{FieldRay, RadianceField, Ray, TimeInterval, WavelengthRange, Wavelengths};
 use etendue_core::{Motion, Track, maths};
 use etendue_spectra::{Spectrum, metal, upsample};
 use etendue_stats::ReplicateEstimate;
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 const WAVELENGTHS: Wavelengths<4> = Wavelengths { nm: [450.0, 520.0, 600.0, 680.0], pdf: [1.0 / 400.0; 4] };
+
+/// The wavelengths that lights are chosen by.
+const VISIBLE: WavelengthRange = WavelengthRange { low_nm: 380.0, high_nm: 780.0 };
+
+/// What lights are evaluated at, averaged over an interval.
+fn query(interval: &TimeInterval) -> EmissionQuery<'_, 4> {
+    EmissionQuery { wavelengths: &WAVELENGTHS, interval }
+}
+
+/// An emission of one radiance at all wavelengths.
+#[derive(Clone, Copy)]
+struct Glow {
+    radiance: f64,
+    sides: EmissionSides,
+}
 
 /// What a test asks: surfaces, and what shines from infinity.
 #[derive(Default)]
@@ -50,11 +65,11 @@ struct Scene {
 }
 
 impl Scene {
-    fn material(&mut self, surface: Surface, glow: Option<(f64, EmissionSides)>) -> MaterialId {
-        let emission = glow.map(|(radiance, glow)| Emission {
-            radiance: Spectrum::constant(radiance),
+    fn material(&mut self, surface: Surface, glow: Option<Glow>) -> MaterialId {
+        let emission = glow.map(|glow| Emission {
+            radiance: Spectrum::constant(glow.radiance),
             factor: None,
-            sides: glow,
+            sides: glow.sides,
             modulation: None,
         });
         self.materials.push(Material { emission, ..Material::new(surface) });
@@ -108,7 +123,7 @@ struct Ready {
 
 impl Ready {
     fn lights(&self, view: &RenderSpace<'_>) -> Lights {
-        Lights::new(view, &self.material_table, self.sources.clone(), (380.0, 780.0)).expect("lights")
+        Lights::new(view, &self.material_table, self.sources.clone(), VISIBLE).expect("lights")
     }
 
     /// Radiance along a ray, from 32 replicates of `samples`, at the second wavelength.
@@ -122,11 +137,11 @@ impl Ready {
 }
 
 fn replicate(tracer: &PathTracer<'_>, ray: &Ray, samples: u32, replicate: u32) -> f64 {
-    replicate_over(tracer, (ray, TimeInterval::default()), samples, replicate)
+    replicate_over(tracer, ray, TimeInterval::default(), samples, replicate)
 }
 
 /// The same with lights averaged over a time.
-fn replicate_over(tracer: &PathTracer<'_>, (ray, lit): (&Ray, TimeInterval), samples: u32, replicate: u32) -> f64 {
+fn replicate_over(tracer: &PathTracer<'_>, ray: &Ray, lit: TimeInterval, samples: u32, replicate: u32) -> f64 {
     let pixel = Pixel { x: 3, y: 4 };
     let address = PixelAddress { frame: FrameAddress { seed: 5, ..FrameAddress::default() }, pixel, replicate };
     let stream = PathStream::new(&address, 0);
@@ -169,5 +184,5 @@ fn ray(origin: [f32; 3], towards: [f32; 3]) -> Ray {
 }
 
 fn white_picture() -> Environment {
-    Environment::Image(ImageEnvironment::new((16, 8), vec![[1.0; 3]; 128], 1.0, 0.3).expect("surroundings"))
+    Environment::Image(ImageEnvironment::new(16, 8, vec![[1.0; 3]; 128], 1.0, 0.3).expect("surroundings"))
 }

@@ -30,11 +30,11 @@ fn rows() -> [TimeInterval; 4] {
 }
 
 /// Radiance along a ray with lights averaged over `lit`.
-fn look(ready: &Ready, (ray, lit): (&Ray, TimeInterval), settings: PathSettings, samples: u32) -> ReplicateEstimate {
+fn look(ready: &Ready, ray: &Ray, lit: TimeInterval, settings: PathSettings, samples: u32) -> ReplicateEstimate {
     let view = ready.world.render_space_for_few(DVec3::ZERO, frame());
     let lights = ready.lights(&view);
     let tracer = PathTracer::new(&view, &ready.material_table, &lights, settings);
-    let means: Vec<_> = (0..32).map(|r| replicate_over(&tracer, (ray, lit), samples, r)).collect();
+    let means: Vec<_> = (0..32).map(|r| replicate_over(&tracer, ray, lit, samples, r)).collect();
     ReplicateEstimate::of(&means).expect("replicates")
 }
 
@@ -59,7 +59,7 @@ const KINDS: [Kind; 5] = [Kind::Point, Kind::Opening, Kind::Ball, Kind::Square, 
 impl Scene {
     /// A glowing material.
     fn glowing(&mut self, radiance: f64, modulation: Option<Modulation>) -> MaterialId {
-        let material = self.material(matt(0.3), Some((radiance, EmissionSides::Both)));
+        let material = self.material(matt(0.3), Some(Glow { radiance, sides: EmissionSides::Both }));
         self.materials[material.0 as usize].emission.as_mut().expect("glows").modulation = modulation;
         material
     }
@@ -142,7 +142,7 @@ fn every_light_is_as_strong_as_its_mean_over_the_time_asked_for() {
         let settings = |strategies| PathSettings { max_bounces: 2, strategies, ..PathSettings::default() };
         let ray = Ray { time_s: 0.004, ..ray(FROM, [0.2, 0.1, 0.0]) };
         let steady = lit_floor(floor.clone(), kind, None);
-        let expected = look(&steady, (&ray, over(0.0, 0.01)), settings(Strategies::Both), 256);
+        let expected = look(&steady, &ray, over(0.0, 0.01), settings(Strategies::Both), 256);
         let flickering = lit_floor(floor, kind, Some(pulses()));
         for lit in rows() {
             let level = pulses().mean(lit);
@@ -152,7 +152,7 @@ fn every_light_is_as_strong_as_its_mean_over_the_time_asked_for() {
                 if matches!((kind, strategies), (Kind::Point, Strategies::Scattering)) {
                     continue;
                 }
-                let found = look(&flickering, (&ray, lit), settings(strategies), samples);
+                let found = look(&flickering, &ray, lit, settings(strategies), samples);
                 let variance = found.variance_of_mean + level * level * expected.variance_of_mean;
                 let allowed = 3.5 * variance.sqrt() + 1e-5 * expected.mean * level;
                 let difference = (found.mean - level * expected.mean).abs();
@@ -171,7 +171,7 @@ fn a_light_that_is_seen_has_the_level_of_its_row() {
     for kind in [Kind::Opening, Kind::Ball, Kind::Square] {
         // From below: the lamp shines down.
         let towards = ray([-0.3, -0.4, 0.1], [0.3, 0.2, 1.0]);
-        let see = |waveform, lit| look(&lit_floor(matt(0.5), kind, waveform), (&towards, lit), bounces(0), 1).mean;
+        let see = |waveform, lit| look(&lit_floor(matt(0.5), kind, waveform), &towards, lit, bounces(0), 1).mean;
         let steady = see(None, rows()[0]);
         for lit in rows() {
             let expected = steady * pulses().mean(lit);
@@ -197,13 +197,13 @@ fn a_panel_goes_through_its_rows_from_the_top() {
         let lit = over(0.002 * f64::from(lit_row) + 0.0005, 0.001);
         for seen in 0..5_u8 {
             let z = 0.4 - 0.2 * f32::from(seen);
-            let found = look(&ready, (&ray([0.1, -3.0, 0.0], [0.1, 0.0, z]), lit), bounces(0), 1).mean;
+            let found = look(&ready, &ray([0.1, -3.0, 0.0], [0.1, 0.0, z]), lit, bounces(0), 1).mean;
             let expected = if seen == lit_row { 10.0 } else { 0.0 };
             // Times of 40 s are told to 7e-15 s, of 1 ms.
             assert!((found - expected).abs() < 1e-5, "row {lit_row}, seen {seen}: {found}");
         }
     }
-    let whole = |z: f32| look(&ready, (&ray([0.1, -3.0, 0.0], [0.1, 0.0, z]), over(0.003, 0.01)), bounces(0), 1).mean;
+    let whole = |z: f32| look(&ready, &ray([0.1, -3.0, 0.0], [0.1, 0.0, z]), over(0.003, 0.01), bounces(0), 1).mean;
     assert!([0.4, 0.0, -0.3].map(whole).iter().all(|mean| (mean - 2.0).abs() < 1e-5));
 }
 
@@ -225,8 +225,8 @@ fn a_light_that_is_dark_throughout_is_never_drawn() {
         );
         let receiver = LightSampleContext::matt(Vec3::new(0.5, 0.5, 0.0), Vec3::Z);
         let draw = |i: u16| {
-            let number = (f32::from(i) / 200.0, Vec2::new(0.3, 0.6));
-            lights.sample(&receiver, number, 0.0, &ready.material_table, (&WAVELENGTHS, &interval))
+            let (choice, u) = (f32::from(i) / 200.0, Vec2::new(0.3, 0.6));
+            lights.sample(&receiver, choice, u, 0.0, &ready.material_table, query(&interval))
         };
         let found: Vec<_> = (0..200).filter_map(draw).collect();
         assert!(found.iter().all(|sample| sample.radiance[1] > 0.0));

@@ -29,7 +29,7 @@ fn track(centre: DVec3, velocity: DVec3) -> Track {
 fn moving(floor: Surface, sides: EmissionSides) -> Scene {
     let mut scene = Scene::default();
     let floor = scene.material(floor, None);
-    let lamp = scene.material(matt(0.2), Some((0.05, sides)));
+    let lamp = scene.material(matt(0.2), Some(Glow { radiance: 0.05, sides }));
     let block = scene.material(matt(0.7), None);
     scene.square(Vec3::ZERO, 5.0, floor);
     let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, y)| Vec3::new(x, y, 0.0));
@@ -121,8 +121,8 @@ fn a_moving_light_is_the_frozen_light_of_its_moment() {
                 LightSampleContext::matt(Vec3::new(4.0 * at(1) - 2.0, 4.0 * at(2) - 2.0, 0.3 * at(3)), Vec3::ZERO);
             let receiver = LightSampleContext { time_s, ..still };
             let ask = |lights: &Lights, receiver| {
-                let asked = (&WAVELENGTHS, &TimeInterval::default());
-                lights.sample(receiver, (0.5, Vec2::new(at(4), at(5))), 0.0, &ready.material_table, asked)
+                let (u, interval) = (Vec2::new(at(4), at(5)), TimeInterval::default());
+                lights.sample(receiver, 0.5, u, 0.0, &ready.material_table, query(&interval))
             };
             let (sample, expected) = (ask(&lights, &receiver), ask(&frozen, &still));
             assert_eq!(sample, expected);

@@ -13,7 +13,7 @@ fn strip() -> [DVec3; 4] {
 fn under_a_strip() -> Ready {
     let mut scene = Scene::default();
     let floor = scene.material(matt(ALBEDO), None);
-    let lamp = scene.material(Surface::Absorber, Some((1.0, EmissionSides::Both)));
+    let lamp = scene.material(Surface::Absorber, Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
     scene.square(Vec3::ZERO, 5.0, floor);
     scene.mesh(strip().map(|p| p.as_vec3()).to_vec(), vec![[0, 1, 2], [0, 2, 3]], lamp);
     scene.ready()

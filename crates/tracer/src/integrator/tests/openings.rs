@@ -190,7 +190,7 @@ fn many() -> Ready {
         let profile = match i % 3 {
             0 => Profile::Isotropic,
             1 => Profile::Cone(Cone::new(0.1, 0.15).expect("a spot")),
-            _ => Profile::masked(Profile::Web(head_lamp::low_beam(head_lamp::Traffic::Right)), spot()),
+            _ => Profile::masked(Profile::PhotometricGrid(head_lamp::low_beam(head_lamp::Traffic::Right)), spot()),
         };
         scene.open_lamp(at, DOWN, shapes[i as usize % shapes.len()], profile);
     }
@@ -258,13 +258,9 @@ fn points_are_drawn_by_the_densities_told() {
                     ((f64::from(k) * 0.754_877_666_246_69) % 1.0) as f32,
                     ((f64::from(k) * 0.569_840_290_998_05) % 1.0) as f32,
                 );
-                let Some(sample) = lights.sample(
-                    &receiver,
-                    (0.5, u),
-                    0.0,
-                    &ready.material_table,
-                    (&WAVELENGTHS, &TimeInterval::default()),
-                ) else {
+                let Some(sample) =
+                    lights.sample(&receiver, 0.5, u, 0.0, &ready.material_table, query(&TimeInterval::default()))
+                else {
                     continue;
                 };
                 // At the rim a ray may pass by for rounding.

@@ -33,7 +33,7 @@ fn through(screen: Option<Material>, source: &Source, strategies: Strategies) ->
             scene.sources.suns.push(sun);
         }
         Source::Square => {
-            let glow = scene.material(Surface::Absorber, Some((1.0, EmissionSides::Both)));
+            let glow = scene.material(Surface::Absorber, Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
             scene.square(Vec3::new(0.0, 0.0, 2.0), 0.6, glow);
         }
     }
@@ -92,7 +92,7 @@ fn thin_ball(opacity: Factor, textures: Vec<ImageTexture>, stretched: DVec3) -> 
     let mut scene = Scene::default();
     let floor = scene.material(matt(0.8), None);
     scene.square(Vec3::ZERO, 3.0, floor);
-    let ball = scene.material(Surface::Absorber, Some((1.0, EmissionSides::Both)));
+    let ball = scene.material(Surface::Absorber, Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
     scene.materials[ball.0 as usize].opacity = Some(opacity);
     let place = DAffine3::from_scale_rotation_translation(stretched, glam::DQuat::IDENTITY, DVec3::new(0.3, 0.2, 1.0));
     scene.place(Shape::Sphere { radius_m: 0.5 }, place, ball);
@@ -122,8 +122,10 @@ fn light_from_a_lamp_inside_tinted_glass_is_tinted_however_it_is_found() {
         let mut scene = Scene::default();
         let glass = Dielectric::new(1.3, alpha, Some(Spectrum::constant(1.5))).expect("glass");
         let glass = scene.material(Surface::Dielectric(Box::new(glass)), None);
-        let (matt, glow) =
-            (scene.material(matt(0.8), None), scene.material(Surface::Absorber, Some((1.0, EmissionSides::Front))));
+        let (matt, glow) = (
+            scene.material(matt(0.8), None),
+            scene.material(Surface::Absorber, Some(Glow { radiance: 1.0, sides: EmissionSides::Front })),
+        );
         scene.sphere(DVec3::ZERO, 2.0, glass);
         scene.sphere(DVec3::ZERO, 0.4, matt);
         scene.sphere(DVec3::new(0.9, -0.9, 0.3), 0.4, glow);
@@ -146,7 +148,7 @@ fn a_pane_of_bent_normals_passes_the_same_to_all_ways_of_finding_light() {
     let (mesh, _) = Mesh::new(corners, vec![], uvs, vec![[0, 1, 2], [0, 2, 3]], vec![]).expect("a mesh");
     let id = scene.builder.add_mesh(mesh);
     scene.place(Shape::Mesh(id), DAffine3::IDENTITY, pane);
-    let glow = scene.material(Surface::Absorber, Some((1.0, EmissionSides::Both)));
+    let glow = scene.material(Surface::Absorber, Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
     scene.square(Vec3::new(0.5, 0.5, 1.5), 0.6, glow);
     // A slope of 2 along u.
     let texels = Texels::Float(vec![[0.95, 0.5, 0.72]]);
@@ -164,7 +166,7 @@ fn a_solid_of_glass_absorbs_by_its_thickness() {
         let glass = Dielectric::new(1.5, 0.0, absorption.map(Spectrum::constant)).expect("glass");
         let (glass, wall) = (
             scene.material(Surface::Dielectric(Box::new(glass)), None),
-            scene.material(Surface::Absorber, Some((1.0, EmissionSides::Both))),
+            scene.material(Surface::Absorber, Some(Glow { radiance: 1.0, sides: EmissionSides::Both })),
         );
         // A block 0.2 m thick: two squares, the lower one turned down.
         scene.square(Vec3::new(0.0, 0.0, 0.2), 5.0, glass);

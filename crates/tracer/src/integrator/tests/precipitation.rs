@@ -3,7 +3,9 @@
 use super::*;
 use crate::accel::Simd;
 use crate::media::Media;
-use crate::precipitation::{ChangeOver, Crystals, Field, Near, Resolution, SeenRegion, SizeLaw};
+use crate::precipitation::{
+    ChangeOver, Crystals, Field, NearParticles, Resolution, SeenRegion, SizeLaw, ViewPlacement,
+};
 
 /// Mean radiance over rays that start about the origin within a cone along x, from 32 replicates, with what falls or without.
 fn look(ready: &Ready, law: SizeLaw, settings: PathSettings) -> (ReplicateEstimate, f64) {
@@ -14,7 +16,14 @@ fn look(ready: &Ready, law: SizeLaw, settings: PathSettings) -> (ReplicateEstima
     let change_over = ChangeOver::new(field.classes(), &resolution, &region);
     let medium = [field.medium().expect("legal")];
     let media = Media::new(&medium, DVec3::ZERO, interval);
-    let near = Near::new(&field, (media.clone(), 0), (DVec3::ZERO, interval, Simd::Auto), &region, &change_over);
+    let near = NearParticles::new(
+        &field,
+        media.clone(),
+        0,
+        ViewPlacement { origin_m: DVec3::ZERO, interval, simd: Simd::Auto },
+        &region,
+        &change_over,
+    );
     let view = ready.world.render_space(DVec3::ZERO);
     let lights = ready.lights(&view);
     let tracer =

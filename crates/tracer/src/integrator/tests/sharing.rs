@@ -24,7 +24,7 @@ pub(super) fn corner(floor: Surface, glows: bool) -> Ready {
     let floor = scene.material(floor, None);
     let plaster = scene.material(matt(0.8), None);
     let wall = if glows { spotted(&mut scene, plaster) } else { plaster };
-    let bright = scene.material(matt(0.6), glows.then_some((0.2, EmissionSides::Both)));
+    let bright = scene.material(matt(0.6), glows.then_some(Glow { radiance: 0.2, sides: EmissionSides::Both }));
     let mirror = scene.material(if glows { aluminium(0.0) } else { matt(0.5) }, None);
     let clear = ThinSheet::new(1.5, Reflectance::Spectrum(Spectrum::constant(0.9))).expect("a pane");
     let pane = scene.material(if glows { Surface::ThinSheet(Box::new(clear)) } else { matt(0.5) }, None);

@@ -7,7 +7,7 @@ use crate::materials::Dielectric;
 fn each_side_glows_as_stated() {
     for (glow, above, below) in [(EmissionSides::Front, 3.0, 0.0), (EmissionSides::Both, 3.0, 3.0)] {
         let mut scene = Scene::default();
-        let lamp = scene.material(Surface::Absorber, Some((3.0, glow)));
+        let lamp = scene.material(Surface::Absorber, Some(Glow { radiance: 3.0, sides: glow }));
         scene.square(Vec3::new(0.0, 0.0, 1.0), 1.0, lamp);
         let ready = scene.ready();
         agrees(&ready.look(&ray([0.0, 0.2, 2.0], [0.1, 0.0, 1.0]), 1, bounces(0)), above);
@@ -18,8 +18,10 @@ fn each_side_glows_as_stated() {
 #[test]
 fn a_dark_side_lights_nothing() {
     let mut scene = Scene::default();
-    let (floor, lamp) =
-        (scene.material(matt(0.9), None), scene.material(Surface::Absorber, Some((3.0, EmissionSides::Front))));
+    let (floor, lamp) = (
+        scene.material(matt(0.9), None),
+        scene.material(Surface::Absorber, Some(Glow { radiance: 3.0, sides: EmissionSides::Front })),
+    );
     scene.square(Vec3::ZERO, 5.0, floor);
     scene.square(Vec3::new(0.0, 0.0, 1.0), 1.0, lamp);
     let estimate = scene.ready().look(&ray([-2.0, 0.0, 0.5], [0.0, 0.0, 0.0]), 256, bounces(4));
@@ -29,8 +31,10 @@ fn a_dark_side_lights_nothing() {
 #[test]
 fn a_wall_with_leaning_normals_lets_no_light_through() {
     let mut scene = Scene::default();
-    let (wall, lamp) =
-        (scene.material(matt(0.9), None), scene.material(Surface::Absorber, Some((3.0, EmissionSides::Both))));
+    let (wall, lamp) = (
+        scene.material(matt(0.9), None),
+        scene.material(Surface::Absorber, Some(Glow { radiance: 3.0, sides: EmissionSides::Both })),
+    );
     // Shading normals that lean 70° to one side: half of the lamp is above their horizon.
     let leaning = Vec3::new(0.94, 0.0, 0.342);
     let positions = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)].map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec();

@@ -53,7 +53,7 @@ struct Polygon {
 }
 
 /// A point that was drawn, and how far the accelerator may see it elsewhere: off its plane, and before it along the ray.
-pub(in crate::lights) struct Drawn {
+pub(in crate::lights) struct FacetSample {
     pub(in crate::lights) surface: SurfaceSample,
     pub(in crate::lights) error_m: f32,
     pub(in crate::lights) early_m: f32,
@@ -86,7 +86,7 @@ impl Facets {
         let mut facets = (0..parallelograms).map(of_two).collect::<Option<Vec<_>>>()?;
         if let OpeningBody::Cylinder(along) = opening.body {
             let ends: &[f64] = if opening.half_m[along] == 0.0 { &[1.0] } else { &[-1.0, 1.0] };
-            facets.extend(ends.iter().map(|end| polygon(opening, (along, *end), to_render)));
+            facets.extend(ends.iter().map(|end| polygon(opening, along, *end, to_render)));
         }
         Some(Self { facets, parallelograms, both: opening.flat_axis().is_some() })
     }
@@ -110,7 +110,7 @@ impl Facets {
     }
 
     /// A point for a receiver; `None` where no facet faces it.
-    pub(in crate::lights) fn sample(&self, from: Vec3, u: Vec2) -> Option<Drawn> {
+    pub(in crate::lights) fn sample(&self, from: Vec3, u: Vec2) -> Option<FacetSample> {
         let weights = self.weights(from);
         let (chosen, within) = weights.fall(u.x)?;
         let facet = &self.facets[chosen];
@@ -119,12 +119,12 @@ impl Facets {
         (drawn.surface.pdf > 0.0).then_some(drawn)
     }
 
-    /// Density by which [`Facets::sample`] gives the direction to a point that was met, 1/sr.
-    pub(in crate::lights) fn pdf(&self, met: &LightHit<'_>) -> f32 {
-        let weights = self.weights(met.receiver.position);
-        let facet = self.facet_of(met.point.primitive as usize);
+    /// Density by which [`Facets::sample`] gives the direction to a point that was hit, 1/sr.
+    pub(in crate::lights) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
+        let weights = self.weights(hit.receiver.position);
+        let facet = self.facet_of(hit.point.primitive as usize);
         let share = weights.share(facet);
-        if share > 0.0 { share * self.facets[facet].pdf(met) } else { 0.0 }
+        if share > 0.0 { share * self.facets[facet].pdf(hit) } else { 0.0 }
     }
 
     /// The facet that a triangle of the mesh belongs to.
@@ -160,27 +160,27 @@ impl Weights {
 const ONE_BELOW: f32 = 1.0 - 0.5 * f32::EPSILON;
 
 impl Facet {
-    fn sample(&self, from: Vec3, u: Vec2) -> Option<Drawn> {
+    fn sample(&self, from: Vec3, u: Vec2) -> Option<FacetSample> {
         match &self.form {
             Form::Parallelogram(light) => {
                 let (error_m, early_m) = light.rounding_m();
-                Some(Drawn { surface: light.sample(from, u)?, error_m, early_m })
+                Some(FacetSample { surface: light.sample(from, u)?, error_m, early_m })
             }
             Form::Polygon(polygon) => {
                 let way = self.middle + polygon.place(u) - from;
                 let distance = way.length();
                 let pdf = solid_angle_pdf(1.0 / self.area_m2, way, distance, self.normal);
                 let surface = SurfaceSample { way, distance, normal: self.normal, pdf, uv: Vec2::ZERO, uv_per_m: 0.0 };
-                Some(Drawn { surface, error_m: polygon.error_m, early_m: 0.0 })
+                Some(FacetSample { surface, error_m: polygon.error_m, early_m: 0.0 })
             }
         }
     }
 
-    fn pdf(&self, met: &LightHit<'_>) -> f32 {
+    fn pdf(&self, hit: &LightHit<'_>) -> f32 {
         match &self.form {
-            Form::Parallelogram(light) => light.pdf(met),
+            Form::Parallelogram(light) => light.pdf(hit),
             Form::Polygon(_) => {
-                solid_angle_pdf(1.0 / self.area_m2, met.direction * met.distance_m, met.distance_m, self.normal)
+                solid_angle_pdf(1.0 / self.area_m2, hit.direction * hit.distance_m, hit.distance_m, self.normal)
             }
         }
     }
@@ -199,7 +199,7 @@ impl Polygon {
 }
 
 /// The end of a cylinder towards one side of its axis, or a disc.
-fn polygon(opening: &Opening, (along, end): (usize, f64), to_render: &DAffine3) -> Facet {
+fn polygon(opening: &Opening, along: usize, end: f64, to_render: &DAffine3) -> Facet {
     let mut middle = glam::DVec3::ZERO;
     middle[along] = end * opening.half_m[along];
     let axis = |k: usize| {

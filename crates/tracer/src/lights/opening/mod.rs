@@ -19,4 +19,4 @@ mod mesh;
 mod tests;
 
 pub use body::{Opening, OpeningBody, OpeningError};
-pub(super) use facets::{Drawn, Facets};
+pub(super) use facets::{FacetSample, Facets};

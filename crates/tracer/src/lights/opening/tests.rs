@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 
 use super::{Opening, OpeningBody, OpeningError};
 use crate::geometry::Mesh;
-use crate::lights::profile::{Cone, Profile, Web, WebAxes};
+use crate::lights::profile::{Cone, PhotometricAxes, PhotometricGrid, Profile};
 
 fn opening(body: OpeningBody, extents_m: [f64; 3]) -> Opening {
     Opening::new(body, extents_m).expect("an opening")
@@ -131,7 +131,9 @@ fn a_beam_along_the_plane_of_a_flat_opening_is_refused() {
     let vertical = vec![-1.0, 0.0, 1.0];
     let horizontal = vec![-20.0, 20.0];
     let values = horizontal.iter().flat_map(|_| vertical.iter().map(|v| value(*v))).collect();
-    let beam = Profile::Web(Web::new(WebAxes::A, vertical, horizontal, values).expect("a grid"));
+    let beam = Profile::PhotometricGrid(
+        PhotometricGrid::new(PhotometricAxes::A, vertical, horizontal, values).expect("a grid"),
+    );
     let refused = edge_on.check(&beam);
     assert!(matches!(refused, Err(OpeningError::EdgeOn { share }) if (0.05..0.06).contains(&share)), "{refused:?}");
     assert_eq!(opening(OpeningBody::Box, [0.0, 0.2, 0.2]).check(&beam), Ok(()));

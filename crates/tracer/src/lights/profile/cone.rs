@@ -8,8 +8,7 @@ use core::f64::consts::{PI, TAU};
 use etendue_core::maths;
 use glam::Vec3;
 
-use super::quadrature::{self, Node};
-use super::spread::Spread;
+use super::spread::{self, Node, Spread};
 
 /// A spot's field.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +72,7 @@ impl Cone {
     }
 
     pub(super) fn nodes(&self) -> Vec<Node> {
-        quadrature::cap(f64::from(self.outer), |direction| self.value(direction))
+        spread::cap(f64::from(self.outer), |direction| self.value(direction))
     }
 }
 

@@ -10,8 +10,7 @@ use core::f64::consts::PI;
 use etendue_core::maths;
 use glam::{DVec3, Vec2, Vec3};
 
-use super::quadrature::{GAUSS, Node};
-use super::spread::Spread;
+use super::spread::{GAUSS, Node, Spread};
 
 /// Why a mask is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -73,7 +72,8 @@ impl MaskImage {
     /// # Errors
     /// Where the texels do not fill the picture, one is negative or not finite, or an angle is not between 0 and π.
     pub fn new(
-        (width, height): (usize, usize),
+        width: usize,
+        height: usize,
         texels: Vec<f32>,
         horizontal_rad: f64,
         vertical_rad: f64,

@@ -10,23 +10,21 @@
 //!
 //! A profile belongs to directions in space: a mask shapes the light in the whole volume that it crosses.
 
-mod axis;
 mod cone;
 mod mask_image;
-mod quadrature;
+mod photometric_grid;
 mod spread;
-mod web;
 
 #[cfg(test)]
 mod tests;
 
 use glam::Vec3;
-use quadrature::{Node, cap};
+use spread::{Node, cap};
 
 pub use cone::{Cone, ConeError};
 pub use mask_image::{MaskImage, MaskImageError};
+pub use photometric_grid::{PhotometricAxes, PhotometricGrid, PhotometricGridError};
 pub(in crate::lights) use spread::Spread;
-pub use web::{Web, WebAxes, WebError};
 
 /// The spread of a lamp's intensity.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,17 +34,17 @@ pub enum Profile {
     /// A spot about +x.
     Cone(Cone),
     /// A measured grid.
-    Web(Web),
+    PhotometricGrid(PhotometricGrid),
     /// A picture, projected along +x.
     MaskImage(MaskImage),
     /// One profile seen through another: their product.
-    Masked(Masked),
+    Masked(MaskedProfile),
 }
 
 /// The product of two profiles. Its integrals are taken over directions of the one that reaches less far, the `mask` where
 /// both reach as far.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Masked {
+pub struct MaskedProfile {
     lamp: Box<Profile>,
     mask: Box<Profile>,
     spread: Spread,
@@ -57,7 +55,7 @@ impl Profile {
     #[must_use]
     pub fn masked(lamp: Self, mask: Self) -> Self {
         let spread = Spread::of(&product(&lamp, &mask));
-        Self::Masked(Masked { lamp: Box::new(lamp), mask: Box::new(mask), spread })
+        Self::Masked(MaskedProfile { lamp: Box::new(lamp), mask: Box::new(mask), spread })
     }
 
     /// The value along the unit `direction` of the lamp's frame, away from the lamp.
@@ -66,7 +64,7 @@ impl Profile {
         match self {
             Self::Isotropic => 1.0,
             Self::Cone(cone) => cone.value(direction),
-            Self::Web(web) => web.value(direction),
+            Self::PhotometricGrid(web) => web.value(direction),
             Self::MaskImage(image) => image.value(direction),
             Self::Masked(masked) => masked.mask.value(direction) * masked.lamp.value(direction),
         }
@@ -88,7 +86,7 @@ impl Profile {
     #[must_use]
     pub fn axis(&self) -> Vec3 {
         match self {
-            Self::Web(web) if web.axes() == WebAxes::C => Vec3::NEG_Z,
+            Self::PhotometricGrid(web) if web.axes() == PhotometricAxes::C => Vec3::NEG_Z,
             Self::Masked(masked) => masked.lamp.axis(),
             _ => Vec3::X,
         }
@@ -104,7 +102,7 @@ impl Profile {
         match self {
             Self::Isotropic => &Spread::EVERYWHERE,
             Self::Cone(cone) => cone.spread(),
-            Self::Web(web) => web.spread(),
+            Self::PhotometricGrid(web) => web.spread(),
             Self::MaskImage(image) => image.spread(),
             Self::Masked(masked) => &masked.spread,
         }
@@ -125,7 +123,7 @@ fn nodes(profile: &Profile) -> Vec<Node> {
     match profile {
         Profile::Isotropic => cap(2.0, |_| 1.0),
         Profile::Cone(cone) => cone.nodes(),
-        Profile::Web(web) => web.nodes(),
+        Profile::PhotometricGrid(web) => web.nodes(),
         Profile::MaskImage(image) => image.nodes(),
         Profile::Masked(masked) => product(&masked.lamp, &masked.mask),
     }

@@ -18,16 +18,16 @@ fn steps(from: f32, to: f32, count: usize) -> Vec<f32> {
     (0..count).map(|i| from + (to - from) * i as f32 / (count - 1) as f32).collect()
 }
 
-fn web(axes: WebAxes, v: Vec<f32>, h: Vec<f32>, value: impl Fn(f32, f32) -> f32) -> Web {
+fn web(axes: PhotometricAxes, v: Vec<f32>, h: Vec<f32>, value: impl Fn(f32, f32) -> f32) -> PhotometricGrid {
     let values = h.iter().flat_map(|h| v.iter().map(|v| value(*v, *h)).collect::<Vec<_>>()).collect();
-    Web::new(axes, v, h, values).expect("a grid")
+    PhotometricGrid::new(axes, v, h, values).expect("a grid")
 }
 
 #[test]
 fn a_spot_has_its_closed_flux_and_its_edges() {
     for (inner_deg, outer_deg) in [(0.0_f64, 30.0_f64), (10.0, 10.0), (0.05, 0.1), (60.0, 180.0)] {
         let cone = Cone::new(inner_deg.to_radians(), outer_deg.to_radians()).expect("a spot");
-        let summed: f64 = cone.nodes().iter().map(quadrature::Node::flux).sum();
+        let summed: f64 = cone.nodes().iter().map(spread::Node::flux).sum();
         // The midpoint rule in 128 rings loses or wins half a ring at a sharp edge, of 128.
         let profile = Profile::Cone(cone);
         assert!((summed / profile.flux_sr() - 1.0).abs() < 5e-3, "{inner_deg}–{outer_deg}: {summed}");
@@ -47,18 +47,18 @@ fn a_spot_has_its_closed_flux_and_its_edges() {
 fn grids_of_one_value_have_the_flux_of_their_part_of_the_sphere() {
     let (full_v, full_h) = (steps(-90.0, 90.0, 19), steps(-180.0, 180.0, 37));
     let shares = [
-        (web(WebAxes::A, full_v.clone(), full_h.clone(), |_, _| 1.0), 1.0),
-        (web(WebAxes::B, full_h, full_v, |_, _| 1.0), 1.0),
-        (web(WebAxes::C, steps(0.0, 180.0, 5), vec![0.0], |_, _| 1.0), 1.0),
-        (web(WebAxes::A, steps(-90.0, 90.0, 9), vec![0.0], |_, _| 1.0), 1.0),
-        (web(WebAxes::B, steps(-90.0, 90.0, 9), vec![0.0], |_, _| 1.0), 0.5),
-        (web(WebAxes::C, steps(0.0, 90.0, 5), steps(0.0, 360.0, 5), |_, _| 1.0), 0.5),
-        (web(WebAxes::A, steps(0.0, 90.0, 5), steps(0.0, 90.0, 3), |_, _| 1.0), 0.125),
-        (web(WebAxes::B, steps(-90.0, 90.0, 5), steps(-30.0, 30.0, 3), |_, _| 1.0), 0.25),
+        (web(PhotometricAxes::A, full_v.clone(), full_h.clone(), |_, _| 1.0), 1.0),
+        (web(PhotometricAxes::B, full_h, full_v, |_, _| 1.0), 1.0),
+        (web(PhotometricAxes::C, steps(0.0, 180.0, 5), vec![0.0], |_, _| 1.0), 1.0),
+        (web(PhotometricAxes::A, steps(-90.0, 90.0, 9), vec![0.0], |_, _| 1.0), 1.0),
+        (web(PhotometricAxes::B, steps(-90.0, 90.0, 9), vec![0.0], |_, _| 1.0), 0.5),
+        (web(PhotometricAxes::C, steps(0.0, 90.0, 5), steps(0.0, 360.0, 5), |_, _| 1.0), 0.5),
+        (web(PhotometricAxes::A, steps(0.0, 90.0, 5), steps(0.0, 90.0, 3), |_, _| 1.0), 0.125),
+        (web(PhotometricAxes::B, steps(-90.0, 90.0, 5), steps(-30.0, 30.0, 3), |_, _| 1.0), 0.25),
     ];
     for (web, share) in shares {
-        let summed: f64 = web.nodes().iter().map(quadrature::Node::flux).sum();
-        let profile = Profile::Web(web);
+        let summed: f64 = web.nodes().iter().map(spread::Node::flux).sum();
+        let profile = Profile::PhotometricGrid(web);
         assert!((isotropic_flux(&profile) - share).abs() < 1e-6, "{profile:?}");
         // Two nodes an interval of up to 45°: the error of Gauss' rule for a cosine is (π/4)⁵/4320.
         assert!((summed / profile.flux_sr() - 1.0).abs() < 1e-3, "{profile:?}: {summed}");
@@ -67,18 +67,19 @@ fn grids_of_one_value_have_the_flux_of_their_part_of_the_sphere() {
 
 #[test]
 fn a_cosine_lamp_has_the_flux_pi() {
-    let down =
-        web(WebAxes::C, steps(0.0, 90.0, 91), vec![0.0], |v, _| sin_cos(f64::from(90.0 - v).to_radians()).0 as f32);
+    let down = web(PhotometricAxes::C, steps(0.0, 90.0, 91), vec![0.0], |v, _| {
+        sin_cos(f64::from(90.0 - v).to_radians()).0 as f32
+    });
     // Chords lie below the cosine by at most (1°)²/8 of it.
-    assert!((Profile::Web(down).flux_sr() / PI - 1.0).abs() < 5e-5);
+    assert!((Profile::PhotometricGrid(down).flux_sr() / PI - 1.0).abs() < 5e-5);
 }
 
 #[test]
 fn grids_are_exact_at_their_points_in_the_directions_of_their_type() {
     let value = |v: f32, h: f32| 2.0 + v / 100.0 + h / 500.0;
-    let a = web(WebAxes::A, steps(-30.0, 30.0, 13), steps(-60.0, 60.0, 25), value);
-    let b = web(WebAxes::B, steps(-30.0, 30.0, 13), steps(-60.0, 60.0, 25), value);
-    let c = web(WebAxes::C, steps(0.0, 180.0, 13), steps(0.0, 345.0, 24), value);
+    let a = web(PhotometricAxes::A, steps(-30.0, 30.0, 13), steps(-60.0, 60.0, 25), value);
+    let b = web(PhotometricAxes::B, steps(-30.0, 30.0, 13), steps(-60.0, 60.0, 25), value);
+    let c = web(PhotometricAxes::C, steps(0.0, 180.0, 13), steps(0.0, 345.0, 24), value);
     for (v, h) in [(10.0, 20.0), (-25.0, 45.0), (5.0, -60.0), (30.0, 0.0)] {
         assert!((a.value(towards(h, v)) - value(v as f32, h as f32)).abs() < 1e-5, "A {v} {h}");
         // Type B: H leaves the plane, V turns it: (cos H cos V, −sin H, cos H sin V).
@@ -97,11 +98,11 @@ fn grids_are_exact_at_their_points_in_the_directions_of_their_type() {
 
 #[test]
 fn nothing_shines_outside_a_grid() {
-    let a = web(WebAxes::A, steps(-30.0, 30.0, 3), steps(-60.0, 60.0, 3), |_, _| 5.0);
+    let a = web(PhotometricAxes::A, steps(-30.0, 30.0, 3), steps(-60.0, 60.0, 3), |_, _| 5.0);
     for (h, v) in [(61.0, 0.0), (0.0, 31.0), (0.0, -31.0), (180.0, 0.0), (-61.0, 10.0)] {
         assert_eq!(a.value(towards(h, v)), 0.0, "{h} {v}");
     }
-    let c = web(WebAxes::C, steps(0.0, 90.0, 3), vec![0.0], |_, _| 5.0);
+    let c = web(PhotometricAxes::C, steps(0.0, 90.0, 3), vec![0.0], |_, _| 5.0);
     assert_eq!((c.value(Vec3::Z), c.value(Vec3::NEG_Z)), (0.0, 5.0));
 }
 
@@ -109,7 +110,7 @@ fn nothing_shines_outside_a_grid() {
 fn a_mask_fills_its_field_the_right_way_up() {
     // Rows from the top: left and right, lower left and lower right.
     let image =
-        MaskImage::new((2, 2), vec![1.0, 2.0, 3.0, 4.0], 90_f64.to_radians(), 60_f64.to_radians()).expect("a mask");
+        MaskImage::new(2, 2, vec![1.0, 2.0, 3.0, 4.0], 90_f64.to_radians(), 60_f64.to_radians()).expect("a mask");
     let profile = Profile::MaskImage(image);
     for (azimuth, elevation, value) in [(-44.9, 20.0, 1.0), (44.9, 20.0, 2.0), (-40.0, -20.0, 3.0), (40.0, -20.0, 4.0)]
     {
@@ -121,7 +122,7 @@ fn a_mask_fills_its_field_the_right_way_up() {
     }
     // The solid angle of a rectangular field: 4 asin(sin(h/2)·sin(v/2) …) = 4 atan(a b / √(1 + a² + b²)).
     let white = Profile::MaskImage(
-        MaskImage::new((3, 2), vec![1.0; 6], 90_f64.to_radians(), 60_f64.to_radians()).expect("white"),
+        MaskImage::new(3, 2, vec![1.0; 6], 90_f64.to_radians(), 60_f64.to_radians()).expect("white"),
     );
     let (a, b) = (1.0_f64, 1.0 / 3.0_f64.sqrt());
     let solid = 4.0 * etendue_core::maths::f64::atan(a * b / (1.0 + a * a + b * b).sqrt());
@@ -130,7 +131,7 @@ fn a_mask_fills_its_field_the_right_way_up() {
 
 #[test]
 fn a_mask_cuts_what_it_covers() {
-    let half = MaskImage::new((2, 1), vec![0.0, 1.0], 80_f64.to_radians(), 80_f64.to_radians()).expect("a mask");
+    let half = MaskImage::new(2, 1, vec![0.0, 1.0], 80_f64.to_radians(), 80_f64.to_radians()).expect("a mask");
     let spot = Cone::new(0.2, 0.3).expect("a spot");
     let whole = spot.spread().flux_sr;
     let masked = Profile::masked(Profile::Cone(spot), Profile::MaskImage(half));
@@ -143,9 +144,9 @@ fn a_mask_cuts_what_it_covers() {
 #[test]
 fn the_reach_holds_all_light() {
     let profiles = [
-        Profile::Web(web(WebAxes::A, steps(-30.0, 30.0, 3), steps(-60.0, 60.0, 3), |_, _| 5.0)),
-        Profile::Web(web(WebAxes::C, steps(0.0, 90.0, 4), vec![0.0], |v, _| v)),
-        Profile::MaskImage(MaskImage::new((4, 4), vec![1.0; 16], 1.0, 2.0).expect("a mask")),
+        Profile::PhotometricGrid(web(PhotometricAxes::A, steps(-30.0, 30.0, 3), steps(-60.0, 60.0, 3), |_, _| 5.0)),
+        Profile::PhotometricGrid(web(PhotometricAxes::C, steps(0.0, 90.0, 4), vec![0.0], |v, _| v)),
+        Profile::MaskImage(MaskImage::new(4, 4, vec![1.0; 16], 1.0, 2.0).expect("a mask")),
         Profile::Cone(Cone::new(0.1, 0.4).expect("a spot")),
     ];
     for profile in &profiles {
@@ -161,24 +162,30 @@ fn the_reach_holds_all_light() {
 
 #[test]
 fn faulty_profiles_are_refused() {
-    let grid = |v: Vec<f32>, h: Vec<f32>, n: usize| Web::new(WebAxes::C, v, h, vec![1.0; n]).err();
-    assert!(matches!(grid(vec![0.0, 90.0], vec![0.0], 3), Some(WebError::Size { .. })));
-    assert!(matches!(grid(vec![90.0, 0.0], vec![0.0], 2), Some(WebError::Angles { which: "vertical", .. })));
-    assert!(matches!(grid(vec![0.0, 190.0], vec![0.0], 2), Some(WebError::Angles { .. })));
-    assert!(matches!(grid(vec![0.0, 90.0], vec![0.0, 400.0], 4), Some(WebError::Angles { which: "horizontal", .. })));
-    let negative = Web::new(WebAxes::A, vec![0.0, 1.0], vec![0.0], vec![1.0, -1.0]);
-    assert_eq!(negative.err(), Some(WebError::Value { value: 1 }));
+    let grid = |v: Vec<f32>, h: Vec<f32>, n: usize| PhotometricGrid::new(PhotometricAxes::C, v, h, vec![1.0; n]).err();
+    assert!(matches!(grid(vec![0.0, 90.0], vec![0.0], 3), Some(PhotometricGridError::Size { .. })));
+    assert!(matches!(
+        grid(vec![90.0, 0.0], vec![0.0], 2),
+        Some(PhotometricGridError::Angles { which: "vertical", .. })
+    ));
+    assert!(matches!(grid(vec![0.0, 190.0], vec![0.0], 2), Some(PhotometricGridError::Angles { .. })));
+    assert!(matches!(
+        grid(vec![0.0, 90.0], vec![0.0, 400.0], 4),
+        Some(PhotometricGridError::Angles { which: "horizontal", .. })
+    ));
+    let negative = PhotometricGrid::new(PhotometricAxes::A, vec![0.0, 1.0], vec![0.0], vec![1.0, -1.0]);
+    assert_eq!(negative.err(), Some(PhotometricGridError::Value { value: 1 }));
     assert!(matches!(Cone::new(0.5, 0.4), Err(ConeError::Angles { .. })));
     assert!(matches!(Cone::new(0.0, 0.0), Err(ConeError::Angles { .. })));
-    assert!(matches!(MaskImage::new((1, 1), vec![1.0], 0.0, 1.0), Err(MaskImageError::Field { .. })));
-    assert!(matches!(MaskImage::new((1, 1), vec![f32::NAN], 1.0, 1.0), Err(MaskImageError::Texel { texel: 0 })));
+    assert!(matches!(MaskImage::new(1, 1, vec![1.0], 0.0, 1.0), Err(MaskImageError::Field { .. })));
+    assert!(matches!(MaskImage::new(1, 1, vec![f32::NAN], 1.0, 1.0), Err(MaskImageError::Texel { texel: 0 })));
 }
 
 #[test]
 fn a_mask_wider_than_its_spot_takes_no_light() {
     for field_deg in [0.05_f64, 0.3, 2.0, 20.0] {
         let cone = Profile::Cone(Cone::new(0.0, field_deg.to_radians()).expect("a spot"));
-        let image = MaskImage::new((3, 2), vec![1.0; 6], 2.0, 1.5).expect("a mask");
+        let image = MaskImage::new(3, 2, vec![1.0; 6], 2.0, 1.5).expect("a mask");
         let masked = Profile::masked(cone.clone(), Profile::MaskImage(image));
         // The midpoint rule in 128 rings.
         assert!((masked.flux_sr() / cone.flux_sr() - 1.0).abs() < 5e-3, "{field_deg}°: {}", masked.flux_sr());

@@ -28,10 +28,15 @@ impl LightBounds {
         self.low * 0.5 + self.high * 0.5
     }
 
+    /// The cone that the light goes along.
+    fn cone(&self) -> Cone {
+        Cone { axis: self.axis, half_angle_rad: self.theta_o }
+    }
+
     /// Bounds of both.
     pub(super) fn union(&self, other: &Self) -> Self {
         let (low, high) = (self.low.min(other.low), self.high.max(other.high));
-        let (axis, theta_o) = cone_union((self.axis, self.theta_o), (other.axis, other.theta_o));
+        let Cone { axis, half_angle_rad: theta_o } = self.cone().union(other.cone());
         Self {
             low,
             high,
@@ -60,23 +65,31 @@ impl LightBounds {
     }
 }
 
-/// The least cone about two.
-fn cone_union((a, theta_a): (Vec3, f32), (b, theta_b): (Vec3, f32)) -> (Vec3, f32) {
-    let ((wide, theta), (narrow, other)) =
-        if theta_a >= theta_b { ((a, theta_a), (b, theta_b)) } else { ((b, theta_b), (a, theta_a)) };
-    let between = angle(wide, narrow);
-    if (between + other).min(PI) <= theta {
-        return (wide, theta);
+/// Directions about a unit axis.
+#[derive(Clone, Copy)]
+struct Cone {
+    axis: Vec3,
+    half_angle_rad: f32,
+}
+
+impl Cone {
+    /// The least cone about two.
+    fn union(self, other: Self) -> Self {
+        let (wide, narrow) = if self.half_angle_rad >= other.half_angle_rad { (self, other) } else { (other, self) };
+        let between = angle(wide.axis, narrow.axis);
+        if (between + narrow.half_angle_rad).min(PI) <= wide.half_angle_rad {
+            return wide;
+        }
+        let half = 0.5 * (wide.half_angle_rad + between + narrow.half_angle_rad);
+        let aside = (narrow.axis - wide.axis * wide.axis.dot(narrow.axis)).normalize_or_zero();
+        // Opposite axes have no direction between them.
+        if half >= PI || aside == Vec3::ZERO {
+            return Self { half_angle_rad: PI, ..wide };
+        }
+        let (sin, cos) = maths::f32::sin_cos(half - wide.half_angle_rad);
+        // Room for rounding.
+        Self { axis: (wide.axis * cos + aside * sin).normalize(), half_angle_rad: (half + 1e-5).min(PI) }
     }
-    let half = 0.5 * (theta + between + other);
-    let aside = (narrow - wide * wide.dot(narrow)).normalize_or_zero();
-    // Opposite axes have no direction between them.
-    if half >= PI || aside == Vec3::ZERO {
-        return (wide, PI);
-    }
-    let (sin, cos) = maths::f32::sin_cos(half - theta);
-    // Room for rounding.
-    ((wide * cos + aside * sin).normalize(), (half + 1e-5).min(PI))
 }
 
 /// Angle between unit vectors, rad.

@@ -8,7 +8,6 @@
 //! - For a matt receiver in view, as the estimate of a cluster that it stands in or near is rough: those that count more than
 //!   [`MATTERS_TO_MATT`]. Elsewhere on a path this does not pay for its time.
 
-use super::falling::{draw, share};
 use super::light_tree::{LightTree, Slot, TreeQuery, mix};
 use super::node::{GlossyWeights, LANES, Node};
 use crate::lights::ReceiverGloss;
@@ -137,3 +136,80 @@ fn coded(slot: Slot) -> u32 {
 fn slot_of(code: u32) -> Slot {
     Slot { node: code / LANES as u32, lane: (code % LANES as u32) as u8 }
 }
+
+/// What a receiver chooses from first.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "lives on the stack for one draw; a box would cost an allocation at each vertex"
+)]
+pub(in crate::lights) enum Start {
+    /// The one light that there is, or none.
+    Only,
+    /// The root's children, by their weights.
+    Root([f32; LANES]),
+    /// For a glossy receiver, or one in view: lights and clusters of a cut.
+    Cut(Cut),
+}
+
+impl LightTree {
+    /// Where the way down starts.
+    #[inline(always)]
+    pub(in crate::lights) fn start<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Start {
+        if self.len() == 1 {
+            return Start::Only;
+        }
+        match &question.receiver.gloss {
+            Some(gloss) => Start::Cut(self.glossy_cut(question, gloss)),
+            None if question.receiver.in_view => Start::Cut(self.matt_cut(question)),
+            None => Start::Root(self.weights(0, question)),
+        }
+    }
+}
+
+impl Start {
+    /// The slot that `u` in [0, 1) falls on, its probability, and where in it `u` lies; `None` where nothing counts.
+    pub(super) fn draw(&self, u: f64) -> Option<(Slot, f32, f64)> {
+        match self {
+            Self::Only => Some((Slot::default(), 1.0, u)),
+            Self::Cut(cut) => cut.draw(u),
+            Self::Root(weights) => {
+                let (lane, share, within) = draw(weights, u)?;
+                Some((Slot { node: 0, lane: lane as u8 }, share, within))
+            }
+        }
+    }
+
+    /// The probability of a slot; `None` where it is not among those that are chosen from first.
+    pub(super) fn share(&self, slot: Slot) -> Option<f32> {
+        match self {
+            Self::Only => Some(1.0),
+            Self::Cut(cut) => cut.share(slot),
+            Self::Root(weights) => (slot.node == 0).then(|| share(weights, usize::from(slot.lane))),
+        }
+    }
+}
+
+/// The share of a weight in the sum of its row.
+pub(super) fn share(weights: &[f32], index: usize) -> f32 {
+    let total: f32 = weights.iter().sum();
+    if total > 0.0 { weights[index] / total } else { 0.0 }
+}
+
+/// The weight of a row that `u` in [0, 1) falls on, its share, and where in it `u` lies, in [0, 1); `None` where the row has none.
+pub(super) fn draw(weights: &[f32], u: f64) -> Option<(usize, f32, f64)> {
+    // As f64, in which no sum of these loses a weight that the share would count: the sum of f32 may differ by some roundings.
+    let mut rest = u * weights.iter().map(|weight| f64::from(*weight)).sum::<f64>();
+    let mut chosen = None;
+    for (index, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
+        let weight = f64::from(*weight);
+        chosen = Some((index, (rest / weight).min(ONE_BELOW)));
+        if rest < weight {
+            break;
+        }
+        rest -= weight;
+    }
+    chosen.map(|(index, within)| (index, share(weights, index), within))
+}
+
+/// The largest `f64` below one.
+const ONE_BELOW: f64 = 1.0 - 0.5 * f64::EPSILON;

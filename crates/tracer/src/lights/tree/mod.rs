@@ -21,24 +21,22 @@
 mod bounds;
 mod build;
 mod cut;
-mod falling;
 #[cfg(test)]
 mod glossy_tests;
 mod light_tree;
 mod node;
-mod start;
 #[cfg(test)]
 mod tests;
 
-use falling::{draw, share};
+use cut::{draw, share};
 use light_tree::Slot;
 use node::LANES;
 
 use crate::lights::light_sample::LampIrradiance;
 
 pub(super) use bounds::LightBounds;
+pub(super) use cut::Start;
 pub(super) use light_tree::{LightTree, MATT_SHARE, TreeQuery};
-pub(super) use start::Start;
 
 impl LightTree {
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver, unless

@@ -11,7 +11,7 @@
 //! there (`lights/gloss.rs`).
 
 use super::bounds::LightBounds;
-use crate::lights::four::{Four, at_least, at_most, each};
+use crate::lights::gloss::{DirectionCone, Four, at_least, at_most, each};
 use crate::lights::{LightSampleContext, ReceiverGloss};
 use glam::Vec3;
 
@@ -104,7 +104,8 @@ impl Node {
         let way = self.centre_of(lane) - receiver.position;
         let (distance2, radius2) = (way.length_squared(), self.radius2[lane]);
         // From within the light may come from everywhere.
-        let cone = (distance2 > radius2).then(|| (way / distance2.sqrt(), (radius2 / distance2).sqrt()));
+        let cone = (distance2 > radius2)
+            .then(|| DirectionCone { axis: way / distance2.sqrt(), sin: (radius2 / distance2).sqrt() });
         weights.plain[lane] + weights.faced[lane] * gloss.greatest(cone)
     }
 
@@ -131,7 +132,7 @@ impl Node {
     }
 
     #[inline(always)]
-    fn fill(&self, receiver: &LightSampleContext, mut keep: impl FnMut(usize, Reached)) {
+    fn fill(&self, receiver: &LightSampleContext, mut keep: impl FnMut(usize, VisibleClusters)) {
         keep(0, self.four(0, receiver));
         if self.used > 4 {
             keep(4, self.four(4, receiver));
@@ -141,7 +142,7 @@ impl Node {
     /// What reaches the receiver of four children from lane `from` on. In small steps without branches, each over all four, so that
     /// the compiler lets them go side by side.
     #[inline(always)]
-    fn four(&self, from: usize, receiver: &LightSampleContext) -> Reached {
+    fn four(&self, from: usize, receiver: &LightSampleContext) -> VisibleClusters {
         let (p, n) = (receiver.position, receiver.normal);
         // 1 where light counts from everywhere, and the cosine then does not.
         let everywhere = if n == Vec3::ZERO { 1.0 } else { 0.0 };
@@ -152,25 +153,25 @@ impl Node {
         let d2 = each(|i| x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
         let per_d = each(|i| 1.0 / at_least(d2[i], f32::MIN_POSITIVE).sqrt());
         let sin2_u = each(|i| at_most(radius2[i] * per_d[i] * per_d[i], 1.0));
-        let (sin_u, cos_u) = (each(|i| sin2_u[i].sqrt()), each(|i| (1.0 - sin2_u[i]).sqrt()));
+        let subtended = SinCos { sin: each(|i| sin2_u[i].sqrt()), cos: each(|i| (1.0 - sin2_u[i]).sqrt()) };
 
         let axis = [lanes(&self.axis[0]), lanes(&self.axis[1]), lanes(&self.axis[2])];
         let along = each(|i| x[i] * axis[0][i] + y[i] * axis[1][i] + z[i] * axis[2][i]);
         let cos = each(|i| at_most(at_least(-along[i] * per_d[i], -1.0), 1.0));
         let sin = each(|i| (1.0 - cos[i] * cos[i]).sqrt());
-        let (_, cos_2) = less(less((sin, cos), (sin_o, cos_o)), (sin_u, cos_u));
+        let cos_2 = less(less(SinCos { sin, cos }, SinCos { sin: sin_o, cos: cos_o }), subtended).cos;
         let cos_e = lanes(&self.cos_e);
         let emits = each(|i| if cos_2[i] >= cos_e[i] - MARGIN { at_least(cos_2[i], DIM) } else { 0.0 });
 
         let cos_i = each(|i| at_most(at_least((x[i] * n.x + y[i] * n.y + z[i] * n.z) * per_d[i], -1.0), 1.0));
         let sin_i = each(|i| (1.0 - cos_i[i] * cos_i[i]).sqrt());
-        let (_, cos_3) = less((sin_i, cos_i), (sin_u, cos_u));
+        let cos_3 = less(SinCos { sin: sin_i, cos: cos_i }, subtended).cos;
         let receives = each(|i| at_least(at_least(cos_3[i] + MARGIN, 0.0), everywhere));
 
         let far2 = each(|i| at_least(at_least(d2[i], INSIDE * radius2[i]), f32::MIN_POSITIVE));
-        Reached {
+        VisibleClusters {
             directions: [each(|i| x[i] * per_d[i]), each(|i| y[i] * per_d[i]), each(|i| z[i] * per_d[i])],
-            sin_u,
+            sin_u: subtended.sin,
             is_inside: core::array::from_fn(|i| d2[i] <= radius2[i]),
             emits,
             receives,
@@ -180,8 +181,8 @@ impl Node {
     }
 }
 
-/// What of four clusters reaches a receiver.
-struct Reached {
+/// Four clusters as seen by a receiver.
+struct VisibleClusters {
     /// Unit, towards them.
     directions: [Four; 3],
     sin_u: Four,
@@ -194,7 +195,7 @@ struct Reached {
     far2: Four,
 }
 
-impl Reached {
+impl VisibleClusters {
     /// What it counts for a matt receiver.
     #[inline(always)]
     fn plain(&self) -> Four {
@@ -230,10 +231,17 @@ pub(super) struct GlossyWeights {
     pub(super) faced: Lanes,
 }
 
-/// Sine and cosine of max(a − b, 0), for angles of 0…π given by theirs.
+/// Sines and cosines of four angles of 0…π.
+#[derive(Clone, Copy)]
+struct SinCos {
+    sin: Four,
+    cos: Four,
+}
+
+/// Sines and cosines of max(a − b, 0).
 #[inline(always)]
-fn less((sin_a, cos_a): (Four, Four), (sin_b, cos_b): (Four, Four)) -> (Four, Four) {
-    let sin = each(|i| if cos_a[i] > cos_b[i] { 0.0 } else { sin_a[i] * cos_b[i] - cos_a[i] * sin_b[i] });
-    let cos = each(|i| if cos_a[i] > cos_b[i] { 1.0 } else { cos_a[i] * cos_b[i] + sin_a[i] * sin_b[i] });
-    (sin, cos)
+fn less(a: SinCos, b: SinCos) -> SinCos {
+    let sin = each(|i| if a.cos[i] > b.cos[i] { 0.0 } else { a.sin[i] * b.cos[i] - a.cos[i] * b.sin[i] });
+    let cos = each(|i| if a.cos[i] > b.cos[i] { 1.0 } else { a.cos[i] * b.cos[i] + a.sin[i] * b.sin[i] });
+    SinCos { sin, cos }
 }

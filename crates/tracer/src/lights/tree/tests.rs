@@ -4,6 +4,7 @@ use super::*;
 use crate::lights::LightSampleContext;
 use crate::lights::lamp::LampLight;
 use crate::lights::{Cone, Lamp, Profile};
+use etendue_core::{TimeInterval, WavelengthRange};
 use etendue_spectra::Spectrum;
 use glam::{DMat3, DVec3, Vec3};
 
@@ -22,7 +23,7 @@ pub(super) fn lamp(at: DVec3, towards: DVec3, intensity: f64, profile: Profile) 
     let axes = DMat3::from_cols(basis.z.as_dvec3(), basis.x.as_dvec3(), basis.y.as_dvec3());
     let lamp = Lamp::new(at, axes, Spectrum::constant(intensity), profile).expect("a lamp");
     let to_render = lamp.to_world().at(0.0);
-    LampLight::new(lamp, (&to_render, etendue_core::TimeInterval::default()), (400.0, 700.0))
+    LampLight::new(lamp, &to_render, TimeInterval::default(), WavelengthRange { low_nm: 400.0, high_nm: 700.0 })
 }
 
 /// Lamps in a box of `size`, about `centre`, every third a spot, of powers over `decades`.

@@ -25,15 +25,12 @@ use etendue_spectra::{Spectrum, illuminant, observer};
 use glam::{Vec2, Vec3};
 
 use super::photometric;
-use crate::materials::bsdf::{BsdfSample, BsdfValue, Event};
 use crate::materials::discrete_sampler::DiscreteSampler;
-use crate::materials::energy::{self, AlbedoTable, EnergyGain};
-use crate::materials::error::MaterialError;
-use crate::materials::gloss::{About, Gloss, GlossLobe};
-use crate::materials::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use crate::materials::parameter::Parameter;
-use crate::materials::shading_point::ShadingPoint;
-use crate::materials::texture_check::TextureCheck;
+use crate::materials::energy::{self, AlbedoTable, WeightedLobe};
+use crate::materials::error::{EnergyGain, MaterialError};
+use crate::materials::gloss::{Gloss, GlossLobe, LobeCentre};
+use crate::materials::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use crate::materials::parameter::{Parameter, ShadingPoint, TextureCheck};
 
 /// The 30 m geometry of EN 1436: the lamp's elevation, degrees.
 const LAMP_DEG: f64 = 1.24;
@@ -117,7 +114,7 @@ impl RoadMarking {
         let base = colour.scaled(reflectance / by_day);
         let lobe = Lobe::new(r_l * 1e-3, &base, spread_deg)?;
         let albedo = AlbedoTable::new(|cos| lobe.albedo(cos));
-        energy::check(&base, &[(&colour, &albedo)])?;
+        energy::check(&base, &[WeightedLobe { weight: &colour, albedo: &albedo }])?;
         Ok(Self { base, colour, lobe, albedo })
     }
 }
@@ -287,7 +284,7 @@ impl<const N: usize> BsdfModel<N> for MarkingBsdf<'_, N> {
     fn gloss(&self, wo: Vec3) -> Gloss {
         let lobe = self.marking.lobe;
         let (width, peak) = (lobe.width2.sqrt(), self.colour.mean() * lobe.strength);
-        let beads = GlossLobe { about: About::Direction(wo), width, peak, f0: 1.0 };
+        let beads = GlossLobe { about: LobeCentre::Direction(wo), width, peak, f0: 1.0 };
         Gloss::over(self.base.mean() * FRAC_1_PI).with(beads)
     }
 

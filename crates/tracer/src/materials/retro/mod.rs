@@ -35,18 +35,14 @@ use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use etendue_spectra::{Spectrum, illuminant, observer};
 use glam::{Vec2, Vec3};
-
-use super::bsdf::{BsdfSample, BsdfValue, Event};
-use super::discrete_sampler::DiscreteSampler;
-use super::energy::{self, EnergyGain};
-use super::error::MaterialError;
-use super::gloss::{Gloss, GlossLobe};
-use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use super::parameter::Parameter;
-use super::reflectance::Reflectance;
-use super::shading_point::ShadingPoint;
-use super::texture_check::TextureCheck;
 use lobe::{GRAZING_DEG, RetroLobe, WIDEST_DEG};
+
+use super::discrete_sampler::DiscreteSampler;
+use super::energy::{self, WeightedLobe};
+use super::error::{EnergyGain, MaterialError};
+use super::gloss::{Gloss, GlossLobe};
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 
 /// A retro-reflective sheeting over a matt base.
 #[derive(Clone, Debug, PartialEq)]
@@ -153,7 +149,7 @@ fn widest(table: &RetroTable, base: &Spectrum, colour: &Spectrum) -> Result<Retr
     let mut gain = Ok(());
     let beneath = luminous(base) as f32 * FRAC_1_PI;
     for lobe in RetroLobe::widest_first(table, beneath) {
-        gain = energy::check(base, &[(colour, &lobe.albedo)]);
+        gain = energy::check(base, &[WeightedLobe { weight: colour, albedo: &lobe.albedo }]);
         if gain.is_ok() {
             return Ok(lobe);
         }

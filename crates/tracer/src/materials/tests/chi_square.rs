@@ -52,6 +52,17 @@ impl Polar {
     }
 }
 
+/// A direction, and about the tangent of half a lobe's half angle about it.
+#[derive(Clone, Copy)]
+pub(in crate::materials) struct LobeAxis {
+    axis: Vec3,
+    scale: f32,
+}
+
+pub(in crate::materials) fn lobe(axis: Vec3, scale: f32) -> LobeAxis {
+    LobeAxis { axis, scale }
+}
+
 /// Cells for each side of a surface.
 pub(in crate::materials) struct Grid {
     above: Polar,
@@ -61,14 +72,14 @@ pub(in crate::materials) struct Grid {
 impl Grid {
     /// Cells about a direction above the surface and one below; each `scale` is about the tangent of half a lobe's
     /// half angle (α for micro-facets), 1 for even cells.
-    pub(in crate::materials) fn new(above: (Vec3, f32), below: (Vec3, f32)) -> Self {
-        let polar = |(axis, scale): (Vec3, f32)| Polar { basis: Basis::about(axis), scale };
+    pub(in crate::materials) fn new(above: LobeAxis, below: LobeAxis) -> Self {
+        let polar = |lobe: LobeAxis| Polar { basis: Basis::about(lobe.axis), scale: lobe.scale };
         Self { above: polar(above), below: polar(below) }
     }
 
     /// Cells about the mirrored direction, and even ones below.
     pub(in crate::materials) fn of_mirror(wo: Vec3, scale: f32) -> Self {
-        Self::new((Vec3::new(-wo.x, -wo.y, wo.z), scale), (Vec3::NEG_Z, 1.0))
+        Self::new(lobe(Vec3::new(-wo.x, -wo.y, wo.z), scale), lobe(Vec3::NEG_Z, 1.0))
     }
 
     fn index(&self, direction: Vec3) -> usize {
@@ -84,11 +95,11 @@ impl Grid {
 
 /// p-value of the counts of drawn directions against the density told. `draw` names the random numbers.
 pub(in crate::materials) fn p_of_draws(bsdf: &Bsdf<'_, 4>, wo: Vec3, grid: &Grid, draw: u32) -> f64 {
-    p_of((bsdf, bsdf), wo, grid, draw)
+    p_of(bsdf, bsdf, wo, grid, draw)
 }
 
 /// The same for a density told by one bsdf and draws of another.
-fn p_of((told, drawn): (&Bsdf<'_, 4>, &Bsdf<'_, 4>), wo: Vec3, grid: &Grid, draw: u32) -> f64 {
+fn p_of(told: &Bsdf<'_, 4>, drawn: &Bsdf<'_, 4>, wo: Vec3, grid: &Grid, draw: u32) -> f64 {
     const N: usize = 100_000;
     let mut expected = grid.integrals(|wi| told.evaluate(wo, wi).pdf);
     let other = 1.0 - expected.iter().sum::<f64>();
@@ -118,7 +129,7 @@ pub(in crate::materials) fn judge(p_values: &[(f64, String)]) {
 fn a_wrong_density_is_found() {
     let (told, drawn) = (material_table(perfect_metal(0.40)), material_table(perfect_metal(0.42)));
     let wo = at_degrees(30.0);
-    let p = p_of((&bsdf(&told), &bsdf(&drawn)), wo, &Grid::of_mirror(wo, 0.5), 999);
+    let p = p_of(&bsdf(&told), &bsdf(&drawn), wo, &Grid::of_mirror(wo, 0.5), 999);
     assert!(p < 1e-6, "a roughness told 5 % wrong has p = {p}");
 }
 

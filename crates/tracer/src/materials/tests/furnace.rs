@@ -77,12 +77,12 @@ fn widened_facets_never_send_back_more_than_arrives() {
     ];
     for (name, surface) in white {
         let material_table = material_table(surface);
-        for least_alpha in [0.1, 0.26, 0.54] {
-            let widened = material_table.widened_bsdf(MaterialId(0), &LOOKUP, (true, least_alpha), &WAVELENGTHS);
+        for min_alpha in [0.1, 0.26, 0.54] {
+            let widened = material_table.widened_bsdf(MaterialId(0), &LOOKUP, true, min_alpha, &WAVELENGTHS);
             assert!(!widened.is_delta(), "{name}");
             for degrees in [0.0, 40.0, 75.0, 89.0] {
                 let sent = albedos_of::<{ 1 << 18 }>(&widened, at_degrees(degrees))[0][0];
-                assert!(sent < 1.0 + ALLOWED, "{name} of {least_alpha} at {degrees}°: {sent}");
+                assert!(sent < 1.0 + ALLOWED, "{name} of {min_alpha} at {degrees}°: {sent}");
                 // GGX facets lose what they scatter among themselves, more towards grazing; of wide flakes the coat turns round more than its table
                 // says. The sum is of what is reflected: of glass a part.
                 let floor = match name {
@@ -91,7 +91,7 @@ fn widened_facets_never_send_back_more_than_arrives() {
                     _ if degrees > 60.0 => 0.5,
                     _ => 0.85,
                 };
-                assert!(sent > floor, "{name} of {least_alpha} at {degrees}°: {sent}");
+                assert!(sent > floor, "{name} of {min_alpha} at {degrees}°: {sent}");
             }
         }
     }

@@ -59,7 +59,7 @@ fn what_is_cut_out_does_not_glow() {
             MaterialId(0),
             emission,
             &at(i),
-            (&WAVELENGTHS, &etendue_core::TimeInterval::default()),
+            EmissionQuery { wavelengths: &WAVELENGTHS, interval: &etendue_core::TimeInterval::default() },
         );
         assert!((radiance[0] - 2.0 * i as f32).abs() < 1e-5);
     }

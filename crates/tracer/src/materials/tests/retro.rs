@@ -1,6 +1,6 @@
 //! Retro-reflection: what signs and markings send back to a viewer beside the lamp.
 
-use super::chi_square::{Grid, judge, p_of_draws};
+use super::chi_square::{Grid, judge, lobe, p_of_draws};
 use super::*;
 
 fn sheeting(class: &str, colour: &str) -> MaterialTable {
@@ -13,18 +13,26 @@ fn marking(r_l: f64, day: DayTime) -> MaterialTable {
     material_table(Surface::Marking(Box::new(RoadMarking::new(r_l, day, &white).expect("a marking"))))
 }
 
+/// Unit directions to lamp and viewer.
+#[derive(Clone, Copy)]
+struct RetroGeometry {
+    lamp: Vec3,
+    viewer: Vec3,
+}
+
 /// Unit directions at an elevation angle from the normal, one in the plane of the other or across it.
-fn lamp_and_viewer(entrance_deg: f64, observation_deg: f64, turn_deg: f64) -> (Vec3, Vec3) {
+fn lamp_and_viewer(entrance_deg: f64, observation_deg: f64, turn_deg: f64) -> RetroGeometry {
     let [b, a, t] = [entrance_deg, observation_deg, turn_deg].map(f64::to_radians);
     let (sin, cos) = (etendue_core::maths::f64::sin, etendue_core::maths::f64::cos);
     let lamp = glam::DVec3::new(sin(b), 0.0, cos(b));
     let (up, side) = (glam::DVec3::new(-cos(b), 0.0, sin(b)), glam::DVec3::Y);
     let viewer = lamp * cos(a) + (up * cos(t) + side * sin(t)) * sin(a);
-    (lamp.as_vec3(), viewer.as_vec3())
+    RetroGeometry { lamp: lamp.as_vec3(), viewer: viewer.as_vec3() }
 }
 
 /// Luminance over the illuminance across the beam, in the light of illuminant A.
-fn luminance(material_table: &MaterialTable, (lamp, viewer): (Vec3, Vec3)) -> f64 {
+fn luminance(material_table: &MaterialTable, directions: RetroGeometry) -> f64 {
+    let RetroGeometry { lamp, viewer } = directions;
     let a = etendue_spectra::illuminant::named("A").expect("A");
     let seen = Spectrum::from_fn(|nm| {
         let wavelengths = Wavelengths { nm: [nm as f32; 4], pdf: [1.0; 4] };
@@ -41,12 +49,12 @@ fn a_sign_has_the_luminance_of_its_coefficient() {
         for entrance_deg in [5.0, 30.0, 40.0] {
             for observation_deg in [0.2, 0.33, 1.0, 2.0] {
                 for turn in [0.0, 90.0, 200.0] {
-                    let (lamp, viewer) = lamp_and_viewer(entrance_deg, observation_deg, turn);
+                    let geometry = lamp_and_viewer(entrance_deg, observation_deg, turn);
                     let r_a = preset.table.at(observation_deg.to_radians() as f32, entrance_deg.to_radians() as f32);
                     // L = R_A E⊥/cos ν, the base's light included. The angle between directions in f32: 3e-5 at 0.2°,
                     // and R_A falls with a power of up to 3 of it.
-                    let expected = f64::from(r_a / viewer.z);
-                    let found = luminance(&sign, (lamp, viewer));
+                    let expected = f64::from(r_a / geometry.viewer.z);
+                    let found = luminance(&sign, geometry);
                     let place = format!("{class} {colour} {entrance_deg} {observation_deg} {turn}");
                     assert!((found / expected - 1.0).abs() < 1e-3, "{place}: {found} {expected}");
                 }
@@ -61,9 +69,9 @@ fn a_sign_is_never_darker_than_its_base() {
     let white = Spectrum::constant(1.0);
     let sheet = Sheeting::new(white.scaled(0.4), &white, table).expect("a sheeting");
     let sign = material_table(Surface::Sheeting(Box::new(sheet)));
-    let (lamp, viewer) = lamp_and_viewer(5.0, 2.0, 0.0);
-    let base = f64::from(0.4 * core::f32::consts::FRAC_1_PI * lamp.z);
-    assert!((luminance(&sign, (lamp, viewer)) / base - 1.0).abs() < 1e-5);
+    let geometry = lamp_and_viewer(5.0, 2.0, 0.0);
+    let base = f64::from(0.4 * core::f32::consts::FRAC_1_PI * geometry.lamp.z);
+    assert!((luminance(&sign, geometry) / base - 1.0).abs() < 1e-5);
 }
 
 #[test]
@@ -106,7 +114,7 @@ fn directions_are_drawn_by_the_density_told() {
     for (k, (material_table, scale)) in cases.iter().enumerate() {
         for (i, degrees) in [0.0, 30.0, 70.0, 86.0].into_iter().enumerate() {
             let wo = at_degrees(degrees);
-            let grid = Grid::new((wo, *scale), (Vec3::NEG_Z, 1.0));
+            let grid = Grid::new(lobe(wo, *scale), lobe(Vec3::NEG_Z, 1.0));
             let p = p_of_draws(&bsdf(material_table), wo, &grid, 2000 + (k * 4 + i) as u32);
             p_values.push((p, format!("case {k} at {degrees}°")));
         }
@@ -123,7 +131,7 @@ fn lamp_and_viewer_may_nearly_be_exchanged() {
     for (observation_deg, most) in [(0.33, 0.01), (2.0, 0.12)] {
         let mut worst = 0.0_f32;
         for entrance_deg in [0.0, 10.0, 25.0, 35.0, 60.0, 85.0] {
-            let (lamp, viewer) = lamp_and_viewer(entrance_deg, observation_deg, 0.0);
+            let RetroGeometry { lamp, viewer } = lamp_and_viewer(entrance_deg, observation_deg, 0.0);
             let there = bsdf.evaluate(viewer, lamp).value_cos[1] / lamp.z;
             let back = bsdf.evaluate(lamp, viewer).value_cos[1] / viewer.z;
             worst = worst.max((there / back - 1.0).abs());

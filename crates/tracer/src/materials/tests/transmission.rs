@@ -1,6 +1,6 @@
 //! Materials that send light through.
 
-use super::chi_square::{Grid, judge, p_of_draws};
+use super::chi_square::{Grid, judge, lobe, p_of_draws};
 use super::*;
 
 #[test]
@@ -17,7 +17,7 @@ fn transmitted_directions_are_drawn_by_the_density_told() {
                 let straight = Vec3::new(-wo.x, -wo.y, -0.1).normalize();
                 let below = dielectric::refracted(wo, Vec3::Z, glass.eta()).unwrap_or(straight);
                 let alpha = alpha as f32;
-                let grid = Grid::new((Vec3::new(-wo.x, -wo.y, wo.z), alpha), (below, alpha.max(0.02)));
+                let grid = Grid::new(lobe(Vec3::new(-wo.x, -wo.y, wo.z), alpha), lobe(below, alpha.max(0.02)));
                 let p = p_of_draws(bsdf, wo, &grid, (1000 + k * 8 + side * 4 + i) as u32);
                 p_values.push((p, format!("n {n}, α {alpha}, side {side}, {degrees}°")));
             }
@@ -26,7 +26,7 @@ fn transmitted_directions_are_drawn_by_the_density_told() {
     for (k, (r, t)) in [(0.4, 0.6), (0.3, 0.1), (0.0, 0.5)].into_iter().enumerate() {
         let material_table = material_table(leaf(r, t));
         let wo = at_degrees(50.0);
-        let grid = Grid::new((Vec3::Z, 1.0), (Vec3::NEG_Z, 1.0));
+        let grid = Grid::new(lobe(Vec3::Z, 1.0), lobe(Vec3::NEG_Z, 1.0));
         p_values.push((p_of_draws(&bsdf(&material_table), wo, &grid, 1100 + k as u32), format!("leaf {r} {t}")));
     }
     judge(&p_values);

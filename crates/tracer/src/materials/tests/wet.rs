@@ -22,7 +22,13 @@ fn wet_ground_is_as_dark_as_lekner_and_dorf_say() {
 fn a_puddle_mirrors_by_fresnel() {
     let sampling = Sampling { wrap: [Wrap::Clamp; 2], ..Sampling::default() };
     let heights = ImageTexture::new(2, 1, Texels::Float(vec![[0.1; 3], [0.9; 3]]), sampling).expect("a picture");
-    let puddles = Puddles::new(Factor::Texture(TextureId(0), Channel::Red), (10.0, 5.0, 2.0), 0.2, 0.0).expect("legal");
+    let puddles = Puddles::new(
+        Factor::Texture(TextureId(0), Channel::Red),
+        GroundRelief { relief_mm: 10.0, level_mm: 5.0, grain_mm: 2.0 },
+        0.2,
+        0.0,
+    )
+    .expect("legal");
     let surface = Surface::from(Coated::under_water(grey(0.1), puddles));
     let material_table = MaterialTable::new(vec![Material::new(surface)], vec![heights]).expect("a map");
     let at = |u: f32| material_table.bsdf(MaterialId(0), &Lookup::point(Vec2::new(u, 0.5)), true, &WAVELENGTHS);

@@ -1,7 +1,7 @@
 //! Rays through drops.
 
 use super::*;
-use crate::precipitation::drop_optics::refracted;
+use crate::precipitation::near::{DropRay, refracted};
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{acos, asin, cos, sin};
 use etendue_core::random::{philox4x32, unit_f64};
@@ -21,10 +21,14 @@ fn at(b: f64, turn: f64) -> DVec3 {
     DVec3::new(-(1.0 - b * b).max(0.0).sqrt(), b * cos(turn), b * sin(turn))
 }
 
+fn at_place(place_m: DVec3, direction: DVec3) -> DropRay {
+    DropRay { place_m, direction }
+}
+
 /// What goes straight through a ball is turned by 2 (i − r), and a ball sees 165.57° of the world.
 #[test]
 fn light_through_a_ball_is_turned_as_snell_says() {
-    let through = |b: f64| refracted([1.0, 1.0], WATER, (at(b, 1.0), DVec3::X), |_| 1.0 - 1e-12).direction;
+    let through = |b: f64| refracted(1.0, 1.0, WATER, at_place(at(b, 1.0), DVec3::X), |_| 1.0 - 1e-12).direction;
     for b in [0.0, 0.3, 0.7, 0.95, 0.9999] {
         let turned = acos(through(b).x.min(1.0));
         assert!((turned - 2.0 * (asin(b) - asin(b / WATER))).abs() < 1e-7, "{b}: {turned}");
@@ -38,8 +42,11 @@ fn light_through_a_ball_is_turned_as_snell_says() {
 /// What a ball shows is upside down.
 #[test]
 fn a_drop_shows_the_world_upside_down() {
-    let seen =
-        |b: f64, half_m| refracted(half_m, WATER, (at(b, 0.0) * DVec3::new(1.0, half_m[0], 1.0), DVec3::X), |_| 0.999);
+    let seen = |b: f64, half_m: [f64; 2]| {
+        refracted(half_m[0], half_m[1], WATER, at_place(at(b, 0.0) * DVec3::new(1.0, half_m[0], 1.0), DVec3::X), |_| {
+            0.999
+        })
+    };
     for half_m in [[1.0, 1.0], [1.0, 1.0 - 1e-9]] {
         assert!(seen(0.5, half_m).direction.y < -0.2 && seen(-0.5, half_m).direction.y > 0.2);
     }
@@ -67,7 +74,7 @@ fn drops_scatter_as_the_phase_function_of_the_medium() {
     let mut counts = [0_u64; BINS];
     for i in 0..RAYS {
         let (b, turn) = (number(i, 100).sqrt(), 2.0 * PI * number(i, 101));
-        let out = refracted([1.0, 1.0], WATER, (at(b, turn), DVec3::X), |k| number(i, k));
+        let out = refracted(1.0, 1.0, WATER, at_place(at(b, turn), DVec3::X), |k| number(i, k));
         counts[((acos(out.direction.x.clamp(-1.0, 1.0)) / PI * BINS as f64) as usize).min(BINS - 1)] += 1;
     }
     let whole: f64 = expected.iter().sum();
@@ -124,7 +131,7 @@ fn a_drop_under_a_half_bright_sky_is_as_bright_as_its_passages() {
             .filter(|i| {
                 let j = i + RAYS * round as u32;
                 let place = turn * at(number(j, 100).sqrt(), 2.0 * PI * number(j, 101));
-                refracted([1.0, 1.0], WATER, (place, towards), |k| number(j, k)).direction.z > 0.0
+                refracted(1.0, 1.0, WATER, at_place(place, towards), |k| number(j, k)).direction.z > 0.0
             })
             .count();
         let (seen, expected) = (bright as f64 / f64::from(RAYS), half_bright(up));

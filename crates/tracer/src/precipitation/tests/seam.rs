@@ -31,7 +31,14 @@ fn extinction_is_the_same_before_and_beyond_the_change_over() {
         let resolution = Resolution { pixel_rad: 8e-3, smallest_px: 0.25, most: 1e9, clear_m: 0.0, exposure_s: 0.0 };
         let change_over = ChangeOver::new(field.classes(), &resolution, &region);
         let media = Media::new(&medium, origin_m, interval);
-        let near = Near::new(&field, (media, 0), (origin_m, interval, Simd::Auto), &region, &change_over);
+        let near = NearParticles::new(
+            &field,
+            media,
+            0,
+            ViewPlacement { origin_m, interval, simd: Simd::Auto },
+            &region,
+            &change_over,
+        );
         for i in 0..RAYS {
             let [a, b, c, _] = philox4x32([i, round, 0, 0], [1, 2]).map(|word| unit_f64(u64::from(word) << 32));
             let direction = (axis + 0.09 * DVec3::new(0.0, 2.0 * a - 1.0, 2.0 * b - 1.0) * 0.7).normalize();
@@ -52,7 +59,7 @@ fn extinction_is_the_same_before_and_beyond_the_change_over() {
 }
 
 fn way(field: &Field, change_over: &ChangeOver, distance_m: f64) -> f64 {
-    field.hollow(change_over).way((DVec3::ZERO, DVec3::X), (0.0, distance_m))
+    field.hollow(change_over).path_length(DVec3::ZERO, DVec3::X, 0.0, distance_m)
 }
 
 /// Where a camera stands under a roof, nothing is lost within it.
@@ -65,6 +72,6 @@ fn nothing_falls_within_the_clear_distance() {
     assert_eq!(way(&field, &change_over, 0.5), 0.0);
     let origin_m = DVec3::ZERO;
     let streaks = field.about(origin_m, moment(0.0), &region, &change_over);
-    let far = |particle| field.streak(particle, (origin_m, moment(0.0)), &change_over).from_m;
+    let far = |particle| field.streak(particle, origin_m, moment(0.0), &change_over).from_m;
     assert!(!streaks.is_empty() && streaks.iter().all(|particle| far(particle) == 0.5));
 }

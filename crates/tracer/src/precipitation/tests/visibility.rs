@@ -17,7 +17,7 @@ fn cover(field: &Field, exposure_s: f64) -> Vec<f64> {
     let change_over = ChangeOver::new(field.classes(), &resolution, &region);
     let mut cover = vec![0.0; SIZE[0] * SIZE[1]];
     for particle in field.about(DVec3::ZERO, interval, &region, &change_over) {
-        let streak = field.streak(&particle, (DVec3::ZERO, interval), &change_over);
+        let streak = field.streak(&particle, DVec3::ZERO, interval, &change_over);
         let area_m2 = PI * f64::from(streak.half_m[0]) * f64::from(streak.half_m[1]);
         for i in 0..(exposure_s / STEP_S).round() as u32 {
             let at = streak.centre(((f64::from(i) + 0.5) * STEP_S) as f32).as_dvec3();

@@ -8,12 +8,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Blocks in memory that count how often they are read.
 #[derive(Debug, Default)]
-struct Kept {
+struct MemoryBlocks {
     blocks: Vec<Vec<u8>>,
     reads: AtomicUsize,
 }
 
-impl Blocks for Kept {
+impl Blocks for MemoryBlocks {
     fn read(&self, block: usize, bytes: &mut [u8]) -> Result<(), String> {
         self.reads.fetch_add(1, Ordering::Relaxed);
         bytes.copy_from_slice(&self.blocks[block]);
@@ -21,7 +21,7 @@ impl Blocks for Kept {
     }
 }
 
-impl BlockWriter for Kept {
+impl BlockWriter for MemoryBlocks {
     fn write(&mut self, block: usize, bytes: &[u8]) -> Result<(), String> {
         assert!(
             std::mem::replace(&mut self.blocks[block], bytes.to_vec()).is_empty(),
@@ -61,9 +61,9 @@ fn part(texels: &Texels, first: usize, count: usize) -> Texels {
 }
 
 /// Tiles of a picture that comes by `rows` rows.
-fn tiles((width, height): (u32, u32), texels: &Texels, encoding: TexelEncoding, rows: usize) -> Kept {
+fn tiles(width: u32, height: u32, texels: &Texels, encoding: TexelEncoding, rows: usize) -> MemoryBlocks {
     let lengths = PyramidWriter::lengths(width, height, encoding);
-    let mut kept = Kept { blocks: vec![Vec::new(); lengths.len()], ..Kept::default() };
+    let mut kept = MemoryBlocks { blocks: vec![Vec::new(); lengths.len()], ..MemoryBlocks::default() };
     let mut writer = PyramidWriter::new(width, height, encoding).expect("a picture");
     let strip = rows * width as usize;
     for first in (0..texels.len()).step_by(strip) {
@@ -98,8 +98,9 @@ fn values_are_those_of_the_picture_in_memory() {
             let held = ImageTexture::new(size.0, size.1, texels.clone(), sampling).expect("a picture");
             for (rows, limit) in [(1, 1), (7, 200_000), (1000, 1 << 30)] {
                 let memory = Arc::new(TileMemory::new(limit));
-                let blocks: Arc<dyn Blocks> = Arc::new(tiles(size, &texels, encoding, rows));
-                let tiled = ImageTexture::tiled(size, encoding, (blocks, &memory), sampling).expect("a picture");
+                let blocks: Arc<dyn Blocks> = Arc::new(tiles(size.0, size.1, &texels, encoding, rows));
+                let tiled =
+                    ImageTexture::tiled(size.0, size.1, encoding, blocks, &memory, sampling).expect("a picture");
                 assert_eq!(format!("{tiled:?}"), format!("{held:?}"), "size, ranges and mean");
                 assert_eq!((tiled.texel_bytes(), tiled.tiles().map(|t| t.0)), (0, Some(held.texel_bytes() as u64)));
                 for lookup in lookups() {
@@ -116,10 +117,11 @@ fn values_do_not_depend_on_who_reads_and_tiles_that_are_there_are_not_read_again
     let texels = texels(500 * 400, encoding);
     let held = ImageTexture::new(500, 400, texels.clone(), Sampling::default()).expect("a picture");
     let reads = |limit: u64| {
-        let kept = Arc::new(tiles(size, &texels, encoding, 13));
+        let kept = Arc::new(tiles(size.0, size.1, &texels, encoding, 13));
         let memory = Arc::new(TileMemory::new(limit));
         let blocks: Arc<dyn Blocks> = kept.clone();
-        let tiled = ImageTexture::tiled(size, encoding, (blocks, &memory), Sampling::default()).expect("a picture");
+        let tiled =
+            ImageTexture::tiled(size.0, size.1, encoding, blocks, &memory, Sampling::default()).expect("a picture");
         std::thread::scope(|scope| {
             for part in 0..4 {
                 let (tiled, held) = (&tiled, &held);
@@ -142,10 +144,11 @@ fn values_do_not_depend_on_who_reads_and_tiles_that_are_there_are_not_read_again
 
 #[test]
 fn what_is_no_picture_is_refused_as_in_memory() {
-    let mut nowhere = Kept { blocks: vec![Vec::new(); 3], ..Kept::default() };
+    let mut nowhere = MemoryBlocks { blocks: vec![Vec::new(); 3], ..MemoryBlocks::default() };
     let writer = || PyramidWriter::new(2, 2, TexelEncoding::Float).expect("a picture");
-    let push =
-        |writer: &mut PyramidWriter, texels: Vec<[f32; 3]>, out: &mut Kept| writer.push(&Texels::Float(texels), out);
+    let push = |writer: &mut PyramidWriter, texels: Vec<[f32; 3]>, out: &mut MemoryBlocks| {
+        writer.push(&Texels::Float(texels), out)
+    };
     let size = |found| TiledError::Texture(TextureError::Size { width: 2, height: 2, found });
     let mut short = writer();
     push(&mut short, vec![[0.0; 3]; 2], &mut nowhere).expect("a row");

@@ -39,14 +39,14 @@ impl LevelLayout {
     }
 
     /// Bytes of a tile.
-    pub(super) fn tile_bytes(&self, [column, row]: [u32; 2]) -> usize {
+    pub(super) fn tile_bytes(&self, column: u32, row: u32) -> usize {
         let rows = TILE.min(self.height - row * TILE);
         self.tile_width(column) as usize * rows as usize * self.texel_bytes
     }
 }
 
 /// All resolutions of a picture, the finest first.
-pub(super) fn layout((width, height): (u32, u32), encoding: TexelEncoding) -> Vec<LevelLayout> {
+pub(super) fn layout(width: u32, height: u32, encoding: TexelEncoding) -> Vec<LevelLayout> {
     let texel_bytes = if encoding == TexelEncoding::Float { FLOAT_TEXEL } else { 3 };
     let mut levels = vec![LevelLayout { width, height, texel_bytes, first_block: 1 }];
     while let Some(last) = levels.last().filter(|l| l.width > 1 || l.height > 1) {
@@ -62,7 +62,7 @@ pub(super) fn layout((width, height): (u32, u32), encoding: TexelEncoding) -> Ve
 pub(super) fn lengths(levels: &[LevelLayout]) -> Vec<u32> {
     let tiles = levels.iter().flat_map(|level| {
         let [columns, rows] = level.tiles();
-        (0..rows).flat_map(move |row| (0..columns).map(move |column| level.tile_bytes([column, row]) as u32))
+        (0..rows).flat_map(move |row| (0..columns).map(move |column| level.tile_bytes(column, row) as u32))
     });
     std::iter::once(STATISTICS_BYTES as u32).chain(tiles).collect()
 }

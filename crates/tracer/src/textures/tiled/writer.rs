@@ -2,13 +2,13 @@
 //!
 //! Of each resolution, the rows of one row of tiles are in memory, and those that the next row of the next resolution is the mean of.
 
-use super::super::error::{TextureError, TiledError};
-use super::super::mipmap::{Share, overlaps};
-use super::super::texels::{Texel as _, TexelEncoding, Texels};
-use super::layout::{FLOAT_TEXEL, LevelLayout, Statistics, TILE, layout, lengths};
 use etendue_core::blocks::BlockWriter;
 use glam::{DVec3, Vec3};
 use std::collections::VecDeque;
+
+use super::super::mipmap::{Share, overlaps};
+use super::super::texels::{Texel as _, TexelEncoding, Texels, TextureError, TiledError};
+use super::layout::{FLOAT_TEXEL, LevelLayout, Statistics, TILE, layout, lengths};
 
 /// Makes tiles of rows.
 #[derive(Debug)]
@@ -31,7 +31,7 @@ impl PyramidWriter {
         if width == 0 || height == 0 {
             return Err(TextureError::Size { width, height, found: 0 });
         }
-        let layouts = layout((width, height), encoding);
+        let layouts = layout(width, height, encoding);
         let nexts = layouts.iter().skip(1).copied().map(Some).chain([None]);
         let levels = layouts.iter().zip(nexts).map(|(layout, next)| LevelWriter::new(*layout, next)).collect();
         let (low, high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -41,7 +41,7 @@ impl PyramidWriter {
     /// Bytes of each block that is written.
     #[must_use]
     pub fn lengths(width: u32, height: u32, encoding: TexelEncoding) -> Vec<u32> {
-        lengths(&layout((width, height), encoding))
+        lengths(&layout(width, height, encoding))
     }
 
     /// The next rows, from the top; whole rows of the encoding.

@@ -7,17 +7,18 @@
 //! lamp by the same at three places.
 
 use core::f32::consts::FRAC_PI_2;
+use etendue_core::Ray;
 use etendue_core::maths::f32::{atan, sin_cos};
-use etendue_core::{Ray, TimeInterval, Wavelengths};
 use glam::Vec3;
 
 use super::light::Light;
 use super::light_sample::LightSample;
-use super::sample_context::LightSampleContext;
+use super::light_sample::LightSampleContext;
 use super::scene_lights::Lights;
+use crate::materials::EmissionQuery;
 
-/// Least distance of a lamp from a ray that is reckoned with, m.
-const NEAREST_M: f32 = 1e-4;
+/// Minimum lamp-to-ray distance, m.
+const MIN_DISTANCE_M: f32 = 1e-4;
 
 /// Share of a lamp's greatest intensity that it counts for beside what it sends into the middle of a cell.
 const FLOOR: f32 = 0.02;
@@ -25,22 +26,29 @@ const FLOOR: f32 = 0.02;
 /// Shares of the angle that a lamp is judged by, with their weights.
 const PLACES: [(f32, f32); 3] = [(0.04, 0.25), (0.5, 0.5), (0.96, 0.25)];
 
-/// Cells that the angle is cut into.
+/// AngleCells that the angle is cut into.
 const CELLS: usize = 16;
 
-/// A lamp drawn for a part of a ray.
+/// A part of a ray, in lengths of its direction.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LampAlong {
+pub(crate) struct RaySegment {
+    pub(crate) from: f32,
+    pub(crate) to: f32,
+}
+
+/// A lamp sampled for a segment of a ray.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SampledLamp {
     light: usize,
     /// The probability of its choice.
     pub(crate) probability: f32,
-    angles: Angles,
-    cells: Cells,
+    angles: SegmentAngles,
+    cells: AngleCells,
 }
 
-/// A part of a ray as seen from a lamp.
+/// A segment of a ray as visibility from a lamp.
 #[derive(Clone, Copy, Debug)]
-struct Angles {
+struct SegmentAngles {
     /// Where the ray is nearest to it, m.
     nearest_m: f32,
     /// Its distance from the ray there, m.
@@ -49,12 +57,12 @@ struct Angles {
     ends: [f32; 2],
 }
 
-impl Angles {
-    fn of(lamp: Vec3, ray: &Ray, [from_m, to_m]: [f32; 2]) -> Self {
+impl SegmentAngles {
+    fn new(lamp: Vec3, ray: &Ray, segment: RaySegment) -> Self {
         let nearest_m = (lamp - ray.origin).dot(ray.direction);
-        let away_m = (lamp - ray.at(nearest_m)).length().max(NEAREST_M);
+        let away_m = (lamp - ray.at(nearest_m)).length().max(MIN_DISTANCE_M);
         let angle = |t: f32| if t.is_finite() { atan((t - nearest_m) / away_m) } else { FRAC_PI_2 };
-        Self { nearest_m, away_m, ends: [angle(from_m), angle(to_m)] }
+        Self { nearest_m, away_m, ends: [angle(segment.from), angle(segment.to)] }
     }
 
     fn whole(&self) -> f32 {
@@ -79,11 +87,11 @@ impl Angles {
     }
 }
 
-/// Cells of the angle, by the light that comes from each.
+/// AngleCells of the angle, by the light that comes from each.
 #[derive(Clone, Copy, Debug)]
-struct Cells([f32; CELLS]);
+struct AngleCells([f32; CELLS]);
 
-impl Cells {
+impl AngleCells {
     /// Where cell `i` begins, as a share of the angle: narrow at both ends.
     fn edge(i: usize) -> f32 {
         let x = i as f32 / CELLS as f32;
@@ -91,7 +99,7 @@ impl Cells {
     }
 
     /// Light of a cell by what is told of its middle.
-    fn by(light: impl Fn(f32) -> f32) -> Self {
+    fn new(light: impl Fn(f32) -> f32) -> Self {
         Self(core::array::from_fn(|i| {
             let (from, to) = (Self::edge(i), Self::edge(i + 1));
             light(0.5 * (from + to)) * (to - from)
@@ -123,7 +131,7 @@ impl Cells {
     }
 }
 
-impl LampAlong {
+impl SampledLamp {
     /// A place of the ray, m, drawn by the light that comes from there.
     pub(crate) fn place(&self, u: f32) -> f32 {
         self.angles.place(self.cells.share(u))
@@ -141,19 +149,19 @@ impl Lights {
         !self.points.is_empty()
     }
 
-    /// A lamp without an opening for a part of a ray of unit direction, m; `None` where none sends light there. `seen` is about the share of
+    /// A lamp without an opening for a segment of a ray of unit direction; `None` where none sends light there. `visibility` is about the share of
     /// light from the unit direction of its second argument that reaches the eye from a place of the ray, m.
     pub(crate) fn lamp_along(
         &self,
         ray: &Ray,
-        part: [f32; 2],
+        segment: RaySegment,
         u: f32,
-        seen: impl Fn(f32, Vec3) -> f32,
-    ) -> Option<LampAlong> {
+        visibility: impl Fn(f32, Vec3) -> f32,
+    ) -> Option<SampledLamp> {
         let (mut whole, mut rest, mut chosen) = (0.0_f32, f64::from(u), None);
         for light in &self.points {
-            let along = self.along(*light, ray, part);
-            let places = PLACES.map(|(share, weight)| weight * self.seen_from(&along, ray, share, &seen));
+            let along = self.lamp_beside(*light, ray, segment);
+            let places = PLACES.map(|(share, weight)| weight * self.visible_light(&along, ray, share, &visibility));
             let counts = places.iter().sum::<f32>() * along.angles.whole() / along.angles.away_m;
             if counts > 0.0 && counts.is_finite() {
                 // Each replaces the one before with the probability of its share so far; what is left of the number is as even as it was.
@@ -168,57 +176,57 @@ impl Lights {
             }
         }
         let (along, counts) = chosen.filter(|_| whole.is_finite())?;
-        let cells = Cells::by(|share| self.seen_from(&along, ray, share, &seen));
-        Some(LampAlong { light: along.light, probability: counts / whole, angles: along.angles, cells })
+        let cells = AngleCells::new(|share| self.visible_light(&along, ray, share, &visibility));
+        Some(SampledLamp { light: along.light, probability: counts / whole, angles: along.angles, cells })
     }
 
     /// The light of a lamp that was drawn, at a place.
     pub(crate) fn of_lamp<const N: usize>(
         &self,
-        lamp: &LampAlong,
+        lamp: &SampledLamp,
         receiver: &LightSampleContext,
-        asked: (&Wavelengths<N>, &TimeInterval),
+        query: EmissionQuery<'_, N>,
     ) -> Option<LightSample<N>> {
         match &self.lights[lamp.light] {
-            Light::Lamp(light) => light.sample(receiver.position, asked),
-            Light::Carried(light) => light.sample(receiver, glam::Vec2::ZERO, asked),
+            Light::Lamp(light) => light.sample(receiver.position, query),
+            Light::MovingLamp(light) => light.sample(receiver, glam::Vec2::ZERO, query),
             _ => None,
         }
     }
 
-    fn along(&self, light: usize, ray: &Ray, part: [f32; 2]) -> Along {
+    fn lamp_beside(&self, light: usize, ray: &Ray, segment: RaySegment) -> LampBesideRay {
         let (position, greatest) = match &self.lights[light] {
             Light::Lamp(lamp) => (lamp.position(), lamp.greatest()),
-            Light::Carried(lamp) => lamp.point(ray.time_s),
+            Light::MovingLamp(lamp) => lamp.point(ray.time_s),
             _ => (Vec3::ZERO, 0.0),
         };
-        Along { light, position, greatest, angles: Angles::of(position, ray, part) }
+        LampBesideRay { light, position, greatest, angles: SegmentAngles::new(position, ray, segment) }
     }
 
-    /// About what is seen of a lamp's light, by the angle at the lamp, at a share of that.
-    fn seen_from(&self, lamp: &Along, ray: &Ray, share: f32, seen: impl Fn(f32, Vec3) -> f32) -> f32 {
+    /// About what is visible of a lamp's light, by the angle at the lamp, at a share of that.
+    fn visible_light(&self, lamp: &LampBesideRay, ray: &Ray, share: f32, visibility: impl Fn(f32, Vec3) -> f32) -> f32 {
         let t = lamp.angles.place(share);
         let place = ray.at(t);
         let receiver = LightSampleContext::in_medium(place, ray.time_s);
         let irradiance = match &self.lights[lamp.light] {
             Light::Lamp(lamp) => lamp.irradiance(&receiver).plain,
-            Light::Carried(lamp) => lamp.irradiance(&receiver).plain,
+            Light::MovingLamp(lamp) => lamp.irradiance(&receiver).plain,
             _ => 0.0,
         };
         let way = lamp.position - place;
         let intensity = irradiance * way.length_squared() + FLOOR * lamp.greatest;
-        intensity * seen(t, way.normalize_or_zero())
+        intensity * visibility(t, way.normalize_or_zero())
     }
 }
 
-/// A lamp beside a part of a ray.
+/// A lamp beside a segment of a ray.
 #[derive(Clone, Copy, Debug)]
-struct Along {
+struct LampBesideRay {
     light: usize,
     position: Vec3,
     /// Its greatest intensity.
     greatest: f32,
-    angles: Angles,
+    angles: SegmentAngles,
 }
 
 #[cfg(test)]
@@ -229,9 +237,9 @@ mod tests {
     #[test]
     fn places_are_drawn_by_their_density() {
         let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0);
-        let angles = Angles::of(Vec3::new(2.0, 0.5, 0.0), &ray, [0.0, 9.0]);
-        let cells = Cells::by(|share| 0.1 + if share > 0.4 && share < 0.6 { 5.0 } else { share });
-        let lamp = LampAlong { light: 0, probability: 1.0, angles, cells };
+        let angles = SegmentAngles::new(Vec3::new(2.0, 0.5, 0.0), &ray, RaySegment { from: 0.0, to: 9.0 });
+        let cells = AngleCells::new(|share| 0.1 + if share > 0.4 && share < 0.6 { 5.0 } else { share });
+        let lamp = SampledLamp { light: 0, probability: 1.0, angles, cells };
         let n = 100_000;
         let (mut sum, mut places) = (0.0_f64, [0_u32; 2]);
         for i in 0..n {

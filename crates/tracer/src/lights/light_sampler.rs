@@ -17,33 +17,47 @@ use crate::ALL_EFFECTS;
 /// Least share of the draws of lights in the scene beside those at infinity, and the other way round.
 const FLOOR: f32 = 0.05;
 
-/// A light that was chosen.
+/// A light among all of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Chosen {
-    /// A light in the scene, by its place.
+pub(super) enum LightId {
+    /// A light in the scene, by its index.
     Local(usize),
-    /// A sun, by its place.
+    /// A sun, by its index.
     Sun(usize),
     /// The surroundings.
     Environment,
 }
 
-/// How lights are chosen.
+/// A light that was sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SampledLight {
+    pub(super) id: LightId,
+    /// Of its choice.
+    pub(super) probability: f32,
+}
+
+/// A sun, and the irradiance of what faces it, W·m⁻²·nm⁻¹.
 #[derive(Clone, Debug)]
-pub(super) struct Choice {
+pub(super) struct WeightedSun {
+    pub(super) sun: Sun,
+    pub(super) irradiance: f32,
+}
+
+/// Samples a light for a receiver.
+#[derive(Clone, Debug)]
+pub(super) struct LightSampler {
     tree: Option<LightTree>,
-    /// Suns with the irradiance of what faces them, W·m⁻²·nm⁻¹.
-    suns: Vec<(Sun, f32)>,
+    suns: Vec<WeightedSun>,
     /// Irradiance of the surroundings if they are drawn, W·m⁻²·nm⁻¹.
     environment: f32,
     /// Whether suns or surroundings can be drawn.
     has_distant: bool,
 }
 
-impl Choice {
+impl LightSampler {
     /// A choice among lights in the scene, suns, and surroundings of a mean irradiance (0 where they are not drawn).
-    pub(super) fn new(local: &[LightBounds], suns: Vec<(Sun, f32)>, environment: f32) -> Self {
-        let has_distant = environment > 0.0 || suns.iter().any(|(_, e)| *e > 0.0);
+    pub(super) fn new(local: &[LightBounds], suns: Vec<WeightedSun>, environment: f32) -> Self {
+        let has_distant = environment > 0.0 || suns.iter().any(|sun| sun.irradiance > 0.0);
         Self { tree: LightTree::new(local), suns, environment, has_distant }
     }
 
@@ -59,45 +73,48 @@ impl Choice {
     }
 
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver. What the receiver
-    /// starts with ([`Choice::start`], [`Choice::local_share`]) serves all its draws.
-    pub(super) fn pick<F: Fn(u32) -> LampIrradiance>(
+    /// starts with ([`LightSampler::start`], [`LightSampler::local_share`]) serves all its draws.
+    pub(super) fn sample<F: Fn(u32) -> LampIrradiance>(
         &self,
         question: &TreeQuery<'_, F>,
-        (start, local): (&Start, f32),
+        start: &Start,
+        local: f32,
         u: f64,
-    ) -> Option<(Chosen, f32)> {
-        let (share, chosen) = match &self.tree {
+    ) -> Option<SampledLight> {
+        match &self.tree {
             Some(tree) if u < f64::from(local) => {
                 let (light, probability) = tree.pick(question, start, u / f64::from(local))?;
-                (local, (Chosen::Local(light), probability))
+                Some(SampledLight { id: LightId::Local(light), probability: local * probability })
             }
             _ => {
                 let rest = (u - f64::from(local)) / (1.0 - f64::from(local));
-                (1.0 - local, self.pick_distant(question.receiver, rest as f32)?)
+                let light = self.sample_distant(question.receiver, rest as f32)?;
+                Some(SampledLight { probability: (1.0 - local) * light.probability, ..light })
             }
-        };
-        Some((chosen.0, share * chosen.1))
+        }
     }
 
     /// `None` where the draw falls on a sun that the receiver faces away from.
-    fn pick_distant(&self, receiver: &LightSampleContext, u: f32) -> Option<(Chosen, f32)> {
-        let of = |light: Chosen| self.share_of_distant(light, receiver);
-        let suns = (0..self.suns.len()).map(Chosen::Sun);
-        let lights = suns.chain((self.environment > 0.0).then_some(Chosen::Environment));
-        let (mut rest, mut chosen) = (u, None);
-        for (light, share) in lights.map(|light| (light, of(light))).filter(|(_, share)| *share > 0.0) {
-            chosen = Some((light, share));
-            if rest < share {
-                break;
+    fn sample_distant(&self, receiver: &LightSampleContext, u: f32) -> Option<SampledLight> {
+        let suns = (0..self.suns.len()).map(LightId::Sun);
+        let lights = suns.chain((self.environment > 0.0).then_some(LightId::Environment));
+        let (mut rest, mut sampled) = (u, None);
+        for id in lights {
+            let probability = self.share_of_distant(id, receiver);
+            if probability > 0.0 {
+                sampled = Some(SampledLight { id, probability });
+                if rest < probability {
+                    break;
+                }
+                rest -= probability;
             }
-            rest -= share;
         }
-        chosen.filter(|(light, _)| self.reaches(*light, receiver))
+        sampled.filter(|light| self.reaches(light.id, receiver))
     }
 
     /// The share of a light at infinity among those at infinity: by what they count, and to [`MATT_SHARE`] by what they count for a
     /// matt receiver. Suns that the receiver faces away from keep their shares.
-    fn share_of_distant(&self, light: Chosen, receiver: &LightSampleContext) -> f32 {
+    fn share_of_distant(&self, light: LightId, receiver: &LightSampleContext) -> f32 {
         let raised = self.plain_share_of_distant(light, receiver);
         if receiver.gloss.is_none() {
             return raised;
@@ -106,23 +123,23 @@ impl Choice {
         (1.0 - MATT_SHARE) * raised + MATT_SHARE * self.plain_share_of_distant(light, &matt)
     }
 
-    fn plain_share_of_distant(&self, light: Chosen, receiver: &LightSampleContext) -> f32 {
+    fn plain_share_of_distant(&self, light: LightId, receiver: &LightSampleContext) -> f32 {
         let counts = match light {
-            Chosen::Sun(i) => self.of_sun(i, receiver),
-            Chosen::Environment => self.environment,
-            Chosen::Local(_) => 0.0,
+            LightId::Sun(i) => self.of_sun(i, receiver),
+            LightId::Environment => self.environment,
+            LightId::Local(_) => 0.0,
         };
         let total = (0..self.suns.len()).map(|i| self.of_sun(i, receiver)).sum::<f32>() + self.environment;
         if counts > 0.0 { counts / total } else { 0.0 }
     }
 
-    /// The probability by which [`Choice::pick`] gives a light.
-    pub(super) fn probability<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, light: Chosen) -> f32 {
+    /// The probability by which [`LightSampler::sample`] gives a light.
+    pub(super) fn probability<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, light: LightId) -> f32 {
         let start = self.start(question);
         let local = self.local_share(question, &start);
         match (light, &self.tree) {
-            (Chosen::Local(_), None) => 0.0,
-            (Chosen::Local(i), Some(tree)) => local * tree.probability(question, &start, i),
+            (LightId::Local(_), None) => 0.0,
+            (LightId::Local(i), Some(tree)) => local * tree.probability(question, &start, i),
             _ if !self.reaches(light, question.receiver) => 0.0,
             _ => (1.0 - local) * self.share_of_distant(light, question.receiver),
         }
@@ -154,21 +171,21 @@ impl Choice {
 
     /// Of what may reach the receiver.
     fn distant_irradiance(&self, receiver: &LightSampleContext) -> f32 {
-        let reaching = (0..self.suns.len()).filter(|i| self.reaches(Chosen::Sun(*i), receiver));
+        let reaching = (0..self.suns.len()).filter(|i| self.reaches(LightId::Sun(*i), receiver));
         reaching.map(|i| self.of_sun(i, receiver)).sum::<f32>() + self.environment
     }
 
     /// Whether the receiver faces a light at infinity.
-    fn reaches(&self, light: Chosen, receiver: &LightSampleContext) -> bool {
+    fn reaches(&self, light: LightId, receiver: &LightSampleContext) -> bool {
         match light {
-            Chosen::Sun(i) => receiver.normal == glam::Vec3::ZERO || self.suns[i].0.rises_over(receiver.normal),
-            Chosen::Environment | Chosen::Local(_) => true,
+            LightId::Sun(i) => receiver.normal == glam::Vec3::ZERO || self.suns[i].sun.rises_over(receiver.normal),
+            LightId::Environment | LightId::Local(_) => true,
         }
     }
 
     /// What a sun counts for a receiver that faces it.
     fn of_sun(&self, i: usize, receiver: &LightSampleContext) -> f32 {
-        let (sun, irradiance) = &self.suns[i];
+        let WeightedSun { sun, irradiance } = &self.suns[i];
         *irradiance * (1.0 + receiver.glossy(sun.direction(), sun.sin()))
     }
 }
@@ -183,24 +200,28 @@ mod tests {
     #[test]
     fn a_sun_behind_the_surface_keeps_its_share_of_the_draws() {
         let sun = Sun::of_radiance(DVec3::Z, 0.5, Spectrum::constant(1.0)).expect("a sun");
-        let choice = Choice::new(&[], vec![(sun, 3.0)], 1.0);
+        let sampler = LightSampler::new(&[], vec![WeightedSun { sun, irradiance: 3.0 }], 1.0);
         for (normal, of_sun) in [(Vec3::Z, 0.75), (Vec3::ZERO, 0.75), (Vec3::NEG_Z, 0.0)] {
             let receiver = LightSampleContext::matt(Vec3::ZERO, normal);
             let question = TreeQuery { receiver: &receiver, lamp: |_| LampIrradiance::default() };
-            let start = choice.start(&question);
-            let start = (&start, choice.local_share(&question, &start));
+            let start = sampler.start(&question);
+            let local = sampler.local_share(&question, &start);
             let mut counts = [0; 3];
             for i in 0..1000 {
-                match choice.pick(&question, start, (f64::from(i) + 0.5) / 1000.0) {
-                    Some((Chosen::Sun(0), probability)) => counts[0] += usize::from(probability == 0.75),
-                    Some((Chosen::Environment, probability)) => counts[1] += usize::from(probability == 0.25),
+                match sampler.sample(&question, &start, local, (f64::from(i) + 0.5) / 1000.0) {
+                    Some(SampledLight { id: LightId::Sun(0), probability }) => {
+                        counts[0] += usize::from(probability == 0.75);
+                    }
+                    Some(SampledLight { id: LightId::Environment, probability }) => {
+                        counts[1] += usize::from(probability == 0.25);
+                    }
                     other => counts[2] += usize::from(other.is_none()),
                 }
             }
             let sun_draws = (of_sun * 1000.0) as usize;
             assert_eq!(counts, [sun_draws, 250, 750 - sun_draws], "{normal}");
-            assert_eq!(choice.probability(&question, Chosen::Sun(0)), of_sun);
-            assert_eq!(choice.probability(&question, Chosen::Environment), 0.25);
+            assert_eq!(sampler.probability(&question, LightId::Sun(0)), of_sun);
+            assert_eq!(sampler.probability(&question, LightId::Environment), 0.25);
         }
     }
 }

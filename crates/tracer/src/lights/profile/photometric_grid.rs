@@ -19,13 +19,11 @@ use etendue_core::maths::f32::{acos, asin, atan2};
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec3, Vec3};
 
-use super::axis::{Axis, EDGE_DEG};
-use super::quadrature::{GAUSS, Node};
-use super::spread::Spread;
+use super::spread::{GAUSS, Node, Spread};
 
 /// What the two angles of a grid mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WebAxes {
+pub enum PhotometricAxes {
     /// Vertical polar axis, zero straight ahead.
     A,
     /// Horizontal polar axis, zero straight ahead.
@@ -34,9 +32,47 @@ pub enum WebAxes {
     C,
 }
 
+/// The angles that a grid may have.
+#[derive(Clone, Copy)]
+struct AngleLimits {
+    low_deg: f64,
+    high_deg: f64,
+    max_span_deg: f64,
+}
+
+/// Angles from one to another.
+#[derive(Clone, Copy)]
+struct AngleInterval {
+    from_deg: f64,
+    to_deg: f64,
+}
+
+impl AngleInterval {
+    fn length_deg(self) -> f64 {
+        self.to_deg - self.from_deg
+    }
+
+    /// The angle at a fraction of the interval.
+    fn at(self, fraction: f64) -> f64 {
+        self.from_deg + fraction * (self.to_deg - self.from_deg)
+    }
+
+    /// The same by an angle later.
+    fn later(self, angle_deg: f64) -> Self {
+        Self { from_deg: angle_deg + self.from_deg, to_deg: angle_deg + self.to_deg }
+    }
+}
+
+/// A cell of a grid.
+#[derive(Clone, Copy)]
+struct GridCell {
+    vertical: AngleInterval,
+    horizontal: AngleInterval,
+}
+
 /// Why a grid is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum WebError {
+pub enum PhotometricGridError {
     /// Angles are missing, out of order or out of range.
     #[error(
         "the {which} angles of the grid must rise and lie between {low}° and {high}°, within a span of {span}°; correct \
@@ -74,8 +110,8 @@ pub enum WebError {
 
 /// Intensities on a grid of angles. Its `Debug` text leaves out the values.
 #[derive(Clone, PartialEq)]
-pub struct Web {
-    axes: WebAxes,
+pub struct PhotometricGrid {
+    axes: PhotometricAxes,
     vertical_deg: Axis,
     horizontal_deg: Axis,
     /// All vertical angles of the first horizontal one, then of the next.
@@ -83,10 +119,10 @@ pub struct Web {
     spread: Spread,
 }
 
-impl core::fmt::Debug for Web {
+impl core::fmt::Debug for PhotometricGrid {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let size = (self.vertical_deg.nodes().len(), self.horizontal_deg.nodes().len());
-        f.debug_struct("Web")
+        f.debug_struct("PhotometricGrid")
             .field("axes", &self.axes)
             .field("size", &size)
             .field("spread", &self.spread)
@@ -94,27 +130,27 @@ impl core::fmt::Debug for Web {
     }
 }
 
-impl Web {
+impl PhotometricGrid {
     /// A grid: `values` holds all vertical angles of the first horizontal angle, then those of the next (as LM-63 does).
     ///
     /// # Errors
     /// Where angles do not rise or leave their range, values do not fill the grid, or one is negative or not finite.
     pub fn new(
-        axes: WebAxes,
+        axes: PhotometricAxes,
         vertical_deg: Vec<f32>,
         horizontal_deg: Vec<f32>,
         values: Vec<f32>,
-    ) -> Result<Self, WebError> {
+    ) -> Result<Self, PhotometricGridError> {
         let (vertical, horizontal) = (vertical_deg.len(), horizontal_deg.len());
         if values.len() != vertical * horizontal || values.is_empty() {
-            return Err(WebError::Size { vertical, horizontal, found: values.len() });
+            return Err(PhotometricGridError::Size { vertical, horizontal, found: values.len() });
         }
         if let Some(value) = values.iter().position(|v| !(v.is_finite() && *v >= 0.0)) {
-            return Err(WebError::Value { value });
+            return Err(PhotometricGridError::Value { value });
         }
         let (horizontal_deg, values) = closed(axes, horizontal_deg, values, vertical);
-        let vertical_deg = checked(vertical_deg, "vertical", axes.vertical_range())?;
-        let horizontal_deg = checked(horizontal_deg, "horizontal", axes.horizontal_range())?;
+        let vertical_deg = checked(vertical_deg, "vertical", axes.vertical_limits())?;
+        let horizontal_deg = checked(horizontal_deg, "horizontal", axes.horizontal_limits())?;
         let mut web = Self { axes, vertical_deg, horizontal_deg, values, spread: Spread::EVERYWHERE };
         let sampled = Spread::of(&web.nodes());
         let peak = web.values.iter().copied().fold(0.0, f32::max);
@@ -124,7 +160,7 @@ impl Web {
 
     /// What the angles mean.
     #[must_use]
-    pub fn axes(&self) -> WebAxes {
+    pub fn axes(&self) -> PhotometricAxes {
         self.axes
     }
 
@@ -155,77 +191,80 @@ impl Web {
         &self.spread
     }
 
-    /// Cells of the grid, vertical interval first, as intervals in degrees. A single horizontal angle is that of sectors
+    /// Cells of the grid, row by row. A single horizontal angle is that of sectors
     /// over the whole range.
-    fn cells(&self) -> Vec<[[f64; 2]; 2]> {
+    fn cells(&self) -> Vec<GridCell> {
         let horizontal = match self.horizontal_deg.nodes() {
             [_] => self.axes.sectors(),
             nodes => intervals(nodes).collect(),
         };
-        let of_row = |v: [f64; 2]| horizontal.iter().map(move |h| [v, *h]);
+        let of_row = |vertical| horizontal.iter().map(move |horizontal| GridCell { vertical, horizontal: *horizontal });
         intervals(self.vertical_deg.nodes()).flat_map(of_row).collect()
     }
 
     fn exact_flux_sr(&self) -> f64 {
-        self.cells().into_iter().map(|[v, h]| self.cell_flux_sr(v, h)).sum()
+        self.cells().into_iter().map(|cell| self.cell_flux_sr(cell)).sum()
     }
 
     /// Flux of one cell.
-    fn cell_flux_sr(&self, v: [f64; 2], h: [f64; 2]) -> f64 {
+    fn cell_flux_sr(&self, cell: GridCell) -> f64 {
+        let GridCell { vertical: v, horizontal: h } = cell;
         let at = |v: f64, h: f64| f64::from(self.at_deg(v as f32, h as f32));
-        let across = |a: [f64; 2], value: &dyn Fn(f64) -> f64| 0.5 * (value(a[0]) + value(a[1]));
+        let across = |a: AngleInterval, value: &dyn Fn(f64) -> f64| 0.5 * (value(a.from_deg) + value(a.to_deg));
         match self.axes {
-            WebAxes::B => {
-                let [low, high] = h.map(|h| across(v, &|v| at(v, h)));
-                (v[1] - v[0]).to_radians() * polar_integral([90.0 + h[0], 90.0 + h[1]], [low, high])
+            PhotometricAxes::B => {
+                let [low, high] = [h.from_deg, h.to_deg].map(|h| across(v, &|v| at(v, h)));
+                v.length_deg().to_radians() * polar_integral(h.later(90.0), low, high)
             }
-            WebAxes::A | WebAxes::C => {
-                let zero = if self.axes == WebAxes::A { 90.0 } else { 0.0 };
-                let [low, high] = v.map(|v| across(h, &|h| at(v, h)));
-                (h[1] - h[0]).to_radians() * polar_integral([zero + v[0], zero + v[1]], [low, high])
+            PhotometricAxes::A | PhotometricAxes::C => {
+                let zero = if self.axes == PhotometricAxes::A { 90.0 } else { 0.0 };
+                let [low, high] = [v.from_deg, v.to_deg].map(|v| across(h, &|h| at(v, h)));
+                h.length_deg().to_radians() * polar_integral(v.later(zero), low, high)
             }
         }
     }
 
     /// Four directions a cell.
     pub(super) fn nodes(&self) -> Vec<Node> {
-        self.cells().into_iter().flat_map(|[v, h]| self.cell_nodes(v, h)).collect()
+        self.cells().into_iter().flat_map(|cell| self.cell_nodes(cell)).collect()
     }
 
-    fn cell_nodes(&self, v: [f64; 2], h: [f64; 2]) -> impl Iterator<Item = Node> + '_ {
-        let size = [v[1] - v[0], h[1] - h[0]].map(f64::to_radians);
+    fn cell_nodes(&self, cell: GridCell) -> impl Iterator<Item = Node> + '_ {
+        let GridCell { vertical, horizontal } = cell;
+        let size = [vertical.length_deg(), horizontal.length_deg()].map(f64::to_radians);
         let spacing_rad = (0.8 * (size[0] + size[1])) as f32;
-        GAUSS.into_iter().flat_map(move |s| GAUSS.map(|t| (v[0] + s * (v[1] - v[0]), h[0] + t * (h[1] - h[0])))).map(
-            move |(v, h)| {
-                let (direction, stretch) = self.axes.direction(v, h);
-                let weight_sr = 0.25 * size[0] * size[1] * stretch;
-                Node { direction, value: self.at_deg(v as f32, h as f32), weight_sr, spacing_rad }
-            },
-        )
+        let angles = GAUSS.into_iter().flat_map(move |s| GAUSS.map(|t| (vertical.at(s), horizontal.at(t))));
+        angles.map(move |(v, h)| {
+            let (direction, stretch) = self.axes.direction(v, h);
+            let weight_sr = 0.25 * size[0] * size[1] * stretch;
+            Node { direction, value: self.at_deg(v as f32, h as f32), weight_sr, spacing_rad }
+        })
     }
 }
 
-impl WebAxes {
-    fn vertical_range(self) -> [f64; 3] {
+impl PhotometricAxes {
+    fn vertical_limits(self) -> AngleLimits {
         match self {
-            Self::A => [-90.0, 90.0, 180.0],
-            Self::B => [-180.0, 180.0, 360.0],
-            Self::C => [0.0, 180.0, 180.0],
+            Self::A => AngleLimits { low_deg: -90.0, high_deg: 90.0, max_span_deg: 180.0 },
+            Self::B => AngleLimits { low_deg: -180.0, high_deg: 180.0, max_span_deg: 360.0 },
+            Self::C => AngleLimits { low_deg: 0.0, high_deg: 180.0, max_span_deg: 180.0 },
         }
     }
 
-    fn horizontal_range(self) -> [f64; 3] {
+    fn horizontal_limits(self) -> AngleLimits {
         match self {
-            Self::A => [-180.0, 180.0, 360.0],
-            Self::B => [-90.0, 90.0, 180.0],
-            Self::C => [0.0, 360.0, 360.0],
+            Self::A => AngleLimits { low_deg: -180.0, high_deg: 180.0, max_span_deg: 360.0 },
+            Self::B => AngleLimits { low_deg: -90.0, high_deg: 90.0, max_span_deg: 180.0 },
+            Self::C => AngleLimits { low_deg: 0.0, high_deg: 360.0, max_span_deg: 360.0 },
         }
     }
 
     /// What a single horizontal angle stands for: the whole range in steps of 5°.
-    fn sectors(self) -> Vec<[f64; 2]> {
-        let [low, high, _] = self.horizontal_range();
-        (0..((high - low) / 5.0) as u32).map(|i| [low + 5.0 * f64::from(i), low + 5.0 * f64::from(i + 1)]).collect()
+    fn sectors(self) -> Vec<AngleInterval> {
+        let AngleLimits { low_deg, high_deg, .. } = self.horizontal_limits();
+        let edge_deg = |i: u32| low_deg + 5.0 * f64::from(i);
+        let sector = |i| AngleInterval { from_deg: edge_deg(i), to_deg: edge_deg(i + 1) };
+        (0..((high_deg - low_deg) / 5.0) as u32).map(sector).collect()
     }
 
     /// Vertical and horizontal angle (degrees) of a unit direction.
@@ -251,20 +290,21 @@ impl WebAxes {
 }
 
 /// From each number of a grid to the next.
-fn intervals(nodes: &[f32]) -> impl Iterator<Item = [f64; 2]> + '_ {
-    nodes.windows(2).map(|w| [f64::from(w[0]), f64::from(w[1])])
+fn intervals(nodes: &[f32]) -> impl Iterator<Item = AngleInterval> + '_ {
+    nodes.windows(2).map(|w| AngleInterval { from_deg: f64::from(w[0]), to_deg: f64::from(w[1]) })
 }
 
-/// ∫ of a line from `low` to `high` times sin φ over the polar angles `degrees`.
-fn polar_integral(degrees: [f64; 2], [low, high]: [f64; 2]) -> f64 {
-    let [a, b] = degrees.map(f64::to_radians);
+/// ∫ of a line from `low` to `high` times sin φ over an interval of polar angles.
+fn polar_integral(interval: AngleInterval, low: f64, high: f64) -> f64 {
+    let [a, b] = [interval.from_deg, interval.to_deg].map(f64::to_radians);
     let ((sin_a, cos_a), (sin_b, cos_b)) = (sin_cos(a), sin_cos(b));
     // ∫ sin = cos a − cos b; ∫ (φ − a) sin φ = sin b − sin a − (b − a) cos b.
     low * (cos_a - cos_b) + (high - low) * ((sin_b - sin_a) / (b - a) - cos_b)
 }
 
-fn checked(angles: Vec<f32>, which: &'static str, [low, high, span]: [f64; 3]) -> Result<Axis, WebError> {
-    let fault = WebError::Angles { which, low, high, span };
+fn checked(angles: Vec<f32>, which: &'static str, limits: AngleLimits) -> Result<Axis, PhotometricGridError> {
+    let AngleLimits { low_deg: low, high_deg: high, max_span_deg: span } = limits;
+    let fault = PhotometricGridError::Angles { which, low, high, span };
     let axis = Axis::new(angles).ok_or(fault)?;
     let (first, last) = (f64::from(axis.nodes()[0]), f64::from(axis.nodes()[axis.nodes().len() - 1]));
     let vertical_line = which == "vertical" && axis.nodes().len() == 1;
@@ -272,11 +312,85 @@ fn checked(angles: Vec<f32>, which: &'static str, [low, high, span]: [f64; 3]) -
 }
 
 /// A grid of type C from 0° whose last plane is short of the whole turn gets its first plane there again.
-fn closed(axes: WebAxes, mut angles: Vec<f32>, mut values: Vec<f32>, rows: usize) -> (Vec<f32>, Vec<f32>) {
+fn closed(axes: PhotometricAxes, mut angles: Vec<f32>, mut values: Vec<f32>, rows: usize) -> (Vec<f32>, Vec<f32>) {
     let open = angles.len() > 1 && angles.first() == Some(&0.0) && angles.last().is_some_and(|l| *l < 360.0);
-    if axes == WebAxes::C && open && angles.last().is_some_and(|l| *l > 180.0) {
+    if axes == PhotometricAxes::C && open && angles.last().is_some_and(|l| *l > 180.0) {
         angles.push(360.0);
         values.extend_from_within(..rows);
     }
     (angles, values)
+}
+
+/// How far beyond the outermost angles rounding may take one of f32 that was made from a direction.
+pub(super) const EDGE_DEG: f32 = 1e-4;
+
+/// Rising numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Axis {
+    nodes: Vec<f32>,
+    /// For each of equal steps from the first to the last number, the interval in which the step begins.
+    guide: Vec<u16>,
+    steps_per_unit: f32,
+}
+
+/// A position between node `low` and the next, at the fraction `t`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct GridPosition {
+    pub(super) low: usize,
+    pub(super) t: f32,
+}
+
+impl Axis {
+    /// `None` where there are none or too many, one is not finite, or they do not rise.
+    pub(super) fn new(nodes: Vec<f32>) -> Option<Self> {
+        let rise = nodes.windows(2).all(|w| w[0] < w[1]) && nodes.iter().all(|n| n.is_finite());
+        if nodes.is_empty() || nodes.len() > usize::from(u16::MAX) || !rise {
+            return None;
+        }
+        let range = nodes[nodes.len() - 1] - nodes[0];
+        let steps_per_unit = if range > 0.0 { (nodes.len() - 1) as f32 / range } else { 0.0 };
+        let guide = (0..nodes.len()).map(|step| begin(&nodes, step)).collect();
+        Some(Self { nodes, guide, steps_per_unit })
+    }
+
+    pub(super) fn nodes(&self) -> &[f32] {
+        &self.nodes
+    }
+
+    /// Where `x` lies; `None` outside. A single number is everywhere.
+    pub(super) fn find(&self, x: f32) -> Option<GridPosition> {
+        let last = self.nodes.len() - 1;
+        if last == 0 {
+            return Some(GridPosition { low: 0, t: 0.0 });
+        }
+        let (first, end) = (self.nodes[0], self.nodes[last]);
+        let inside = (first - EDGE_DEG..=end + EDGE_DEG).contains(&x);
+        inside.then(|| self.interval(x.clamp(first, end), last))
+    }
+
+    fn interval(&self, x: f32, last: usize) -> GridPosition {
+        let step = ((x - self.nodes[0]) * self.steps_per_unit) as usize;
+        let mut low = usize::from(self.guide[step.min(last)]).min(last - 1);
+        while low > 0 && self.nodes[low] > x {
+            low -= 1;
+        }
+        while low + 1 < last && self.nodes[low + 1] <= x {
+            low += 1;
+        }
+        GridPosition { low, t: (x - self.nodes[low]) / (self.nodes[low + 1] - self.nodes[low]) }
+    }
+}
+
+/// The interval in which step `step` of as many as there are numbers begins.
+fn begin(nodes: &[f32], step: usize) -> u16 {
+    let (first, last) = (nodes[0], nodes[nodes.len() - 1]);
+    let x = first + (last - first) * step as f32 / (nodes.len() - 1).max(1) as f32;
+    nodes.partition_point(|n| *n <= x).saturating_sub(1) as u16
+}
+
+impl GridPosition {
+    /// Linear between two values.
+    pub(super) fn mix(self, low: f32, high: f32) -> f32 {
+        low + self.t * (high - low)
+    }
 }

@@ -1,6 +1,0 @@
-//! Tests of what a view answers about surfaces.
-
-mod motion;
-mod spawn;
-mod surface;
-mod truth;
