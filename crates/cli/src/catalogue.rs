@@ -105,7 +105,8 @@ fn told(argument: &Arg) -> Argument {
         kind: kind(argument, is_switch),
         value: argument.get_value_names().and_then(|names| names.first()).map(ToString::to_string).unwrap_or_default(),
         words: if is_switch { Vec::new() } else { words.collect() },
-        default: Some(defaults.join(",")).filter(|text| !text.is_empty() && !is_switch),
+        default: Some(defaults.join(","))
+            .filter(|text| !text.is_empty() && !is_switch && !argument.is_hide_default_value_set()),
         help: argument.get_help().map(ToString::to_string).unwrap_or_default(),
     }
 }

@@ -16,6 +16,7 @@ mod usd;
 mod without;
 mod written;
 
+use clap::Args;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
@@ -26,12 +27,22 @@ use written::Written;
 const KINDS: &str = ".glb, .gltf, .pbrt, .xml (Mitsuba), .usd, .usda, .usdc or .usdz";
 
 /// A scene of another program.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Args, Clone, Debug, Default, Eq, PartialEq)]
 pub struct ImportRequest {
-    /// Its file.
+    /// The scene: glTF 2.0 (.glb, .gltf), pbrt-v4 (.pbrt), Mitsuba 3 (.xml), USD (.usd, .usda, .usdc, .usdz) where it is built in
+    #[arg(id = "scene", value_name = "SCENE")]
     pub file: PathBuf,
-    /// Values of parameters by their names, for scenes of Mitsuba: of each that the file names as `$name`, in place of its `<default>`.
+    /// Give a value to a parameter of a Mitsuba scene ($name) in place of its default, e.g. -D radius=0.5
+    #[arg(id = "define", short = 'D', long, value_name = "NAME=VALUE", value_parser = parameter)]
     pub parameters: Vec<(String, String)>,
+}
+
+/// `NAME=VALUE`, as Mitsuba's own option.
+fn parameter(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
+        _ => Err("expected NAME=VALUE, such as radius=0.5".to_owned()),
+    }
 }
 
 /// Writes `scene.toml`, `job.toml` and what they need into a folder, of a scene of another program; answers with their paths. What was

@@ -5,6 +5,8 @@ use crate::result_files::Files;
 use crate::results::frames::encoded;
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
+use clap::Args;
+use etendue_arguments::seed;
 use etendue_io::failure::Error;
 use etendue_io::paths::camera_stem;
 use etendue_io::{Existing, OutputFolder};
@@ -17,17 +19,22 @@ use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
 /// Stored raws and the camera whose processing makes pictures of them.
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct DevelopRequest {
-    /// Raws (PNG, TIFF, DNG), each with its side-car `camera.json` beside it.
+    /// Raws (PNG, TIFF, DNG), each with its side-car camera.json beside it
+    #[arg(required = true, value_name = "RAW")]
     pub raws: Vec<PathBuf>,
-    /// The camera file (TOML) whose sensor took them.
+    /// The camera file (TOML) whose sensor took them and whose processing makes the pictures
+    #[arg(long, value_name = "CAMERA.toml")]
     pub camera: PathBuf,
-    /// Changes of its keys, `key=value`.
+    /// Change a key of the camera file, e.g. --set isp.demosaic=malvar
+    #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// For raws without a side-car: digital numbers of no light and of a saturated pixel.
+    /// For raws without a side-car: digital numbers of no light and of a saturated pixel, e.g. 64..4095
+    #[arg(long, value_name = "BLACK..WHITE")]
     pub levels: Option<Levels>,
-    /// The seed of added noises; `None`: that of the side-car, or 0.
+    /// The seed of the paper's noises [default: that of the side-car, or 0]
+    #[arg(long, value_name = "N", value_parser = seed)]
     pub seed: Option<u64>,
 }
 

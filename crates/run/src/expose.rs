@@ -1,10 +1,13 @@
 //! Another lens and sensor on stored radiance.
 
+use crate::depth_of_field;
 use crate::result_files::Files;
 use crate::results::frames::{Wanted, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
 use crate::stored_radiance::StoredRadiance;
+use clap::Args;
+use etendue_arguments::seed;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::Error;
 use etendue_io::paths::camera_stem;
@@ -22,19 +25,26 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// A stored radiance image and the camera that photographs it.
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct ExposeRequest {
-    /// A spectral radiance image rendered with `route = "pupil"`.
+    /// A spectral radiance image rendered with route = "pupil"
+    #[arg(value_name = "RADIANCE.exr")]
     pub radiance: PathBuf,
-    /// The camera file (TOML).
+    /// The camera file (TOML) to photograph it with
+    #[arg(long, value_name = "CAMERA.toml")]
     pub camera: PathBuf,
-    /// Changes of its keys, `key=value`.
+    /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002
+    #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// The seed of the sensor's noise; `None`: that of the radiance image.
+    /// The seed of the sensor's noise [default: that of the radiance image]
+    #[arg(long, value_name = "N", value_parser = seed)]
     pub seed: Option<u64>,
-    /// Frames to take, the last excluded.
+    /// Frames to take, first to last (the last excluded); each has its own sensor noise
+    #[arg(long, value_name = "A..B", value_parser = etendue_arguments::frames, default_value = "0..1")]
     pub frames: Range<u32>,
-    /// How things out of focus are blurred; `None`: physically, as far as lens and image allow.
+    /// How things out of focus are blurred: physical, none, or a look, e.g.
+    /// fast:blur_px=8,near_m=0.5..2,far_m=10..40 [default: physical]
+    #[arg(long, value_name = "METHOD", value_parser = depth_of_field::parsed)]
     pub depth_of_field: Option<DepthOfField>,
 }
 

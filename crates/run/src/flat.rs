@@ -4,10 +4,12 @@ use crate::result_files::Files;
 use crate::results::frames::{Wanted, encoded_raw, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
+use clap::{ArgMatches, Args, Command, FromArgMatches};
+use etendue_arguments::{seed, whole};
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::Error;
 use etendue_io::paths::camera_stem;
-use etendue_io::ranges::{number, whole};
+use etendue_io::ranges::{self, number};
 use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, Stack};
 use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};
@@ -17,7 +19,7 @@ use etendue_sensor::{CaptureLight, FrameAddress, Sensor, SensorState};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
 /// The series as the standard's reference program reads it.
@@ -52,22 +54,107 @@ pub enum FlatSource {
     },
 }
 
+/// Wavelengths of the light, nm.
+const WAVELENGTHS_NM: RangeInclusive<f64> = 300.0..=1100.0;
+/// Exposures of a series, and frames of each of its stacks.
+const LEVELS: RangeInclusive<u32> = 3..=10_000;
+
+/// The light as arguments: one of three, and the stacks of the third.
+#[derive(Args)]
+struct FlatArguments {
+    #[command(flatten)]
+    brightness: Brightness,
+    /// With --photon-transfer: frames of the stacks at half of saturation and in the dark
+    #[arg(long, value_name = "N", default_value_t = 100, conflicts_with_all = ["irradiance_w_m2", "photons"])]
+    #[arg(value_parser = whole(LEVELS))]
+    stack: u32,
+}
+
+/// How bright even light is.
+#[derive(Args)]
+#[group(required = true, multiple = false)]
+struct Brightness {
+    /// Irradiance of the sensor, W/m²; 0 is dark
+    #[arg(long, value_name = "E", value_parser = irradiance_w_m2, allow_negative_numbers = true)]
+    irradiance_w_m2: Option<f64>,
+    /// Photons of that wavelength on the whole square of a pixel over the exposure, in place of the irradiance; 0 is dark
+    #[arg(long, value_name = "N", value_parser = photons, allow_negative_numbers = true)]
+    photons: Option<f64>,
+    /// The series of EMVA 1288 instead: so many exposures up to the camera's exposure_s, where the light just saturates, two
+    /// bright and two dark frames each; then a stack at half of saturation and one in the dark
+    #[arg(long, value_name = "LEVELS", value_parser = whole(LEVELS), allow_negative_numbers = true)]
+    photon_transfer: Option<u32>,
+}
+
+impl From<FlatArguments> for FlatSource {
+    fn from(FlatArguments { brightness, stack }: FlatArguments) -> Self {
+        match (brightness.photon_transfer, brightness.photons) {
+            (Some(levels), _) => Self::PhotonTransfer { levels, stack },
+            (None, Some(per_pixel)) => Self::Photons { per_pixel },
+            (None, None) => Self::Irradiance { w_m2: brightness.irradiance_w_m2.unwrap_or(0.0) },
+        }
+    }
+}
+
+impl FromArgMatches for FlatSource {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        FlatArguments::from_arg_matches(matches).map(Self::from)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl Args for FlatSource {
+    fn augment_args(command: Command) -> Command {
+        FlatArguments::augment_args(command)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        FlatArguments::augment_args_for_update(command)
+    }
+}
+
+fn wavelength_nm(text: &str) -> Result<f64, String> {
+    let nm = text.parse().ok().filter(|nm| WAVELENGTHS_NM.contains(nm));
+    nm.ok_or_else(|| format!("expected a wavelength of 300 to 1100 nm, not '{text}'"))
+}
+
+fn irradiance_w_m2(text: &str) -> Result<f64, String> {
+    let e = text.parse().ok().filter(|e: &f64| e.is_finite() && *e >= 0.0);
+    e.ok_or_else(|| format!("expected an irradiance of 0 W/m² or more, not '{text}'"))
+}
+
+fn photons(text: &str) -> Result<f64, String> {
+    let n = text.parse().ok().filter(|n: &f64| n.is_finite() && *n >= 0.0);
+    n.ok_or_else(|| format!("expected 0 photons a pixel or more, not '{text}'"))
+}
+
 /// Even light of one wavelength on a camera's bare sensor.
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct FlatRequest {
-    /// The camera file (TOML); its lens is taken off.
+    /// The camera file (TOML); its lens is taken off
+    #[arg(value_name = "CAMERA.toml")]
     pub camera: PathBuf,
-    /// Changes of its keys, `key=value`.
-    pub set: Vec<String>,
-    /// Wavelength of the light, 300 to 1100 nm.
+    /// Wavelength of the light, nm
+    #[arg(long, value_name = "NM", value_parser = wavelength_nm, allow_negative_numbers = true)]
     pub wavelength_nm: f64,
     /// How bright the light is.
+    #[command(flatten)]
     pub source: FlatSource,
-    /// Frames to take, the last excluded; a series has its own.
+    /// Frames to take, first to last (the last excluded); each has its own sensor noise
+    #[arg(long, value_name = "A..B", value_parser = etendue_arguments::frames, default_value = "0..1", conflicts_with = "photon_transfer")]
     pub frames: Range<u32>,
-    /// Whether to write what each pixel's digital number is made of; not of a series.
+    /// Write what each pixel's digital number is made of
+    #[arg(long, conflicts_with = "photon_transfer")]
     pub signal_breakdown: bool,
-    /// The seed of the sensor's noise.
+    /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// The seed of the sensor's noise [default: 0]
+    #[arg(long, value_name = "N", value_parser = seed, default_value_t = 0, hide_default_value = true)]
     pub seed: u64,
 }
 
@@ -81,13 +168,13 @@ impl FlatRequest {
 
 impl FlatRequest {
     fn check(&self) -> Result<(), Error> {
-        number("--wavelength-nm", self.wavelength_nm, 300.0..=1100.0, "nm")?;
+        number("--wavelength-nm", self.wavelength_nm, WAVELENGTHS_NM, "nm")?;
         match self.source {
             FlatSource::Irradiance { w_m2 } => number("--irradiance-w-m2", w_m2, 0.0..=f64::MAX, "W/m²"),
             FlatSource::Photons { per_pixel } => number("--photons", per_pixel, 0.0..=f64::MAX, "photons a pixel"),
             FlatSource::PhotonTransfer { levels, stack } => {
-                whole("--photon-transfer", levels, 3..=10_000)?;
-                whole("--stack", stack, 3..=10_000)
+                ranges::whole("--photon-transfer", levels, LEVELS)?;
+                ranges::whole("--stack", stack, LEVELS)
             }
         }
     }

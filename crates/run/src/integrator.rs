@@ -1,7 +1,7 @@
 //! The integrators by their words in a job.
 
 /// How much of the light transport is followed: the key `render.integrator`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Integrator {
     /// Local shading by lamps, suns and sky, without shadows.

@@ -15,12 +15,14 @@
 use crate::chart::design::{Checkerboard, ColorChecker, FlatField, GridSize, SlantedEdges};
 use crate::chart::{Chart, ChartRequest, make};
 use crate::flat::{FlatRequest, FlatSource, flat};
-use crate::job::JobRequest;
+use crate::job_request::JobRequest;
 use crate::named_file::write_file;
 use crate::render_options::RenderOptions;
+use clap::Args;
+use etendue_arguments::{seed, whole};
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
-use etendue_io::ranges::whole;
+use etendue_io::ranges;
 use etendue_io::source::read_text;
 use etendue_io::{Existing, load_assets};
 use etendue_pipeline::compile_camera;
@@ -32,6 +34,7 @@ use etendue_scene::record::sensor::charge::NonUniformity;
 use etendue_scene::written::File;
 use etendue_scene::{Overrides, load_camera, named_files, record};
 use etendue_sensor::Sensor;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 const WAVELENGTH_NM: f64 = 550.0;
@@ -52,22 +55,34 @@ const SQUARE_AND_MARGIN: f64 = 1.25;
 const DECLARED: &str = "declared.toml";
 const JOB: &str = "job.toml";
 
+/// Levels, frames of a stack and views that a laboratory may have.
+const LEVELS: RangeInclusive<u32> = 5..=1000;
+const STACK: RangeInclusive<u32> = 3..=10_000;
+const VIEWS: RangeInclusive<u32> = 3..=200;
+
 /// `etendue laboratory`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct LaboratoryRequest {
     /// The camera file (TOML)
+    #[arg(value_name = "CAMERA.toml")]
     pub camera: PathBuf,
-    /// Changes of its keys, `key=value`.
+    /// Change a key of the camera file, e.g. --set sensor.width_px=320
+    #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// The seed of all noise.
+    /// The seed of all noise
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = seed)]
     pub seed: u64,
-    /// Levels of even light, 5 or more.
+    /// Levels of even light on the bare sensor, up to a little above saturation
+    #[arg(long, value_name = "N", default_value_t = 15, value_parser = whole(LEVELS))]
     pub levels: u32,
-    /// Frames of the stacks without light and at half of saturation, 3 or more.
+    /// Frames of the stacks without light and at half of saturation
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = whole(STACK))]
     pub stack: u32,
-    /// Views of the checkerboard, 3 or more.
+    /// Views of the checkerboard
+    #[arg(long, value_name = "N", default_value_t = 13, value_parser = whole(VIEWS))]
     pub views: u32,
-    /// Samples a pixel of the pictures through the lens.
+    /// Samples a pixel of the pictures through the lens
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = whole(1..=65_536))]
     pub spp: u32,
 }
 
@@ -87,9 +102,9 @@ pub fn laboratory(
     (folder, existing): (&Path, Existing),
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
-    whole("--levels", request.levels, 5..=1000)?;
-    whole("--stack", request.stack, 3..=10_000)?;
-    whole("--views", request.views, 3..=200)?;
+    ranges::whole("--levels", request.levels, LEVELS)?;
+    ranges::whole("--stack", request.stack, STACK)?;
+    ranges::whole("--views", request.views, VIEWS)?;
     let camera = declared(request)?;
     let has_frame_period = camera.sensor.electronics.as_ref().is_some_and(|e| e.frame_period_s.is_some());
     let has_isp = camera.isp.is_some();

@@ -7,6 +7,7 @@ use etendue_pipeline::plan::CameraBody;
 use etendue_sensor::layout::Region;
 use etendue_sensor::{FrameAddress, OperatingPoint, Raw, Sensor};
 use std::path::Path;
+use std::str::FromStr;
 
 /// Black and white level of a raw without a side-car, DN.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +16,20 @@ pub struct Levels {
     pub black_dn: f64,
     /// Digital number of a saturated pixel.
     pub white_dn: f64,
+}
+
+/// `BLACK..WHITE`.
+impl FromStr for Levels {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let expected = || format!("expected BLACK..WHITE with BLACK < WHITE, e.g. 64..4095, not '{text}'");
+        let (black, white) = text.split_once("..").ok_or_else(expected)?;
+        let number = |s: &str| s.trim().parse::<f64>().map_err(|_| expected());
+        let (black_dn, white_dn) = (number(black)?, number(white)?);
+        let legal = black_dn >= 0.0 && black_dn < white_dn && white_dn.is_finite();
+        legal.then_some(Self { black_dn, white_dn }).ok_or_else(expected)
+    }
 }
 
 /// A frame that was taken before.
@@ -162,4 +177,16 @@ fn fitting(taken: Taken, body: &CameraBody, sensor: &Sensor) -> Result<Taken, St
         return Err(format!("its picture has {width} × {height} pixels, and the camera file's {} × {}", own.0, own.1));
     }
     Ok(taken)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_are_a_range() {
+        let levels = |text: &str| text.parse::<Levels>();
+        assert_eq!(levels("63.5..4095"), Ok(Levels { black_dn: 63.5, white_dn: 4095.0 }));
+        assert!(["64", "5..5", "-1..5", "0..inf", "a..b"].iter().all(|text| levels(text).is_err()));
+    }
 }

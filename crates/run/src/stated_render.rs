@@ -1,6 +1,6 @@
 //! What a job's file says of rendering, for programs that write a job over it.
 
-use crate::job::JobRequest;
+use crate::job_request::JobRequest;
 use crate::memory::MemoryFiles;
 use etendue_io::failure::Error;
 use etendue_scene::record::render::Accelerator;

@@ -1,6 +1,6 @@
 //! A variations file by itself, and whether a job takes what it changes.
 
-use crate::job::JobRequest;
+use crate::job_request::JobRequest;
 use crate::memory::MemoryFiles;
 use etendue_io::failure::Error;
 use etendue_io::source::read_text;

@@ -2,6 +2,7 @@
 
 use crate::results::metadata;
 use crate::stored_radiance::StoredRadiance;
+use clap::Args;
 use etendue_core::quantity::Variance;
 use etendue_core::{CameraPose, Plane, SpectralCube, TimeInterval};
 use etendue_io::exr::{EncodeError, Lengths, encode_plane, encode_radiance, encode_spectral};
@@ -16,11 +17,13 @@ use etendue_scene::{load_weather, named_files};
 use std::path::{Path, PathBuf};
 
 /// A stored radiance image and what is laid over it.
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct WeatherRequest {
-    /// A spectral radiance image rendered with `route = "pupil"`.
+    /// A spectral radiance image rendered with route = "pupil"
+    #[arg(value_name = "RADIANCE.exr")]
     pub radiance: PathBuf,
-    /// The weather file (TOML).
+    /// The weather file (TOML): fog, rain or snow, and the radiance of the air
+    #[arg(long, value_name = "WEATHER.toml")]
     pub weather: PathBuf,
 }
 

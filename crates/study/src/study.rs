@@ -11,6 +11,7 @@ use crate::plan::share;
 use crate::stint::Stint;
 use crate::trial::Trial;
 use crate::way::{Accelerator, EXACT_BOUNCES, LIGHT_SAMPLINGS, WayToRender};
+use clap::Args;
 use etendue::{
     Error, Existing, Integrator, Job, JobRequest, LightSignal, Observer, Progress, RenderOptions, Simd, Unit,
 };
@@ -32,19 +33,30 @@ const EVEN_SPP: u32 = 64;
 const WORTH: f64 = 0.9;
 
 /// What is studied.
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct Request {
     /// The job, with what is changed in it.
+    #[arg(skip = JobRequest::new(""))]
     pub job: JobRequest,
     /// Which camera; `None`: the first.
+    #[arg(skip)]
     pub camera: Option<String>,
-    /// About how long the study may take, s.
+    /// About how long the study may take, seconds (10 or more): the longer, the surer
+    #[arg(long = "time", value_name = "S", default_value_t = 120.0, value_parser = seconds)]
     pub budget_s: f64,
     /// The instruction set of the accelerator.
+    #[arg(skip)]
     pub simd: Simd,
     /// For changes of a frame: a folder that is not there, in which a chart of edges is photographed for the contrast transfer, and which is removed; `None`: that is not
     /// told.
+    #[arg(skip)]
     pub edges: Option<PathBuf>,
+}
+
+/// Seconds of a study.
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|s: &f64| (10.0..=1e6).contains(s));
+    seconds.ok_or_else(|| format!("expected seconds from 10 to 1000000, not '{text}'"))
 }
 
 /// What a study found.

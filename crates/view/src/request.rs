@@ -1,20 +1,24 @@
 //! What a page is asked to show.
 
+use clap::Args;
+use etendue_arguments::{frames, whole};
 use std::ops::Range;
 use std::path::PathBuf;
 
 /// A result to look at.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Args, Clone, Debug, Eq, PartialEq)]
 pub struct ViewRequest {
-    /// A folder that `render`, `expose`, `develop`, `flat`, `weather` or another verb wrote: files of layers in it and in its folders, one for
-    /// each camera.
+    /// A folder of results: all cameras of a run, or one
+    #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,
-    /// Another result, shown beside it: layers of the same camera, frame and file are compared, and must have the same size.
+    /// Another result, shown side by side, by a wipe, and as the difference; of the same sizes
+    #[arg(long, value_name = "FOLDER")]
     pub beside: Option<PathBuf>,
-    /// Frames of numbered files; `None` for all. Files without a number are always shown.
+    /// Frames to show, first to last (the last excluded) [default: all]
+    #[arg(long, value_name = "A..B", value_parser = frames)]
     pub frames: Option<Range<u32>>,
-    /// What the numbers of a layer take at most before they are packed, MB (10⁶ bytes), at least 1; larger layers have fewer pixels, by a whole
-    /// factor.
+    /// What the numbers of one layer take at most, MB; larger layers have fewer pixels on the page, by a whole factor
+    #[arg(long, value_name = "MB", default_value_t = ViewRequest::MAX_MB, value_parser = whole(1..=1000))]
     pub max_mb: u32,
 }
 

@@ -17,6 +17,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("isp", &["core", "spectra"]),
     ("pipeline", &["core", "stats", "spectra", "projection", "scene", "tracer", "optics", "sensor", "isp"]),
     ("io", &["core", "spectra", "projection", "scene"]),
+    ("arguments", &["scene"]),
     ("import", &["core", "spectra", "scene", "io"]),
     ("charts", &["core", "spectra", "scene"]),
     ("metrology", &["core", "stats", "spectra", "projection"]),
@@ -24,6 +25,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "measurement",
         &[
+            "arguments",
             "core",
             "stats",
             "spectra",
@@ -42,6 +44,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "run",
         &[
+            "arguments",
             "core",
             "spectra",
             "projection",
@@ -57,9 +60,9 @@ const ARROWS: &[(&str, &[&str])] = &[
     ),
     ("etendue", &["core", "tracer", "sensor", "pipeline", "io", "import", "plan-report", "measurement", "run"]),
     ("study", &["core", "stats", "etendue"]),
-    ("dataset", &["core", "scene", "io", "etendue"]),
-    ("view", &["core", "io", "etendue"]),
-    ("cli", &["dataset", "etendue", "optics", "scene", "study", "view"]),
+    ("dataset", &["arguments", "core", "scene", "io", "etendue"]),
+    ("view", &["arguments", "core", "io", "etendue"]),
+    ("cli", &["arguments", "dataset", "etendue", "scene", "study", "view"]),
     ("python", &["core", "etendue", "cli"]),
     ("testkit", &["core", "stats"]),
     ("scenes", &["core"]),
@@ -78,7 +81,7 @@ const KEEPERS: &[(&str, &[&str])] = &[
     ("lz4_flex", &["import"]),
     ("saphyr-parser", &["io"]),
     ("toml", &["scene"]),
-    ("clap", &["cli"]),
+    ("clap", &["arguments", "measurement", "run", "import", "study", "dataset", "view", "cli"]),
     ("clap_complete", &["packaging"]),
     ("clap_mangen", &["packaging"]),
     ("indicatif", &["cli"]),

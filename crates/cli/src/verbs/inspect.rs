@@ -1,9 +1,9 @@
 //! `etendue inspect`: what is in a file, with units; a picture of it.
 
-use crate::args::file_name::png;
 use crate::console::Console;
 use clap::Args;
 use etendue::{Error, Existing, Shown, inspect_showing, write_file};
+use etendue_arguments::png;
 use std::path::{Path, PathBuf};
 
 /// `etendue inspect`

@@ -2,12 +2,12 @@
 
 use crate::args::folder::Output;
 use crate::args::job::JobArgs;
-use crate::args::run::{frames, shard, whole};
 use crate::console::{Console, print_paths};
 use crate::display::{Display, Displaying};
 use crate::machine;
 use clap::Args;
 use etendue::{Error, Existing, JobRequest, RenderOptions, ShardRequest, ShardSpec};
+use etendue_arguments::whole;
 use std::path::Path;
 
 /// `etendue render`
@@ -17,17 +17,15 @@ pub struct Render {
     pub job: JobArgs,
     #[command(flatten)]
     pub output: Output,
-    /// Frames to take, first to last (the last excluded); each has its own sensor noise. Light that does not depend on time is
-    /// rendered once
-    #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
-    pub frames: std::ops::Range<u32>,
+    #[command(flatten)]
+    pub options: RenderOptions,
     /// Go on where a run of the same plan into this folder was interrupted: whole frames of light that depends on time are
     /// kept, and passes of a progressive run; everything else is rendered and replaced
     #[arg(long, conflicts_with_all = ["overwrite", "shard"])]
     pub resume: bool,
     /// As many samples as this time of light allows, s, 10 or more, from the first sample on, all cameras and frames together; the
     /// passes that were done are told and written, and render.passes makes the same bytes again
-    #[arg(long, value_name = "S", conflicts_with_all = ["spp", "noise", "shard"])]
+    #[arg(id = "time_s", long = "time", value_name = "S", conflicts_with_all = ["spp", "noise", "shard"])]
     pub time: Option<f64>,
     /// Refine the picture on disk pass by pass, and keep the state after each: a run that is stopped or killed goes on with --resume, to the
     /// same bytes
@@ -37,10 +35,10 @@ pub struct Render {
     #[arg(long, value_name = "HOST:PORT")]
     pub display: Option<String>,
     /// Worker threads [default: one a processor]. The result does not depend on it
-    #[arg(long, value_name = "N", value_parser = whole(1, 1024))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=1024))]
     pub threads: Option<u32>,
     /// Render only the tiles whose number is I modulo N; join the shards with `etendue merge`
-    #[arg(long, value_name = "I/N", value_parser = shard)]
+    #[arg(long, value_name = "I/N")]
     pub shard: Option<ShardSpec>,
     /// Of a shard only this film, by the name of its file, as front.film.exr or left.0003.0.film.exr (once or several times); `etendue merge`
     /// wants all films of a shard in its folder
@@ -57,10 +55,10 @@ impl Render {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let simd = machine::simd()?;
         let pool = machine::pool(self.threads)?;
-        let request = JobRequest { time_s: self.time, progressive: self.progressive, ..JobRequest::from(&self.job) };
+        let request = JobRequest { time_s: self.time, progressive: self.progressive, ..self.job.request() };
         let request = request.into_output(&self.output.output);
         let job = JobArgs::open_request(console, request, &pool)?;
-        let (folder, frames) = (self.folder(), self.frames.clone());
+        let (folder, frames) = (self.folder(), self.options.frames.clone());
         let display = self.display.as_deref().map(Display::connect).transpose()?;
         let observer = Displaying::new(console.observer(), display);
         let written = pool.install(|| match self.shard {

@@ -2,11 +2,11 @@
 
 use crate::args::folder::Output;
 use crate::args::job::JobArgs;
-use crate::args::run::frames;
 use crate::console::{Console, print_paths};
 use crate::machine;
 use clap::Args;
 use etendue::Error;
+use etendue_arguments::frames;
 
 /// `etendue rig`
 #[derive(Debug, Args)]

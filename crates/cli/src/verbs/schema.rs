@@ -1,9 +1,9 @@
 //! `etendue schema`: the JSON Schema of a file kind.
 
-use crate::args::choice::{Word, choice};
 use crate::console::Console;
 use clap::Args;
 use etendue::Error;
+use etendue_arguments::{Word, choice};
 use etendue_scene::{FileKind, schema};
 
 const KINDS: [Word<FileKind>; 7] = [

@@ -5,7 +5,8 @@ use crate::args::job::JobArgs;
 use crate::console::{Console, print_paths};
 use crate::machine;
 use clap::Args;
-use etendue::{Error, Existing, JobRequest, Observer, OutputFolder};
+use etendue::{Error, Existing, Observer, OutputFolder};
+use etendue_arguments::whole;
 use etendue_study::{
     Clock, Dropped, Request, Varied, ablation, ablation_table, job_file, pictures, plot, study, table, variation_table,
     variations,
@@ -20,11 +21,10 @@ pub struct Tradeoff {
     pub job: JobArgs,
     #[command(flatten)]
     pub output: Output,
-    /// About how long the study may take, seconds (10 or more): the longer, the surer
-    #[arg(long, value_name = "S", default_value_t = 120.0, value_parser = seconds)]
-    pub time: f64,
+    #[command(flatten)]
+    pub request: Request,
     /// Worker threads [default: one a processor]. Times are those of as many
-    #[arg(long, value_name = "N", value_parser = crate::args::run::whole(1, 1024))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=1024))]
     pub threads: Option<u32>,
     /// Leave out one effect of the plan after the other instead, and tell what that changes and saves
     #[arg(long)]
@@ -59,12 +59,6 @@ fn changes(text: &str) -> Result<Changes, String> {
         Some(_) => Err(format!("expected KEY=VALUE, or several with ';' between them, not '{text}'")),
         None => Ok(Changes(changes)),
     }
-}
-
-/// Seconds of a study.
-fn seconds(text: &str) -> Result<f64, String> {
-    let seconds = text.parse().ok().filter(|s: &f64| (10.0..=1e6).contains(s));
-    seconds.ok_or_else(|| format!("expected seconds from 10 to 1000000, not '{text}'"))
 }
 
 /// Seconds since the program asked first, of so many threads.
@@ -112,9 +106,10 @@ impl Tradeoff {
         }
         self.refuse_to_replace()?;
         let mut output = OutputFolder::open(folder, existing).map_err(Error::input)?;
-        let job = JobRequest::from(&self.job).into_output(folder);
+        let job = self.job.request().into_output(folder);
         let edges = self.mtf50.then(|| folder.join("edges"));
-        let request = Request { job, camera: self.job.camera.clone(), budget_s: self.time, simd, edges };
+        let camera = self.job.request.camera.clone();
+        let request = Request { job, camera, simd, edges, ..self.request.clone() };
         let observer = console.observer();
         let findings = pool.install(|| match (self.ablate, self.vary.as_slice()) {
             (true, _) => ablated(&request, observer),
@@ -147,7 +142,7 @@ impl Tradeoff {
                 let problem = "is there already; give another folder, or --overwrite";
                 return Err(Error::input(format!("{}: {problem}", path.display())));
             }
-            if path.canonicalize().ok() == self.job.job.canonicalize().ok() {
+            if path.canonicalize().ok() == self.job.request.job.canonicalize().ok() {
                 let problem = "is the job that is studied, and would be replaced; give another folder";
                 return Err(Error::input(format!("{}: {problem}", path.display())));
             }

@@ -21,6 +21,8 @@ mod spread;
 
 use crate::report::{finite, json_estimate};
 use camera::{CameraFile, Found, camera_file};
+use clap::Args;
+use etendue_arguments::toml;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::Error;
 use etendue_io::paths::relative_path;
@@ -35,11 +37,13 @@ pub use kind::Kind;
 pub use parameter::{Parameter, Part, Unknown};
 
 /// `etendue characterise`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct CharacteriseRequest {
-    /// The laboratory folder
+    /// The laboratory folder: folders dark, flat, field, chart, edges and checker with pictures in them, any of them missing, and laboratory.toml where pictures do not say enough
+    #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,
-    /// A camera file over which the new one is laid: what is not measured is its
+    /// Lay the camera file over this one: what is not measured is its
+    #[arg(long, value_name = "CAMERA.toml", value_parser = toml, display_order = 2)]
     pub base: Option<PathBuf>,
 }
 

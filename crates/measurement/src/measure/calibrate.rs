@@ -2,17 +2,22 @@
 
 use super::views::ViewsRequest;
 use crate::report::Report;
+use clap::Args;
+use etendue_arguments::positive;
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
 
 /// `etendue calibrate`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct CalibrationRequest {
     /// The pictures, the chart and what is known of the camera.
+    #[command(flatten)]
     pub views: ViewsRequest,
     /// Whether the report holds a camera file; needs the pixels' pitch.
+    #[arg(skip)]
     pub camera_keys: bool,
     /// The lens's f-number, for the camera file [default: 4, which is marked as a stand-in]
+    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true, requires = "camera_keys", display_order = 21)]
     pub f_number: Option<f64>,
 }
 

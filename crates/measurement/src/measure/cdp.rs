@@ -1,29 +1,43 @@
 //! `measure cdp`: contrast detection probability of pairs of patches.
 
-use super::clipping::region;
+use super::clipping::region_label;
 use super::picture_input::{PictureInput, refused};
 use super::readings::Readings;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
+use etendue_arguments::region;
 use etendue_charts::design::{ContrastPatches, OecfSteps};
 use etendue_io::failure::Error;
 use etendue_metrology::contrast::{ContrastPair, ContrastSettings, measure_contrast};
 use std::path::PathBuf;
 
 /// `etendue measure cdp`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct CdpRequest {
     /// A picture of grey patches
+    #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
     /// The darker patch of a pair: left column, top row, width, height; once a pair
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
     pub darker: Vec<[usize; 4]>,
     /// The brighter patch of a pair, in the same order
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
     pub brighter: Vec<[usize; 4]>,
     /// The scene's Weber contrast of a pair: brighter over darker luminance, less 1; in the same order
+    #[arg(
+        long,
+        value_name = "K",
+        required_unless_present = "truth",
+        conflicts_with = "truth",
+        allow_negative_numbers = true
+    )]
     pub contrast: Vec<f64>,
     /// How much a measured contrast may differ from the scene's, share
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
     pub tolerance: f64,
     /// Which readings of the picture, what they mean, and the chart's truth.
+    #[command(flatten)]
     pub input: PictureInput,
 }
 
@@ -82,7 +96,7 @@ pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
     report.encoding(&readings.stated);
     for (pair, _) in &found {
         for at in [pair.darker, pair.brighter] {
-            report.note_cut(&region("patch", at), &readings.part(at, "--darker")?, settings.full_scale);
+            report.note_cut(&region_label("patch", at), &readings.part(at, "--darker")?, settings.full_scale);
         }
     }
     left_out.into_iter().for_each(|reason| report.note(format!("left out: patches at {reason}")));

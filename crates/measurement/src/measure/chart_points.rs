@@ -7,6 +7,8 @@ use super::point_list;
 use super::readings::{Readings, Selection};
 use super::truth::points::{CHARTS, PointsTold};
 use super::truth::{Truth, TruthInput};
+use clap::Args;
+use etendue_arguments::{Word, choice, grid, region, size, tile};
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
 use etendue_io::failure::Fault;
@@ -16,27 +18,41 @@ use etendue_metrology::target::{Grid, Sought, Target, TargetError, find};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicUsize;
 
+const TARGETS: [Word<Target>; 2] = [
+    (Target::Checkerboard, "checkerboard", "Squares, dark and bright"),
+    (Target::Dots, "dots", "A square grid of discs"),
+];
+
 /// The chart that is photographed.
-#[derive(Clone, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct ChartInput {
     /// The chart [default: whichever shows more points]
+    #[arg(long, value_parser = choice(TARGETS))]
     pub target: Option<Target>,
     /// Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found]
+    #[arg(long, value_name = "NxM", value_parser = grid)]
     pub grid: Option<[usize; 2]>,
     /// The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic,
     /// or "balanced" for all its pixels with its colours balanced to one grey [default: the luminance]
+    #[arg(long, value_name = "NAME")]
     pub channel: Option<String>,
     /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
+    #[arg(long, value_name = "TILE", value_parser = tile)]
     pub cfa: Option<String>,
     /// How light follows from the numbers.
+    #[command(flatten)]
     pub encoding: EncodingChoice,
     /// Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
     pub region: Option<[usize; 4]>,
     /// Of lists of points (CSV) in place of pictures: columns and rows of the pictures in which they were seen
+    #[arg(long, value_name = "WxH", value_parser = size)]
     pub size_px: Option<[usize; 2]>,
     /// What the chart is and where.
+    #[command(flatten)]
     pub truth: TruthInput,
     /// List every point of the chart in the text, too; JSON has them anyway
+    #[arg(long)]
     pub points: bool,
 }
 

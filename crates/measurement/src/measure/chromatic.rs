@@ -3,6 +3,7 @@
 use super::chart_points::ChartInput;
 use crate::plot::{Axis, Colour, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
 use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use etendue_metrology::chromatic::{Displacement, Ring, displacements, rings, shift};
@@ -10,11 +11,13 @@ use glam::DVec2;
 use std::path::PathBuf;
 
 /// `etendue measure chromatic`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct ChromaticRequest {
     /// A picture in colour of a plane chart that fills the field
+    #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// The chart, and which readings show it.
+    #[command(flatten)]
     pub chart: ChartInput,
 }
 

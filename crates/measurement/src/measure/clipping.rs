@@ -69,7 +69,7 @@ impl Report {
 }
 
 /// Returns the name of a region from its position.
-pub(crate) fn region(kind: &str, [x, y, width, height]: [usize; 4]) -> String {
+pub(crate) fn region_label(kind: &str, [x, y, width, height]: [usize; 4]) -> String {
     format!("{kind} {x},{y},{width},{height}")
 }
 
@@ -98,7 +98,7 @@ mod tests {
     fn a_note_states_the_region_and_its_clipped_fraction() {
         let mut report = Report::new("test", "test");
         let half = Image::from_samples(2, 1, vec![0.0, 9.0]).expect("a row");
-        report.note_cut(&region("trap", [1, 2, 3, 4]), &half, None);
+        report.note_cut(&region_label("trap", [1, 2, 3, 4]), &half, None);
         let expected = "trap 1,2,3,4: 50.0 % of the readings are black, 0 or less: darker values are clipped; the result and its uncertainty do not account for it";
         assert_eq!(report.notes(), [expected]);
     }

@@ -6,6 +6,8 @@ use super::truth::Truth;
 use super::truth::place::Patch;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
+use etendue_arguments::place;
 use etendue_charts::design::ColorChecker;
 use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
@@ -16,16 +18,24 @@ use glam::DVec2;
 use std::path::{Path, PathBuf};
 
 /// `etendue measure colour`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct ColourRequest {
     /// A picture of a ColorChecker of 24 patches, in colour
+    #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
     /// Middles of the four corner patches, raster coordinates, in the chart's order: dark skin, bluish green, black, white
+    #[arg(long, value_name = "X,Y", num_args = 4, value_parser = corner, required_unless_present = "truth", conflicts_with = "truth")]
     pub corners: Vec<DVec2>,
     /// Side of the squares that are read, of the distance of patches
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, conflicts_with = "truth", allow_negative_numbers = true)]
     pub patch: f64,
     /// Which readings of the picture, what they mean, and the chart's truth.
+    #[command(flatten)]
     pub input: PictureInput,
+}
+
+fn corner(text: &str) -> Result<DVec2, String> {
+    place(text).map(DVec2::from)
 }
 
 impl ColourRequest {

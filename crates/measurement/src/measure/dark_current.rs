@@ -4,6 +4,7 @@ use super::ptc::{PtcRequest, measured};
 use super::readings::Selection;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
@@ -12,14 +13,23 @@ use etendue_stats::chi_square;
 use std::path::PathBuf;
 
 /// `etendue measure dark-current`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct DarkCurrentRequest {
     /// Descriptors of photon transfer at several temperatures of the sensor in °C, three or more
+    #[arg(value_name = "CELSIUS:DESCRIPTOR.txt", required = true, value_parser = series)]
     pub series: Vec<(f64, PathBuf)>,
     /// The temperature that the dark current is told at, °C
+    #[arg(long, value_name = "CELSIUS", default_value_t = 25.0, allow_negative_numbers = true)]
     pub reference_c: f64,
     /// Which part and channel of the pictures.
+    #[command(flatten)]
     pub selection: Selection,
+}
+
+/// A temperature and its descriptor.
+fn series(text: &str) -> Result<(f64, PathBuf), String> {
+    let both = text.split_once(':').and_then(|(celsius, file)| Some((celsius.parse().ok()?, PathBuf::from(file))));
+    both.ok_or_else(|| format!("expected CELSIUS:DESCRIPTOR.txt, e.g. 45:warm/list.txt, not '{text}'"))
 }
 
 impl DarkCurrentRequest {

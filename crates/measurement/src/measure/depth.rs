@@ -2,43 +2,63 @@
 
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
+use etendue_arguments::in_range;
 use etendue_io::failure::Error;
 use etendue_io::photograph::{Photograph, read_photograph};
+use etendue_io::ranges;
 use etendue_metrology::depth::{Alignment, DepthErrors, DepthSettings, measure_depth};
 use etendue_metrology::{Estimate, Image};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// The depth channel of this program's ground truth.
 const DEPTH: &str = "depth.Z";
 
+/// Distances from an edge that may count as near, pixels.
+const EDGE_PX: RangeInclusive<u32> = 0..=100;
+
 /// `etendue measure depth`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct DepthRequest {
     /// The estimate: one channel of depth (EXR, PFM, TIFF of floats, PNG of 16 bits …; 0, NaN and infinity are missing)
+    #[arg(value_name = "ESTIMATE")]
     pub estimate: PathBuf,
     /// The truth: a ground-truth EXR, or one channel of depth
+    #[arg(value_name = "TRUTH")]
     pub truth: PathBuf,
     /// The estimate's channel [default: depth.Z, or the only one]
+    #[arg(long, value_name = "NAME")]
     pub estimate_channel: Option<String>,
     /// The truth's channel [default: depth.Z, or the only one]
+    #[arg(long, value_name = "NAME")]
     pub truth_channel: Option<String>,
     /// Metres a number of the estimate, e.g. 0.001 for millimetres
+    #[arg(long, value_name = "M", default_value_t = 1.0, allow_negative_numbers = true)]
     pub estimate_unit_m: f64,
     /// Metres a number of the truth
+    #[arg(long, value_name = "M", default_value_t = 1.0, allow_negative_numbers = true)]
     pub truth_unit_m: f64,
     /// Limits of the ranges, m, e.g. 0,10,30,100
+    #[arg(long, value_name = "M,…", value_delimiter = ',')]
     pub ranges_m: Vec<f64>,
     /// An outlier is off by more than this share of the depth
+    #[arg(long, value_name = "SHARE", default_value_t = 0.05, allow_negative_numbers = true)]
     pub outlier_ratio: f64,
     /// … and by more than this, m
+    #[arg(long, value_name = "M", default_value_t = 0.0, allow_negative_numbers = true)]
     pub outlier_least_m: f64,
     /// A stereo rig's focal length in pixels times its base in metres: tells errors of disparity (D1, EPE) as well
+    #[arg(long, value_name = "PX·M", allow_negative_numbers = true)]
     pub focal_base_px_m: Option<f64>,
     /// What is done to the estimate first: networks may know depth but for a factor
+    #[arg(long, value_enum, default_value_t = DepthAlignment::None)]
     pub align: DepthAlignment,
     /// A jump of the truth by more than this share of the depth is an edge
+    #[arg(long, value_name = "SHARE", default_value_t = 0.1, allow_negative_numbers = true)]
     pub edge_ratio: f64,
     /// Pixels this near to an edge are told apart
+    #[arg(long, value_name = "PX", default_value_t = 2, value_parser = in_range(EDGE_PX))]
     pub edge_px: u32,
 }
 
@@ -64,7 +84,7 @@ impl DepthRequest {
 }
 
 /// What is done to an estimate before.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum DepthAlignment {
     /// Nothing
     None,
@@ -77,6 +97,7 @@ pub enum DepthAlignment {
 /// # Errors
 /// Where the pictures cannot be used or differ in size.
 pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
+    ranges::whole("--edge-px", request.edge_px, EDGE_PX)?;
     for (name, unit) in [("estimate", request.estimate_unit_m), ("truth", request.truth_unit_m)] {
         if !(unit > 0.0 && unit.is_finite()) {
             return Err(Error::input(format!("--{name}-unit-m: expected a number above 0, not {unit}")));

@@ -3,6 +3,8 @@
 use super::chart_points::{ChartInput, Seen};
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
+use clap::Args;
+use etendue_arguments::place;
 use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use etendue_metrology::distortion::{Distortion, LineBow, LocalDistortion, RadialFit, distortion as fitted};
@@ -11,13 +13,16 @@ use glam::DVec2;
 use std::path::PathBuf;
 
 /// `etendue measure distortion`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct DistortionRequest {
     /// A picture of a plane chart that fills the field: many dots, or a checkerboard; or a list of its points (CSV: column, row, x_px, y_px)
+    #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// The chart, and which readings show it.
+    #[command(flatten)]
     pub chart: ChartInput,
     /// The point to which distances are taken, raster coordinates, px [default: the picture's middle]
+    #[arg(long, value_name = "X,Y", value_parser = place)]
     pub centre_px: Option<[f64; 2]>,
 }
 

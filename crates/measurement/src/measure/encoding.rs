@@ -1,5 +1,6 @@
 //! From the numbers of a picture to light: as --encoding says, or the side-car, or the file.
 
+use clap::Args;
 use etendue_io::failure::Error;
 use etendue_io::photograph::{Channel, Encoding, Photograph, Stated, read_photograph};
 use etendue_io::table::read_numbers;
@@ -9,11 +10,21 @@ use etendue_sensor::hdr::companding::Companding;
 use std::path::{Path, PathBuf};
 
 /// What the numbers of a picture are.
-#[derive(Clone, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct EncodingChoice {
     /// How numbers follow from light: linear, srgb, or a table of two columns: light from 0 to 1 and number over full scale, or exposure above 0
     /// and number (a measured OECF) [default: as the side-car or the PNG says, else by the bits]
+    #[arg(id = "encoding", long, value_name = "linear|srgb|FILE.csv", value_parser = chosen)]
     pub chosen: Option<ChosenEncoding>,
+}
+
+fn chosen(text: &str) -> Result<ChosenEncoding, String> {
+    match text {
+        "linear" => Ok(ChosenEncoding::Linear),
+        "srgb" => Ok(ChosenEncoding::Srgb),
+        file if file.to_ascii_lowercase().ends_with(".csv") => Ok(ChosenEncoding::Table(file.into())),
+        _ => Err(format!("expected linear, srgb or a table FILE.csv, not '{text}'")),
+    }
 }
 
 /// A choice of the user's.
@@ -169,6 +180,13 @@ impl ToLight {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn words_and_tables_are_told_apart() {
+        assert_eq!(chosen("srgb"), Ok(ChosenEncoding::Srgb));
+        assert_eq!(chosen("curve.CSV"), Ok(ChosenEncoding::Table("curve.CSV".into())));
+        assert!(chosen("gamma").is_err_and(|told| told.contains("FILE.csv")));
+    }
 
     fn light(stated: Encoding, full_scale: Option<f64>, numbers: &[f32]) -> Vec<f32> {
         let channel = Channel { name: "Y".into(), samples: numbers.to_vec() };

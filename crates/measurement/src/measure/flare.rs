@@ -1,11 +1,13 @@
 //! `measure flare`: light in traps that send none.
 
-use super::clipping::region;
+use super::clipping::region_label;
 use super::picture_input::{PictureInput, refused};
 use super::readings::{Readings, field_position};
 use super::truth::place::TrapPlace;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
+use etendue_arguments::region;
 use etendue_charts::design::Flare;
 use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
@@ -13,15 +15,19 @@ use etendue_metrology::flare::measure_flare;
 use std::path::PathBuf;
 
 /// `etendue measure flare`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct FlareRequest {
     /// A picture of light traps in a white field
+    #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
     /// A part of a light trap: left column, top row, width, height; once a trap
+    #[arg(long = "trap", value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
     pub traps: Vec<[usize; 4]>,
     /// A part of the white field
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
     pub white: Option<[usize; 4]>,
     /// Which readings of the picture, what they mean, and the chart's truth.
+    #[command(flatten)]
     pub input: PictureInput,
 }
 
@@ -55,9 +61,9 @@ pub fn flare(request: &FlareRequest) -> Result<Report, Error> {
     let mut report = report(&places, &found, readings.picture_px);
     report.encoding(&readings.stated);
     for place in &traps {
-        report.note_cut(&region("trap", place.trap), &readings.part(place.trap, "--trap")?, full_scale);
+        report.note_cut(&region_label("trap", place.trap), &readings.part(place.trap, "--trap")?, full_scale);
         for white in &place.whites {
-            report.note_cut(&region("white", *white), &readings.part(*white, "--white")?, full_scale);
+            report.note_cut(&region_label("white", *white), &readings.part(*white, "--white")?, full_scale);
         }
     }
     if let Some(truth) = request.input.truth.read(&CHARTS)?

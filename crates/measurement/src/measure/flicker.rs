@@ -7,6 +7,7 @@ use super::truth::Truth;
 use super::truth::place::Patch;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
 use etendue_charts::design::{Backlit, FlatField, LedFlicker};
 use etendue_io::failure::Error;
 use etendue_metrology::flicker::{Flicker, FlickerTiming, RowBands, measure_flicker};
@@ -14,17 +15,22 @@ use etendue_metrology::{Estimate, Image};
 use std::path::{Path, PathBuf};
 
 /// `etendue measure flicker`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct FlickerRequest {
     /// Frames of a sequence in their order, or one of a rolling shutter
+    #[arg(value_name = "FRAME", required = true)]
     pub frames: Vec<PathBuf>,
     /// Time from one row of the file to the next, µs, of a rolling shutter [default: the side-car's, or all rows are exposed together]
+    #[arg(long, value_name = "US", allow_negative_numbers = true)]
     pub row_time_us: Option<f64>,
     /// Frames a second [default: the side-car's, or not known; each frame is measured by itself]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub frame_rate_hz: Option<f64>,
     /// Exposure of a row, µs: tells the light's own modulation and the duty of its pulses [default: the side-car's, or not known]
+    #[arg(long, value_name = "US", allow_negative_numbers = true)]
     pub exposure_us: Option<f64>,
     /// Which readings of the picture, what they mean, and the chart's truth.
+    #[command(flatten)]
     pub input: PictureInput,
 }
 

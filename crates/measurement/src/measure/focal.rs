@@ -2,6 +2,7 @@
 
 use super::views::{Found, ViewsRequest};
 use crate::report::Report;
+use clap::Args;
 use etendue_core::maths::f64::acos;
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
@@ -10,11 +11,13 @@ use etendue_metrology::calibrate::Options;
 use etendue_projection::Calibration;
 
 /// `etendue measure focal`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct FocalRequest {
     /// The pictures, the chart and what is known of the camera.
+    #[command(flatten)]
     pub views: ViewsRequest,
     /// Whether the report holds what was found as keys of a camera file.
+    #[arg(skip)]
     pub camera_keys: bool,
 }
 

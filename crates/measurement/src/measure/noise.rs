@@ -7,6 +7,7 @@ use super::truth::Truth;
 use super::truth::place::Patch;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
 use etendue_charts::design::{Backlit, ContrastPatches, FlatField, OecfSteps};
 use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
@@ -15,11 +16,13 @@ use etendue_metrology::photon_transfer::Stack;
 use std::path::{Path, PathBuf};
 
 /// `etendue measure noise`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct NoiseRequest {
     /// Eight or more frames of one even surface, or of a chart with --truth
+    #[arg(value_name = "FRAME", required = true)]
     pub frames: Vec<PathBuf>,
     /// Which readings of the picture, what they mean, and the chart's truth.
+    #[command(flatten)]
     pub input: PictureInput,
 }
 

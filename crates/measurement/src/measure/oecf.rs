@@ -6,6 +6,7 @@ use super::readings::{Readings, SignalLevels};
 use super::truth::Truth;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
 use etendue_charts::design::{Backlit, FlatField, OecfSteps};
 use etendue_io::failure::Error;
 use etendue_io::photograph::{Encoding, Stated};
@@ -15,19 +16,25 @@ use etendue_metrology::{Estimate, Image};
 use std::path::{Path, PathBuf};
 
 /// `etendue measure oecf`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct OecfRequest {
     /// Pictures of one even surface, one an exposure; with --steps, or the --truth of a chart of steps, one picture
+    #[arg(value_name = "PICTURE", required = true)]
     pub pictures: Vec<PathBuf>,
     /// Exposure of each picture in their order, any unit [default: the side-cars' exposure_s]
+    #[arg(long, value_name = "H,…", value_delimiter = ',', conflicts_with_all = ["steps", "truth"], allow_negative_numbers = true)]
     pub exposures: Vec<f64>,
     /// A table of steps in the picture: x, y, width, height, luminance; one step a line, # for comments
+    #[arg(long, value_name = "STEPS.csv", conflicts_with = "truth")]
     pub steps: Option<PathBuf>,
     /// Find the camera's response from pictures of one scene (not even) at exposures known relatively
+    #[arg(long, conflicts_with_all = ["steps", "truth"])]
     pub response: bool,
     /// With --response: find the ratios of the exposures too
+    #[arg(long, requires = "response")]
     pub refine: bool,
     /// Which readings of the picture, what they mean, and the chart's truth.
+    #[command(flatten)]
     pub input: PictureInput,
 }
 

@@ -2,19 +2,23 @@
 
 use super::readings::{Readings, Selection, SignalLevels};
 use super::truth::{Truth, TruthInput};
+use clap::Args;
 use etendue_io::failure::Error;
 use etendue_io::failure::Fault;
 use std::fmt::Display;
 use std::path::Path;
 
 /// Which readings of a picture are measured, what they mean, and where the chart lies in them.
-#[derive(Clone, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct PictureInput {
     /// Which part and channel.
+    #[command(flatten)]
     pub selection: Selection,
     /// What the numbers mean, where the file does not say.
+    #[command(flatten)]
     pub levels: SignalLevels,
     /// What the chart is and where.
+    #[command(flatten)]
     pub truth: TruthInput,
 }
 

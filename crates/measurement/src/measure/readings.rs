@@ -2,6 +2,8 @@
 
 use super::balanced_mosaic::balanced_mosaic;
 use super::encoding::{EncodingChoice, ToLight};
+use clap::Args;
+use etendue_arguments::{region, tile};
 use etendue_io::failure::Error;
 use etendue_io::photograph::{FilterTile, Photograph, Stated};
 use etendue_metrology::Image;
@@ -12,16 +14,20 @@ use std::path::Path;
 pub(crate) const BALANCED: &str = "balanced";
 
 /// Choice of a part of a picture.
-#[derive(Clone, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct Selection {
     /// The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only
     /// one, or the luminance]
+    #[arg(long, value_name = "NAME")]
     pub channel: Option<String>,
     /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
+    #[arg(long, value_name = "TILE", value_parser = tile)]
     pub cfa: Option<String>,
     /// Measure this part only: left column, top row, width and height, pixels of the file
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
     pub region: Option<[usize; 4]>,
     /// How light follows from the numbers.
+    #[command(flatten)]
     pub encoding: EncodingChoice,
 }
 
@@ -376,11 +382,13 @@ fn no_channel(file: &Path, name: &str, names: &[&str]) -> Error {
 }
 
 /// What a picture's numbers mean, where the file does not say.
-#[derive(Clone, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct SignalLevels {
     /// The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0]
+    #[arg(long, value_name = "READING", allow_negative_numbers = true)]
     pub black: Option<f64>,
     /// The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold]
+    #[arg(long, value_name = "READING", allow_negative_numbers = true)]
     pub full_scale: Option<f64>,
 }
 

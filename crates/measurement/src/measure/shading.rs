@@ -4,6 +4,8 @@ use super::picture_input::{PictureInput, refused};
 use super::readings::Readings;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
+use etendue_arguments::{in_range, point};
 use etendue_charts::design::{Backlit, FlatField};
 use etendue_io::failure::Error;
 use etendue_io::ranges::whole;
@@ -11,18 +13,23 @@ use etendue_metrology::Estimate;
 use etendue_metrology::shading::{
     ColourShading, Shading, ShadingError, ShadingSettings, colour_shading, measure_shading,
 };
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// A picture of an evenly lit surface, and about which centre.
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct FlatFieldRequest {
     /// A picture of an evenly lit surface
+    #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
     /// Centre of the fall-off, raster coordinates [default: the picture's]
+    #[arg(long, value_name = "X,Y", value_parser = point)]
     pub centre_px: Option<(f64, f64)>,
     /// Rings of the profile over the radial field position
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = in_range(RINGS))]
     pub rings: u32,
     /// Which readings of the picture, what they mean, and the chart's truth.
+    #[command(flatten)]
     pub input: PictureInput,
 }
 
@@ -34,13 +41,16 @@ impl FlatFieldRequest {
 }
 
 /// `etendue measure vignetting`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct VignettingRequest {
     /// The picture and its rings.
+    #[command(flatten)]
     pub flat: FlatFieldRequest,
     /// Whether the report holds what was found as keys of a camera file.
+    #[arg(skip)]
     pub camera_keys: bool,
     /// The pixels' pitch, µm, for --camera-out
+    #[arg(long, value_name = "UM", allow_negative_numbers = true, requires = "camera_keys", display_order = 16)]
     pub pixel_pitch_um: Option<f64>,
 }
 
@@ -52,23 +62,29 @@ impl VignettingRequest {
 }
 
 /// `etendue measure shading`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct ShadingRequest {
     /// The picture and its rings.
+    #[command(flatten)]
     pub flat: FlatFieldRequest,
     /// Blocks of the map along each side, an odd number
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_BLOCKS, value_parser = in_range(BLOCKS), display_order = 14)]
     pub blocks: u32,
 }
 
 impl ShadingRequest {
     /// The same as the program without options.
     pub fn new(flat: FlatFieldRequest) -> Self {
-        Self { flat, blocks: 11 }
+        Self { flat, blocks: DEFAULT_BLOCKS }
     }
 }
 
 /// Blocks of the map along each side (ISO 17957).
-const BLOCKS: u32 = 11;
+const DEFAULT_BLOCKS: u32 = 11;
+/// As many as a map may have.
+const BLOCKS: RangeInclusive<u32> = 1..=501;
+/// As many rings as a profile may have.
+const RINGS: RangeInclusive<u32> = 4..=1000;
 /// Charts of one even surface.
 const CHARTS: [&str; 2] = [FlatField::NAME, Backlit::NAME];
 
@@ -94,8 +110,8 @@ impl FlatFieldRequest {
     }
 
     fn measured(&self, blocks: u32, report: &mut Report) -> Result<(Shading, (f64, f64)), Error> {
-        whole("--rings", self.rings, 4..=1000)?;
-        whole("--blocks", blocks, 1..=501)?;
+        whole("--rings", self.rings, RINGS)?;
+        whole("--blocks", blocks, BLOCKS)?;
         let readings = self.input.linear(&self.picture)?;
         readings.independent(&self.picture, 1)?;
         self.check(&readings)?;
@@ -158,7 +174,7 @@ pub(crate) fn falloff(request: &VignettingRequest) -> Result<(Report, Shading, (
         "vignetting",
         "relative illumination of a flat field over the radial field position (± one standard uncertainty)",
     );
-    let (shading, size) = request.flat.measured(BLOCKS, &mut report)?;
+    let (shading, size) = request.flat.measured(DEFAULT_BLOCKS, &mut report)?;
     report.figure("centre", "reading of the centre, less black", "", shading.centre);
     report.figure("corner_percent", "illumination of the corner", "%", shading.corner.scaled(100.0));
     let labels = [("a2", "a₂ of 1 + a₂ r² + a₄ r⁴ + a₆ r⁶ + a₈ r⁸"), ("a4", "a₄"), ("a6", "a₆"), ("a8", "a₈")];

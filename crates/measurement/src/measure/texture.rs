@@ -5,6 +5,8 @@ use super::picture_input::{PictureInput, refused};
 use super::readings::{Readings, Selection};
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
+use etendue_arguments::point;
 use etendue_charts::design::{DeadLeaves, SiemensStar};
 use etendue_io::failure::Error;
 use etendue_io::photograph::Stated;
@@ -14,19 +16,25 @@ use etendue_metrology::{Estimate, Image};
 use std::path::{Path, PathBuf};
 
 /// `etendue measure star`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct StarRequest {
     /// A picture of a Siemens star
+    #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
     /// The star's centre, raster coordinates, within two pixels
+    #[arg(long, value_name = "X,Y", value_parser = point, required_unless_present = "truth", conflicts_with = "truth")]
     pub centre_px: Option<(f64, f64)>,
     /// Cycles of dark and bright all round
+    #[arg(long, value_name = "N", required_unless_present = "truth", conflicts_with = "truth")]
     pub cycles: Option<u32>,
     /// The smallest circle, px [with --truth: where the star has half a cycle a pixel, or begins]
+    #[arg(long, value_name = "PX", required_unless_present = "truth", allow_negative_numbers = true)]
     pub inner_px: Option<f64>,
     /// The largest circle, px: the response is 1 there [with --truth: a little within the star's rim]
+    #[arg(long, value_name = "PX", required_unless_present = "truth", allow_negative_numbers = true)]
     pub outer_px: Option<f64>,
     /// Which readings of the picture, what they mean, and the chart's truth.
+    #[command(flatten)]
     pub input: PictureInput,
 }
 
@@ -45,15 +53,19 @@ impl StarRequest {
 }
 
 /// `etendue measure texture`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct TextureRequest {
     /// A picture of a texture such as dead leaves
+    #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
     /// The texture itself at the same place, pixel by pixel: a sharp render without noise (radiance.exr of --set output.radiance=true)
+    #[arg(value_name = "REFERENCE")]
     pub reference: PathBuf,
     /// A picture of an even surface of the same brightness, for the noise
+    #[arg(long, value_name = "PICTURE")]
     pub even: Option<PathBuf>,
     /// Which readings of the picture, what they mean, and the chart's truth.
+    #[command(flatten)]
     pub input: PictureInput,
 }
 

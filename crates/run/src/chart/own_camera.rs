@@ -2,7 +2,7 @@
 
 use super::camera::ChartCamera;
 use super::{ChartRequest, make};
-use crate::job::JobRequest;
+use crate::job_request::JobRequest;
 use crate::memory::MemoryFiles;
 use crate::named_file::write_file;
 use crate::render_options::RenderOptions;

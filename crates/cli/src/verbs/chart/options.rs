@@ -1,13 +1,13 @@
 //! Options that charts share.
 
-use crate::args::choice::{Word, choice};
 use crate::args::folder::Output;
-use crate::args::run::seed;
 use crate::console::{Console, print_paths};
 use clap::Args;
 use etendue::Error;
 use etendue::chart::design::GridSize;
 use etendue::chart::{self, Chart, ChartError, ChartRequest, Exposures, Spacing};
+use etendue_arguments::seed;
+use etendue_arguments::{Word, choice};
 
 /// What all charts have in common.
 #[derive(Debug, Args)]

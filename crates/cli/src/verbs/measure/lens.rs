@@ -1,6 +1,5 @@
 //! `etendue measure lens`.
 
-use crate::args::run::whole;
 use crate::console::Console;
 use clap::Args;
 use etendue::Error;
@@ -9,27 +8,8 @@ use etendue::measure::{self, LensRequest};
 /// `etendue measure lens`
 #[derive(Debug, Args)]
 pub struct LensArgs {
-    /// A camera file (TOML), a lens of Zemax (.zmx) or CODE V (.seq), or the name of a published lens (double-gauss,
-    /// wide-angle, fisheye, telephoto)
-    #[arg(value_name = "FILE")]
-    pub lens: String,
-    /// Change a key of the camera, e.g. --set lens.f_number=4
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
-    /// The f-number at infinity focus, in place of the camera's or the lens file's
-    #[arg(long, value_name = "N")]
-    pub f_number: Option<f64>,
-    /// How many field heights, from the axis to the picture's edge
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = whole(2, 1000))]
-    pub fields: u32,
-    /// For a lens without a sensor: how far the picture reaches from the axis, mm [default: the largest field that a lens
-    /// file states, otherwise 21.64; or as far as there is light]
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
-    pub picture_radius_mm: Option<f64>,
-    /// The wavelength of the first-order figures of a prescription, nm [default: the primary wavelength of a lens file, otherwise
-    /// 587.56]; fields stay at 587.56 nm
-    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
-    pub wavelength_nm: Option<f64>,
+    #[command(flatten)]
+    pub request: LensRequest,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -37,24 +17,11 @@ pub struct LensArgs {
 
 impl LensArgs {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
-        let found = measure::lens(&self.into())?;
+        let found = measure::lens(&self.request)?;
         match self.json {
             true => console.print_json(&format!("{:#}\n", found.json())),
             false => console.print(&found.text()),
         }
         Ok(())
-    }
-}
-
-impl From<&LensArgs> for LensRequest {
-    fn from(a: &LensArgs) -> Self {
-        Self {
-            lens: a.lens.clone(),
-            set: a.set.clone(),
-            f_number: a.f_number,
-            fields: a.fields,
-            picture_radius_mm: a.picture_radius_mm,
-            wavelength_nm: a.wavelength_nm,
-        }
     }
 }

@@ -1,37 +1,20 @@
-//! `etendue measure`: the closed list of measurements, one kind a file.
+//! `etendue measure`: the closed list of measurements.
 
-mod cdp;
-mod chart_points;
-mod chromatic;
-mod colour;
 mod compare;
-mod dark_current;
-mod depth;
-mod distortion;
-mod encoding;
-mod flare;
-mod flicker;
-mod focal;
 mod lens;
-mod noise;
-mod oecf;
-mod picture;
-mod ptc;
 pub mod report;
-mod selection;
-mod sfr;
-mod shading;
-mod texture;
-mod truth;
-pub mod views;
 
 use crate::console::Console;
 use crate::machine;
 use crate::subcommands::subcommands;
-use etendue::Error;
+use clap::Args;
+use etendue::measure::*;
+use etendue::report::Report;
+use etendue::{Error, Observer, measure};
+use report::{CameraOut, ReportArgs};
 
 /// `etendue measure`
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Args)]
 pub struct Measure {
     #[command(subcommand)]
     pub measurement: Measurement,
@@ -51,40 +34,117 @@ subcommands! {
     Lens(lens::LensArgs),
     /// Distortion from one picture of a plane chart, without a model: the curve over the field, line distortion, k1 and k2 (ISO
     /// 17850)
-    Distortion(distortion::DistortionArgs),
+    Distortion(ShownOrStored<DistortionRequest>),
     /// Focal length and principal point, from one picture of a chart at a known distance or from several
-    Focal(focal::FocalArgs),
+    #[command(
+        after_help = "One picture needs --distance-mm; its principal point is taken for the picture's middle unless --principal-px \
+        says otherwise. What is told is the principal distance (camera constant): the focal length for a lens focused at infinity; at \
+        a distance D it is longer, f D/(D − f)."
+    )]
+    Focal(ShownOrStored<FocalRequest>),
     /// Lateral chromatic displacement of red and blue against green (ISO 19084)
-    Chromatic(chromatic::ChromaticArgs),
+    Chromatic(Shown<ChromaticRequest>),
     /// Photon transfer after EMVA 1288: gain, quantum efficiency, dark noise, saturation, linearity, DSNU, PRNU
-    Ptc(ptc::PtcArgs),
+    Ptc(ShownOrStored<PtcRequest>),
     /// Slanted edges: the spatial frequency response with MTF50 and MTF10 (ISO 12233)
-    Sfr(sfr::SfrArgs),
+    Sfr(Shown<SfrRequest>),
     /// The tone curve from a series of exposures or from steps, with linearity and dynamic range (ISO 14524); the camera's
     /// response from a scene at exposures known relatively
-    Oecf(oecf::OecfArgs),
+    Oecf(Shown<OecfRequest>),
     /// A flat field's fall-off over the radial field position
-    Vignetting(shading::VignettingArgs),
+    Vignetting(ShownOrStored<VignettingRequest>),
     /// A flat field's fall-off as a map, and its colour shading (ISO 17957)
-    Shading(shading::ShadingArgs),
+    Shading(Shown<ShadingRequest>),
     /// Temporal and fixed-pattern noise of an even surface (ISO 15739)
-    Noise(noise::NoiseArgs),
+    Noise(Shown<NoiseRequest>),
     /// Light in traps that send none (ISO 18844)
-    Flare(flare::FlareArgs),
+    Flare(Shown<FlareRequest>),
     /// Light that goes up and down: frequency, modulation over rows and frames, duty of pulses (IEEE P2020)
-    Flicker(flicker::FlickerArgs),
+    Flicker(Shown<FlickerRequest>),
     /// Colours of a ColorChecker after a fitted matrix, CIEDE2000
-    Colour(colour::ColourArgs),
+    Colour(Shown<ColourRequest>),
     /// Contrast detection probability of pairs of patches (IEEE P2020)
-    Cdp(cdp::CdpArgs),
+    Cdp(Shown<CdpRequest>),
     /// An estimated depth picture against the truth: bias, error and outliers by range, edges apart
-    Depth(depth::DepthArgs),
+    Depth(Shown<DepthRequest>),
     /// The dark current's growth with temperature, by three laws
-    DarkCurrent(dark_current::DarkCurrentArgs),
+    DarkCurrent(Shown<DarkCurrentRequest>),
     /// A Siemens star: response over frequency (ISO 12233)
-    Star(texture::StarArgs),
+    Star(Shown<StarRequest>),
     /// Texture such as dead leaves against its reference: response, invented structure, coherence
-    Texture(texture::TextureArgs),
+    Texture(Shown<TextureRequest>),
     /// Two cameras' measurements side by side, or a camera file against what was measured; exit status 1 where they differ
     Compare(compare::CompareArgs),
+}
+
+/// A request that is answered by a report.
+pub trait Measured: Args {
+    /// Measures; with `camera_keys` the report holds what was found as keys of a camera file.
+    fn measure(&self, camera_keys: bool, observer: &dyn Observer) -> Result<Report, Error>;
+}
+
+/// Requests and the functions that answer them.
+macro_rules! measured {
+    ($($Request:ident: $measure:expr,)*) => {
+        $(impl Measured for $Request {
+            fn measure(&self, camera_keys: bool, observer: &dyn Observer) -> Result<Report, Error> {
+                let measure: fn(&Self, bool, &dyn Observer) -> Result<Report, Error> = $measure;
+                measure(self, camera_keys, observer)
+            }
+        })*
+    };
+}
+
+measured! {
+    CdpRequest: |request, _, _| measure::cdp(request),
+    ChromaticRequest: |request, _, _| measure::chromatic(request),
+    ColourRequest: |request, _, _| measure::colour(request),
+    DarkCurrentRequest: |request, _, observer| measure::dark_current(request, observer),
+    DepthRequest: |request, _, _| measure::depth_errors(request),
+    DistortionRequest: |request, _, _| measure::distortion(request),
+    FlareRequest: |request, _, _| measure::flare(request),
+    FlickerRequest: |request, _, _| measure::flicker(request),
+    FocalRequest: |request, camera_keys, observer| measure::focal(&FocalRequest { camera_keys, ..request.clone() }, observer),
+    NoiseRequest: |request, _, _| measure::noise(request),
+    OecfRequest: |request, _, _| measure::oecf(request),
+    PtcRequest: |request, _, observer| measure::ptc(request, observer),
+    SfrRequest: |request, _, _| measure::sfr(request),
+    ShadingRequest: |request, _, _| measure::shading(request),
+    StarRequest: |request, _, _| measure::star(request),
+    TextureRequest: |request, _, _| measure::texture(request),
+    VignettingRequest: |request, camera_keys, _| measure::vignetting(&VignettingRequest { camera_keys, ..request.clone() }),
+}
+
+/// A measurement and how its report is shown.
+#[derive(Debug, Args)]
+pub struct Shown<R: Measured> {
+    #[command(flatten)]
+    request: R,
+    #[command(flatten)]
+    report: ReportArgs,
+}
+
+impl<R: Measured> Shown<R> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        self.report.show(console, &self.request.measure(false, console.observer())?)
+    }
+}
+
+/// A measurement of what a camera file states.
+#[derive(Debug, Args)]
+pub struct ShownOrStored<R: Measured> {
+    #[command(flatten)]
+    request: R,
+    #[command(flatten)]
+    report: ReportArgs,
+    #[command(flatten)]
+    out: CameraOut,
+}
+
+impl<R: Measured> ShownOrStored<R> {
+    pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
+        let report = self.request.measure(self.out.camera_out.is_some(), console.observer())?;
+        self.out.write(&report)?;
+        self.report.show(console, &report)
+    }
 }

@@ -1,11 +1,11 @@
 //! How a report is printed, and what is written of it.
 
-use crate::args::file_name::{html, svg, toml};
 use crate::console::Console;
 use clap::Args;
 use etendue::page::report_page;
 use etendue::report::Report;
 use etendue::{Error, Existing, write_file};
+use etendue_arguments::{html, svg, toml};
 use std::path::PathBuf;
 
 /// How results are printed.
@@ -43,10 +43,10 @@ impl ReportArgs {
 #[derive(Debug, Default, Args)]
 pub struct CameraOut {
     /// Write what was found as keys of a camera file
-    #[arg(long, value_name = "CAMERA.toml", value_parser = toml)]
+    #[arg(id = "camera_keys", long = "camera-out", value_name = "CAMERA.toml", value_parser = toml)]
     pub camera_out: Option<PathBuf>,
     /// Replace a camera file that is already there
-    #[arg(long, requires = "camera_out")]
+    #[arg(long, requires = "camera_keys")]
     pub overwrite: bool,
 }
 

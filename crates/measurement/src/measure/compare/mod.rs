@@ -17,7 +17,9 @@ mod tone;
 
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use clap::Args;
 use curve::{Curve, Gap, gaps, limit};
+use etendue_arguments::positive;
 use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use light::Light;
@@ -27,17 +29,22 @@ use sides::sides;
 use std::path::PathBuf;
 
 /// `etendue measure compare`
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct CompareRequest {
     /// A measurement (what --json printed), or the camera file (TOML) that was measured
+    #[arg(value_name = "A")]
     pub a: PathBuf,
     /// The same of the other; relative errors are against this one
+    #[arg(value_name = "B")]
     pub b: PathBuf,
     /// Where a camera file is compared with photon transfer: the light's wavelength, for the quantum efficiency
+    #[arg(long, value_name = "NM", value_parser = positive)]
     pub wavelength_nm: Option<f64>,
     /// Where a camera file is compared with the response of edges or a tone curve: the light's spectrum [default: D65]
+    #[arg(long, value_name = "NAME")]
     pub illuminant: Option<String>,
     /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002
+    #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }
 

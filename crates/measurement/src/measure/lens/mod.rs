@@ -30,7 +30,7 @@ pub struct LensMeasurement {
 /// # Errors
 /// Where the camera or lens file cannot be used.
 pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
-    whole("--fields", request.fields, 2..=1000)?;
+    whole("--fields", request.fields, request::FIELDS)?;
     let wavelength_nm = request.wavelength_nm;
     if let Some(nm) = wavelength_nm {
         number("--wavelength-nm", nm, SHORTEST_NM..=MAX_NM, "nm")?;

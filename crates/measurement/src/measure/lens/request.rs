@@ -1,21 +1,35 @@
 //! What is asked of a lens.
 
+use clap::Args;
+use etendue_arguments::whole;
+use std::ops::RangeInclusive;
+
+/// How many field heights may be measured.
+pub(super) const FIELDS: RangeInclusive<u32> = 2..=1000;
+
 /// A lens and where it is measured.
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct LensRequest {
-    /// A camera file (TOML), a lens of Zemax (.zmx) or CODE V (.seq), or the name of a published lens (double-gauss, wide-angle, fisheye,
-    /// telephoto).
+    /// A camera file (TOML), a lens of Zemax (.zmx) or CODE V (.seq), or the name of a published lens (double-gauss,
+    /// wide-angle, fisheye, telephoto)
+    #[arg(value_name = "FILE")]
     pub lens: String,
-    /// Changes of the camera's keys, `key=value`.
+    /// Change a key of the camera, e.g. --set lens.f_number=4
+    #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// The f-number at infinity focus; `None`: the camera's or the lens file's.
+    /// The f-number at infinity focus, in place of the camera's or the lens file's
+    #[arg(long, value_name = "N")]
     pub f_number: Option<f64>,
-    /// How many field heights, from the axis to the picture's edge, 2 or more.
+    /// How many field heights, from the axis to the picture's edge
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = whole(FIELDS))]
     pub fields: u32,
-    /// For a lens without a sensor: how far the picture reaches from the axis, mm; `None`: the largest field that a lens file states, otherwise
-    /// 21.64; or as far as there is light.
+    /// For a lens without a sensor: how far the picture reaches from the axis, mm [default: the largest field that a lens
+    /// file states, otherwise 21.64; or as far as there is light]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub picture_radius_mm: Option<f64>,
-    /// The wavelength of the first-order figures of a prescription, nm, 300 to 1100; `None`: the primary wavelength of the lens file, otherwise 587.56.
+    /// The wavelength of the first-order figures of a prescription, nm [default: the primary wavelength of a lens file, otherwise
+    /// 587.56]; fields stay at 587.56 nm
+    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
     pub wavelength_nm: Option<f64>,
 }
 

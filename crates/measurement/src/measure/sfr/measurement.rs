@@ -3,8 +3,8 @@
 use super::found::Found;
 use super::refusal::failure;
 use super::report::report;
-use super::request::SfrRequest;
-use crate::measure::clipping::region;
+use super::request::{EDGE_DEGREES, SHADING_DEGREES, SfrRequest};
+use crate::measure::clipping::region_label;
 use crate::measure::picture_input::refused;
 use crate::measure::readings::{Readings, field_position};
 use crate::measure::truth::Truth;
@@ -29,8 +29,8 @@ pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
 /// The same with the responses themselves.
 pub(crate) fn responses(request: &SfrRequest) -> Result<(Report, Vec<Sfr>), Error> {
     request.input.check_without_black()?;
-    whole("--edge-degree", request.edge_degree, 1..=5)?;
-    whole("--shading-degree", request.shading_degree, 0..=2)?;
+    whole("--edge-degree", request.edge_degree, EDGE_DEGREES)?;
+    whole("--shading-degree", request.shading_degree, SHADING_DEGREES)?;
     positive("--pixel-pitch-um", request.pixel_pitch_um)?;
     positive("--pixels-per-degree", Some(request.pixels_per_degree))?;
     let readings = request.input.linear(&request.picture)?;
@@ -60,7 +60,7 @@ pub(crate) fn responses(request: &SfrRequest) -> Result<(Report, Vec<Sfr>), Erro
     let mut report = report(request, &found, &left_out, &readings);
     let full_scale = request.input.levels.full_scale(&readings);
     for one in found.iter().filter(|one| one.sought.spoke.is_none()) {
-        report.note_cut(&region("edge", one.sought.at), &readings.part(one.sought.at, "--edge")?, full_scale);
+        report.note_cut(&region_label("edge", one.sought.at), &readings.part(one.sought.at, "--edge")?, full_scale);
     }
     Ok((report, found.into_iter().map(|one| one.sfr).collect()))
 }

@@ -7,6 +7,7 @@ pub(crate) mod points;
 mod truth_file;
 
 use super::readings::{Readings, pixels};
+use clap::Args;
 use etendue_core::maths::f64::sin;
 use etendue_io::failure::Error;
 use etendue_metrology::sfr::Strip;
@@ -16,11 +17,13 @@ use std::path::{Path, PathBuf};
 use truth_file::{CameraSaid, FeatureSaid, Said};
 
 /// Where the chart's truth lies.
-#[derive(Clone, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct TruthInput {
     /// The truth.json of `etendue chart`, which says what is in the picture and where
+    #[arg(long, value_name = "truth.json", conflicts_with = "region")]
     pub truth: Option<PathBuf>,
     /// With --truth: the camera that took the picture [default: the first]
+    #[arg(long, value_name = "NAME", requires = "truth")]
     pub camera: Option<String>,
 }
 

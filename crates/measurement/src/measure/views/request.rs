@@ -2,6 +2,8 @@
 
 use super::stated::StatedLength;
 use crate::measure::chart_points::ChartInput;
+use clap::Args;
+use etendue_arguments::{choice, not_negative, place, positive};
 use etendue_io::failure::Error;
 use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::{CameraModel, Options};
@@ -9,27 +11,37 @@ use glam::DVec2;
 use std::path::PathBuf;
 
 /// The pictures, the chart and what is known of the camera.
-#[derive(Clone, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct ViewsRequest {
     /// Pictures of the chart by one camera, or lists of its points (CSV: column, row, x_px, y_px): turned by 20° to 45° about different axes, filling the field together
+    #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
     /// The chart, and which readings show it.
+    #[command(flatten)]
     pub chart: ChartInput,
     /// The distance of neighbouring points of the chart, mm [with --truth: as it says]
+    #[arg(long, value_name = "MM", value_parser = positive, allow_negative_numbers = true, required_unless_present = "truth")]
     pub pitch_mm: Option<f64>,
     /// The camera model
+    #[arg(long, value_parser = choice(CameraModel::ALL.iter().map(|m| (*m, m.name(), m.about()))), default_value = CameraModel::Opencv.name())]
     pub model: CameraModel,
     /// Pixels are square: one focal length for columns and rows
+    #[arg(long)]
     pub square_pixels: bool,
     /// The principal point is known, raster coordinates, px
+    #[arg(long, value_name = "X,Y", value_parser = place)]
     pub principal_px: Option<[f64; 2]>,
     /// The distance from the entrance pupil to the chart's plane, mm, the same in every picture
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub distance_mm: Option<StatedLength>,
     /// Its standard uncertainty, mm; 0 where it is exact [default: of rounding to its last digit]
+    #[arg(long, value_name = "MM", value_parser = not_negative, allow_negative_numbers = true, requires = "distance_mm")]
     pub distance_uncertainty_mm: Option<f64>,
     /// The distance of neighbouring pixels of the sensor, µm: then focal lengths are told in mm as well
+    #[arg(long, value_name = "UM", value_parser = positive, allow_negative_numbers = true)]
     pub pixel_pitch_um: Option<f64>,
     /// Points far from the fit count less (Huber)
+    #[arg(long)]
     pub robust: bool,
 }
 

@@ -1,8 +1,8 @@
-//! The words of `--depth-of-field`.
+//! The words of a method of depth of field.
 
 use etendue_optics::{DepthOfField, FastBlend, FastParameters};
 
-pub fn depth_of_field(text: &str) -> Result<DepthOfField, String> {
+pub(crate) fn parsed(text: &str) -> Result<DepthOfField, String> {
     match text.split_once(':') {
         None if text == "physical" => Ok(DepthOfField::Physical),
         None if text == "none" => Ok(DepthOfField::None),
@@ -44,9 +44,9 @@ mod tests {
 
     #[test]
     fn depth_of_field_is_a_word_or_a_look_with_numbers() {
-        assert_eq!(depth_of_field("physical"), Ok(DepthOfField::Physical));
-        assert_eq!(depth_of_field("none"), Ok(DepthOfField::None));
-        let look = depth_of_field("fast:blur_px=8,far_m=10..40");
+        assert_eq!(parsed("physical"), Ok(DepthOfField::Physical));
+        assert_eq!(parsed("none"), Ok(DepthOfField::None));
+        let look = parsed("fast:blur_px=8,far_m=10..40");
         let Ok(DepthOfField::Fast(blend)) = look else { panic!("{look:?}") };
         let p = blend.parameters();
         assert_eq!((p.blur_px, p.sharp_near_m, p.sharp_far_m, p.blurred_far_m), (8.0, 0.0, 10.0, 40.0));
@@ -60,6 +60,6 @@ mod tests {
             "fast:blur_px=8,far_m=10",
             "fast:blur_px=8,far_m=40..10",
         ];
-        assert!(wrong.iter().all(|text| depth_of_field(text).is_err()));
+        assert!(wrong.iter().all(|text| parsed(text).is_err()));
     }
 }

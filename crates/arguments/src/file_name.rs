@@ -3,21 +3,33 @@
 use std::path::PathBuf;
 
 /// The name of a plot: nothing but an earlier drawing can be replaced by it.
+///
+/// # Errors
+/// What was expected.
 pub fn svg(text: &str) -> Result<PathBuf, String> {
     ending(text, "svg")
 }
 
 /// The name of a page.
+///
+/// # Errors
+/// What was expected.
 pub fn html(text: &str) -> Result<PathBuf, String> {
     ending(text, "html")
 }
 
 /// The name of a picture.
+///
+/// # Errors
+/// What was expected.
 pub fn png(text: &str) -> Result<PathBuf, String> {
     ending(text, "png")
 }
 
 /// The name of a camera file.
+///
+/// # Errors
+/// What was expected.
 pub fn toml(text: &str) -> Result<PathBuf, String> {
     ending(text, "toml")
 }

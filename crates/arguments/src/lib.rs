@@ -1,0 +1,14 @@
+//! Parsers of the typed text of arguments that several requests share. A parser returns the value, or what was expected, in a sentence that the
+//! front end puts after the argument's name.
+
+mod choice;
+mod file_name;
+mod frames;
+mod number;
+mod place;
+
+pub use choice::{Word, choice};
+pub use file_name::{html, png, svg, toml};
+pub use frames::{MAX_FRAMES, frames, samples, seed};
+pub use number::{in_range, not_negative, positive, whole};
+pub use place::{grid, place, point, region, size, tile};

@@ -1,0 +1,54 @@
+//! Numbers with their ranges.
+
+use clap::builder::RangedI64ValueParser;
+use std::ops::RangeInclusive;
+
+/// Parses a whole number of a range, refused in our own words.
+pub fn whole(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String> + Clone {
+    move |text| {
+        let number = text.parse().ok().filter(|n| range.contains(n));
+        let (least, most) = (range.start(), range.end());
+        number.ok_or_else(|| format!("expected a whole number from {least} to {most}, not '{text}'"))
+    }
+}
+
+/// Parses a whole number of a range, refused in the words of clap.
+#[must_use]
+pub fn in_range<N>(range: RangeInclusive<N>) -> RangedI64ValueParser<N>
+where
+    N: Into<i64> + TryFrom<i64> + Clone + Send + Sync + 'static,
+    <N as TryFrom<i64>>::Error: Into<Box<dyn std::error::Error + Send + Sync>>,
+{
+    let (least, most) = range.into_inner();
+    RangedI64ValueParser::new().range(least.into()..=most.into())
+}
+
+/// Parses a finite number from 0.
+///
+/// # Errors
+/// What was expected.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v >= 0.0);
+    number.ok_or_else(|| format!("expected a number from 0, not '{text}'"))
+}
+
+/// Parses a finite number above 0.
+///
+/// # Errors
+/// What was expected.
+pub fn positive(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v > 0.0);
+    number.ok_or_else(|| format!("expected a number above 0, not '{text}'"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_numbers_have_ranges() {
+        assert_eq!((whole(3..=10)("3"), whole(3..=10)("10")), (Ok(3), Ok(10)));
+        assert_eq!(whole(3..=10)("2"), Err("expected a whole number from 3 to 10, not '2'".to_owned()));
+        assert_eq!(whole(1..=9)("1.5"), Err("expected a whole number from 1 to 9, not '1.5'".to_owned()));
+    }
+}
