@@ -65,7 +65,7 @@ impl Scene {
 
     fn planned(&self, changes: &[&str], spp: u32) -> Plan {
         let mut overrides = Overrides::new(changes);
-        overrides.push_render(&format!("--spp {spp}"), "spp", &spp.to_string());
+        overrides.push_render(&format!("`spp` {spp}"), "spp", &spp.to_string());
         compiled(&self.job(), &read, &overrides)
     }
 

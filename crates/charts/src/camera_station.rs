@@ -58,7 +58,7 @@ impl Exposures {
         }
         let legal = lowest > 0.0 && lowest < highest && highest.is_finite();
         if !legal {
-            let told = format!("expected a share of saturation above 0 and below --highest {highest}");
+            let told = format!("expected a share of saturation above 0 and below `highest` {highest}");
             return Err(ChartError::option("lowest", lowest, told));
         }
         let at = |i: u32| {

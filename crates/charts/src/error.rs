@@ -4,9 +4,9 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ChartError {
     /// A size or number that the chart cannot have.
-    #[error("--{option} {value}: {expected}")]
+    #[error("`{option}` {value}: {expected}")]
     Option {
-        /// The option's name.
+        /// The name of the option's field.
         option: &'static str,
         /// What was given.
         value: String,

@@ -21,6 +21,11 @@ pub trait Console: Sync {
         false
     }
 
+    /// A text that is written to a file, with the names of arguments as this console spells them.
+    fn spelled(&self, text: &str) -> String {
+        text.to_owned()
+    }
+
     /// Who is told of progress and messages, and asked whether to stop.
     fn observer(&self) -> &dyn Observer;
 }

@@ -14,11 +14,12 @@ mod memory;
 mod output;
 mod panics;
 mod progress;
+mod spelling;
 mod subcommands;
 mod verbs;
 
 pub use catalogue::{Argument, Kind, Subcommand, catalogue};
-use clap::{CommandFactory as _, Parser};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser};
 pub use console::Console;
 use etendue::Error;
 use etendue_scene::limits;
@@ -26,6 +27,7 @@ pub use machine::{pool, simd};
 pub use memory::stated_or_free as memory_limits;
 pub use panics::quieten_decoders;
 use progress::Terminal;
+use spelling::{SpelledConsole, Spelling};
 use std::ffi::OsString;
 use verbs::Verb;
 
@@ -39,7 +41,7 @@ struct Arguments {
     #[command(subcommand)]
     verb: Verb,
     /// Move a limit on what files may cost, e.g. picture-mib=4096; docs/limits.md lists them
-    #[arg(long = "limit", value_name = "NAME=N", global = true)]
+    #[arg(id = "limit", long = "limit", value_name = "NAME=N", global = true)]
     limits: Vec<String>,
 }
 
@@ -61,17 +63,30 @@ pub fn command() -> clap::Command {
 /// The program: `arguments` begin with its name. Answers with its exit status: 0 done, 1 a comparison or run failed, 2 unusable input or arguments.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     panics::quieten_decoders();
-    let arguments = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => arguments,
+    let (arguments, spelling) = match parsed(arguments, Spelling::flags) {
+        Ok(parsed) => parsed,
         Err(told) => return usage(&told),
     };
-    match panics::caught(|| arguments.run(&Terminal::default())) {
+    let terminal = Terminal::default();
+    let console = SpelledConsole { console: &terminal, spelling: &spelling };
+    match panics::caught(|| arguments.run(&console)) {
         Ok(()) => 0,
         Err(error) => {
-            output::print_message(&error.to_string());
+            output::print_message(&spelling.text(&error.to_string()));
             status(&error)
         }
     }
+}
+
+/// The arguments, and how the verb that they call spells their names.
+fn parsed(
+    arguments: impl IntoIterator<Item = OsString>,
+    spelling: fn(&clap::Command, &clap::ArgMatches) -> Spelling,
+) -> Result<(Arguments, Spelling), clap::Error> {
+    let mut command = command();
+    let matches = command.try_get_matches_from_mut(arguments)?;
+    let arguments = Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))?;
+    Ok((arguments, spelling(&command, &matches)))
 }
 
 /// Prints help, or what is wrong with the arguments, which are shown as all other text is.
@@ -103,21 +118,23 @@ pub fn refuse_closed_stdout() -> u8 {
 /// # Errors
 /// Where there is no such limit, or the number is not from 1 to its highest.
 pub fn set_limit(limit: &str) -> Result<(), Error> {
-    limits::set(limit).map_err(|told| Error::input(format!("--limit {limit}: {told}")))
+    limits::set(limit).map_err(|told| Error::argument("limit", format!("`limit` {limit}: {told}")))
 }
 
-/// Runs a verb: `arguments` are those after the program's name. Its answer is printed on the console.
+/// Runs a verb: `arguments` are those after the program's name. Its answer is printed on the console. What is told names arguments as parameters: flags without
+/// dashes, in backticks.
 ///
 /// # Errors
 /// Where the arguments cannot be used, and what the verb answers.
 pub fn call(arguments: &[OsString], console: &dyn Console) -> Result<(), Error> {
     let program = OsString::from("etendue");
-    let arguments = Arguments::try_parse_from(std::iter::once(&program).chain(arguments)).map_err(|told| {
+    let arguments = std::iter::once(&program).chain(arguments).cloned();
+    let (arguments, spelling) = parsed(arguments, Spelling::parameters).map_err(|told| {
         let told = told.to_string();
         let words = told.split("\n\nUsage:").next().unwrap_or_default().trim_start_matches("error: ").trim_end();
         Error::input(words.lines().map(str::trim).collect::<Vec<_>>().join(" "))
     })?;
-    arguments.run(console)
+    arguments.run(&SpelledConsole { console, spelling: &spelling }).map_err(|error| spelling.error(error))
 }
 
 /// 2 for unusable input or arguments, 1 where a comparison or run failed.

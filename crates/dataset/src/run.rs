@@ -96,7 +96,7 @@ fn kept(root: &Path, made: usize) -> String {
     let samples = if made == 1 { "1 sample that is whole" } else { &format!("{made} samples that are whole") };
     match made {
         0 => format!("{folder}: nothing of this run was kept"),
-        _ => format!("{folder}: kept {samples}; with --resume a run goes on"),
+        _ => format!("{folder}: kept {samples}; with `resume` a run goes on"),
     }
 }
 
@@ -115,7 +115,7 @@ fn check_folder(set: &Set, root: &Path, existing: Existing) -> Result<(), Error>
     }
     let refuse = |problem: &str| Err(Error::input(format!("{}: {problem}", path.display())));
     if existing == Existing::Refuse {
-        return refuse("a data set is here already; go on with it by --resume, or give another folder");
+        return refuse("a data set is here already; go on with it by `resume`, or give another folder");
     }
     let found = read_regular(&path, &DESCRIPTION).ok().and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
     let Some(Value::Object(found)) = found else { return refuse("this is not the file of a data set") };

@@ -159,7 +159,7 @@ fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
     let names: Vec<&str> = job.plan().cameras.iter().map(|camera| camera.name.as_str()).collect();
     for camera in &job.plan().cameras {
         let refuse = |format: SetFormat, why: &str| {
-            Err(Error::input(format!("--format {}: camera {}: {why}", name(format), camera.name)))
+            Err(Error::argument("formats", format!("`formats` {}: camera {}: {why}", name(format), camera.name)))
         };
         let Some(development) = &camera.body.development else { return Err(no_picture(&camera.name)) };
         if let Some(format) = formats.iter().find(|format| needs_png.contains(format))

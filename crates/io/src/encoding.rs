@@ -54,7 +54,7 @@ impl Stated {
 
     /// A guess by what kind of numbers the file has.
     pub(crate) fn guessed(encoding: Encoding, by: &str) -> Self {
-        let reason = format!("guessed, as {by}; --encoding says otherwise");
+        let reason = format!("guessed, as {by}; `encoding` says otherwise");
         Self { guessed: true, ..Self::new(encoding, reason) }
     }
 }

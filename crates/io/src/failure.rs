@@ -6,8 +6,8 @@ use std::path::PathBuf;
 /// An error of a call of the library. No file under a final name is half-written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Error {
-    /// The input or the arguments cannot be used: all faults, with file, line and key where they have them. Arguments are
-    /// named as the command line spells them. (Exit status 2 of the program.)
+    /// The input or the arguments cannot be used: all faults, with file, line, key and argument where they have them. Messages name arguments
+    /// by their fields in backticks. (Exit status 2 of the program.)
     Input(Vec<Fault>),
     /// The input is good and the run did not succeed: it was cancelled, the disk is full, light is not finite. (Exit status 1.)
     Run(String),
@@ -17,6 +17,21 @@ impl Error {
     /// One unusable input.
     pub fn input(error: impl Into<Fault>) -> Self {
         Self::Input(vec![error.into()])
+    }
+
+    /// An argument that cannot be used, by the name of its field, which the message has in backticks.
+    pub fn argument(field: &str, message: impl Into<String>) -> Self {
+        Self::Input(vec![Fault::argument(field, message)])
+    }
+
+    /// The same faults as those of an argument.
+    #[must_use]
+    pub fn with_field(self, field: &str) -> Self {
+        let of_field = |fault: Fault| Fault { field: Some(field.to_owned()), ..fault };
+        match self {
+            Self::Input(faults) => Self::Input(faults.into_iter().map(of_field).collect()),
+            run => run,
+        }
     }
 
     /// Several unusable inputs.
@@ -64,18 +79,23 @@ pub struct Fault {
     pub line: Option<u32>,
     /// The column of the line, in characters from 1; `None` where it is not known.
     pub column: Option<u32>,
-    /// The dotted key of a description, or an argument as the command line spells it (`--spp`); `None` where there is none.
+    /// The dotted key of a description; `None` where there is none.
     pub key: Option<String>,
+    /// The argument at fault, by the name of its field in the request; `None` where it is not one, or not of one alone.
+    pub field: Option<String>,
 }
 
 impl Fault {
-    /// A fault that only its message places. One that begins with an argument's name is that argument's.
+    /// A fault that only its message places.
     #[must_use]
     pub fn new(message: impl Into<String>) -> Self {
-        let message = message.into();
-        let argument = message.split([' ', ':', ',']).next().filter(|word| word.starts_with("--") && word.len() > 2);
-        let key = argument.map(str::to_owned);
-        Self { message, file: None, line: None, column: None, key }
+        Self { message: message.into(), file: None, line: None, column: None, key: None, field: None }
+    }
+
+    /// A fault of an argument. Messages name arguments by their fields in backticks, `` `time_s` ``; a front end spells them as its users write them.
+    #[must_use]
+    pub fn argument(field: &str, message: impl Into<String>) -> Self {
+        Self { field: Some(field.to_owned()), ..Self::new(message) }
     }
 }
 
@@ -90,7 +110,7 @@ fn at(message: String, place: &etendue_scene::Place) -> Fault {
     let (line, column) = place.line_column().unzip();
     let file = Some(place.stating_file().to_path_buf()).filter(|_| place.is_stated());
     let key = Some(place.key().into_owned()).filter(|key| !key.is_empty());
-    Fault { message, file, line, column, key }
+    Fault { file, line, column, key, ..Fault::new(message) }
 }
 
 impl From<&etendue_scene::Fault> for Fault {
@@ -112,11 +132,10 @@ impl From<crate::Error> for Fault {
         match named {
             Some(named) if error.is_of_path() => named,
             named => Self {
-                message: error.to_string(),
                 file: Some(error.file().to_path_buf()),
                 line: error.line().and_then(|line| u32::try_from(line).ok()),
-                column: None,
                 key: named.and_then(|named| named.key),
+                ..Self::new(error.to_string())
             },
         }
     }
@@ -155,10 +174,12 @@ mod tests {
     }
 
     #[test]
-    fn an_argument_s_fault_is_told_by_its_name() {
-        let key = |message: &str| Fault::new(message).key;
-        assert_eq!(key("--time 3: a time of 10 s or more is kept"), Some("--time".to_owned()));
-        assert_eq!(key("--corners: expected four of them"), Some("--corners".to_owned()));
-        assert_eq!((key("job.toml: --"), key("-- "), key("")), (None, None, None));
+    fn an_argument_s_fault_is_told_by_its_field() {
+        let Error::Input(faults) = Error::argument("time_s", "`time_s` 3: a time of 10 s or more is kept") else {
+            panic!()
+        };
+        assert_eq!((faults[0].field.as_deref(), faults[0].key.as_deref()), (Some("time_s"), None));
+        assert_eq!(Error::input("job.toml: `time_s`").with_field("spp"), Error::argument("spp", "job.toml: `time_s`"));
+        assert_eq!(Fault::new("`corners`: expected four of them").field, None);
     }
 }

@@ -259,7 +259,7 @@ impl OutputFolder {
         if self.existing == Existing::Refuse {
             return Err(Error::new(
                 target,
-                "already there; choose another output folder, or allow it with --overwrite",
+                "already there; choose another output folder, or allow it with `overwrite`",
             ));
         }
         Ok(())

@@ -5,6 +5,7 @@
 //!
 //! As every file of a job is asked for here, this is also where its files are known.
 
+use crate::failure::Fault;
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -27,12 +28,15 @@ impl Sandbox {
     ///
     /// # Errors
     /// Where a folder is not there, in words.
-    pub fn about(job: &Path, further: &[PathBuf]) -> Result<Self, String> {
+    pub fn about(job: &Path, further: &[PathBuf]) -> Result<Self, Fault> {
         let folder = job.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let own = folder.canonicalize().map_err(|cause| format!("{}: {cause}", job.display()))?;
+        let own = folder.canonicalize().map_err(|cause| Fault::new(format!("{}: {cause}", job.display())))?;
         let allowed = further.iter().map(|folder| {
             let found = folder.canonicalize().ok().filter(|folder| folder.is_dir());
-            found.ok_or_else(|| format!("--allow-outside {}: there is no such folder", folder.display()))
+            found.ok_or_else(|| {
+                let message = format!("`allow_outside` {}: there is no such folder", folder.display());
+                Fault::argument("allow_outside", message)
+            })
         });
         let folders = std::iter::once(Ok(own)).chain(allowed).collect::<Result<_, _>>()?;
         Ok(Self { folders: Some(folders), looked_for: None })
@@ -62,7 +66,7 @@ impl Sandbox {
             self.note(path);
             return Ok(());
         }
-        Err("this path leads out of the job's folder, to which --sandboxed keeps it; put the file there, or allow its folder with --allow-outside".to_owned())
+        Err("this path leads out of the job's folder, to which `sandboxed` keeps it; put the file there, or allow its folder with `allow_outside`".to_owned())
     }
 }
 

@@ -45,7 +45,7 @@ impl ScratchStore for ScratchFolder {
     fn room(&self, bytes: u64) -> Result<Arc<dyn Scratch>, String> {
         let folder = self.folder.display();
         let cannot = |cause: io::Error| {
-            format!("the scratch folder {folder} cannot be written: {cause}; choose another one with --scratch")
+            format!("the scratch folder {folder} cannot be written: {cause}; choose another one with `scratch`")
         };
         std::fs::create_dir_all(&self.folder).map_err(cannot)?;
         let (file, path) = self.create().map_err(cannot)?;
@@ -68,7 +68,7 @@ impl Scratch for ScratchFile {
     fn write(&self, offset: u64, bytes: &[u8]) -> Result<(), String> {
         write_at(&self.file, bytes, offset).map_err(|cause| {
             format!(
-                "a scratch file of {} MB in {} cannot be written: {cause}; make room there, or choose another folder with --scratch",
+                "a scratch file of {} MB in {} cannot be written: {cause}; make room there, or choose another folder with `scratch`",
                 self.bytes.div_ceil(1_000_000),
                 self.folder.display()
             )
@@ -165,7 +165,7 @@ mod tests {
         std::fs::write(place.path().join("file"), b"").expect("write");
         let store = ScratchFolder::new(Some(&place.path().join("file/folder")));
         let told = store.room(1).expect_err("a file is no folder");
-        assert!(told.starts_with("the scratch folder ") && told.ends_with("with --scratch"), "{told}");
+        assert!(told.starts_with("the scratch folder ") && told.ends_with("with `scratch`"), "{told}");
     }
 
     /// `/dev/full` answers every write as a full disk does.

@@ -67,7 +67,7 @@ mod tests {
         // A header of 20 000² pixels; 100 MB that unpack to 100 GB.
         let told = check(file, 400_000_000, 500).expect_err("a bomb").to_string();
         let expected = "a.exr: unpacks to 1526 MiB, where a file of its size may unpack to 1024 MiB; make the picture smaller, or raise the limit: \
-                        --limit picture-mib=1526";
+                        `limit` picture-mib=1526";
         assert_eq!(told, expected);
         assert!(check(file, 25_000_000_000, 100_000_000).is_err());
         // A measurement of 40 GB that brings 5.

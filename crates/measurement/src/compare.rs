@@ -66,8 +66,8 @@ impl Comparison {
 /// Where a file cannot be read, or they differ in size or channels.
 pub fn compare(a: &Path, b: &Path, significance: f64) -> Result<Comparison, Error> {
     if !(significance > 0.0 && significance < 1.0) {
-        let message = format!("--significance {significance}: expected a probability between 0 and 1");
-        return Err(Error::input(message));
+        let message = format!("`significance` {significance}: expected a probability between 0 and 1");
+        return Err(Error::argument("significance", message));
     }
     let pair = read_pair(a, b).map_err(Error::input)?;
     Ok(Comparison { channels: findings(&pair, significance)?, pair })

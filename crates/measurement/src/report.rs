@@ -190,7 +190,7 @@ impl Report {
     /// Where the measurement has no curve to draw.
     pub fn svg(&self) -> Result<String, Error> {
         if self.plots.is_empty() {
-            return Err(Error::input("--plot: this measurement has no curve to draw"));
+            return Err(Error::argument("plot", "`plot`: this measurement has no curve to draw"));
         }
         Ok(svg(&self.plots))
     }

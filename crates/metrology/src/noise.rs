@@ -61,7 +61,7 @@ pub enum NoiseError {
     TooFew(usize),
     /// There is no light.
     #[error(
-        "the mean reading {mean:.4} is no more than black, {black}: a signal over its noise needs light; is --black right?"
+        "the mean reading {mean:.4} is no more than black, {black}: a signal over its noise needs light; is `black` right?"
     )]
     Dark {
         /// Mean reading.

@@ -29,7 +29,7 @@ type Told = (String, Option<String>, Option<u32>, Option<u32>, Option<String>);
 fn told(faults: Vec<Fault>) -> Vec<Told> {
     let one = |fault: Fault| {
         let file = fault.file.map(|file| file.to_string_lossy().into_owned());
-        (terminal_text(&fault.message).into_owned(), file, fault.line, fault.column, fault.key)
+        (terminal_text(&fault.message).into_owned(), file, fault.line, fault.column, fault.field.or(fault.key))
     };
     faults.into_iter().map(one).collect()
 }

@@ -26,13 +26,16 @@ def test_faults_of_a_job_have_file_line_and_key(tmp_path):
 def test_faults_of_changes_have_their_key():
     with pytest.raises(etendue.InputError) as raised:
         etendue.Job.open(JOB, set={"render.spp": -1})
-    assert raised.value.key == "render.spp" and raised.value.line is None and "--set render.spp=-1" in str(raised.value)
+    assert raised.value.key == "render.spp" and raised.value.line is None and "`set` render.spp=-1" in str(raised.value)
     with pytest.raises(etendue.InputError) as raised:
         etendue.Job.open(JOB, set={"render.sp": 1})
     assert "spp" in str(raised.value)
     with pytest.raises(etendue.InputError) as raised:
         etendue.Job.open(JOB, time_s=3)
-    assert raised.value.key == "time"
+    assert raised.value.key == "time_s" and str(raised.value).startswith("`time_s` 3: ") and "--" not in str(raised.value)
+    with pytest.raises(etendue.InputError) as raised:
+        etendue.measure.sfr("none.png", region=(0, 0, 8, 8), edge=(0, 0, 8, 8), black=0.1)
+    assert raised.value.key == "black" and str(raised.value).startswith("`black`: ")
 
 
 def test_missing_files_are_told_at_the_key_that_names_them(tmp_path):

@@ -104,7 +104,7 @@ pub(crate) fn check_frames(plan: &Plan, frames: &Range<u32>) -> Result<(), Error
     match plan.cameras.iter().find(needs) {
         Some(camera) if frames.end > 1 => Err(Error::input(format!(
             "camera {}: its light depends on time, and nothing says when its frames after frame 0 are taken; add [sequence] with \
-             \"frame_rate_hz\" to the job, or render --frames 0..1",
+             \"frame_rate_hz\" to the job, or render `frames` 0..1",
             camera.name
         ))),
         _ => Ok(()),

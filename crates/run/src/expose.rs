@@ -195,12 +195,15 @@ fn depth_of_field(
         Some(DepthOfField::None) => Ok(DepthOfField::None),
         Some(_) if stored.distance.is_none() => Err(Error::input(format!(
             "{file}: it has no distances (channel distance.Z), which depth of field needs: render it anew, or give \
-             --depth-of-field none"
+             `depth_of_field` none"
         ))),
-        Some(DepthOfField::Physical) if !blurs => Err(Error::input(format!(
-            "--depth-of-field physical has no effect: to the lens of {} everything is sharp",
-            request.camera.display()
-        ))),
+        Some(DepthOfField::Physical) if !blurs => Err(Error::argument(
+            "depth_of_field",
+            format!(
+                "`depth_of_field` physical has no effect: to the lens of {} everything is sharp",
+                request.camera.display()
+            ),
+        )),
         Some(asked) => Ok(asked),
         None if blurs && stored.distance.is_some() => Ok(DepthOfField::Physical),
         None => {

@@ -48,7 +48,7 @@ fn check_room(plan: &Plan, camera: &CameraPlan) -> Result<(), Error> {
     Vec::<u8>::new().try_reserve_exact(bytes as usize).map_err(|_| {
         Error::run(format!(
             "camera {}: the system does not give the {:.0} MB of memory that its film takes; make room, render fewer pixels or bands, or keep more of it on \
-             the disk with --film-memory",
+             the disk with `film_memory_mb`",
             camera.name,
             bytes / 1e6
         ))

@@ -168,13 +168,13 @@ impl FlatRequest {
 
 impl FlatRequest {
     fn check(&self) -> Result<(), Error> {
-        number("--wavelength-nm", self.wavelength_nm, WAVELENGTHS_NM, "nm")?;
+        number("wavelength_nm", self.wavelength_nm, WAVELENGTHS_NM, "nm")?;
         match self.source {
-            FlatSource::Irradiance { w_m2 } => number("--irradiance-w-m2", w_m2, 0.0..=f64::MAX, "W/m²"),
-            FlatSource::Photons { per_pixel } => number("--photons", per_pixel, 0.0..=f64::MAX, "photons a pixel"),
+            FlatSource::Irradiance { w_m2 } => number("irradiance_w_m2", w_m2, 0.0..=f64::MAX, "W/m²"),
+            FlatSource::Photons { per_pixel } => number("photons", per_pixel, 0.0..=f64::MAX, "photons a pixel"),
             FlatSource::PhotonTransfer { levels, stack } => {
-                ranges::whole("--photon-transfer", levels, LEVELS)?;
-                ranges::whole("--stack", stack, LEVELS)
+                ranges::whole("photon_transfer", levels, LEVELS)?;
+                ranges::whole("stack", stack, LEVELS)
             }
         }
     }
@@ -207,12 +207,12 @@ pub fn flat(
         }
         FlatSource::Irradiance { w_m2 } => {
             let light = FlatLight { wavelength_nm: request.wavelength_nm, irradiance_w_m2: w_m2 };
-            task.single(light, &format!("--irradiance-w-m2 {w_m2:e}"), &mut writer)?;
+            task.single(light, &format!("`irradiance_w_m2` {w_m2:e}"), &mut writer)?;
         }
         FlatSource::Photons { per_pixel } => {
             let light = FlatLight::of_photons(task.sensor, request.wavelength_nm, per_pixel)
-                .map_err(|error| Error::input(format!("--photons {per_pixel}: {error}")))?;
-            task.single(light, &format!("--photons {per_pixel:e}"), &mut writer)?;
+                .map_err(|error| Error::argument("photons", format!("`photons` {per_pixel}: {error}")))?;
+            task.single(light, &format!("`photons` {per_pixel:e}"), &mut writer)?;
         }
     }
     folder.commit().map_err(Error::run)

@@ -133,19 +133,28 @@ impl JobRequest {
     /// Refuses what excludes one another, and a time that cannot be kept.
     pub(crate) fn check(&self) -> Result<(), Error> {
         if self.textures.limit_bytes == 0 {
-            return Err(Error::input("--texture-memory 0: textures need some memory; give 1 MB or more"));
+            return Err(Error::argument(
+                "texture_memory_mb",
+                "`texture_memory_mb` 0: textures need some memory; give 1 MB or more",
+            ));
         }
         let Some(time_s) = self.time_s else { return Ok(()) };
         if !(time_s.is_finite() && time_s >= timed::MIN_TIME_S) {
-            return Err(Error::input(format!(
-                "--time {time_s}: a time of {} s or more is kept; give --time {} or samples with --spp",
-                timed::MIN_TIME_S,
-                timed::MIN_TIME_S
-            )));
+            return Err(Error::argument(
+                "time_s",
+                format!(
+                    "`time_s` {time_s}: a time of {} s or more is kept; give `time_s` {} or samples with `spp`",
+                    timed::MIN_TIME_S,
+                    timed::MIN_TIME_S
+                ),
+            ));
         }
         match (self.spp, self.noise) {
             (None, None) => Ok(()),
-            _ => Err(Error::input("--time decides the samples, and --spp or --noise would, too; give one of them")),
+            _ => Err(Error::argument(
+                "time_s",
+                "`time_s` decides the samples, and `spp` or `noise` would, too; give one of them",
+            )),
         }
     }
 
@@ -153,7 +162,7 @@ impl JobRequest {
     pub(crate) fn overrides(&self) -> Overrides {
         let mut overrides = Overrides::new(&self.set);
         let mut flag = |name: &str, key, value: String, shown: &str| {
-            overrides.push_render(&format!("--{name} {shown}"), key, &value);
+            overrides.push_render(&format!("`{name}` {shown}"), key, &value);
         };
         if let Some(spp) = self.spp {
             flag("spp", "spp", spp.to_string(), &spp.to_string());
@@ -169,7 +178,7 @@ impl JobRequest {
             flag("integrator", "integrator", format!("\"{level}\""), level);
         }
         if let Some(scale) = &self.scale {
-            overrides.push_sensor(&format!("--scale {scale}"), "scale", scale);
+            overrides.push_sensor(&format!("`scale` {scale}"), "scale", scale);
         }
         overrides
     }
@@ -193,18 +202,24 @@ impl JobRequest {
         let Some(name) = &self.camera else { return Ok(plan) };
         if plan.camera(name).is_none() {
             let known: Vec<&str> = plan.cameras.iter().map(|c| c.name.as_str()).collect();
-            return Err(Error::input(format!(
-                "--camera {name}: {} has no camera of that name; give one of {}",
-                self.job.display(),
-                known.join(", ")
-            )));
+            return Err(Error::argument(
+                "camera",
+                format!(
+                    "`camera` {name}: {} has no camera of that name; give one of {}",
+                    self.job.display(),
+                    known.join(", ")
+                ),
+            ));
         }
         let right = plan.camera(name).and_then(|camera| camera.products.annotations.disparity).map(|d| d.right);
         if let Some(right) = plan.cameras.iter().find(|camera| Some(camera.index) == right) {
-            return Err(Error::input(format!(
-                "--camera {name}: its disparity_to names camera {}, which is then not in the run; render both, or leave the key out with --set",
-                right.name
-            )));
+            return Err(Error::argument(
+                "camera",
+                format!(
+                    "`camera` {name}: its disparity_to names camera {}, which is then not in the run; render both, or leave the key out with `set`",
+                    right.name
+                ),
+            ));
         }
         plan.cameras.retain(|camera| camera.name == *name);
         Ok(plan)

@@ -102,9 +102,9 @@ pub fn laboratory(
     (folder, existing): (&Path, Existing),
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
-    ranges::whole("--levels", request.levels, LEVELS)?;
-    ranges::whole("--stack", request.stack, STACK)?;
-    ranges::whole("--views", request.views, VIEWS)?;
+    ranges::whole("levels", request.levels, LEVELS)?;
+    ranges::whole("stack", request.stack, STACK)?;
+    ranges::whole("views", request.views, VIEWS)?;
     let camera = declared(request)?;
     let has_frame_period = camera.sensor.electronics.as_ref().is_some_and(|e| e.frame_period_s.is_some());
     let has_isp = camera.isp.is_some();

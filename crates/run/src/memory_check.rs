@@ -61,7 +61,7 @@ fn remedies(camera: &CameraPlan) -> String {
     let bands = spectra.then(|| "a larger render.band_width_nm".to_owned());
     let keys: Vec<String> = [size].into_iter().chain(bands).chain(product_keys).collect();
     format!(
-        "reduce it with {}; keep more of films and textures on the disk with --film-memory and --texture-memory; run fewer --threads; or give the run more memory (--memory 0 omits this check)",
+        "reduce it with {}; keep more of films and textures on the disk with `film_memory_mb` and `texture_memory_mb`; run fewer `threads`; or give the run more memory (`memory_mb` 0 omits this check)",
         keys.join(", ")
     )
 }

@@ -35,7 +35,7 @@ impl MemoryLimit {
             Self::Process => "within the address space of the process (ulimit -v)",
             Self::ControlGroup => "within the memory of its control group",
             Self::Machine => "on this machine",
-            Self::Stated => "by --memory",
+            Self::Stated => "by `memory_mb`",
         }
     }
 }

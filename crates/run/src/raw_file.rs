@@ -54,11 +54,11 @@ pub(crate) fn taken(
     let photograph = read_photograph(file).map_err(|error| error.to_string())?;
     let found = match (&photograph.raw, levels) {
         (None, Some(levels)) => by_levels(&photograph, levels, number, sensor),
-        (Some(_), Some(_)) => Err("camera.json beside it states its levels: leave --levels out".to_owned()),
+        (Some(_), Some(_)) => Err("camera.json beside it states its levels: leave `levels` out".to_owned()),
         (Some(facts), None) => by_side_car(&photograph, facts, sensor),
         (None, None) => {
             Err("no camera.json beside it lists it as raw, and nothing states its levels: put the side-car \
-                             beside it, or give --levels BLACK..WHITE"
+                             beside it, or give `levels` BLACK..WHITE"
                 .to_owned())
         }
     };
@@ -68,7 +68,7 @@ pub(crate) fn taken(
 fn by_levels(photograph: &Photograph, levels: Levels, number: u32, sensor: &Sensor) -> Result<Taken, String> {
     if sensor.parameters().hdr.companding.is_some() {
         return Err(
-            "the camera's numbers are companded, and --levels are those of numbers that are not: a raw of this \
+            "the camera's numbers are companded, and `levels` are those of numbers that are not: a raw of this \
                     camera needs its side-car"
                 .to_owned(),
         );

@@ -47,7 +47,7 @@ impl Job {
     ) -> Result<Vec<PathBuf>, Error> {
         if self.request().progressive || self.request().time_s.is_some() {
             return Err(Error::input(
-                "a shard is rendered in the passes of its job: give them by the key render.passes in the place of --progressive or --time",
+                "a shard is rendered in the passes of its job: give them by the key render.passes in the place of `progressive` or `time_s`",
             ));
         }
         let names = self.asked_films(asked)?;
@@ -85,7 +85,10 @@ impl Job {
             let some = names.iter().take(MAX_TOLD).cloned().collect::<Vec<_>>().join(", ");
             let more =
                 names.len().checked_sub(MAX_TOLD + 1).map(|n| format!(" and {} more", n + 1)).unwrap_or_default();
-            return Err(Error::input(format!("--film {unknown}: no film of these frames; there are {some}{more}")));
+            return Err(Error::argument(
+                "films",
+                format!("`films` {unknown}: no film of these frames; there are {some}{more}"),
+            ));
         }
         names.retain(|name| asked.films.is_empty() || asked.films.contains(name));
         Ok(names)
@@ -162,7 +165,7 @@ impl Manifest {
     pub(crate) fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(MANIFEST);
         let explain =
-            |why: String| Error::input(format!("{}: {why}; give folders made by render --shard", path.display()));
+            |why: String| Error::input(format!("{}: {why}; give folders made by render `shard`", path.display()));
         let text = read_text(&path).map_err(explain)?;
         let manifest: Self = serde_json::from_str(&text)
             .map_err(|error| explain(format!("this is no shard manifest of this version ({error})")))?;

@@ -34,7 +34,7 @@ impl StoredRadiance {
         let remedy = "its geometry is not stated; expected radiance that etendue rendered with route = \"pupil\"";
         let provenance = file.provenance.ok_or_else(|| refuse(remedy))?;
         let radiance = image.cube;
-        let through_lens = "it was rendered through a lens; render it with --set render.route=pupil to expose it";
+        let through_lens = "it was rendered through a lens; render it with `set` render.route=pupil to expose it";
         let geometry = metadata::pupil_geometry(&provenance, radiance.width(), radiance.height());
         let projection = geometry.ok_or_else(|| refuse(through_lens))?.map_err(|why| refuse(&why))?;
         Ok(Self { radiance, variance: image.variance, distance: file.distance, projection, provenance })

@@ -101,7 +101,7 @@ impl Limit {
     #[must_use]
     pub fn remedy(&self, needed: u64) -> String {
         match needed <= self.highest {
-            true => format!("or raise the limit: --limit {}={needed}", self.name),
+            true => format!("or raise the limit: `limit` {}={needed}", self.name),
             false => format!("no limit can be raised beyond {}", self.highest),
         }
     }
@@ -175,7 +175,7 @@ mod tests {
     fn a_message_says_how_far_to_raise() {
         assert!(DESCRIPTION.check_size(16 << 20).is_ok());
         let told = DESCRIPTION.check_size((16 << 20) + 1).expect_err("a byte more");
-        assert!(told.ends_with("has 17 MiB, and files of its kind are read up to 16 MiB; make it smaller, or raise the limit: --limit description-mib=17"), "{told}");
+        assert!(told.ends_with("has 17 MiB, and files of its kind are read up to 16 MiB; make it smaller, or raise the limit: `limit` description-mib=17"), "{told}");
         assert_eq!([16, 40, 64].map(|most| BASES.next(most)), [32, 64, u64::MAX]);
         assert_eq!(BASES.remedy(65), "no limit can be raised beyond 64");
     }

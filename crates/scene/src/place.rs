@@ -150,8 +150,8 @@ impl fmt::Display for Place {
 fn write_set(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
     const SHOWN: usize = 160;
     match text.char_indices().nth(SHOWN) {
-        None => write!(f, "--set {text}"),
-        Some((end, _)) => write!(f, "--set {}…", &text[..end]),
+        None => write!(f, "`set` {text}"),
+        Some((end, _)) => write!(f, "`set` {}…", &text[..end]),
     }
 }
 

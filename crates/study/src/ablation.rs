@@ -62,7 +62,7 @@ pub fn ablation(request: &Request, clock: &dyn Clock, observer: &dyn Observer) -
             Some(Some(set)) if set.iter().any(|change| is_of(change, &renderer.camera, &SAMPLE_KEYS)) => {
                 kept.push(Kept {
                     effect: effect.name,
-                    reason: "the number of samples is chosen by --time here".to_owned(),
+                    reason: "the number of samples is chosen by `time_s` here".to_owned(),
                 });
             }
             Some(Some(set)) => trials.push((effect.name, effect.id(), set)),

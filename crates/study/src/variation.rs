@@ -72,8 +72,8 @@ pub fn variations(
 
 fn varied_request(own: &JobRequest, set: &[String], camera: &str) -> Result<JobRequest, Error> {
     if let Some(change) = set.iter().find(|change| is_of(change, camera, &SAMPLE_KEYS)) {
-        let problem = "samples are chosen by --time here; without --vary a study tells what more or fewer come to";
-        return Err(Error::input(format!("--vary {change}: {problem}")));
+        let problem = "samples are chosen by `time_s` here; without `vary` a study tells what more or fewer come to";
+        return Err(Error::argument("vary", format!("`vary` {change}: {problem}")));
     }
     let mut request = own.clone();
     request.set.extend(set.iter().cloned());

@@ -60,12 +60,12 @@ pub(crate) fn find(folder: &Path, frames: Option<&Range<u32>>) -> Result<Vec<Fou
     }
     files.retain(|file| file.frame.zip(frames).is_none_or(|(frame, frames)| frames.contains(&frame)));
     if files.is_empty() {
-        return Err(refuse("none of its files is of a frame that --frames asks for".to_owned()));
+        return Err(refuse("none of its files is of a frame that `frames` asks for".to_owned()));
     }
     if files.len() > MAX_FILES {
         let count = files.len();
         return Err(refuse(format!(
-            "{count} files of layers, and a page has at most {MAX_FILES}; give a folder in it, or fewer frames (--frames)"
+            "{count} files of layers, and a page has at most {MAX_FILES}; give a folder in it, or fewer frames (`frames`)"
         )));
     }
     let rank = |file: &FoundFile| ORDER.iter().position(|stem| *stem == file.stem).unwrap_or(ORDER.len());
@@ -165,6 +165,6 @@ mod tests {
         assert!(told(&folder.path().join("a"), None).contains("no result: expected files of layers (exr, png"));
         assert!(told(&folder.path().join("notes.txt"), None).contains("no folder"));
         assert!(told(&folder.path().join("none"), None).contains("not there; expected the folder of a result"));
-        assert!(told(folder.path(), Some(&(5..6))).contains("--frames"));
+        assert!(told(folder.path(), Some(&(5..6))).contains("`frames`"));
     }
 }

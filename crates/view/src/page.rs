@@ -38,7 +38,7 @@ impl Page {
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html")) {
             if existing == Existing::Refuse && path.symlink_metadata().is_ok() {
                 return Err(Error::input(format!(
-                    "{}: already there; choose another name, or allow it with --overwrite",
+                    "{}: already there; choose another name, or allow it with `overwrite`",
                     path.display()
                 )));
             }

@@ -158,7 +158,7 @@ fn the_same_files_give_the_same_bytes_and_an_earlier_page_is_replaced() {
     assert_eq!(made().len(), 5, "the chunk of a layer that is gone goes");
     fs::write(folder.join("view/index.html"), "a page of mine").expect("written");
     let told = view(&request(&folder), None, Existing::Refuse, &Unobserved).expect_err("refused").to_string();
-    assert!(told.contains("already there") && told.contains("--overwrite"), "{told}");
+    assert!(told.contains("already there") && told.contains("`overwrite`"), "{told}");
     assert_eq!(fs::read_to_string(folder.join("view/index.html")).expect("kept"), "a page of mine");
 }
 

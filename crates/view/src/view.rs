@@ -27,7 +27,7 @@ pub fn view(
     observer: &dyn Observer,
 ) -> Result<PathBuf, Error> {
     if request.max_mb == 0 {
-        return Err(Error::input("--max-mb 0: expected 1 or more"));
+        return Err(Error::argument("max_mb", "`max_mb` 0: expected 1 or more"));
     }
     let frames = request.frames.as_ref();
     let first = find(&request.folder, frames)?;
@@ -65,7 +65,7 @@ pub fn view(
     });
     if build.binned > 0 {
         let told = format!(
-            "{} layers are larger than {} MB and have fewer pixels on the page, which says how many; --max-mb moves this",
+            "{} layers are larger than {} MB and have fewer pixels on the page, which says how many; `max_mb` moves this",
             build.binned, request.max_mb
         );
         observer.message(Message::Note(&told));

@@ -179,6 +179,38 @@ fn libraries_do_not_print_read_clocks_or_start_pools() {
     assert!(faults.is_empty(), "{faults:#?}");
 }
 
+/// Flags in texts below the front ends: messages name arguments by their fields, and a front end spells them. Left are commands of other programs and commands
+/// that are printed or written to be run.
+const FLAGS_BELOW_FRONT_ENDS: usize = 11;
+
+#[test]
+fn only_front_ends_spell_flags() {
+    let is_flag = |text: &str| {
+        text.match_indices("--").any(|(at, _)| {
+            let before = text[..at].chars().next_back();
+            let after = text[at + 2..].chars().next();
+            after.is_some_and(|c| c.is_ascii_lowercase() || c == '{') && before.is_none_or(|c| c != '-')
+        })
+    };
+    let mut flags = Vec::new();
+    for (name, text) in texts(&[".rs"]) {
+        let is_front_end =
+            ["crates/cli/", "crates/python/", "crates/testkit/"].iter().any(|front| name.starts_with(front));
+        if !name.starts_with("crates/") || !name.contains("/src/") || is_front_end {
+            continue;
+        }
+        let is_code = |line: &&str| !line.trim_start().starts_with("//") && !line.trim_start().starts_with("#[");
+        flags.extend(
+            text.lines().filter(is_code).filter(|line| is_flag(line)).map(|line| format!("{name}: {}", line.trim())),
+        );
+    }
+    assert!(
+        flags.len() <= FLAGS_BELOW_FRONT_ENDS,
+        "{} flags, more than {FLAGS_BELOW_FRONT_ENDS}: {flags:#?}",
+        flags.len()
+    );
+}
+
 #[test]
 fn nothing_names_a_machine() {
     let homes = ["root", "home", "work", "tmp"].map(|folder| format!("/{folder}/"));

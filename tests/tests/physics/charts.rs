@@ -59,7 +59,7 @@ fn view(name: &str, index: usize) -> View {
     let job: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("oracles/figures/charts/{name}.toml"));
     let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
     let mut overrides = Overrides::default();
-    overrides.push_render("--spp 16", "spp", "16");
+    overrides.push_render("`spp` 16", "spp", "16");
     let job = Description::load(&job, &read, &overrides).unwrap_or_else(|faults| panic!("{faults}"));
     let assets = load_assets(&job.assets()).unwrap_or_else(|faults| panic!("{faults:?}"));
     let plan = compile(&job, &assets, &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"));

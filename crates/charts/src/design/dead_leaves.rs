@@ -42,11 +42,11 @@ impl DeadLeaves {
         let (smallest, largest) = (self.smallest_px * seen.pixel_mm / side, self.largest_ratio);
         if !(self.smallest_px > 0.0 && smallest < largest) {
             let told = "expected a radius above 0 px and below that of the largest leaves";
-            return Err(ChartError::option("smallest-px", self.smallest_px, told));
+            return Err(ChartError::option("smallest_px", self.smallest_px, told));
         }
         if !(largest > 0.0 && largest <= 0.5) {
             return Err(ChartError::option(
-                "largest-ratio",
+                "largest_ratio",
                 largest,
                 "expected a share of the side, above 0 and at most 0.5",
             ));
@@ -54,7 +54,7 @@ impl DeadLeaves {
         if smallest * texels < MIN_RADIUS {
             let least_px = MIN_RADIUS * side / (texels * seen.pixel_mm);
             let told = format!("leaves smaller than half a texel are not drawn: expected {least_px:.4} px or more");
-            return Err(ChartError::option("smallest-px", self.smallest_px, told));
+            return Err(ChartError::option("smallest_px", self.smallest_px, told));
         }
         let half = DVec2::splat(side / 2.0);
         let (leaves, laid) = leaves(texels as usize, smallest * texels, largest * texels, seed);

@@ -41,7 +41,7 @@ impl DepthWedge {
             return Err(ChartError::option("steps", self.steps, "expected 2 … 100 steps"));
         }
         if !(self.far_ratio > 1.0 && self.far_ratio <= 1000.0) {
-            return Err(ChartError::option("far-ratio", self.far_ratio, "expected a ratio above 1 and up to 1000"));
+            return Err(ChartError::option("far_ratio", self.far_ratio, "expected a ratio above 1 and up to 1000"));
         }
         // Half of the field over the distance: a point at tangent t and distance d lies d t from the axis.
         let tangent = seen.outer_mm * BLEED / (2e3 * seen.distance_m);

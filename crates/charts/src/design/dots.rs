@@ -29,7 +29,7 @@ pub struct Dots {
 impl Dots {
     pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(0.05..=0.9).contains(&self.dot_ratio) {
-            return Err(ChartError::option("dot-ratio", self.dot_ratio, "expected 0.05 … 0.9"));
+            return Err(ChartError::option("dot_ratio", self.dot_ratio, "expected 0.05 … 0.9"));
         }
         let grid = self.size.in_room(seen.outer_mm, usual_columns(seen.outer_mm.x / seen.pixel_mm), 3)?;
         let marks = marks(grid.columns, grid.rows);

@@ -31,7 +31,7 @@ pub struct Flare {
 impl Flare {
     pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(0.02..=0.8).contains(&self.trap_ratio) {
-            return Err(ChartError::option("trap-ratio", self.trap_ratio, "expected 0.02 … 0.8"));
+            return Err(ChartError::option("trap_ratio", self.trap_ratio, "expected 0.02 … 0.8"));
         }
         let grid = self.size.in_room(seen.inner_mm, 5, 1)?;
         let radius = self.trap_ratio * grid.pitch_mm / 2.0;

@@ -37,7 +37,7 @@ impl GridSize {
         let (given_columns, given_rows) = (checked("columns", self.columns)?, checked("rows", self.rows)?);
         let pitch_mm = match (self.pitch_mm, given_columns, given_rows) {
             (Some(pitch), ..) if !(pitch.is_finite() && pitch > 0.0) => {
-                return Err(ChartError::option("pitch-mm", pitch, "expected a distance above 0 mm"));
+                return Err(ChartError::option("pitch_mm", pitch, "expected a distance above 0 mm"));
             }
             (Some(pitch), ..) => pitch,
             (None, Some(x), Some(y)) => (room_mm / DVec2::new(f64::from(x), f64::from(y))).min_element(),
@@ -50,7 +50,7 @@ impl GridSize {
         let (columns, rows) = (count(given_columns, room_mm.x), count(given_rows, room_mm.y));
         if columns < least || rows < least {
             let told = format!("that leaves {columns} columns and {rows} rows in view, {least} are needed: give less");
-            return Err(ChartError::option("pitch-mm", format!("{pitch_mm:.3}"), told));
+            return Err(ChartError::option("pitch_mm", format!("{pitch_mm:.3}"), told));
         }
         Ok(Grid { columns: columns as usize, rows: rows as usize, pitch_mm })
     }

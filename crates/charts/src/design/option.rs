@@ -20,7 +20,7 @@ pub(super) fn share(option: &'static str, value: f64) -> Result<f64, ChartError>
 /// An angle that edges are turned by, degrees, in radians.
 pub(super) fn angle(degrees: f64) -> Result<f64, ChartError> {
     let legal = (-45.0..=45.0).contains(&degrees);
-    legal.then_some(degrees.to_radians()).ok_or_else(|| ChartError::option("angle-deg", degrees, "expected -45 … 45"))
+    legal.then_some(degrees.to_radians()).ok_or_else(|| ChartError::option("angle_deg", degrees, "expected -45 … 45"))
 }
 
 /// Whether an edge at an angle to rows or columns can be measured: `measure sfr` expects 2° to 43° to the nearer of both.

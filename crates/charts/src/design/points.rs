@@ -26,7 +26,7 @@ pub struct Points {
 impl Points {
     pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(0.05..=10.0).contains(&self.diameter_px) {
-            return Err(ChartError::option("diameter-px", self.diameter_px, "expected 0.05 … 10 px"));
+            return Err(ChartError::option("diameter_px", self.diameter_px, "expected 0.05 … 10 px"));
         }
         let grid = self.size.in_room(seen.inner_mm, 15, 1)?;
         let radius = self.diameter_px * seen.pixel_mm / 2.0;

@@ -31,7 +31,7 @@ impl SlantedEdges {
         let (turn, contrast) = (angle(self.angle_deg)?, contrast(self.contrast)?);
         if !is_measurable(self.angle_deg) {
             let told = "expected 2 … 43 or -43 … -2: only such edges are sampled between the pixels (measure sfr)";
-            return Err(ChartError::option("angle-deg", self.angle_deg, told));
+            return Err(ChartError::option("angle_deg", self.angle_deg, told));
         }
         let grid = self.size.in_room(seen.inner_mm, 5, 1)?;
         let pitch = DVec2::splat(grid.pitch_mm);

@@ -41,7 +41,7 @@ impl SlantedStar {
         if unmeasurable_deg.len() == 2 * self.spokes as usize {
             let told =
                 "no edge of these stars lies 2° to 43° off rows and columns: expected another angle or more spokes";
-            return Err(ChartError::option("angle-deg", self.angle_deg, told));
+            return Err(ChartError::option("angle_deg", self.angle_deg, told));
         }
         let grid = self.size.in_room(seen.inner_mm, 3, 1)?;
         let pitch = DVec2::splat(grid.pitch_mm);

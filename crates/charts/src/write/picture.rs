@@ -19,7 +19,7 @@ const MM_PER_INCH: f64 = 25.4;
 /// Where the chart is no flat sheet, or that makes no picture of reasonable size.
 pub fn picture(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError> {
     if !drawing.is_flat() {
-        return Err(ChartError::option("png", dpi, "this chart stands in space and has no print; leave --png out"));
+        return Err(ChartError::option("png", dpi, "this chart stands in space and has no print; leave `png` out"));
     }
     let sheet = &drawing.panels[0].sheet;
     let px_per_mm = dpi / MM_PER_INCH;

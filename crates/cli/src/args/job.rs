@@ -20,18 +20,18 @@ pub struct JobArgs {
     pub allow_outside: Vec<PathBuf>,
     /// Memory of textures. Where they need more, the large ones are kept in tiles on the disk and read where they are looked up. The result
     /// does not depend on it
-    #[arg(long, value_name = "MB", value_parser = whole(1..=1 << 20), default_value = "512")]
+    #[arg(id = "texture_memory_mb", long = "texture-memory", value_name = "MB", value_parser = whole(1..=1 << 20), default_value = "512")]
     pub texture_memory: u32,
     /// The folder of these tiles, which another run finds again [default: etendue in $XDG_CACHE_HOME, else in ~/.cache]
     #[arg(long, value_name = "DIR")]
     pub cache: Option<PathBuf>,
     /// Memory of the bands of one film: their means and variances, 8 bytes a pixel and band. Larger ones are kept in a scratch file on the disk, and
     /// files, effects and electrons are made of it some rows or one band at a time. The result does not depend on it
-    #[arg(long, value_name = "MB", value_parser = whole(1..=1 << 20), default_value = "2048")]
+    #[arg(id = "film_memory_mb", long = "film-memory", value_name = "MB", value_parser = whole(1..=1 << 20), default_value = "2048")]
     pub film_memory: u32,
     /// Memory that the run may take, beside the program; a run whose estimate is higher is refused before its first sample. 0: no check [default: what
     /// the process, its control group and the machine have free]
-    #[arg(long, value_name = "MB", value_parser = whole(0..=1 << 24))]
+    #[arg(id = "memory_mb", long = "memory", value_name = "MB", value_parser = whole(0..=1 << 24))]
     pub memory: Option<u32>,
     /// The folder of these scratch files, which are gone when the run ends [default: that of --cache]
     #[arg(long, value_name = "DIR")]

@@ -71,9 +71,12 @@ impl Display {
     /// Where none answers.
     pub fn connect(address: &str) -> Result<Self, Error> {
         let refused = |why: String| {
-            Error::input(format!(
-                "--display {address}: {why}; start the viewer there first (tev listens at 127.0.0.1:14158), or leave it out"
-            ))
+            Error::argument(
+                "display",
+                format!(
+                    "`display` {address}: {why}; start the viewer there first (tev listens at 127.0.0.1:14158), or leave it out"
+                ),
+            )
         };
         let mut addresses = address.to_socket_addrs().map_err(|cause| refused(cause.to_string()))?.peekable();
         let mut why = "no such host".to_owned();

@@ -27,7 +27,7 @@ impl Characterise {
         let existing = if self.overwrite { Existing::Replace } else { Existing::Refuse };
         claim(&self.output, existing)?;
         let found = pool.install(|| characterise(&self.request, console.observer()))?;
-        print_paths(console, &found.save(&self.output, existing)?);
+        print_paths(console, &found.save_spelled(&self.output, existing, &|text| console.spelled(text))?);
         Ok(())
     }
 }

@@ -42,7 +42,7 @@ pub struct Render {
     pub shard: Option<ShardSpec>,
     /// Of a shard only this film, by the name of its file, as front.film.exr or left.0003.0.film.exr (once or several times); `etendue merge`
     /// wants all films of a shard in its folder
-    #[arg(long, value_name = "FILE", requires = "shard")]
+    #[arg(id = "films", long = "film", value_name = "FILE", requires = "shard")]
     pub film: Vec<String>,
 }
 

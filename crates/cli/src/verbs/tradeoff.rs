@@ -100,8 +100,9 @@ impl Tradeoff {
         self.job.open(console, &pool)?;
         let (folder, existing) = self.output.folder();
         if self.mtf50 && !self.ablate && self.vary.is_empty() {
-            return Err(Error::input(
-                "--mtf50 tells what changes do to the contrast transfer: give it with --ablate or --vary",
+            return Err(Error::argument(
+                "mtf50",
+                "`mtf50` tells what changes do to the contrast transfer: give it with `ablate` or `vary`",
             ));
         }
         self.refuse_to_replace()?;
@@ -116,7 +117,9 @@ impl Tradeoff {
             (false, []) => studied(&request, folder, observer),
             (false, changes) => varied(&request, changes, observer),
         })?;
-        findings.files.iter().try_for_each(|(name, bytes)| output.write(name, bytes).map_err(Error::run))?;
+        for (name, bytes) in &findings.files {
+            output.write(name, &spelled(console, name, bytes)).map_err(Error::run)?;
+        }
         let written = output.commit().map_err(Error::run)?;
         if self.json {
             console.print_json(&findings.json);
@@ -139,7 +142,7 @@ impl Tradeoff {
         let names = names.iter().map(|name| (*name).to_owned()).chain(pictures);
         for path in names.map(|name| folder.join(name)).filter(|path| path.exists()) {
             if existing == Existing::Refuse {
-                let problem = "is there already; give another folder, or --overwrite";
+                let problem = "is there already; give another folder, or `overwrite`";
                 return Err(Error::input(format!("{}: {problem}", path.display())));
             }
             if path.canonicalize().ok() == self.job.request.job.canonicalize().ok() {
@@ -205,4 +208,13 @@ fn varied(request: &Request, changes: &[Changes], observer: &dyn Observer) -> Re
 fn to_json(found: &impl serde::Serialize) -> Result<String, Error> {
     let text = serde_json::to_string_pretty(found).map_err(|error| Error::Run(error.to_string()))?;
     Ok(text + "\n")
+}
+
+/// The bytes of a file, whose texts name arguments as the console does.
+fn spelled(console: &dyn Console, name: &str, bytes: &[u8]) -> Vec<u8> {
+    let text = name.ends_with(".json") || name.ends_with(".txt");
+    match std::str::from_utf8(bytes) {
+        Ok(words) if text => console.spelled(words).into_bytes(),
+        _ => bytes.to_vec(),
+    }
 }

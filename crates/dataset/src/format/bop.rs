@@ -156,11 +156,14 @@ impl Writer for Bop {
 }
 
 fn another_model(record: &SampleRecord, object: &ObjectRecord, known: &str) -> Error {
-    Error::input(format!(
-        "--format bop: object {} is \"{known}\" in one sample and \"{}\" of another size or name in sample {}, and a model of BOP keeps its size; vary \
+    Error::argument(
+        "formats",
+        format!(
+            "`formats` bop: object {} is \"{known}\" in one sample and \"{}\" of another size or name in sample {}, and a model of BOP keeps its size; vary \
          poses and not scales and objects, or make the set in another folder without the format",
-        object.id, object.name, record.sample
-    ))
+            object.id, object.name, record.sample
+        ),
+    )
 }
 
 impl Bop {

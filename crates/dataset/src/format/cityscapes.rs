@@ -84,7 +84,7 @@ impl Cityscapes {
         cities.sort_unstable();
         if let Some(pair) = cities.windows(2).find(|pair| pair[0] == pair[1]) {
             let problem = "two cameras would be one city: \"_\" in a name is \"-\" here; rename one";
-            return Err(Error::input(format!("--format cityscapes: {}: {problem}", pair[0])));
+            return Err(Error::argument("formats", format!("`formats` cityscapes: {}: {problem}", pair[0])));
         }
         let label = |name: &str| {
             let stated = stated.iter().find(|(class, _)| class.value == name).map(|(_, label)| label.value.as_str());

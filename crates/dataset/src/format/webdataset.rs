@@ -97,13 +97,16 @@ impl Writer for WebDataset {
         let is_touched = |sample: &&u32| (shard(samples.start)..=shard(samples.end - 1)).contains(&shard(**sample));
         let Some(sample) = records.numbers().iter().filter(is_touched).find(lost) else { return Ok(()) };
         let (first, end) = (shard(*sample) * self.shard_samples, (shard(*sample) + 1) * self.shard_samples);
-        Err(Error::input(format!(
-            "--samples {}..{}: the shard of samples {first} to {} is complete, and its samples are made anew together; give --samples {first}..{end} \
-             with --overwrite, or --resume",
-            samples.start,
-            samples.end,
-            end - 1
-        )))
+        Err(Error::argument(
+            "samples",
+            format!(
+                "`samples` {}..{}: the shard of samples {first} to {} is complete, and its samples are made anew together; give `samples` {first}..{end} \
+             with `overwrite`, or `resume`",
+                samples.start,
+                samples.end,
+                end - 1
+            ),
+        ))
     }
 
     /// A part is a piece of the shard that has taken its place.

@@ -86,7 +86,7 @@ fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
     assert!(told.ends_with("nothing of this run was kept") && !out.exists(), "{told}");
     // In the third: two frames.
     let told = panicked(&job(false), &out, 10);
-    assert!(told.contains("kept 2 frames that are whole; with --resume"), "{told}");
+    assert!(told.contains("kept 2 frames that are whole; with `resume`"), "{told}");
     let kept = files(&out);
     assert!(kept.len() > 2 && kept.iter().all(|(name, bytes)| expected.get(name) == Some(bytes)), "{:?}", kept.keys());
     job(false).save(&options(), (&out, Existing::Resume), &Unobserved).expect("rendered");
@@ -100,7 +100,7 @@ fn a_panic_between_passes_leaves_the_light_of_the_last() {
     job(true).save(&options(), (&whole, Existing::Refuse), &Unobserved).expect("rendered");
     // The second pass of the first frame.
     let told = panicked(&job(true), &out, 6);
-    assert!(told.contains("kept the light of the last whole pass; with --resume"), "{told}");
+    assert!(told.contains("kept the light of the last whole pass; with `resume`"), "{told}");
     job(true).save(&options(), (&out, Existing::Resume), &Unobserved).expect("rendered");
     assert!(files(&out) == files(&whole));
 }
@@ -130,4 +130,18 @@ fn a_missing_file_is_a_fault_of_the_key_that_names_it() {
     let Some(fault) = faults.iter().find(|fault| fault.message.contains("lost.obj")) else { panic!("{faults:?}") };
     assert_eq!((fault.file.as_ref(), fault.line, fault.column), (Some(&job), Some(4), Some(8)), "{fault:?}");
     assert_eq!(fault.key.as_deref(), Some("scene.meshes.m.file"));
+}
+
+/// The program calls it `--time` (`crates/cli/tests/binary/progressive.rs`), Python `time_s`.
+#[test]
+fn a_time_that_is_too_short_is_told_by_its_field() {
+    let Err(Error::Input(faults)) = JobRequest { time_s: Some(3.0), ..JobRequest::new("job.toml") }.open() else {
+        panic!("a time of 3 s is refused")
+    };
+    assert_eq!(faults[0].field.as_deref(), Some("time_s"));
+    assert!(
+        faults[0].message.starts_with("`time_s` 3: ") && !faults[0].message.contains("--"),
+        "{}",
+        faults[0].message
+    );
 }

@@ -60,7 +60,7 @@ fn an_option_overrides_the_side_car_and_says_so() {
     let (frequency_hz, _, notes) = told(&request);
     assert!((frequency_hz - 200.0).abs() < 1.0, "rows in half the time: {frequency_hz} Hz");
     let said = |words: &str| notes.iter().any(|note| note.contains(words));
-    assert!(said("--row-time-us 125 is taken") && said("says 250 µs"), "{notes:?}");
+    assert!(said("`row_time_us` 125 is taken") && said("says 250 µs"), "{notes:?}");
     // Every second frame.
-    assert!(said("--frame-rate-hz 25 is taken") && said("says 12.5 Hz"), "{notes:?}");
+    assert!(said("`frame_rate_hz` 25 is taken") && said("says 12.5 Hz"), "{notes:?}");
 }

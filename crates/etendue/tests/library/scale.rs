@@ -241,11 +241,11 @@ fn matrix(text: &str) -> Vec<f64> {
 fn sizes_that_do_not_divide_are_refused_with_those_that_do() {
     let error = open_job(&panel(""), Some("1/5")).expect_err("64 × 48 px are no multiple of 5");
     let (problem, remedy) = ("64 × 48 px are not a multiple of 5 × 5 pixels", "give one of 1/2, 1/4, 1/8, 1/16");
-    assert!(error.contains("--scale 1/5") && error.contains(problem) && error.contains(remedy), "{error}");
+    assert!(error.contains("`scale` 1/5") && error.contains(problem) && error.contains(remedy), "{error}");
     let error = open_job(&panel(", roi_px = [2, 0, 32, 24]"), Some("1/4")).expect_err("a region at column 2");
     assert!(error.contains("roi_px = [2, 0, 32, 24]") && error.contains("give one of 1/2"), "{error}");
     let error = open_job(&panel(""), Some("2")).expect_err("larger than the sensor");
-    assert!(error.contains("--scale 2") && error.contains("\"1/4\" or 0.25"), "{error}");
+    assert!(error.contains("`scale` 2") && error.contains("\"1/4\" or 0.25"), "{error}");
     let error = open_job(&panel(", scale = \"3/4\""), None).expect_err("no part of a pixel");
     assert!(error.contains("sensor.scale"), "{error}");
 }

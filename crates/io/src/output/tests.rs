@@ -52,7 +52,7 @@ fn an_earlier_result_is_kept_unless_replacing_is_allowed() {
     let refusing = OutputFolder::open(place.path(), Existing::Refuse).expect("open");
     let told = refusing.claim(["y.txt", "x.txt"]).expect_err("x.txt is there").to_string();
     assert!(
-        told.ends_with("x.txt: already there; choose another output folder, or allow it with --overwrite"),
+        told.ends_with("x.txt: already there; choose another output folder, or allow it with `overwrite`"),
         "{told}"
     );
     drop(refusing);

@@ -82,7 +82,7 @@ pub fn characterise(request: &CharacteriseRequest, observer: &dyn Observer) -> R
     } else if found.colour.is_some() {
         f.unknown(
             "white balance and colour matrix of the camera file",
-            "they belong to the spectral responsivities, which light of one wavelength does not tell: lay the file over one that has them (--base)",
+            "they belong to the spectral responsivities, which light of one wavelength does not tell: lay the file over one that has them (`base`)",
         );
     }
     let lens = [Kind::Field, Kind::Chart, Kind::Edges, Kind::Checker];
@@ -141,6 +141,19 @@ impl Characterisation {
     /// # Errors
     /// Where one is there and may not be replaced, or cannot be written.
     pub fn save(&self, file: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
+        self.save_spelled(file, existing, &str::to_owned)
+    }
+
+    /// The same by a front end, which spells the names of arguments that stand in backticks in the texts.
+    ///
+    /// # Errors
+    /// Where one is there and may not be replaced, or cannot be written.
+    pub fn save_spelled(
+        &self,
+        file: &Path,
+        existing: Existing,
+        spelled: &dyn Fn(&str) -> String,
+    ) -> Result<Vec<PathBuf>, Error> {
         let stem = etendue_io::paths::camera_stem(file);
         let parent = parent(file);
         let picture = self.point_picture();
@@ -151,9 +164,9 @@ impl Characterisation {
             camera_file(&self.laboratory, &self.found, base.as_deref(), picture.as_ref().map(|p| (&*picture_name, p)));
         base::check(&parent.join(format!("{stem}{}", ENDINGS[0])), &camera.text)?;
         let mut files = vec![
-            (format!("{stem}{}", ENDINGS[0]), camera.text.clone().into_bytes()),
-            (format!("{stem}{}", ENDINGS[1]), format!("{:#}\n", self.json(&camera)).into_bytes()),
-            (format!("{stem}{}", ENDINGS[2]), self.page(&camera).into_bytes()),
+            (format!("{stem}{}", ENDINGS[0]), spelled(&camera.text).into_bytes()),
+            (format!("{stem}{}", ENDINGS[1]), spelled(&format!("{:#}\n", self.json(&camera))).into_bytes()),
+            (format!("{stem}{}", ENDINGS[2]), spelled(&self.page(&camera)).into_bytes()),
         ];
         if let Some(picture) = picture {
             files.push((picture_name, picture.png()?));

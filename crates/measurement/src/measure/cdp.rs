@@ -82,7 +82,7 @@ pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
     };
     let (mut found, mut left_out) = (Vec::new(), Vec::new());
     for pair in pairs {
-        let (low, high) = (readings.part(pair.darker, "--darker")?, readings.part(pair.brighter, "--brighter")?);
+        let (low, high) = (readings.part_of("darker", pair.darker)?, readings.part_of("brighter", pair.brighter)?);
         match measure_contrast(&low, &high, pair.contrast, &settings) {
             Ok(measured) => found.push((pair, measured)),
             Err(error) if pair.luminance_cd_m2.is_some() => left_out.push(format!("{}: {error}", places(&pair))),
@@ -96,7 +96,7 @@ pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
     report.encoding(&readings.stated);
     for (pair, _) in &found {
         for at in [pair.darker, pair.brighter] {
-            report.note_cut(&region_label("patch", at), &readings.part(at, "--darker")?, settings.full_scale);
+            report.note_cut(&region_label("patch", at), &readings.part_of("darker", at)?, settings.full_scale);
         }
     }
     left_out.into_iter().for_each(|reason| report.note(format!("left out: patches at {reason}")));
@@ -124,7 +124,10 @@ fn pairs(request: &CdpRequest, readings: &Readings) -> Result<Vec<Pair>, Error> 
     }
     let (darker, brighter, contrasts) = (&request.darker, &request.brighter, &request.contrast);
     if darker.len() != brighter.len() || darker.len() != contrasts.len() {
-        return Err(Error::input("--darker, --brighter and --contrast: expected each of them once a pair"));
+        return Err(Error::argument(
+            "darker",
+            "`darker`, `brighter` and `contrast`: expected each of them once a pair",
+        ));
     }
     let pair = |((darker, brighter), contrast): ((&[usize; 4], &[usize; 4]), &f64)| Pair {
         darker: *darker,

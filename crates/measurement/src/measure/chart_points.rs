@@ -100,18 +100,18 @@ impl ChartInput {
     fn listed(&self, file: &Path) -> Result<Seen, Error> {
         let told = self.told()?;
         let size_px = self.size_px.ok_or_else(|| {
-            refused(file, "a list of points does not say how large the picture is: add --size-px WxH")
+            refused(file, "a list of points does not say how large the picture is: add `size_px` WxH")
         })?;
         told.iter().try_for_each(|(truth, _)| truth.fits_size(file, size_px))?;
         if self.encoding.chosen.is_some() {
-            return Err(refused(file, "a list of points has no numbers of light: leave --encoding out"));
+            return Err(refused(file, "a list of points has no numbers of light: leave `encoding` out"));
         }
         let useless = [
-            ("--region", self.region.is_some()),
-            ("--channel", self.channel.is_some()),
-            ("--cfa", self.cfa.is_some()),
-            ("--target", self.target.is_some()),
-            ("--grid", self.grid.is_some()),
+            ("`region`", self.region.is_some()),
+            ("`channel`", self.channel.is_some()),
+            ("`cfa`", self.cfa.is_some()),
+            ("`target`", self.target.is_some()),
+            ("`grid`", self.grid.is_some()),
         ];
         if let Some((name, _)) = useless.iter().find(|(_, given)| *given) {
             return Err(refused(file, format!("a list of points: {name} has no effect, leave it out")));
@@ -130,7 +130,7 @@ impl ChartInput {
         let told = self.told()?;
         let (width, height) = planes[0].picture_px;
         if self.size_px.is_some_and(|stated| stated != [width, height]) {
-            let told = format!("{width} × {height} pixels, not as --size-px says: leave that out");
+            let told = format!("{width} × {height} pixels, not as `size_px` says: leave that out");
             return Err(refused(file, told).into());
         }
         told.iter().try_for_each(|(truth, _)| truth.fits_size(file, [width, height]))?;
@@ -145,7 +145,8 @@ impl ChartInput {
 
     /// The chart among readings, in the picture's raster coordinates.
     fn grid(&self, file: &Path, plane: &Readings, sought: Sought) -> Result<Grid, Unseen> {
-        let part = self.region.map(|region| plane.part(region, "--region").map(|image| (image, region))).transpose()?;
+        let part =
+            self.region.map(|region| plane.part_of("region", region).map(|image| (image, region))).transpose()?;
         let (image, first) = match &part {
             None => (&plane.image, [0, 0]),
             Some((image, region)) => (image, plane.first_of(*region)),

@@ -35,7 +35,10 @@ impl ChromaticRequest {
 pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
     let file = &request.file;
     if request.chart.channel.is_some() {
-        return Err(Error::input("--channel: lateral colour is measured in red, green and blue; leave it out"));
+        return Err(Error::argument(
+            "channel",
+            "`channel`: lateral colour is measured in red, green and blue; leave it out",
+        ));
     }
     let photograph = request.chart.encoding.photograph(file)?;
     let selection = request.chart.selection(None);

@@ -109,9 +109,11 @@ fn told(truth: &Truth, picture: &Path, colours: &[Readings; 3]) -> Result<Vec<Co
 
 fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Error> {
     if !(request.patch > 0.0 && request.patch <= 1.0) {
-        return Err(Error::input("--patch: expected a share above 0 and at most 1"));
+        return Err(Error::argument("patch", "`patch`: expected a share above 0 and at most 1"));
     }
-    let [a, b, c, d] = request.corners[..] else { return Err(Error::input("--corners: expected four of them")) };
+    let [a, b, c, d] = request.corners[..] else {
+        return Err(Error::argument("corners", "`corners`: expected four of them"));
+    };
     let (columns, rows) = ((CHART.0 - 1) as f64, (CHART.1 - 1) as f64);
     // Bilinear between the corners: exact where the chart is parallel to the sensor, near it otherwise.
     let middle = |i: usize| {
@@ -121,9 +123,9 @@ fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<V
     let half = 0.5 * request.patch * ((b - a).length() / columns).min((d - a).length() / rows);
     let patch = |(i, patch): (usize, &etendue_spectra::chart::Patch)| {
         let (low, high) = (middle(i) - half, middle(i) + half);
-        let beyond = || Error::input("--corners: a patch lies beyond the picture");
+        let beyond = || Error::argument("corners", "`corners`: a patch lies beyond the picture");
         let at = super::readings::pixels(low.into(), high.into(), colours[1].picture_px).ok_or_else(beyond)?;
-        let one = |c: usize| colours[c].part(at, "--corners: a patch");
+        let one = |c: usize| colours[c].part(at, "`corners`: a patch").map_err(|error| error.with_field("corners"));
         let reference = observer::xyz_of_reflectance(&patch.reflectance, illuminant::d65());
         Ok(ColourPatch { name: patch.name.to_owned(), pixels: [one(0)?, one(1)?, one(2)?], reference })
     };

@@ -97,10 +97,10 @@ pub enum DepthAlignment {
 /// # Errors
 /// Where the pictures cannot be used or differ in size.
 pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
-    ranges::whole("--edge-px", request.edge_px, EDGE_PX)?;
-    for (name, unit) in [("estimate", request.estimate_unit_m), ("truth", request.truth_unit_m)] {
+    ranges::whole("edge_px", request.edge_px, EDGE_PX)?;
+    for (field, unit) in [("estimate_unit_m", request.estimate_unit_m), ("truth_unit_m", request.truth_unit_m)] {
         if !(unit > 0.0 && unit.is_finite()) {
-            return Err(Error::input(format!("--{name}-unit-m: expected a number above 0, not {unit}")));
+            return Err(Error::argument(field, format!("`{field}`: expected a number above 0, not {unit}")));
         }
     }
     let estimate = depth(&request.estimate, request.estimate_channel.as_deref(), request.estimate_unit_m)?;

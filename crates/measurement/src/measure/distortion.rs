@@ -94,7 +94,7 @@ fn disagreement(found: &Distortion) -> Option<String> {
     let less_one = |e: Estimate| with_uncertainty(percent(Estimate::new(e.value - 1.0, e.standard_uncertainty)));
     Some(format!(
         "the curve is not what k1 and k2 say, {error:.1} times their joint uncertainty (95 %) apart at {:.1} % of the field, {} % and {} %: \
-         the chart is tilted, the distortion is centred elsewhere (--centre-px), or k1 and k2 do not describe it",
+         the chart is tilted, the distortion is centred elsewhere (`centre_px`), or k1 and k2 do not describe it",
         100.0 * point.field,
         less_one(point.ratio),
         less_one(by_fit)

@@ -59,10 +59,10 @@ impl EncodingChoice {
             Some(ChosenEncoding::Linear) => Encoding::Linear,
             Some(ChosenEncoding::Srgb) => Encoding::Srgb,
             Some(ChosenEncoding::Table(file)) => {
-                return Ok(Some(Stated::new(table(file)?, format!("--encoding {}", file.display()))));
+                return Ok(Some(Stated::new(table(file)?, format!("`encoding` {}", file.display()))));
             }
         };
-        Ok(Some(Stated::new(encoding, "--encoding")))
+        Ok(Some(Stated::new(encoding, "`encoding`")))
     }
 
     /// A picture whose numbers are to become light.
@@ -74,7 +74,7 @@ impl EncodingChoice {
         let Some(stated) = self.stated()? else { return Ok(photograph) };
         if photograph.raw.is_some() && stated.encoding != Encoding::Linear {
             let (file, reason) = (file.display(), &photograph.stated.reason);
-            let told = format!("{file}: raw numbers in proportion to light ({reason}): leave --encoding out");
+            let told = format!("{file}: raw numbers in proportion to light ({reason}): leave `encoding` out");
             return Err(Error::input(told));
         }
         photograph.stated = stated;
@@ -104,7 +104,7 @@ impl EncodingChoice {
             let remedy = if self.chosen.is_some() {
                 "leave it out"
             } else {
-                "where they are linear all the same, say --encoding linear"
+                "where they are linear all the same, say `encoding` linear"
             };
             return Err(Error::input(format!("{what}, where numbers in proportion to charge are needed: {remedy}")));
         }

@@ -50,8 +50,8 @@ pub fn flare(request: &FlareRequest) -> Result<Report, Error> {
     let levels = &request.input.levels;
     let (black, full_scale) = (levels.black(&readings), levels.full_scale(&readings));
     let measured = |place: &TrapPlace| {
-        let trap = readings.part(place.trap, "--trap")?;
-        let whites = place.whites.iter().map(|at| readings.part(*at, "--white"));
+        let trap = readings.part_of("traps", place.trap)?;
+        let whites = place.whites.iter().map(|at| readings.part_of("white", *at));
         let whites = whites.collect::<Result<Vec<_>, _>>()?;
         measure_flare(&trap, &whites, black, full_scale, readings.shared_px)
             .map_err(|error| refused(&request.picture, error))
@@ -61,9 +61,9 @@ pub fn flare(request: &FlareRequest) -> Result<Report, Error> {
     let mut report = report(&places, &found, readings.picture_px);
     report.encoding(&readings.stated);
     for place in &traps {
-        report.note_cut(&region_label("trap", place.trap), &readings.part(place.trap, "--trap")?, full_scale);
+        report.note_cut(&region_label("trap", place.trap), &readings.part_of("traps", place.trap)?, full_scale);
         for white in &place.whites {
-            report.note_cut(&region_label("white", *white), &readings.part(*white, "--white")?, full_scale);
+            report.note_cut(&region_label("white", *white), &readings.part_of("white", *white)?, full_scale);
         }
     }
     if let Some(truth) = request.input.truth.read(&CHARTS)?

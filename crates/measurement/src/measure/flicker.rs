@@ -154,7 +154,7 @@ fn one(
 fn alike(orders: Vec<(u32, f64)>, rate_hz: f64) -> String {
     let list: Vec<String> = orders.iter().map(|(k, f)| format!("{f:.2} Hz (order {k})")).collect();
     format!(
-        "frames at {rate_hz} Hz undersample: the light's frequency is one of {} …; rows of a rolling shutter tell which (--row-time-us)",
+        "frames at {rate_hz} Hz undersample: the light's frequency is one of {} …; rows of a rolling shutter tell which (`row_time_us`)",
         list.join(", ")
     )
 }
@@ -180,12 +180,12 @@ fn of_bands(bands: &RowBands, rows_of_file: f64, report: &mut Report) {
 fn missing(bands: Option<&RowBands>, request: &FlickerRequest, report: &mut Report) {
     if bands.is_some() && request.exposure_us.is_none() {
         report.note(
-            "without the exposure (--exposure-us) the light's own modulation and the duty of its pulses are not known",
+            "without the exposure (`exposure_us`) the light's own modulation and the duty of its pulses are not known",
         );
     }
     if request.frames.len() > 1 && request.frame_rate_hz.is_none() {
         report.note(
-            "without the frame rate (--frame-rate-hz) each frame is measured by itself, and the means of all are told",
+            "without the frame rate (`frame_rate_hz`) each frame is measured by itself, and the means of all are told",
         );
     }
 }

@@ -40,10 +40,13 @@ pub fn focal(request: &FocalRequest, observer: &dyn Observer) -> Result<Report, 
         options.distance = told.distance_mm.map(|mm| Estimate::new(mm, 0.0));
     }
     if request.camera_keys && views.pixel_pitch_um.is_none() {
-        return Err(Error::input("--camera-out: a camera file needs the pixels' size: add --pixel-pitch-um"));
+        return Err(Error::argument(
+            "camera_keys",
+            "`camera_keys`: a camera file needs the pixels' size: add `pixel_pitch_um`",
+        ));
     }
     if one && options.distance.is_none() {
-        let told = "one picture alone does not tell the focal length from the distance: add --distance-mm, or more pictures with the \
+        let told = "one picture alone does not tell the focal length from the distance: add `distance_mm`, or more pictures with the \
                     chart turned";
         return Err(Error::input(told));
     }

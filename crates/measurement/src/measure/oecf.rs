@@ -128,8 +128,8 @@ fn kind(readings: &Readings) -> &'static str {
 fn series(request: &OecfRequest) -> Result<Vec<(f64, Readings)>, Error> {
     let count = (request.pictures.len(), request.exposures.len());
     if count.1 > 0 && count.0 != count.1 {
-        let message = format!("--exposures: expected one a picture, {} of them, not {}", count.0, count.1);
-        return Err(Error::input(message));
+        let message = format!("`exposures`: expected one a picture, {} of them, not {}", count.0, count.1);
+        return Err(Error::argument("exposures", message));
     }
     let told = |i: usize, file: &Path| match request.exposures.get(i) {
         Some(exposure) => Ok(*exposure),
@@ -161,7 +161,7 @@ fn copies(request: &OecfRequest, series: &[(f64, Readings)]) -> Result<(), Error
 
 fn exposure_beside(file: &Path) -> Result<f64, Error> {
     let photograph = etendue_io::photograph::read_photograph(file).map_err(Error::input)?;
-    let lacks = || Error::input(format!("{}: its exposure is not known: give --exposures", file.display()));
+    let lacks = || Error::input(format!("{}: its exposure is not known: give `exposures`", file.display()));
     photograph.raw.map(|facts| facts.exposure_s).ok_or_else(lacks)
 }
 
@@ -175,7 +175,10 @@ fn exposures(request: &OecfRequest) -> Result<Measured, Error> {
 /// The middle of an even chart at its cameras' exposures; each picture lies in the folder of its camera.
 fn shots(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
     if request.input.truth.camera.is_some() {
-        return Err(Error::input("--camera: has no effect on a series: each picture's folder names its camera"));
+        return Err(Error::argument(
+            "camera",
+            "`camera`: has no effect on a series: each picture's folder names its camera",
+        ));
     }
     let exposures = truth.exposures()?;
     let mut series = Vec::new();
@@ -193,23 +196,26 @@ fn shots(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
     copies(request, &series)?;
     let levels = &request.input.levels;
     let of_middle = |(exposure, readings): &(f64, Readings)| {
-        let middle = readings.part(truth.middle(readings)?, "--truth")?;
+        let middle = readings.part_of("truth", truth.middle(readings)?)?;
         Ok(point(*exposure, &middle, levels, readings))
     };
     let points = series.iter().map(of_middle).collect::<Result<Vec<_>, Error>>()?;
     Ok(Measured { unit: "cd s/m²", ..Measured::new(points, levels, &series[0].1) })
 }
 
-fn only_picture<'a>(request: &'a OecfRequest, option: &str) -> Result<&'a Path, Error> {
+fn only_picture<'a>(request: &'a OecfRequest, field: &str) -> Result<&'a Path, Error> {
     match &request.pictures[..] {
         [picture] => Ok(picture),
-        more => Err(Error::input(format!("{option}: expected one picture that holds all steps, not {}", more.len()))),
+        more => Err(Error::argument(
+            field,
+            format!("`{field}`: expected one picture that holds all steps, not {}", more.len()),
+        )),
     }
 }
 
 /// The steps of a chart.
 fn patches(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
-    let picture = only_picture(request, "--truth")?;
+    let picture = only_picture(request, "truth")?;
     let readings = request.input.selection.stored(picture)?;
     truth.fits(picture, &readings)?;
     let (patches, left_out) = truth.patches(&readings)?;
@@ -224,7 +230,7 @@ fn patches(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
 }
 
 fn steps(request: &OecfRequest, table: &Path) -> Result<Measured, Error> {
-    let picture = only_picture(request, "--steps")?;
+    let picture = only_picture(request, "steps")?;
     let readings = request.input.selection.stored(picture)?;
     let text = etendue_io::source::text_of(table)?;
     let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim().starts_with('#'));
@@ -318,8 +324,9 @@ fn plot(oecf: &Oecf, line: Option<(f64, f64)>, unit: &str) -> Plot {
 fn response(request: &OecfRequest) -> Result<Report, Error> {
     let series = series(request)?;
     let full_scale = request.input.levels.full_scale(&series[0].1);
-    let full_scale =
-        full_scale.ok_or_else(|| Error::input("--full-scale: a response needs the reading of a saturated pixel"))?;
+    let full_scale = full_scale.ok_or_else(|| {
+        Error::argument("full_scale", "`full_scale`: a response needs the reading of a saturated pixel")
+    })?;
     let settings = ResponseSettings {
         full_scale,
         black: request.input.levels.black(&series[0].1),

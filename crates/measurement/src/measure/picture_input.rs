@@ -32,8 +32,9 @@ impl PictureInput {
     pub(crate) fn check_without_black(&self) -> Result<(), Error> {
         match self.levels.black {
             None => Ok(()),
-            Some(_) => Err(Error::input(
-                "--black: differences of readings alone count here, so that it changes nothing; leave it out",
+            Some(_) => Err(Error::argument(
+                "black",
+                "`black`: differences of readings alone count here, so that it changes nothing; leave it out",
             )),
         }
     }

@@ -68,6 +68,11 @@ impl Readings {
         [along(x, self.first.0, self.period.0), along(y, self.first.1, self.period.1)]
     }
 
+    /// The readings of a part that an argument states, by the name of its field.
+    pub(crate) fn part_of(&self, field: &str, region: [usize; 4]) -> Result<Image, Error> {
+        self.part(region, &format!("`{field}`")).map_err(|error| error.with_field(field))
+    }
+
     /// The readings of a part of the picture, which must lie within it.
     pub(crate) fn part(&self, region: [usize; 4], name: &str) -> Result<Image, Error> {
         let [x, y, width, height] = region;
@@ -155,7 +160,7 @@ impl Selection {
         if self.channel.is_none() && photograph.channel("R").is_some() {
             let names = photograph.names().join(", ");
             let file = file.display();
-            return Err(Error::input(format!("{file}: say which of its channels to measure with --channel: {names}")));
+            return Err(Error::input(format!("{file}: say which of its channels to measure with `channel`: {names}")));
         }
         self.of(file, &photograph)
     }
@@ -235,7 +240,7 @@ impl Selection {
         self.check_cfa(file, &photograph)?;
         if let (Some(name), None) = (&self.channel, self.mosaic(&photograph)) {
             let error = format!(
-                "{}: --channel {name}: nothing says which pixels are under which filter: give --cfa, or leave it out",
+                "{}: `channel` {name}: nothing says which pixels are under which filter: give `cfa`, or leave it out",
                 file.display()
             );
             return Err(Error::input(error));
@@ -275,7 +280,7 @@ impl Selection {
             Some(cfa) if photograph.channels.len() != 1 => {
                 let names = photograph.names().join(", ");
                 let error = format!(
-                    "{}: --cfa {cfa} has no effect on a picture of the channels {names}: it is for raw mosaics; leave it out",
+                    "{}: `cfa` {cfa} has no effect on a picture of the channels {names}: it is for raw mosaics; leave it out",
                     file.display()
                 );
                 Err(Error::input(error))
@@ -310,7 +315,7 @@ impl Selection {
             let file = file.display();
             let names = tile.channels.join(", ");
             return Err(Error::input(format!(
-                "{file}: a raw mosaic of the colours {names}: say which one to measure with --channel"
+                "{file}: a raw mosaic of the colours {names}: say which one to measure with `channel`"
             )));
         };
         let at = (0..tile.channels.len()).filter(|i| is_colour(&tile.channels[*i], name)).nth(nth);
@@ -362,7 +367,7 @@ fn luminance(file: &Path, photograph: &Photograph, light: &ToLight) -> Result<Ve
     }
     let Some(((r, g), b)) = linear("R").zip(linear("G")).zip(linear("B")) else {
         return Err(Error::input(format!(
-            "{}: say which of its channels to measure with --channel: {}",
+            "{}: say which of its channels to measure with `channel`: {}",
             file.display(),
             photograph.names().join(", ")
         )));

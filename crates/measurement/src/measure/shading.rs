@@ -110,8 +110,8 @@ impl FlatFieldRequest {
     }
 
     fn measured(&self, blocks: u32, report: &mut Report) -> Result<(Shading, (f64, f64)), Error> {
-        whole("--rings", self.rings, RINGS)?;
-        whole("--blocks", blocks, BLOCKS)?;
+        whole("rings", self.rings, RINGS)?;
+        whole("blocks", blocks, BLOCKS)?;
         let readings = self.input.linear(&self.picture)?;
         readings.independent(&self.picture, 1)?;
         self.check(&readings)?;
@@ -127,8 +127,9 @@ impl FlatFieldRequest {
 impl VignettingRequest {
     fn pitch_um(&self) -> Result<Option<f64>, Error> {
         let needed = || {
-            Error::input(
-                "--camera-out: expected --pixel-pitch-um above 0, as a lens states its fall-off over millimetres",
+            Error::argument(
+                "camera_keys",
+                "`camera_keys`: expected `pixel_pitch_um` above 0, as a lens states its fall-off over millimetres",
             )
         };
         let pitch_um = self.pixel_pitch_um.filter(|p| *p > 0.0 && p.is_finite());

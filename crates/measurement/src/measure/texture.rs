@@ -84,7 +84,7 @@ const RIM_PX: f64 = 2.0;
 fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> {
     let levels = &request.input.levels;
     let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
-    let needed = || Error::input("expected --centre-px, --cycles, --inner-px and --outer-px, or --truth");
+    let needed = || Error::input("expected `centre_px`, `cycles`, `inner_px` and `outer_px`, or `truth`");
     // Among the readings, which lie some pixels apart.
     let step = readings.period.0 as f64;
     let star = |(x, y): (f64, f64), cycles, inner_px: f64, outer_px: f64| {
@@ -168,7 +168,9 @@ fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leave
     readings.independent(file, 1)?;
     let (full_scale, stated) = (input.levels.full_scale(&readings), readings.stated.clone());
     let image = match input.truth(&[DeadLeaves::NAME], file, &readings)? {
-        Some(truth) => readings.part(truth.patches(&readings)?.0[0].at, "--truth: the leaves")?,
+        Some(truth) => readings
+            .part(truth.patches(&readings)?.0[0].at, "`truth`: the leaves")
+            .map_err(|error| error.with_field("truth"))?,
         None => readings.image,
     };
     Ok(Leaves { image, full_scale, stated })
@@ -196,7 +198,7 @@ pub fn texture(request: &TextureRequest) -> Result<Report, Error> {
     report.fact("shift_x_px", "picture right of the reference, taken off", "px", found.shift_px[0]);
     report.fact("shift_y_px", "picture below the reference, taken off", "px", found.shift_px[1]);
     if even.is_none() {
-        report.note("without --even noise counts as structure in 'direct'");
+        report.note("without `even` noise counts as structure in 'direct'");
     }
     let row = |p: &TexturePoint| {
         vec![

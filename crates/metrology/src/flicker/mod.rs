@@ -58,7 +58,7 @@ pub struct Flicker {
 pub enum FlickerError {
     /// A single frame without a row time.
     #[error(
-        "one frame says nothing of flicker where all rows are exposed together: give the time from row to row (--row-time-us), or several frames"
+        "one frame says nothing of flicker where all rows are exposed together: give the time from row to row (`row_time_us`), or several frames"
     )]
     NoTime,
     /// A time that is none.
@@ -93,7 +93,7 @@ pub enum FlickerError {
         percent: f64,
     },
     /// No light.
-    #[error("the mean reading {mean:.3} is not above that of no light, {black:.3}: is --black right?")]
+    #[error("the mean reading {mean:.3} is not above that of no light, {black:.3}: is `black` right?")]
     Dark {
         /// Mean of all frames.
         mean: f64,

@@ -37,7 +37,7 @@ pub enum TargetError {
     /// More than one chart.
     #[error(
         "{} and {} points were found in rows and columns that do not join: two charts, or one that something covers; \
-         choose a part of the picture that holds one whole chart (--region)", points[0], points[1]
+         choose a part of the picture that holds one whole chart (`region`)", points[0], points[1]
     )]
     Several {
         /// Points of the two largest.

@@ -55,7 +55,7 @@ pub enum TextureError {
     },
     /// The reference has no texture, or the picture another one.
     #[error(
-        "picture and reference share no texture: are they of the same place, pixel by pixel? A reference is a sharp render without noise: --set output.radiance=true writes radiance.exr"
+        "picture and reference share no texture: are they of the same place, pixel by pixel? A reference is a sharp render without noise: `set` output.radiance=true writes radiance.exr"
     )]
     Unlike,
 }

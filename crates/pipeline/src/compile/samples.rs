@@ -33,8 +33,8 @@ pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<
     }
     if let Some(threshold) = render.threshold_in_force() {
         if choices.refinement == Refinement::Progressive {
-            let problem = "\"noise_threshold\" decides the samples pixel by pixel, and --progressive refines all pixels pass by pass";
-            context.fault(&threshold.place, problem, "give --spp, or render without --progressive");
+            let problem = "\"noise_threshold\" decides the samples pixel by pixel, and `progressive` refines all pixels pass by pass";
+            context.fault(&threshold.place, problem, "give `spp`, or render without `progressive`");
         }
         return adaptive(threshold, render, context);
     }
@@ -52,7 +52,7 @@ fn timed(render: &Render, context: &mut Context<'_>) -> Samples {
     let passes = render.passes.first().map(|pass| ("passes", &pass.place));
     let spp = render.spp.as_ref().map(|spp| ("spp", &spp.place));
     for (key, place) in [noise, passes, spp].into_iter().flatten() {
-        context.notice(format!("--time supersedes {}", stated(key, place)));
+        context.notice(format!("`time_s` supersedes {}", stated(key, place)));
     }
     let replicates = render.replicates.as_ref().map_or(REPLICATES, |given| given.value) as u32;
     Samples { spp: replicates, replicates, adaptive: None, passes: Some(Passes::new(vec![Pass::whole(replicates)])) }
@@ -141,7 +141,7 @@ fn even(render: &Render, choices: &Choices, context: &mut Context<'_>) -> (u32, 
         let remedy = "give samples that are a multiple of the replicates";
         let by_quality = render.spp.is_none() && choices.quality.is_some();
         if by_quality && !replicates.place.is_command_line() {
-            context.notice(format!("--quality supersedes {}", stated("replicates", &replicates.place)));
+            context.notice(format!("`quality` supersedes {}", stated("replicates", &replicates.place)));
         } else {
             let cause = render.spp.as_ref().map(|spp| &spp.place);
             context.idle("replicates", &replicates.place, cause, problem, remedy);

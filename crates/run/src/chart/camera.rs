@@ -43,8 +43,8 @@ impl ChartCamera {
             None if given.ends_with(".toml") => Source::File(PathBuf::from(given)),
             None => {
                 let names = STAND_INS.map(|(name, _)| name).join(", ");
-                let told = format!("--camera {given}: expected a camera file (.toml) or one of {names}");
-                return Err(Error::input(told));
+                let told = format!("`camera` {given}: expected a camera file (.toml) or one of {names}");
+                return Err(Error::argument("camera", told));
             }
         };
         let (path, text) = match &source {

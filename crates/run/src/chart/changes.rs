@@ -85,8 +85,8 @@ impl<'c> Changes<'c> {
             return Ok(());
         }
         self.0.iter().find(is_exposure).map_or(Ok(()), |change| {
-            let remedy = "the exposures of a series are set by the chart; give them with --exposures or --levels";
-            Err(Error::input(format!("--set {change}: {remedy}")))
+            let remedy = "the exposures of a series are set by the chart; give them with `exposures` or `levels`";
+            Err(Error::argument("set", format!("`set` {change}: {remedy}")))
         })
     }
 
@@ -97,9 +97,12 @@ impl<'c> Changes<'c> {
         for change in values {
             let again = load(folder, files, &Overrides::new([change]))?;
             if again.to_table() != written.to_table() {
-                return Err(Error::input(format!(
-                    "--set {change}: the change cannot be written into the chart's files; give the whole list or table that contains the key, or change the camera file"
-                )));
+                return Err(Error::argument(
+                    "set",
+                    format!(
+                        "`set` {change}: the change cannot be written into the chart's files; give the whole list or table that contains the key, or change the camera file"
+                    ),
+                ));
             }
         }
         Ok(())

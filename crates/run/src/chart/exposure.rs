@@ -34,7 +34,7 @@ impl ChartRequest {
             };
             return match required {
                 false => Ok(Vec::new()),
-                true => Err(ChartError::Camera(format!("--exposures, --levels: {}", told()))),
+                true => Err(ChartError::Camera(format!("`exposures`, `levels`: {}", told()))),
             };
         };
         let exposures_s: Vec<f64> = exposures.shares.iter().map(|s| meter.exposure_s * s / share).collect();
@@ -42,7 +42,7 @@ impl ChartRequest {
         match meter.longest_s {
             Some(limit_s) if longest_s > limit_s => Err(ChartError::Camera(format!(
                 "the longest exposure would be {longest_s:.3e} s, more than the camera's frame period of {limit_s} s: give more light \
-                 by --luminance-cd-m2 or --white, or a lower --highest"
+                 by `luminance_cd_m2` or `white`, or a lower `highest`"
             ))),
             _ => Ok(exposures_s),
         }

@@ -99,7 +99,7 @@ impl ChartRequest {
 /// # Errors
 /// The camera cannot be used, the chart does not fit it, a change names no key of the job, or the folder cannot be written.
 pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Result<Vec<PathBuf>, Error> {
-    whole("--views", request.views, 1..=200)?;
+    whole("views", request.views, 1..=200)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     let changes = Changes(&request.set);
     let camera_changes = changes.camera_changes();
@@ -166,9 +166,9 @@ fn draw_chart(request: &ChartRequest, changes: &[String], folder: &Path) -> Resu
     // Nothing is measured in no time.
     let meter = meter.filter(|meter| meter.exposure_s > 0.0);
     let seen = footprint(request, &camera, &ray_camera)?;
-    let drawing = request.chart.draw(&seen, request.seed).map_err(refused)?;
-    let light = request.light(meter.as_ref(), LUMINANCE_CD_M2).map_err(refused)?;
-    let exposures_s = request.exposures_s(&light, &drawing, meter.as_ref()).map_err(refused)?;
+    let drawing = request.chart.draw(&seen, request.seed).map_err(chart_error)?;
+    let light = request.light(meter.as_ref(), LUMINANCE_CD_M2).map_err(chart_error)?;
+    let exposures_s = request.exposures_s(&light, &drawing, meter.as_ref()).map_err(chart_error)?;
     let mut stations = camera_stations(seen.distance_m, request.views, &exposures_s, request.dark);
     if request.hand_held {
         stations = stations.into_iter().zip(0..).map(|(station, nth)| station.hand_held(request.seed, nth)).collect();
@@ -191,33 +191,37 @@ fn draw_chart(request: &ChartRequest, changes: &[String], folder: &Path) -> Resu
     chart_files(&files, &camera, request.png_dpi)
 }
 
-fn refused(error: ChartError) -> Error {
-    Error::input(error.to_string())
+/// The error of a chart, with the argument at fault.
+pub fn chart_error(error: ChartError) -> Error {
+    match error {
+        ChartError::Option { option, .. } => Error::argument(option, error.to_string()),
+        ChartError::Camera(message) => Error::input(message),
+    }
 }
 
 /// What the camera sees at the distance that is asked for, directly or by the width.
 fn footprint(request: &ChartRequest, camera: &ChartCamera, ray_camera: &RayCamera<'_>) -> Result<Footprint, Error> {
     let legal = |option: &'static str, value: f64| match value.is_finite() && value > 0.0 {
         true => Ok(value),
-        false => Err(refused(ChartError::option(option, value, "expected a number above 0"))),
+        false => Err(chart_error(ChartError::option(option, value, "expected a number above 0"))),
     };
     let focused = camera.body.lens.focus_distance_m().filter(|m| m.is_finite());
     let mut distance_m = match request.distance_m {
-        Some(distance_m) => legal("distance-m", distance_m)?,
+        Some(distance_m) => legal("distance_m", distance_m)?,
         None => focused.unwrap_or(DISTANCE_M),
     };
     if let Some(width_mm) = request.width_mm {
-        let width_mm = legal("width-mm", width_mm)?;
+        let width_mm = legal("width_mm", width_mm)?;
         // The width is all but proportional to the distance.
         for _ in 0..8 {
-            distance_m *= width_mm / ray_camera.footprint(distance_m).map_err(refused)?.outer_mm.x;
+            distance_m *= width_mm / ray_camera.footprint(distance_m).map_err(chart_error)?.outer_mm.x;
         }
     }
-    ray_camera.footprint(distance_m).map_err(refused)
+    ray_camera.footprint(distance_m).map_err(chart_error)
 }
 
 fn chart_files(request: &Request<'_>, camera: &ChartCamera, png_dpi: Option<f64>) -> Result<ChartFiles, Error> {
-    let print = png_dpi.map(|dpi| picture(request.drawing, dpi)).transpose().map_err(refused)?;
+    let print = png_dpi.map(|dpi| picture(request.drawing, dpi)).transpose().map_err(chart_error)?;
     let print = print.map(|plane| encode_display(&plane, &Encoding::Srgb)).transpose().map_err(Error::run)?;
     let stand_in = camera.stand_in().map(|(name, text)| (name, text.as_bytes().to_vec()));
     let mut all: Vec<(String, Vec<u8>)> = stand_in.into_iter().collect();

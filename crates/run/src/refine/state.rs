@@ -54,7 +54,7 @@ pub(crate) fn check(folder: &OutputFolder, existing: Existing) -> Result<(), Err
         return Ok(());
     }
     Err(Error::input(format!(
-        "{}: a run that was interrupted left its state here; go on with --resume, or begin anew with --overwrite",
+        "{}: a run that was interrupted left its state here; go on with `resume`, or begin anew with `overwrite`",
         folder.path().join(STATE_FOLDER).display()
     )))
 }
@@ -69,7 +69,7 @@ pub(crate) fn read(folder: &Path, plan: &Plan, camera: &CameraPlan, shot: Shot) 
         return Ok(None);
     }
     let origin = FilmOrigin { plan, camera, shot, shard: Shard::WHOLE };
-    let remedy = "resume with the same options, choose another output folder, or --overwrite it";
+    let remedy = "resume with the same options, choose another output folder, or `overwrite` it";
     let (film, facts) = film_file::read(&path, &origin, remedy)?;
     let fact = |name: &str| facts.further.get(name);
     let replicates = fact(REPLICATES).and_then(|text| text.parse().ok());

@@ -189,7 +189,7 @@ impl<'a> Run<'a> {
         let replicates = self.pace().replicates(sample_s, &choice);
         if replicates < most {
             let note =
-                format!("--time {} does not allow passes of {most} replicates; they have {replicates}", self.total_s);
+                format!("`time_s` {} does not allow passes of {most} replicates; they have {replicates}", self.total_s);
             self.observer.message(Message::Note(&note));
         }
         replicates
@@ -256,7 +256,7 @@ impl<'a> Run<'a> {
         if needed_s > GIVE_UP_RATIO * self.total_s {
             let samples = if pace.least == 1 { "one sample".to_owned() } else { format!("{} samples", pace.least) };
             self.observer.message(Message::Warning(&format!(
-                "{samples} of every pixel, the least that can be delivered, take about {needed_s:.0} s here, more than --time {}; \
+                "{samples} of every pixel, the least that can be delivered, take about {needed_s:.0} s here, more than `time_s` {}; \
                  give more time, smaller pictures, or fewer frames, cameras or replicates",
                 self.total_s
             )));
@@ -267,11 +267,11 @@ impl<'a> Run<'a> {
         let mut replicates: Vec<u32> = self.plan.replicates().collect();
         replicates.dedup();
         let replicates = match replicates[..] {
-            [one] => format!("--set render.replicates={one} "),
+            [one] => format!("`set` render.replicates={one} "),
             _ => String::new(),
         };
         self.observer.message(Message::Note(&format!(
-            "{:.2} s of light (--time {}): {} samples a pixel; {replicates}--set \"render.passes={}\" gives the same bytes",
+            "{:.2} s of light (`time_s` {}): {} samples a pixel; {replicates}`set` \"render.passes={}\" gives the same bytes",
             self.watch.elapsed_s(),
             self.total_s,
             passes.mean_spp(),

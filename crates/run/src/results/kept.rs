@@ -43,7 +43,7 @@ impl<'a> Kept<'a> {
         match kept.is_empty() {
             true => format!("{folder}: nothing of this run was kept"),
             false => format!(
-                "{folder}: kept {}; with --resume in the place of --overwrite a run goes on",
+                "{folder}: kept {}; with `resume` in the place of `overwrite` a run goes on",
                 kept.join(" and ")
             ),
         }

@@ -94,7 +94,7 @@ fn overrides_reach_every_file() {
     assert_eq!(d.cameras[1].render.spp.as_ref().expect("given").value, 16);
     assert_eq!(d.cameras[0].render.spp.as_ref().expect("given").value, 8);
     assert!(d.cameras[0].output.radiance.is_none(), "the table was replaced as a whole");
-    assert_eq!(front.f_number.place.to_string(), "--set cameras.front.lens.f_number=2.8");
+    assert_eq!(front.f_number.place.to_string(), "`set` cameras.front.lens.f_number=2.8");
 }
 
 #[test]

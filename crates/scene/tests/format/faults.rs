@@ -203,43 +203,43 @@ fn a_format_that_is_missing_or_another() {
 #[test]
 fn overrides_that_are_wrong() {
     let cases = [
-        ("render.spp", "--set render.spp: this is no key=value; give a dotted key, \"=\" and a value: render.spp=16"),
-        ("render.spp=0", "--set render.spp=0: found 0; give a whole number from 1 to 1048576"),
+        ("render.spp", "`set` render.spp: this is no key=value; give a dotted key, \"=\" and a value: render.spp=16"),
+        ("render.spp=0", "`set` render.spp=0: found 0; give a whole number from 1 to 1048576"),
         (
             "cameras.front.lens.f_number=-1",
-            "--set cameras.front.lens.f_number=-1: found -1; give a number of at least 0.5",
+            "`set` cameras.front.lens.f_number=-1: found -1; give a number of at least 0.5",
         ),
         (
             "cameras.frnt.lens.f_number=4",
-            "--set cameras.frnt.lens.f_number=4: no entry is called \"frnt\"; did you mean \"front\"? give a number from 0 \
+            "`set` cameras.frnt.lens.f_number=4: no entry is called \"frnt\"; did you mean \"front\"? give a number from 0 \
              to 0, or a name: front",
         ),
         (
             "format.x=4",
-            "--set format.x=4: \"format\" is no key of this table; remove it; the keys are \"scene\", \"cameras\", \"sequence\", \
+            "`set` format.x=4: \"format\" is no key of this table; remove it; the keys are \"scene\", \"cameras\", \"sequence\", \
              \"render\", \"output\"",
         ),
         (
             "scene.objects.wall.shape.size_m.x.y=4",
-            "--set scene.objects.wall.shape.size_m.x.y=4: no entry is called \"x\"; give a number from 0 to 1",
+            "`set` scene.objects.wall.shape.size_m.x.y=4: no entry is called \"x\"; give a number from 0 to 1",
         ),
         (
             "cameras.front.name.x=4",
-            "--set cameras.front.name.x=4: there is no table that could hold \"x\"; correct the key",
+            "`set` cameras.front.name.x=4: there is no table that could hold \"x\"; correct the key",
         ),
         (
             "cameras.front.lens.distorsion=null",
-            "--set cameras.front.lens.distorsion=null: there is no \"distorsion\" in \"cameras.front.lens\" that could be taken out; correct \
+            "`set` cameras.front.lens.distorsion=null: there is no \"distorsion\" in \"cameras.front.lens\" that could be taken out; correct \
              the key, or leave the change out",
         ),
         (
             "cameras.front.lens.focal_length=null",
-            "--set cameras.front.lens.focal_length=null: there is no \"focal_length\" in \"cameras.front.lens\" that could be taken out; did \
+            "`set` cameras.front.lens.focal_length=null: there is no \"focal_length\" in \"cameras.front.lens\" that could be taken out; did \
              you mean \"focal_length_mm\"? correct the key, or leave the change out",
         ),
         (
             "scene.objects.wal=null",
-            "--set scene.objects.wal=null: there is no \"wal\" in \"scene.objects\" that could be taken out; did you mean \
+            "`set` scene.objects.wal=null: there is no \"wal\" in \"scene.objects\" that could be taken out; did you mean \
              \"wall\"? correct the key, or leave the change out",
         ),
     ];
@@ -248,7 +248,7 @@ fn overrides_that_are_wrong() {
     }
     assert!(
         faults_of_sets(&["render.ssp=16"])
-            .starts_with("--set render.ssp=16: \"ssp\" is no key of this table; did you mean \"spp\"?")
+            .starts_with("`set` render.ssp=16: \"ssp\" is no key of this table; did you mean \"spp\"?")
     );
 }
 
@@ -269,7 +269,7 @@ fn what_is_taken_out_is_as_if_it_had_not_been_written() {
 fn a_margin_without_its_route() {
     assert_eq!(
         faults_of_sets(&["cameras.front.render={overscan=0.1}"]),
-        "--set cameras.front.render={overscan=0.1}: \"overscan\" has no effect here, it belongs to route = \"pupil\"; remove it"
+        "`set` cameras.front.render={overscan=0.1}: \"overscan\" has no effect here, it belongs to route = \"pupil\"; remove it"
     );
     assert_eq!(faults_of_sets(&["cameras.front.render={overscan=0.1}", "render.route=pupil"]), "");
 }
@@ -287,33 +287,33 @@ fn notices(render: &str, change: impl Fn(&mut Overrides)) -> Result<Vec<String>,
 fn the_command_line_supersedes_what_it_makes_meaningless() {
     let told = notices("max_bounces = 8\ncaustics = false", |o| o.push("render.integrator=direct"));
     let expected =
-        "--set render.integrator=direct supersedes \"max_bounces\" (job.toml:31), \"caustics\" (job.toml:32)";
+        "`set` render.integrator=direct supersedes \"max_bounces\" (job.toml:31), \"caustics\" (job.toml:32)";
     assert_eq!(told, Ok(vec![expected.to_owned()]));
-    let told = notices("max_bounces = 8", |o| o.push_render("--integrator flat", "integrator", "\"flat\""));
-    assert_eq!(told, Ok(vec!["--integrator flat supersedes \"max_bounces\" (job.toml:31)".to_owned()]));
+    let told = notices("max_bounces = 8", |o| o.push_render("`integrator` flat", "integrator", "\"flat\""));
+    assert_eq!(told, Ok(vec!["`integrator` flat supersedes \"max_bounces\" (job.toml:31)".to_owned()]));
     let told = notices("route = \"pupil\"\noverscan = 0.1", |o| o.push("render.route=lens"));
-    assert_eq!(told, Ok(vec!["--set render.route=lens supersedes \"overscan\" (job.toml:32)".to_owned()]));
+    assert_eq!(told, Ok(vec!["`set` render.route=lens supersedes \"overscan\" (job.toml:32)".to_owned()]));
     let told = notices("", |o| o.push("cameras.front.lens.type=pinhole"));
-    let expected = "--set cameras.front.lens.type=pinhole supersedes \"focus_distance_m\" (job.toml:12)";
+    let expected = "`set` cameras.front.lens.type=pinhole supersedes \"focus_distance_m\" (job.toml:12)";
     assert_eq!(told, Ok(vec![expected.to_owned()]));
     let told = notices("integrator = \"direct\"\nmax_bounces = 8", |_| {}).expect_err("the file contradicts itself");
     assert!(told.starts_with("job.toml:32:15: render.max_bounces: \"max_bounces\" has no effect here"), "{told}");
     let both =
         |o: &mut Overrides| ["render.integrator=direct", "render.max_bounces=8"].iter().for_each(|set| o.push(set));
     let told = notices("", both).expect_err("the command line contradicts itself");
-    assert!(told.starts_with("--set render.max_bounces=8: \"max_bounces\" has no effect here"), "{told}");
+    assert!(told.starts_with("`set` render.max_bounces=8: \"max_bounces\" has no effect here"), "{told}");
 }
 
 #[test]
 fn a_flag_goes_through_the_check_of_its_key() {
-    let spp = |n: &'static str| notices("spp = 8", move |o| o.push_render(&format!("--spp {n}"), "spp", n));
+    let spp = |n: &'static str| notices("spp = 8", move |o| o.push_render(&format!("`spp` {n}"), "spp", n));
     assert_eq!(spp("16"), Ok(Vec::new()));
     for n in ["0", "1048577", "2147483648"] {
-        assert_eq!(spp(n), Err(format!("--spp {n}: found {n}; give a whole number from 1 to 1048576")));
+        assert_eq!(spp(n), Err(format!("`spp` {n}: found {n}; give a whole number from 1 to 1048576")));
     }
-    let seed = notices("", |o| o.push_render("--seed 18446744073709551615", "seed", "18446744073709551615"));
+    let seed = notices("", |o| o.push_render("`seed` 18446744073709551615", "seed", "18446744073709551615"));
     let told = seed.expect_err("larger than a key can hold");
-    assert!(told.starts_with("--seed 18446744073709551615: found an integer too large for 64 bits"), "{told}");
+    assert!(told.starts_with("`seed` 18446744073709551615: found an integer too large for 64 bits"), "{told}");
 }
 
 #[test]
@@ -342,15 +342,15 @@ fn a_file_of_another_kind_is_one_fault() {
     let set = |set: &str| load(&example, &[set]).expect_err("another kind").to_string();
     assert_eq!(
         set("scene=camera.toml"),
-        "--set scene=camera.toml: \"camera.toml\" is a camera file; give a scene file"
+        "`set` scene=camera.toml: \"camera.toml\" is a camera file; give a scene file"
     );
     assert_eq!(
         set("cameras.front.file=scene.toml"),
-        "--set cameras.front.file=scene.toml: \"scene.toml\" is a scene file; give a camera file"
+        "`set` cameras.front.file=scene.toml: \"scene.toml\" is a scene file; give a camera file"
     );
     assert_eq!(
         set("cameras.front.file=job.toml"),
-        "--set cameras.front.file=job.toml: this is a job file; give a camera file"
+        "`set` cameras.front.file=job.toml: this is a job file; give a camera file"
     );
     let camera = load_camera(Path::new("job.toml"), &|p| example.read(p), &Overrides::default());
     assert_eq!(camera.expect_err("a job").to_string(), "job.toml:1:1: this is a job file; give a camera file");

@@ -48,7 +48,7 @@ fn a_base_of_many_objects_under_as_many() {
 fn a_key_of_twenty_thousand_parts() {
     let set = format!("{}=1", vec!["a"; 20_000].join("."));
     let told = load(&Files::with_camera(&format!("{JOB}objects=[]\n")), &[&set]).expect_err("too deep").to_string();
-    assert!(told.starts_with("--set a.a.a.a."), "{told}");
+    assert!(told.starts_with("`set` a.a.a.a."), "{told}");
     let end = "…: this key has 20000 parts, and no description is deeper than 80; correct the key: render.spp=16";
     assert!(told.ends_with(end) && told.len() < 400, "{told}");
 }

@@ -148,7 +148,7 @@ impl Series {
     /// The series that is asked for; `usual` exposures where nothing is, which a camera without electronics does without.
     pub fn asked(&self, usual: Option<u32>) -> Result<Option<chart::Series>, Error> {
         let required = self.exposures.is_some() || self.levels.is_some();
-        let exposures = self.exposures(usual).map_err(|error| Error::input(error.to_string()))?;
+        let exposures = self.exposures(usual).map_err(chart::chart_error)?;
         Ok(exposures.map(|exposures| chart::Series { exposures, required }))
     }
 
@@ -158,7 +158,7 @@ impl Series {
         }
         let Some(count) = self.exposures.or(usual) else {
             return self.idle().map_or(Ok(None), |(name, value)| {
-                Err(ChartError::option(name, value, "has no effect without --exposures; give how many"))
+                Err(ChartError::option(name, value, "has no effect without `exposures`; give how many"))
             });
         };
         let spacing = self.spacing.unwrap_or(Spacing::Log);

@@ -29,7 +29,7 @@ impl ReportArgs {
             write_file(file, report.svg()?.as_bytes(), Existing::Replace)?;
         }
         if let Some(file) = &self.html {
-            write_file(file, report_page(report).as_bytes(), Existing::Replace)?;
+            write_file(file, console.spelled(&report_page(report)).as_bytes(), Existing::Replace)?;
         }
         match self.json {
             true => console.print_json(&format!("{:#}\n", report.json())),

@@ -6,7 +6,7 @@ use etendue_sensor::SensorParameters;
 pub(crate) fn channel(p: &SensorParameters, measured: Option<&str>) -> Result<usize, String> {
     let names = || p.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ");
     let Some(name) = measured else {
-        let several = || format!("the pixels have colours ({}): measure one with --channel", names());
+        let several = || format!("the pixels have colours ({}): measure one with `channel`", names());
         return if p.channels.len() == 1 { Ok(0) } else { Err(several()) };
     };
     let alike = |own: &str| own.eq_ignore_ascii_case(name) || (name.len() == 1 && own[..1].eq_ignore_ascii_case(name));

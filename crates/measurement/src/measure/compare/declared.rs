@@ -37,10 +37,10 @@ pub(crate) fn side(body: &CameraBody, measured: &Side, light: &Light) -> Result<
     let Light { wavelength_nm, illuminant } = light;
     let (wavelength_nm, illuminant) = (*wavelength_nm, illuminant.as_deref());
     if wavelength_nm.is_some() && measured.kind != "ptc" {
-        return Err("--wavelength-nm belongs to photon transfer (ptc)".to_owned());
+        return Err("`wavelength_nm` belongs to photon transfer (ptc)".to_owned());
     }
     if illuminant.is_some() && !["sfr", "oecf"].contains(&measured.kind.as_str()) {
-        return Err("--illuminant belongs to the response of edges (sfr) and to tone curves (oecf)".to_owned());
+        return Err("`illuminant` belongs to the response of edges (sfr) and to tone curves (oecf)".to_owned());
     }
     let mut quantities = Quantities::new();
     let mut put = |key: &str, value: f64, unit: &str| {

@@ -13,7 +13,7 @@ pub(crate) struct Light {
 
 /// The light's spectrum.
 pub(crate) fn spectrum(light: &str) -> Result<&'static Spectrum, String> {
-    let unknown = || format!("--illuminant {light}: give one of {}", illuminant::names().join(", "));
+    let unknown = || format!("`illuminant` {light}: give one of {}", illuminant::names().join(", "));
     illuminant::named(light).ok_or_else(unknown)
 }
 

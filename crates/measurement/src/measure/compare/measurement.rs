@@ -11,7 +11,7 @@ use std::path::Path;
 /// What a measurement's JSON says of a camera.
 pub(crate) fn measurement(file: &Path) -> Result<Side, Error> {
     let text = text_of(file)?;
-    let what = "expected the JSON that etendue measure or calibrate prints with --json, or a camera file (.toml)";
+    let what = "expected the JSON that etendue measure or calibrate prints with `json`, or a camera file (.toml)";
     let no = |cause: &str| Error::input(format!("{}: {what}: {cause}", file.display()));
     let report: Value = serde_json::from_str(&text).map_err(|cause| no(&cause.to_string()))?;
     let kind = report["measurement"].as_str().ok_or_else(|| no("\"measurement\" is missing"))?.to_owned();

@@ -75,7 +75,7 @@ impl<'a> Response<'a> {
         let mosaic = p.cfa.width() * p.cfa.height() > 1;
         if mosaic && measured.settings.get("readings").is_some_and(|readings| readings != "raw") {
             return Err(
-                "a developed picture of a mosaic has no closed form: measure a colour of the raw one (--channel)"
+                "a developed picture of a mosaic has no closed form: measure a colour of the raw one (`channel`)"
                     .to_owned(),
             );
         }

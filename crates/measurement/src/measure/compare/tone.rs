@@ -109,7 +109,7 @@ impl<'a> Tone<'a> {
         let even_s = sensor.parameters().even_smear_s(body.raster.height());
         let smear_s = even_s * of_column(sensor, development, measured, light)?;
         if smear_s > 0.0 && measured.settings.get("exposure_unit").is_some_and(|unit| !unit.is_empty()) {
-            return Err("of a camera with smear, whose light counts by time, give exposures in seconds (--exposures)"
+            return Err("of a camera with smear, whose light counts by time, give exposures in seconds (`exposures`)"
                 .to_owned());
         }
         match measured.settings.get("readings").map_or("", String::as_str) {
@@ -125,7 +125,7 @@ impl<'a> Tone<'a> {
                 Ok(Self { black: 0.0, white: largest.value, smear_s, development: Some(development) })
             }
             "decoded" => {
-                Err("the measured readings were decoded before (--encoding): the camera's curve is no longer in them"
+                Err("the measured readings were decoded before (`encoding`): the camera's curve is no longer in them"
                     .to_owned())
             }
             _ => {

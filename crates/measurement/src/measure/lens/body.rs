@@ -28,7 +28,10 @@ pub(super) fn body(request: &LensRequest) -> Result<Told, Error> {
     if given.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
         return match request.picture_radius_mm {
             None => compiled(request, given, None),
-            Some(_) => Err(Error::input("--picture-radius-mm: a camera file's sensor says how large the picture is")),
+            Some(_) => Err(Error::argument(
+                "picture_radius_mm",
+                "`picture_radius_mm`: a camera file's sensor says how large the picture is",
+            )),
         };
     }
     let made = |radius_mm: f64| {

@@ -30,17 +30,20 @@ pub struct LensMeasurement {
 /// # Errors
 /// Where the camera or lens file cannot be used.
 pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
-    whole("--fields", request.fields, request::FIELDS)?;
+    whole("fields", request.fields, request::FIELDS)?;
     let wavelength_nm = request.wavelength_nm;
     if let Some(nm) = wavelength_nm {
-        number("--wavelength-nm", nm, SHORTEST_NM..=MAX_NM, "nm")?;
+        number("wavelength_nm", nm, SHORTEST_NM..=MAX_NM, "nm")?;
     }
     let (body, remarks) = body::body(request)?;
     if wavelength_nm.is_some() && !matches!(body.lens, Lens::Prescription(_)) {
         let kind = body.lens.kind();
-        return Err(Error::input(format!(
-            "--wavelength-nm: a lens that is no prescription ({kind}) has first-order figures of one wavelength alone; leave it out"
-        )));
+        return Err(Error::argument(
+            "wavelength_nm",
+            format!(
+                "`wavelength_nm`: a lens that is no prescription ({kind}) has first-order figures of one wavelength alone; leave it out"
+            ),
+        ));
     }
     Ok(LensMeasurement { body, remarks, fields: request.fields as usize, wavelength_nm })
 }

@@ -29,10 +29,10 @@ pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
 /// The same with the responses themselves.
 pub(crate) fn responses(request: &SfrRequest) -> Result<(Report, Vec<Sfr>), Error> {
     request.input.check_without_black()?;
-    whole("--edge-degree", request.edge_degree, EDGE_DEGREES)?;
-    whole("--shading-degree", request.shading_degree, SHADING_DEGREES)?;
-    positive("--pixel-pitch-um", request.pixel_pitch_um)?;
-    positive("--pixels-per-degree", Some(request.pixels_per_degree))?;
+    whole("edge_degree", request.edge_degree, EDGE_DEGREES)?;
+    whole("shading_degree", request.shading_degree, SHADING_DEGREES)?;
+    positive("pixel_pitch_um", request.pixel_pitch_um)?;
+    positive("pixels_per_degree", Some(request.pixels_per_degree))?;
     let readings = request.input.linear(&request.picture)?;
     // Covariances reach four pixels.
     readings.independent(&request.picture, 4)?;
@@ -60,14 +60,14 @@ pub(crate) fn responses(request: &SfrRequest) -> Result<(Report, Vec<Sfr>), Erro
     let mut report = report(request, &found, &left_out, &readings);
     let full_scale = request.input.levels.full_scale(&readings);
     for one in found.iter().filter(|one| one.sought.spoke.is_none()) {
-        report.note_cut(&region_label("edge", one.sought.at), &readings.part(one.sought.at, "--edge")?, full_scale);
+        report.note_cut(&region_label("edge", one.sought.at), &readings.part_of("edges", one.sought.at)?, full_scale);
     }
     Ok((report, found.into_iter().map(|one| one.sfr).collect()))
 }
 
-fn positive(option: &str, value: Option<f64>) -> Result<(), Error> {
+fn positive(field: &str, value: Option<f64>) -> Result<(), Error> {
     let wrong = value.filter(|v| !(*v > 0.0 && v.is_finite()));
-    wrong.map_or(Ok(()), |v| Err(Error::input(format!("{option}: expected a number above 0, not {v}"))))
+    wrong.map_or(Ok(()), |v| Err(Error::argument(field, format!("`{field}`: expected a number above 0, not {v}"))))
 }
 
 fn sought(request: &SfrRequest, truth: Option<&Truth>, readings: &Readings) -> Result<Vec<Sought>, Error> {
@@ -92,7 +92,7 @@ fn measured(request: &SfrRequest, sought: &Sought, readings: &Readings) -> Resul
     };
     let result = match &sought.spoke {
         Some(spoke) => measure_strip(&readings.image, &spoke.strip, &settings),
-        None => measure_edge(&readings.part(sought.at, "--edge")?, &settings),
+        None => measure_edge(&readings.part_of("edges", sought.at)?, &settings),
     };
     Ok(result.map(|sfr| sfr.sampled_every(readings.period.0 as f64)))
 }

@@ -16,7 +16,7 @@ pub(super) fn failure(request: &SfrRequest, sought: &Sought, error: &SfrError) -
 pub(super) fn shading_hint(request: &SfrRequest, error: &SfrError) -> &'static str {
     match error {
         SfrError::NoEdge(_) if request.shading_degree == 0 => {
-            "; where light falls off along the surfaces, --shading-degree 1 takes that off"
+            "; where light falls off along the surfaces, `shading_degree` 1 takes that off"
         }
         _ => "",
     }

@@ -58,7 +58,7 @@ fn shading(report: &mut Report, request: &SfrRequest, found: &[Found<'_>]) {
         let count = found.iter().filter(|one| one.sfr.shading > UNEVEN).count();
         let next = request.shading_degree + 1;
         report.note(format!(
-            "the sides of {count} of {} edges may slope: --shading-degree {next} changes the response by up to {most:.3}, and the \
+            "the sides of {count} of {} edges may slope: `shading_degree` {next} changes the response by up to {most:.3}, and the \
              uncertainty covers that",
             found.len()
         ));

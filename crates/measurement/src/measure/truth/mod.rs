@@ -122,7 +122,7 @@ impl Truth {
         match self.said.seen.fills_the_field {
             true => Ok(()),
             false => {
-                Err(self.refused("the camera sees past the sheet's edge: measure a --region of it, without --truth"))
+                Err(self.refused("the camera sees past the sheet's edge: measure a `region` of it, without `truth`"))
             }
         }
     }

@@ -39,7 +39,7 @@ impl Found {
         report.note("raster coordinates, pixel centres at +0.5 (OpenCV's and ROS's cx and cy are less by 0.5); ± one standard uncertainty");
         if let Some(distance) = request.distance().filter(|_| request.distance_uncertainty_mm.is_none()) {
             report.note(format!(
-                "the distance is taken as known to the digits that are stated, {} mm: state --distance-uncertainty-mm",
+                "the distance is taken as known to the digits that are stated, {} mm: state `distance_uncertainty_mm`",
                 with_uncertainty(distance)
             ));
         }

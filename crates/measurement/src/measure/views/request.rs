@@ -66,7 +66,8 @@ impl ViewsRequest {
 impl ViewsRequest {
     /// As stated, or as the truth says.
     pub(super) fn pitch_mm(&self) -> Result<f64, Error> {
-        let told = || Error::input("--pitch-mm: state the distance of neighbouring points, or give --truth");
+        let told =
+            || Error::argument("pitch_mm", "`pitch_mm`: state the distance of neighbouring points, or give `truth`");
         Ok(match self.pitch_mm {
             Some(pitch) => pitch,
             None => self.chart.told()?.ok_or_else(told)?.1.pitch_mm,

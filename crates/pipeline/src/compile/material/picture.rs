@@ -94,7 +94,7 @@ impl Pictures {
                 let texture = held(image, usage);
                 let megabytes = texture.as_ref().map_or(0, |texture| texture.texel_bytes().div_ceil(1_000_000));
                 let problem = format!(
-                    "{megabytes} MB are held in memory, above its limit, because {error}; give a --cache folder"
+                    "{megabytes} MB are held in memory, above its limit, because {error}; give a `cache` folder"
                 );
                 context.warn_on(file.display(), problem);
                 texture
