@@ -34,7 +34,7 @@ def test_faults_of_changes_have_their_key():
         etendue.Job.open(JOB, time_s=3)
     assert raised.value.key == "time_s" and str(raised.value).startswith("`time_s` 3: ") and "--" not in str(raised.value)
     with pytest.raises(etendue.InputError) as raised:
-        etendue.measure.sfr("none.png", region=(0, 0, 8, 8), edge=(0, 0, 8, 8), black=0.1)
+        etendue.measure.sfr("none.png", black=0.1)
     assert raised.value.key == "black" and str(raised.value).startswith("`black`: ")
 
 

@@ -305,11 +305,11 @@ def vignetting(
     full_scale: float | None = None,
     truth: _Path | None = None,
     camera: str | None = None,
+    pixel_pitch_um: float | None = None,
     plot: _Path | None = None,
     html: _Path | None = None,
     camera_out: _Path | None = None,
     overwrite: bool = False,
-    pixel_pitch_um: float | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """A flat field's fall-off over the radial field position.
@@ -325,11 +325,11 @@ def vignetting(
     full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
+    pixel_pitch_um: The pixels' pitch, µm, for --camera-out.
     plot: Draw the curves here; an earlier drawing is replaced.
     html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     camera_out: Write what was found as keys of a camera file.
     overwrite: Replace a camera file that is already there.
-    pixel_pitch_um: The pixels' pitch, µm, for --camera-out.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.
@@ -348,9 +348,9 @@ def shading(
     full_scale: float | None = None,
     truth: _Path | None = None,
     camera: str | None = None,
+    blocks: int | None = None,
     plot: _Path | None = None,
     html: _Path | None = None,
-    blocks: int | None = None,
     progress: _Progress | None = None,
 ) -> Report:
     """A flat field's fall-off as a map, and its colour shading (ISO 17957).
@@ -366,9 +366,9 @@ def shading(
     full_scale: The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold].
     truth: The truth.json of `etendue chart`, which says what is in the picture and where.
     camera: With --truth: the camera that took the picture [default: the first].
+    blocks: Blocks of the map along each side, an odd number. Default: 11.
     plot: Draw the curves here; an earlier drawing is replaced.
     html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
-    blocks: Blocks of the map along each side, an odd number. Default: 11.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a Report.

@@ -425,9 +425,9 @@ def calibrate(
     distance_uncertainty_mm: float | None = None,
     pixel_pitch_um: float | None = None,
     robust: bool = False,
+    f_number: float | None = None,
     output: _Path | None = None,
     overwrite: bool = False,
-    f_number: float | None = None,
     plot: _Path | None = None,
     html: _Path | None = None,
     progress: _Progress | None = None,
@@ -453,9 +453,9 @@ def calibrate(
     distance_uncertainty_mm: Its standard uncertainty, mm; 0 where it is exact [default: of rounding to its last digit].
     pixel_pitch_um: The distance of neighbouring pixels of the sensor, µm: then focal lengths are told in mm as well.
     robust: Points far from the fit count less (Huber).
+    f_number: The lens's f-number, for the camera file [default: 4, which is marked as a stand-in].
     output: Write the camera file here; needs --pixel-pitch-um.
     overwrite: Replace a camera file that is already there.
-    f_number: The lens's f-number, for the camera file [default: 4, which is marked as a stand-in].
     plot: Draw the curves here; an earlier drawing is replaced.
     html: Write figures, tables, curves and notes as one page for a browser; an earlier page is replaced.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
@@ -466,16 +466,16 @@ def calibrate(
 def characterise(
     folder: _Path,
     *,
-    output: _Path,
     base: _Path | None = None,
+    output: _Path,
     overwrite: bool = False,
     progress: _Progress | None = None,
 ) -> list[Path]:
     """Make a camera file of a laboratory folder (dark frames, flats, charts), with every uncertainty and a report as a page.
 
     folder: The laboratory folder: folders dark, flat, field, chart, edges and checker with pictures in them, any of them missing, and laboratory.toml where pictures do not say enough.
-    output: Write the camera file here, and beside it the report under the same stem: .html, .json.
     base: Lay the camera file over this one: what is not measured is its.
+    output: Write the camera file here, and beside it the report under the same stem: .html, .json.
     overwrite: Replace files that are already there.
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
