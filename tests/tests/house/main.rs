@@ -1,6 +1,7 @@
 //! Rules of the repository: dependencies, names, sizes, links, and which file may import which.
 
 mod circles;
+mod counts;
 mod dependencies;
 mod links;
 mod tidy;

@@ -5,7 +5,7 @@ mod components;
 mod folders;
 mod house;
 mod source;
-mod tokens;
+pub(crate) mod tokens;
 
 use std::collections::BTreeMap;
 
