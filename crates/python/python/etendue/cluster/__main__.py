@@ -59,10 +59,16 @@ def show(what, done, total):
 show.last = None
 
 
+def spelled(text):
+    """A message, whose arguments stand in backticks by their names in Python, as of the command line."""
+    options = {action.dest: action.option_strings[-1] for action in parser()._actions if action.option_strings}
+    return re.sub(r"`(\w+)`", lambda name: options.get(name[1], name[0]), str(text))
+
+
 def main(arguments=None):
     """The exit status: 0, 1 where the run failed, 2 where the input is unusable, 130 after Ctrl-C."""
     given = vars(parser().parse_args(arguments))
-    warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
+    warnings.showwarning = lambda message, *_: print(f"warning: {spelled(message)}", file=sys.stderr)
     if importlib.util.find_spec("ray") is None:
         print('error: Ray is not installed; pip install "./crates/python[cluster]"', file=sys.stderr)
         return 2
@@ -70,10 +76,10 @@ def main(arguments=None):
     try:
         paths = render(job, output, progress=show, **{name: value for name, value in given.items() if value is not None})
     except (InputError, ValueError) as error:
-        print("\n".join(f"error: {line}" for line in str(error).splitlines()), file=sys.stderr)
+        print("\n".join(f"error: {line}" for line in spelled(error).splitlines()), file=sys.stderr)
         return 2
     except RunError as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {spelled(error)}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("cancelled; what is finished is kept: go on with --resume", file=sys.stderr)
