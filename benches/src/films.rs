@@ -55,7 +55,7 @@ pub fn child(folder: &str, job: &str) -> String {
     pool(2).install(|| {
         let request = JobRequest { films, ..JobRequest::new(folder.join(format!("{job}.toml"))) };
         let job = request.open().unwrap_or_else(|faults| panic!("{faults}"));
-        let saved = job.save(&RenderOptions::default(), (&output, Existing::Replace), &Unobserved);
+        let saved = job.save(&RenderOptions::default(), &output, Existing::Replace, &Unobserved);
         saved.unwrap_or_else(|fault| panic!("{fault}"))
     });
     std::fs::remove_dir_all(&output).expect("the folder of temporary files can be written to");

@@ -56,7 +56,7 @@ pub fn child(renders: &str) -> String {
 fn render(job: &Path, folder: &Path) {
     let request = JobRequest { spp: Some(2), ..JobRequest::new(job) };
     let job = request.open().unwrap_or_else(|faults| panic!("{faults}"));
-    let saved = job.save(&RenderOptions::default(), (folder, Existing::Replace), &Unobserved);
+    let saved = job.save(&RenderOptions::default(), folder, Existing::Replace, &Unobserved);
     saved.unwrap_or_else(|fault| panic!("{fault}"));
 }
 

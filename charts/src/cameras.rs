@@ -73,7 +73,7 @@ impl Bench {
     /// A chart drawn into a folder of the bench.
     pub(crate) fn drawn(&self, name: &str, request: &ChartRequest) -> Result<PathBuf, Error> {
         let folder = self.folder.join(name);
-        make(request, (&folder, Existing::Refuse))?;
+        make(request, &folder, Existing::Refuse)?;
         Ok(folder)
     }
 
@@ -82,8 +82,7 @@ impl Bench {
         let folder = self.drawn(name, request)?;
         let mut job = JobRequest::new(folder.join("job.toml"));
         job.set = vec![format!("render.spp={samples}"), "output.ground_truth=false".to_owned()];
-        let render = (&*folder.join("render"), Existing::Refuse);
-        job.open()?.save(&RenderOptions::default(), render, &Warnings)?;
+        job.open()?.save(&RenderOptions::default(), &folder.join("render"), Existing::Refuse, &Warnings)?;
         Ok(folder)
     }
 

@@ -48,7 +48,7 @@ fn dark_current(bench: &Bench) -> Result<Section, Error> {
 fn series(bench: &Bench, name: &str, source: FlatSource, set: Vec<String>) -> Result<Comparison, Error> {
     let (folder, camera) = (bench.folder.join(name), bench.file("middle"));
     let request = FlatRequest { set, ..FlatRequest::new(&camera, WAVELENGTH_NM, source) };
-    flat(&request, (&folder, Existing::Refuse), &Warnings)?;
+    flat(&request, &folder, Existing::Refuse, &Warnings)?;
     // The list of levels comes without a side-car for its frames: their filters are told.
     let cfa = bench.camera.filters.map(str::to_owned);
     let channel = cfa.as_ref().map(|_| "G".to_owned());

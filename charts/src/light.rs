@@ -75,14 +75,14 @@ fn exposed(panel: &Path, cameras: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
     job.camera = Some("exposure-01".to_owned());
     let settings = ["render.route=\"pupil\"", "output.radiance=true", "render.spp=64"];
     job.set = settings.map(str::to_owned).to_vec();
-    job.open()?.save(&RenderOptions::default(), (&panel.join("light"), Existing::Refuse), &Warnings)?;
+    job.open()?.save(&RenderOptions::default(), &panel.join("light"), Existing::Refuse, &Warnings)?;
     let light = panel.join("light/exposure-01/radiance.exr");
     let mut shots = Vec::new();
     // Each frame has noise of its own.
     for (seed, camera) in (1..).zip(cameras) {
         let to = panel.join(format!("shot-{seed}"));
         let request = ExposeRequest { seed: Some(seed), ..ExposeRequest::new(&light, camera) };
-        let files = expose(&request, (&to, Existing::Refuse), &Warnings)?;
+        let files = expose(&request, &to, Existing::Refuse, &Warnings)?;
         let folder = files.first().and_then(|file| file.parent()).ok_or_else(|| Error::input("no results"))?;
         shots.push(folder.to_owned());
     }

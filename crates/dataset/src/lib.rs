@@ -8,7 +8,7 @@
 //! let job = JobRequest::new("scenes/cornell/cornell.toml");
 //! let variations = "scenes/cornell/variations.toml".into();
 //! let request = DatasetRequest { variations: Some(variations), samples: 0..100, ..DatasetRequest::new(job) };
-//! dataset(&request, ("out/boxes".as_ref(), Existing::Refuse), &Unobserved)?;
+//! dataset(&request, "out/boxes".as_ref(), Existing::Refuse, &Unobserved)?;
 //! # Ok(())
 //! # }
 //! ```

@@ -48,7 +48,9 @@ impl Picture<'_> {
 
 /// Hands the pictures of a camera's frames over, one after the other; `warn` is told of pixels without valid light.
 pub(crate) fn each(
-    (results, sample): (&CameraResults, (u32, Split)),
+    results: &CameraResults,
+    number: u32,
+    split: Split,
     warn: &dyn Fn(&str),
     mut take: impl FnMut(&Picture<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
@@ -89,7 +91,15 @@ pub(crate) fn each(
             mount: camera_mount(results.camera()).as_ref().map(pose_record),
             objects: objects.clone(),
         };
-        take(&Picture { sample, record, bytes, truth: &truth, display, results, cryptomatte: &cryptomatte })?;
+        take(&Picture {
+            sample: (number, split),
+            record,
+            bytes,
+            truth: &truth,
+            display,
+            results,
+            cryptomatte: &cryptomatte,
+        })?;
     }
     Ok(())
 }

@@ -30,12 +30,13 @@ const FACTS: &str = "dataset.json";
 /// observer cancels, light is not finite, or the folder cannot be written.
 pub fn dataset(
     request: &DatasetRequest,
-    (root, existing): (&Path, Existing),
+    root: &Path,
+    existing: Existing,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     let variations = request.variations.as_deref().map(open_variations).transpose()?;
     let base = request.job.clone().open()?;
-    let set = Set::of(request, &base, (variations, text_hash(request)?))?;
+    let set = Set::of(request, &base, variations, text_hash(request)?)?;
     set.idle_keys().iter().for_each(|told| observer.message(Message::Note(told)));
     if let Some(variations) = &set.variations {
         let first = Drawn::of(Some(variations), set.seed, request.samples.start);
@@ -171,7 +172,7 @@ impl Run<'_> {
         let options = RenderOptions { frames: self.request.frames.clone(), simd: self.request.simd };
         job.render_each(&options, observer, |camera| {
             let warn = |told: &str| self.observer.message(Message::Warning(&format!("sample {sample}, {told}")));
-            picture::each((&camera, (sample, drawn.split)), &warn, |picture| {
+            picture::each(&camera, sample, drawn.split, &warn, |picture| {
                 for writer in self.writers {
                     writer.picture(self.set, picture, self.folder)?;
                 }

@@ -29,7 +29,8 @@ impl Set {
     pub(crate) fn of(
         request: &DatasetRequest,
         job: &Job,
-        (variations, text_hash): (Option<Variations>, Option<String>),
+        variations: Option<Variations>,
+        text_hash: Option<String>,
     ) -> Result<Self, Error> {
         let stated = variations.as_ref().and_then(|v| v.seed.as_ref()).map(|seed| seed.value);
         let seed = request.job.seed.or(stated).unwrap_or(0);

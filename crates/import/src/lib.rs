@@ -52,7 +52,8 @@ fn parameter(text: &str) -> Result<(String, String), String> {
 /// Where the file cannot be read or used, a parameter has no effect, or the folder cannot be written.
 pub fn import(
     request: &ImportRequest,
-    (folder, existing): (&Path, Existing),
+    folder: &Path,
+    existing: Existing,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     // The folder may be made by this: paths between files need it.

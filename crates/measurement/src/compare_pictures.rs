@@ -25,11 +25,11 @@ fn worst(pair: &Pair) -> Option<(Vec<f32>, Vec<f32>)> {
         Content::Number { a, b, .. } => (a.clone(), b.clone()),
         Content::Identity { a, b } => (a.iter().map(|v| *v as f32).collect(), b.iter().map(|v| *v as f32).collect()),
     });
-    numbers.max_by(|x, y| distance(x).total_cmp(&distance(y)))
+    numbers.max_by(|x, y| distance(&x.0, &x.1).total_cmp(&distance(&y.0, &y.1)))
 }
 
 /// Sum of |a − b| over the sum of |a| + |b|, of what is finite.
-fn distance((a, b): &(Vec<f32>, Vec<f32>)) -> f64 {
+fn distance(a: &[f32], b: &[f32]) -> f64 {
     let pairs = || a.iter().zip(b).filter(|(a, b)| a.is_finite() && b.is_finite());
     let size: f64 = pairs().map(|(a, b)| f64::from(a.abs()) + f64::from(b.abs())).sum();
     let error: f64 = pairs().map(|(a, b)| f64::from((a - b).abs())).sum();

@@ -194,13 +194,13 @@ impl Job {
             return Err(PyValueError::new_err("films: expected one name or more; None takes all of them"));
         }
         let options = options(py, frames)?;
-        let (threads, target) = (counted(py, threads)?, (folder.as_path(), existing));
+        let threads = counted(py, threads)?;
         run(py, threads, progress.as_ref(), |watch| match shard {
-            None => self.job.save(&options, target, watch),
+            None => self.job.save(&options, &folder, existing, watch),
             Some((index, count)) => {
                 let (spec, frames) = (ShardSpec { index, count }, options.frames.clone());
                 let asked = ShardRequest { spec, frames, films: films.clone().unwrap_or_default() };
-                self.job.save_shard(&asked, options.simd, target, watch)
+                self.job.save_shard(&asked, options.simd, &folder, existing, watch)
             }
         })
     }

@@ -15,7 +15,8 @@ use std::path::{Path, PathBuf};
 /// Where figures are missing, illegal or contradict each other, or the folder cannot be written.
 pub fn datasheet(
     sheet: &Path,
-    (folder, existing): (&Path, Existing),
+    folder: &Path,
+    existing: Existing,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     let record = load_datasheet(sheet, &read_text).map_err(|f| Error::inputs(f.list()))?;

@@ -49,7 +49,7 @@ impl DevelopRequest {
 ///
 /// # Errors
 /// Where camera or raws cannot be used or contradict each other, or the folder cannot be written.
-pub fn develop(request: &DevelopRequest, (folder, existing): (&Path, Existing)) -> Result<Vec<PathBuf>, Error> {
+pub fn develop(request: &DevelopRequest, folder: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
     let body = open_camera(&request.camera, &request.set)?;
     let camera = Camera::of(&body).ok_or_else(|| {
         let file = request.camera.display();

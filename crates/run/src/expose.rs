@@ -63,7 +63,8 @@ impl ExposeRequest {
 /// Where image or camera cannot be used, the camera looks past the image, or the folder cannot be written.
 pub fn expose(
     request: &ExposeRequest,
-    (folder, existing): (&Path, Existing),
+    folder: &Path,
+    existing: Existing,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     let body = open_camera(&request.camera, &request.set)?;

@@ -187,7 +187,8 @@ impl FlatRequest {
 /// Where the camera has no electronics, the light is more than can be counted, or the folder cannot be written.
 pub fn flat(
     request: &FlatRequest,
-    (folder, existing): (&Path, Existing),
+    folder: &Path,
+    existing: Existing,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     request.check()?;

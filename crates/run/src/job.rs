@@ -197,7 +197,8 @@ impl Job {
     pub fn save(
         &self,
         options: &RenderOptions,
-        (folder, existing): (&Path, Existing),
+        folder: &Path,
+        existing: Existing,
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
         let root = folder;
@@ -211,7 +212,7 @@ impl Job {
         state::check(&folder, existing)?;
         folder.claim(self.file_names(&options.frames).iter().map(String::as_str)).map_err(Error::input)?;
         let mut folder = if self.request.progressive { folder.refining() } else { folder };
-        let progress = RefCell::new(Progress::of(self.request.progressive, (&folder, existing))?);
+        let progress = RefCell::new(Progress::of(self.request.progressive, &folder, existing)?);
         let kept = Kept::of_run(&folder, observer);
         let (sequence, mut written) = (RefCell::new(Sequence::default()), Vec::new());
         let done_and_noted = |plan: &Arc<Plan>| {
@@ -245,7 +246,8 @@ impl Job {
     pub fn save_calibration_files(
         &self,
         frames: &Range<u32>,
-        (folder, existing): (&Path, Existing),
+        folder: &Path,
+        existing: Existing,
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
         check_frames(&self.plan, frames)?;

@@ -99,7 +99,8 @@ impl LaboratoryRequest {
 /// Where the camera has no electronics or is not linear, or the folder cannot be written.
 pub fn laboratory(
     request: &LaboratoryRequest,
-    (folder, existing): (&Path, Existing),
+    folder: &Path,
+    existing: Existing,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     ranges::whole("levels", request.levels, LEVELS)?;
@@ -173,7 +174,7 @@ impl Bench<'_> {
         }
         let source = FlatSource::Irradiance { w_m2: irradiance_w_m2 };
         let request = FlatRequest { set, frames, seed, ..FlatRequest::new(&self.declared, WAVELENGTH_NM, source) };
-        flat(&request, (&self.folder.join(part), self.existing), self.observer)
+        flat(&request, &self.folder.join(part), self.existing, self.observer)
     }
 
     /// `flat/` and the frames of `dark/` of the same exposures.
@@ -258,11 +259,11 @@ impl Bench<'_> {
         let folder = self.folder.join(name);
         let camera = self.declared.display().to_string();
         let request = ChartRequest { views, hand_held: views > 1, seed, ..ChartRequest::new(chart, camera) };
-        let mut files = make(&request, (&folder, self.existing))?;
+        let mut files = make(&request, &folder, self.existing)?;
         let mut job = JobRequest::new(folder.join(JOB));
         job.set = vec![format!("render.spp={}", self.request.spp), "output.ground_truth=false".to_owned()];
         let render = folder.join("render");
-        files.extend(job.open()?.save(&RenderOptions::default(), (&render, self.existing), self.observer)?);
+        files.extend(job.open()?.save(&RenderOptions::default(), &render, self.existing, self.observer)?);
         Ok(files)
     }
 }

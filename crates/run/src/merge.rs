@@ -27,7 +27,8 @@ pub fn merge(
     shards: &[PathBuf],
     job: Option<&Path>,
     simd: Simd,
-    (folder, existing): (&Path, Existing),
+    folder: &Path,
+    existing: Existing,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     let mut shards: Vec<(Manifest, &PathBuf)> =

@@ -42,7 +42,8 @@ impl Job {
         &self,
         asked: &ShardRequest,
         simd: Simd,
-        (folder, existing): (&Path, Existing),
+        folder: &Path,
+        existing: Existing,
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
         if self.request().progressive || self.request().time_s.is_some() {

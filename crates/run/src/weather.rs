@@ -42,7 +42,7 @@ const COVER: &str = "cover.exr";
 ///
 /// # Errors
 /// Where image or weather cannot be used, or the folder cannot be written.
-pub fn weather(request: &WeatherRequest, (folder, existing): (&Path, Existing)) -> Result<Vec<PathBuf>, Error> {
+pub fn weather(request: &WeatherRequest, folder: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
     let weather = open(&request.weather)?;
     let mut stored = StoredRadiance::open(&request.radiance)?;
     expose(&weather, &mut stored, request)?;

@@ -15,9 +15,11 @@ const MOST_PIXELS: u32 = 1 << 19;
 pub(crate) fn within(
     job: &Job,
     camera: &str,
-    (budget_s, samples): (f64, f64),
+    budget_s: f64,
+    samples: f64,
     simd: Simd,
-    (clock, observer): (&dyn Clock, &dyn Observer),
+    clock: &dyn Clock,
+    observer: &dyn Observer,
 ) -> Result<PilotPlan, Error> {
     let grid = job.tile_grid(camera, TILE_PX)?;
     let all = grid[0] * grid[1];
@@ -25,9 +27,9 @@ pub(crate) fn within(
     let look = Pilots { camera, plan, simd, clock, observer };
     let own = job.render_settings(camera)?.seed;
     // Twice: the first one finds cold caches.
-    look.timed(job, (2, 1), seed(own, 1000))?;
+    look.timed(job, 2, 1, seed(own, 1000))?;
     let stint = Stint::begin(clock);
-    let light = look.timed(job, (2, 1), seed(own, 1001))?.0;
+    let light = look.timed(job, 2, 1, seed(own, 1001))?.0;
     // By the clock: that is what the study may take.
     let took_s = stint.clock_s();
     let of_tile_s = took_s / f64::from(all / plan.shard.count).max(1.0) / 2.0;

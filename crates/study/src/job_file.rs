@@ -12,7 +12,8 @@ use std::path::{Component, Path, PathBuf};
 /// Where the job cannot be read.
 pub fn job_file(
     recommendation: &Recommendation,
-    (job, camera): (&JobRequest, &str),
+    job: &JobRequest,
+    camera: &str,
     folder: &Path,
 ) -> Result<String, Error> {
     let StatedRender { keys: stated, cameras, .. } = job.stated_render(camera)?;

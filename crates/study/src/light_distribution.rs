@@ -20,7 +20,8 @@ fn pooled([few, many]: [f64; 2], more: f64) -> Option<Estimate> {
 
 /// One figure of both renderings of two frames of equal size.
 fn of_both(
-    (own, changed): (&RenderPair, &RenderPair),
+    own: &RenderPair,
+    changed: &RenderPair,
     figure: impl Fn(&Plane<WatchedSignal>, &Plane<WatchedSignal>) -> Option<f64>,
 ) -> Option<Estimate> {
     let of = |own: &crate::frame_render::FrameRender, changed: &crate::frame_render::FrameRender| {
@@ -36,7 +37,7 @@ fn of_both(
 /// By what factor the light of the corners (an eighth of width and height each) over that of the middle (a quarter of both) changes: 1 where it does not. `None`
 /// where it is dark there, or the light has another size or quantity.
 pub(crate) fn change_of_corners(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
-    of_both((own, changed), |own, changed| {
+    of_both(own, changed, |own, changed| {
         let factor = corners_over_middle(changed)? / corners_over_middle(own)?;
         factor.is_finite().then_some(factor)
     })
@@ -44,7 +45,7 @@ pub(crate) fn change_of_corners(own: &RenderPair, changed: &RenderPair) -> Optio
 
 /// By how much (bright − dark)/(bright + dark) changes, of the cells of 16 × 16 px that only 5 % are darker, and brighter, than. `None` likewise.
 pub(crate) fn change_of_contrast(own: &RenderPair, changed: &RenderPair) -> Option<Estimate> {
-    of_both((own, changed), |own, changed| Some(contrast(changed)? - contrast(own)?))
+    of_both(own, changed, |own, changed| Some(contrast(changed)? - contrast(own)?))
 }
 
 fn mean(plane: &Plane<WatchedSignal>, [x0, y0]: [usize; 2], [x1, y1]: [usize; 2]) -> f64 {

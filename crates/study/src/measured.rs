@@ -9,6 +9,15 @@ use etendue_stats::{Moments, upper_median};
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
+/// A pilot run and its samples per pixel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SampledPilot<'a> {
+    /// Samples per pixel.
+    pub(crate) spp: u32,
+    /// What it rendered.
+    pub(crate) pilot: &'a Pilot,
+}
+
 /// A mean square that falls with a power of the samples of a replicate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PowerLaw {
@@ -25,7 +34,7 @@ const EXPONENTS: [f64; 2] = [0.9, 1.6];
 
 impl PowerLaw {
     /// Through two numbers of samples, the second the larger; an exponent that is badly known is drawn towards 1.
-    fn through((few, at_few): (u32, Estimate), (many, at_many): (u32, Estimate)) -> Self {
+    fn through(few: u32, at_few: Estimate, many: u32, at_many: Estimate) -> Self {
         let (few, many) = (f64::from(few), f64::from(many));
         let span = ln(many / few);
         let found = ln(at_few.value / at_many.value) / span;
@@ -107,12 +116,9 @@ pub(crate) struct Times {
 
 impl Times {
     /// By pilots of few and of many samples of a share of the frame's tiles: samples are all threads' work, the rest one's.
-    pub(crate) fn of(
-        (few, at_few): (u32, &Pilot),
-        (many, at_many): (u32, &Pilot),
-        (share, threads): (f64, usize),
-    ) -> Self {
+    pub(crate) fn of(few: SampledPilot<'_>, many: SampledPilot<'_>, share: f64, threads: usize) -> Self {
         let median = |seconds: &[f64]| upper_median(seconds.iter().copied()).unwrap_or(f64::NAN);
+        let (SampledPilot { spp: few, pilot: at_few }, SampledPilot { spp: many, pilot: at_many }) = (few, many);
         let (short_s, long_s) = (median(&at_few.processor_s), median(&at_many.processor_s));
         let step = f64::from(many - few);
         let slope_s = ((long_s - short_s) / step).max(1e-12);
@@ -128,13 +134,9 @@ impl Times {
 }
 
 /// Variances by pilots of few and of many samples.
-pub(crate) fn variance(
-    pixels: &Pixels,
-    (few, at_few): (u32, &Pilot),
-    (many, at_many): (u32, &Pilot),
-) -> Currencies<PowerLaw> {
-    let (low, high) = (pixels.variance(&at_few.planes), pixels.variance(&at_many.planes));
-    low.with(&high, |a, b| PowerLaw::through((few, *a), (many, *b)))
+pub(crate) fn variance(pixels: &Pixels, few: SampledPilot<'_>, many: SampledPilot<'_>) -> Currencies<PowerLaw> {
+    let (low, high) = (pixels.variance(&few.pilot.planes), pixels.variance(&many.pilot.planes));
+    low.with(&high, |a, b| PowerLaw::through(few.spp, *a, many.spp, *b))
 }
 
 /// Mean squares of what planes of equal seeds differ by.
@@ -167,12 +169,12 @@ mod tests {
     #[test]
     fn a_law_goes_through_what_is_well_known_and_leans_to_1_else() {
         let known = |value: f64| Estimate { value, uncertainty: 1e-6 * value };
-        let law = PowerLaw::through((2, known(8.0)), (8, known(1.0)));
+        let law = PowerLaw::through(2, known(8.0), 8, known(1.0));
         assert!((law.exponent.value - 1.5).abs() < 1e-6 && (law.at(32.0).value - 0.125).abs() < 1e-6);
         let vague = |value: f64| Estimate { value, uncertainty: value };
-        let law = PowerLaw::through((2, vague(8.0)), (8, vague(1.0)));
+        let law = PowerLaw::through(2, vague(8.0), 8, vague(1.0));
         assert!((law.exponent.value - 1.0).abs() < 0.03, "{law:?}");
-        let none = PowerLaw::through((2, known(0.0)), (8, known(0.0)));
+        let none = PowerLaw::through(2, known(0.0), 8, known(0.0));
         assert!(none.exponent.value == 1.0 && none.at(100.0).value == 0.0);
     }
 
@@ -184,7 +186,9 @@ mod tests {
             processor_s: seconds.to_vec(),
             clock_s: 0.0,
         };
-        let times = Times::of((2, &pilot([0.51, 0.9, 0.51])), (8, &pilot([1.12, 1.11, 1.11])), (0.1, 2));
+        let (few, many) = (pilot([0.51, 0.9, 0.51]), pilot([1.12, 1.11, 1.11]));
+        let (few, many) = (SampledPilot { spp: 2, pilot: &few }, SampledPilot { spp: 8, pilot: &many });
+        let times = Times::of(few, many, 0.1, 2);
         assert!((times.sample_s.value - 0.5).abs() < 1e-9 && (times.frame_s - 0.31).abs() < 1e-9, "{times:?}");
     }
 }

@@ -34,7 +34,7 @@ impl Pilots<'_> {
         let (mut pixels, mut planes, mut processor_s) = (Vec::new(), Vec::new(), Vec::new());
         let all = Stint::begin(self.clock);
         for k in 0..seeds {
-            let (light, took_s) = self.timed(job, (spp, 1), seed(own, k))?;
+            let (light, took_s) = self.timed(job, spp, 1, seed(own, k))?;
             pixels = light.pixels;
             processor_s.push(took_s);
             planes.push(light.signal);
@@ -46,7 +46,8 @@ impl Pilots<'_> {
     pub(crate) fn timed(
         &self,
         job: &Job,
-        (spp, replicates): (u32, u32),
+        spp: u32,
+        replicates: u32,
         seed: u64,
     ) -> Result<(etendue::SampledLight, f64), Error> {
         let PilotPlan { tile_px, shard } = self.plan;

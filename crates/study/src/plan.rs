@@ -23,7 +23,7 @@ impl PilotPlan {
 
 impl PilotPlan {
     /// Tiles that this plan has none of, about one in `fewer` and at least one in `fewest`; the same ones where it has them all.
-    pub(crate) fn unseen(&self, columns: u32, (fewer, fewest): (u32, u32)) -> Self {
+    pub(crate) fn unseen(&self, columns: u32, fewer: u32, fewest: u32) -> Self {
         let count = self.shard.count;
         let wanted = f64::from(fewer) / f64::from(count);
         // By what factor a number of times is off.
@@ -61,12 +61,12 @@ mod tests {
         for column in 0..80 {
             assert!(tiles.iter().filter(|tile| *tile % 80 == column).count() <= 3, "{column}");
         }
-        let other = plan.unseen(80, (3 * count, 1000));
+        let other = plan.unseen(80, 3 * count, 1000);
         assert!(other.shard.count == 3 * count && other.shard.index % count != index, "{other:?}");
         assert!(tiles.iter().all(|tile| tile % other.shard.count != other.shard.index));
         // 120 columns have 2, 3, 4, 5 and 6 as divisors, or divisors in common with them.
         let wide = PilotPlan::of_tiles([120, 68], 48);
-        let times = |fewer: u32, fewest: u32| wide.unseen(120, (fewer, fewest)).shard.count / wide.shard.count;
+        let times = |fewer: u32, fewest: u32| wide.unseen(120, fewer, fewest).shard.count / wide.shard.count;
         assert_eq!([times(250, 510), times(600, 510), times(900, 2000), times(1, 510)], [1, 1, 7, 1]);
         assert_eq!(PilotPlan::of_tiles([4, 3], 48).shard.count, 1, "a small frame is looked at as a whole");
     }

@@ -4,7 +4,7 @@ use crate::Clock;
 use crate::budget::within;
 use crate::error::{Currencies, Estimate};
 use crate::front::{Frame, FrontPoint, Recommendation, front, point, recommend, targets};
-use crate::measured::{Bias, Measured, Role, Times, bias, variance};
+use crate::measured::{Bias, Measured, Role, SampledPilot, Times, bias, variance};
 use crate::pilot::{Pilot, Pilots};
 use crate::pixels::Pixels;
 use crate::plan::share;
@@ -102,7 +102,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     };
     let samples = f64::from(SEEDS * (FEW + MANY)) * WAYS;
     let budget = (PILOTS_PART * request.budget_s, samples);
-    let plan = within(&job, &camera, budget, request.simd, (clock, observer))?;
+    let plan = within(&job, &camera, budget.0, budget.1, request.simd, clock, observer)?;
     let pilots = Pilots { camera: &camera, plan, simd: request.simd, clock, observer };
     let mut bench = Bench {
         request,
@@ -132,7 +132,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
         let measured = bench.ways.iter().find(|m| m.way == way).expect("recommended of these");
         // The job's own way stands first; of no other use is the exact form.
         let control = bench.ways.iter().find(|m| m.way != way).expect("several ways are looked at");
-        trial.of(recommendation, (measured, control), rest_s)?;
+        trial.of(recommendation, measured, control, rest_s)?;
     }
     Ok(Study {
         signal: match job.light_signal(&camera)? {
@@ -269,10 +269,12 @@ impl Bench<'_> {
         }
         let pixels = self.pixels.as_ref().expect("made above");
         let share = share(&job, self.pilots.camera, many.pixels.len())?;
-        let times = Times::of((FEW, &few), (MANY, &many), (share, clock.threads()));
+        let at_few = SampledPilot { spp: FEW, pilot: &few };
+        let at_many = SampledPilot { spp: MANY, pilot: &many };
+        let times = Times::of(at_few, at_many, share, clock.threads());
         let exact = against.and_then(|against| self.kept.iter().find(|(way, _)| *way == against));
         let bias = exact.map(|(against, exact)| Bias { against: *against, squares: bias(pixels, &many, exact) });
-        let variance = variance(pixels, (FEW, &few), (MANY, &many));
+        let variance = variance(pixels, at_few, at_many);
         let bias_squares = self.all_bias(bias.as_ref(), &variance.map(|_| Estimate::default()));
         let Times { frame_s, sample_s } = times;
         self.ways.push(Measured { way, role, load_s, frame_s, sample_s, variance, bias, bias_squares });
@@ -297,7 +299,7 @@ impl Bench<'_> {
         let options = RenderOptions { simd: self.request.simd, ..RenderOptions::default() };
         let clock = self.pilots.clock;
         let stint = Stint::begin(clock);
-        let saved = job.save(&options, (scratch, Existing::Refuse), &etendue::Unobserved);
+        let saved = job.save(&options, scratch, Existing::Refuse, &etendue::Unobserved);
         let (clock_s, processor_s) = (stint.clock_s(), stint.processor_s());
         if scratch.exists() {
             std::fs::remove_dir_all(scratch)

@@ -42,13 +42,9 @@ struct Extent {
 impl Extent {
     /// As much of a recommendation of `spp` samples as may be rendered where the whole takes `1 / affordable` times what is there: fewer
     /// tiles first, then fewer samples. `None` of pictures of too few tiles.
-    fn within(
-        affordable: f64,
-        (spp, replicates): (u32, u32),
-        (seen, [columns, rows]): (PilotPlan, [u32; 2]),
-    ) -> Option<Self> {
+    fn within(affordable: f64, spp: u32, replicates: u32, seen: PilotPlan, [columns, rows]: [u32; 2]) -> Option<Self> {
         let all = columns * rows;
-        let plan = seen.unseen(columns, ((1.0 / affordable).ceil() as u32, all / FEWEST_TILES));
+        let plan = seen.unseen(columns, (1.0 / affordable).ceil() as u32, all / FEWEST_TILES);
         let tiles = all / plan.shard.count;
         let own = f64::from(spp / replicates);
         let planes = replicates.clamp(REPLICATES[0], REPLICATES[1]);
@@ -64,10 +60,11 @@ impl Trial<'_> {
     pub(crate) fn of(
         &self,
         recommendation: &mut Recommendation,
-        (measured, control): (&Measured, &Measured),
+        measured: &Measured,
+        control: &Measured,
         rest_s: f64,
     ) -> Result<(), Error> {
-        let Some(found) = self.tried(recommendation, (measured, control))? else { return Ok(()) };
+        let Some(found) = self.tried(recommendation, measured, control)? else { return Ok(()) };
         let samples_s = measured.sample_s.value * f64::from(recommendation.point.spp);
         let fixed = Estimate { value: measured.load_s + measured.frame_s + rest_s, uncertainty: 0.0 };
         recommendation.point.seconds = found.seconds.times(samples_s).plus(fixed);
@@ -78,14 +75,15 @@ impl Trial<'_> {
     fn tried(
         &self,
         recommendation: &Recommendation,
-        (measured, control): (&Measured, &Measured),
+        measured: &Measured,
+        control: &Measured,
     ) -> Result<Option<Confirmation>, Error> {
         let point = &recommendation.point;
         let Pilots { camera, simd, clock, observer, plan } = *self.pilots;
         let whole_s = (measured.sample_s.value + control.sample_s.value) * f64::from(point.spp);
         let grid = self.job.tile_grid(camera, plan.tile_px)?;
         let affordable = PART * self.budget_s / whole_s;
-        let Some(extent) = Extent::within(affordable, (point.spp, point.replicates), (plan, grid)) else {
+        let Some(extent) = Extent::within(affordable, point.spp, point.replicates, plan, grid) else {
             return Ok(None);
         };
         let pilots = Pilots { camera, plan: extent.plan, simd, clock, observer };
@@ -96,8 +94,8 @@ impl Trial<'_> {
         let (mut own_s, mut other_s) = (Moments::default(), Moments::default());
         for k in 0..extent.replicates {
             let seed = seed(own, FIRST_SEED + k);
-            other_s.push(pilots.timed(&other, (extent.samples, 1), seed)?.1);
-            let (light, took_s) = pilots.timed(&job, (extent.samples, 1), seed)?;
+            other_s.push(pilots.timed(&other, extent.samples, 1, seed)?.1);
+            let (light, took_s) = pilots.timed(&job, extent.samples, 1, seed)?;
             planes.push(light.signal);
             pixels = light.pixels;
             own_s.push(took_s);
@@ -139,7 +137,7 @@ mod tests {
 
     fn extent(affordable: f64) -> Extent {
         let seen = PilotPlan::of_tiles(GRID, 100);
-        Extent::within(affordable, (64, 4), (seen, GRID)).expect("enough tiles")
+        Extent::within(affordable, 64, 4, seen, GRID).expect("enough tiles")
     }
 
     #[test]
@@ -154,8 +152,8 @@ mod tests {
     #[test]
     fn one_replicate_is_tried_twice() {
         let seen = PilotPlan::of_tiles(GRID, 100);
-        let extent = Extent::within(1.0, (64, 1), (seen, GRID)).expect("enough tiles");
+        let extent = Extent::within(1.0, 64, 1, seen, GRID).expect("enough tiles");
         assert!(extent.samples == 64 && extent.replicates == 2, "{extent:?}");
-        assert_eq!(Extent::within(1.0, (64, 4), (PilotPlan::of_tiles([2, 2], 48), [2, 2])), None, "too few tiles");
+        assert_eq!(Extent::within(1.0, 64, 4, PilotPlan::of_tiles([2, 2], 48), [2, 2]), None, "too few tiles");
     }
 }

@@ -157,7 +157,7 @@ pub(super) const DATASHEET: Target = Target {
     read: |file| match load_datasheet(file, &text) {
         Ok(_) => {
             let out = file.with_file_name("camera");
-            told(etendue::datasheet(file, (&out, Existing::Replace), &Unobserved))
+            told(etendue::datasheet(file, &out, Existing::Replace, &Unobserved))
         }
         refused => told(refused),
     },

@@ -114,16 +114,15 @@ const JOB: &str = "format = 1\n[scene.environment]\ntype = \"uniform\"\nluminanc
 fn shard(folder: &Path) -> [Vec<u8>; 2] {
     write(folder, "job.toml", JOB);
     let job = Job::open(folder.join("job.toml")).expect("the job is legal");
-    let place = (folder, Existing::Replace);
     let whole = ShardRequest::whole(ShardSpec { index: 0, count: 1 }, 0..1);
-    job.save_shard(&whole, RenderOptions::default().simd, place, &Unobserved).expect("a shard");
+    job.save_shard(&whole, RenderOptions::default().simd, folder, Existing::Replace, &Unobserved).expect("a shard");
     ["front.film.exr", "shard.json"].map(|name| fs::read(folder.join(name)).expect("of the shard"))
 }
 
 fn merged(file: &Path) -> String {
     let folder = file.parent().expect("a folder");
     let out = folder.join("out");
-    let told = told(merge(&[folder.to_owned()], None, Simd::Scalar, (&out, Existing::Replace), &Unobserved));
+    let told = told(merge(&[folder.to_owned()], None, Simd::Scalar, &out, Existing::Replace, &Unobserved));
     let _ = fs::remove_dir_all(&out);
     told
 }

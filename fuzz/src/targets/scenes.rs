@@ -8,7 +8,7 @@ use std::path::Path;
 pub(super) fn imported(file: &Path) -> String {
     let made = file.with_file_name("made");
     let request = etendue::ImportRequest { file: file.to_path_buf(), ..Default::default() };
-    told(etendue::import(&request, (&made, etendue::Existing::Replace), &etendue::Unobserved))
+    told(etendue::import(&request, &made, etendue::Existing::Replace, &etendue::Unobserved))
 }
 
 const PBRT_WORDS: &[&str] = &[

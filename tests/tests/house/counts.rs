@@ -80,7 +80,8 @@ fn has_tuple(parameters: &[Token]) -> bool {
     let mut depth = 0;
     let mut begins = true;
     for (at, token) in parameters.iter().enumerate() {
-        let is_tuple = token.is_mark('(') && !parameters.get(at + 1).is_some_and(|next| next.is_mark(')'));
+        let is_other = |next: &Token| next.is_mark(')') || next.is("impl") || next.is("dyn");
+        let is_tuple = token.is_mark('(') && !parameters.get(at + 1).is_some_and(is_other);
         if depth == 0 && begins && is_tuple {
             return true;
         }
@@ -120,5 +121,6 @@ fn tuple_parameters_are_found() {
     assert_eq!(count("fn a((x, y): (f64, f64)) {}"), 1);
     assert_eq!(count("fn a<F: Fn(u8) -> u8>(&self, f: F, p: &(f64, Vec<u8>)) -> (u8, u8) {}"), 1);
     assert_eq!(count("fn a(f: impl Fn((u8, u8)) -> u8, x: [f64; 2], u: ()) -> (u8, u8) { g((1, 2)) }"), 0);
+    assert_eq!(count("fn a(f: &(impl Fn(u8) -> u8 + Sync), g: &mut (dyn Fn() + Send)) {}"), 0);
     assert_eq!(count("type A = fn((u8, u8)); fn b(x: &mut Vec<(u8, u8)>, A { y, .. }: A) {}"), 0);
 }

@@ -53,7 +53,7 @@ impl Seed<'_> {
         if place.exists() {
             std::fs::remove_dir_all(place).map_err(Error::run)?;
         }
-        laboratory(request, (place, Existing::Refuse), &Unobserved)?;
+        laboratory(request, place, Existing::Refuse, &Unobserved)?;
         let file = place.join("found.toml");
         characterise(&CharacteriseRequest::new(place), &Unobserved)?.save(&file, Existing::Refuse)?;
         let text = std::fs::read_to_string(file.with_extension("json")).map_err(Error::run)?;

@@ -16,8 +16,13 @@ pub struct Output {
 }
 
 impl Output {
-    /// The folder, and whether results there may be replaced.
-    pub fn folder(&self) -> (&Path, Existing) {
-        (&self.output, if self.overwrite { Existing::Replace } else { Existing::Refuse })
+    /// Returns the folder.
+    pub fn path(&self) -> &Path {
+        &self.output
+    }
+
+    /// Returns what becomes of results that are already there.
+    pub fn existing(&self) -> Existing {
+        if self.overwrite { Existing::Replace } else { Existing::Refuse }
     }
 }

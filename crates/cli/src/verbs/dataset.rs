@@ -32,9 +32,9 @@ impl Dataset {
         let pool = machine::pool(self.threads)?;
         let request =
             DatasetRequest { job: self.job.request().into_output(&self.output.output), simd, ..self.request.clone() };
-        let (folder, existing) = self.output.folder();
+        let (folder, existing) = (self.output.path(), self.output.existing());
         let existing = if self.resume { Existing::Resume } else { existing };
-        let written = pool.install(|| dataset(&request, (folder, existing), console.observer()))?;
+        let written = pool.install(|| dataset(&request, folder, existing, console.observer()))?;
         print_paths(console, &written);
         Ok(())
     }

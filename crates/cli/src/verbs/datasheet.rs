@@ -19,6 +19,8 @@ pub struct DataSheet {
 
 impl DataSheet {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
-        print_written(console, || etendue::datasheet(&self.sheet, self.output.folder(), console.observer()))
+        print_written(console, || {
+            etendue::datasheet(&self.sheet, self.output.path(), self.output.existing(), console.observer())
+        })
     }
 }

@@ -17,6 +17,6 @@ pub struct Develop {
 
 impl Develop {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
-        print_written(console, || etendue::develop(&self.request, self.output.folder()))
+        print_written(console, || etendue::develop(&self.request, self.output.path(), self.output.existing()))
     }
 }

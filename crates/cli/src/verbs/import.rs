@@ -17,6 +17,8 @@ pub struct Import {
 
 impl Import {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
-        print_written(console, || etendue::import(&self.request, self.output.folder(), console.observer()))
+        print_written(console, || {
+            etendue::import(&self.request, self.output.path(), self.output.existing(), console.observer())
+        })
     }
 }

@@ -24,7 +24,14 @@ impl Merge {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let simd = simd()?;
         print_written(console, || {
-            etendue::merge(&self.shards, self.job.as_deref(), simd, self.output.folder(), console.observer())
+            etendue::merge(
+                &self.shards,
+                self.job.as_deref(),
+                simd,
+                self.output.path(),
+                self.output.existing(),
+                console.observer(),
+            )
         })
     }
 }

@@ -8,7 +8,6 @@ use crate::machine;
 use clap::Args;
 use etendue::{Error, Existing, JobRequest, RenderOptions, ShardRequest, ShardSpec};
 use etendue_arguments::whole;
-use std::path::Path;
 
 /// `etendue render`
 #[derive(Debug, Args)]
@@ -47,9 +46,8 @@ pub struct Render {
 }
 
 impl Render {
-    fn folder(&self) -> (&Path, Existing) {
-        let (folder, existing) = self.output.folder();
-        (folder, if self.resume { Existing::Resume } else { existing })
+    fn existing(&self) -> Existing {
+        if self.resume { Existing::Resume } else { self.output.existing() }
     }
 
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
@@ -58,14 +56,14 @@ impl Render {
         let request = JobRequest { time_s: self.time, progressive: self.progressive, ..self.job.request() };
         let request = request.into_output(&self.output.output);
         let job = JobArgs::open_request(console, request, &pool)?;
-        let (folder, frames) = (self.folder(), self.options.frames.clone());
+        let (folder, existing, frames) = (self.output.path(), self.existing(), self.options.frames.clone());
         let display = self.display.as_deref().map(Display::connect).transpose()?;
         let observer = Displaying::new(console.observer(), display);
         let written = pool.install(|| match self.shard {
-            None => job.save(&RenderOptions { frames, simd }, folder, &observer),
+            None => job.save(&RenderOptions { frames, simd }, folder, existing, &observer),
             Some(spec) => {
                 let asked = ShardRequest { spec, frames, films: self.film.clone() };
-                job.save_shard(&asked, simd, folder, &observer)
+                job.save_shard(&asked, simd, folder, existing, &observer)
             }
         });
         observer.finish();

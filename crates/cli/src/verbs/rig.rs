@@ -24,7 +24,8 @@ impl Rig {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let pool = machine::pool(None)?;
         let job = self.job.open(console, &pool)?;
-        let written = job.save_calibration_files(&self.frames, self.output.folder(), console.observer())?;
+        let written =
+            job.save_calibration_files(&self.frames, self.output.path(), self.output.existing(), console.observer())?;
         print_paths(console, &written);
         Ok(())
     }

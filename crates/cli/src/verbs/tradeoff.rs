@@ -98,7 +98,7 @@ impl Tradeoff {
         let pool = machine::pool(self.threads)?;
         // Its faults, and what the command line supersedes, before anything is written.
         self.job.open(console, &pool)?;
-        let (folder, existing) = self.output.folder();
+        let (folder, existing) = (self.output.path(), self.output.existing());
         if self.mtf50 && !self.ablate && self.vary.is_empty() {
             return Err(Error::argument(
                 "mtf50",
@@ -132,7 +132,7 @@ impl Tradeoff {
 
     /// Nothing is replaced unasked, nor the job that is studied; told before a study takes its time.
     fn refuse_to_replace(&self) -> Result<(), Error> {
-        let (folder, existing) = self.output.folder();
+        let (folder, existing) = (self.output.path(), self.output.existing());
         let names: &[&str] = match (self.ablate, self.vary.is_empty()) {
             (true, _) => &ABLATION_FILES,
             (false, true) => &STUDY_FILES,
@@ -165,7 +165,7 @@ fn studied(request: &Request, folder: &Path, observer: &dyn Observer) -> Result<
         ("tradeoff.svg".to_owned(), plot(&found).into_bytes()),
     ];
     for recommendation in &found.recommendations {
-        let job = job_file(recommendation, (&request.job, &found.camera), folder)?;
+        let job = job_file(recommendation, &request.job, &found.camera, folder)?;
         files.push((format!("{}.toml", recommendation.target.name), job.into_bytes()));
     }
     files.extend(compared.into_iter().map(|compared| (format!("pictures/{}", compared.file), compared.jpeg)));

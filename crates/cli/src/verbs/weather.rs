@@ -17,6 +17,6 @@ pub struct Weather {
 
 impl Weather {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
-        print_written(console, || etendue::weather(&self.request, self.output.folder()))
+        print_written(console, || etendue::weather(&self.request, self.output.path(), self.output.existing()))
     }
 }

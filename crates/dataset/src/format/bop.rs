@@ -78,7 +78,7 @@ impl Bop {
     }
 }
 
-fn scene(set: &Set, (sample, split): (u32, Split), camera: &str) -> String {
+fn scene(set: &Set, sample: u32, split: Split, camera: &str) -> String {
     let place = set.cameras.iter().position(|known| known == camera).expect("a camera of the job");
     format!("bop/{}/{:06}", split.name(), sample as usize * set.cameras.len() + place)
 }
@@ -91,7 +91,7 @@ fn objects(picture: &PictureRecord) -> impl Iterator<Item = &ObjectRecord> {
 impl Writer for Bop {
     fn picture(&self, set: &Set, picture: &Picture<'_>, folder: &mut OutputFolder) -> Result<(), Error> {
         let (record, truth) = (&picture.record, picture.truth);
-        let (scene, number) = (scene(set, picture.sample, &record.camera), record.frame);
+        let (scene, number) = (scene(set, picture.sample.0, picture.sample.1, &record.camera), record.frame);
         write(folder, &format!("{scene}/rgb/{number:06}.{}", record.extension), &picture.bytes)?;
         let mut encoded = |name: String, bytes: Result<Vec<u8>, _>| {
             let bytes = bytes.map_err(|error: etendue_io::exr::EncodeError| Error::Run(format!("{name}: {error}")))?;
@@ -125,7 +125,7 @@ impl Writer for Bop {
         }
         models.get_or_insert_default().add(record)?;
         for camera in &set.cameras {
-            let scene = scene(set, (record.sample, record.split), camera);
+            let scene = scene(set, record.sample, record.split, camera);
             let pictures = || record.pictures.iter().filter(|picture| picture.camera == *camera);
             let by_number = |of: &dyn Fn(&PictureRecord) -> Value| -> Value {
                 pictures().map(|picture| (picture.frame.to_string(), of(picture))).collect::<Map<_, _>>().into()

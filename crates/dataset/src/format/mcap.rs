@@ -46,7 +46,7 @@ impl Writer for Mcap {
             let problem = format!("an image of camera {} has the time {time} s", record.camera);
             return Err(Error::input(format!("{problem}; MCAP with ROS messages holds times from 0 to {LAST_S} s")));
         };
-        let at = (time_ns, record.camera.as_str());
+        let at = ros::At { time_ns, frame: record.camera.as_str() };
         let matrix = record.camera_matrix_px.expect("checked for all cameras of the format");
         let size = (record.width_px, record.height_px);
         let topic = |name: &str| format!("/{}/{name}", topic_name(&record.camera));
@@ -57,8 +57,8 @@ impl Writer for Mcap {
                 ros::compressed_image(at, &record.extension, &picture.bytes),
             ),
             (topic("depth"), ros::IMAGE, ros::depth_image(at, &picture.truth.depth)),
-            (topic("points"), ros::POINT_CLOUD, ros::point_cloud(at, (&picture.truth.depth, picture.display), matrix)),
-            (topic("camera_info"), ros::CAMERA_INFO, ros::camera_info(at, size, matrix)),
+            (topic("points"), ros::POINT_CLOUD, ros::point_cloud(at, &picture.truth.depth, picture.display, matrix)),
+            (topic("camera_info"), ros::CAMERA_INFO, ros::camera_info(at, size.0, size.1, matrix)),
             ("/tf".to_owned(), ros::TF_MESSAGE, ros::transform(at, &record.pose)),
         ];
         let of = |(topic, schema, data)| Message { time_ns, topic, schema, data };
@@ -120,7 +120,7 @@ fn file(messages: &[Message]) -> Vec<u8> {
     record(&mut bytes, opcode::DATA_END, &0_u32.to_le_bytes());
     let summary_start = bytes.len() as u64;
     bytes.extend_from_slice(&described);
-    record(&mut bytes, opcode::STATISTICS, &statistics(messages, (schemas.len(), channels.len()), &counts));
+    record(&mut bytes, opcode::STATISTICS, &statistics(messages, schemas.len(), channels.len(), &counts));
     let footer = [summary_start.to_le_bytes().as_slice(), &0_u64.to_le_bytes(), &0_u32.to_le_bytes()].concat();
     record(&mut bytes, opcode::FOOTER, &footer);
     bytes.extend_from_slice(MAGIC);
@@ -152,7 +152,7 @@ fn message_record(channel: u16, sequence: u32, message: &Message) -> Vec<u8> {
     [&channel.to_le_bytes()[..], &sequence.to_le_bytes(), &time, &time, &message.data].concat()
 }
 
-fn statistics(messages: &[Message], (schemas, channels): (usize, usize), counts: &BTreeMap<u16, u64>) -> Vec<u8> {
+fn statistics(messages: &[Message], schemas: usize, channels: usize, counts: &BTreeMap<u16, u64>) -> Vec<u8> {
     let time = |message: Option<&Message>| message.map_or(0, |message| message.time_ns).to_le_bytes();
     let none = 0_u32.to_le_bytes();
     let mut bytes = (messages.len() as u64).to_le_bytes().to_vec();

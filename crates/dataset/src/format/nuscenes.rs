@@ -56,7 +56,7 @@ impl Writer for NuScenes {
             }
             for (name, rows_of) in TABLES {
                 let written =
-                    |file: &mut std::io::BufWriter<std::fs::File>| write_rows(set, (records, split), rows_of, file);
+                    |file: &mut std::io::BufWriter<std::fs::File>| write_rows(set, records, split, rows_of, file);
                 folder.write_with(&table(name), written).map_err(Error::run)?;
             }
         }
@@ -64,12 +64,7 @@ impl Writer for NuScenes {
     }
 }
 
-fn write_rows(
-    set: &Set,
-    (records, split): (&Records, Split),
-    rows_of: RowsOf,
-    file: &mut impl Write,
-) -> io::Result<()> {
+fn write_rows(set: &Set, records: &Records, split: Split, rows_of: RowsOf, file: &mut impl Write) -> io::Result<()> {
     file.write_all(b"[")?;
     let mut is_first = true;
     for record in records.each() {

@@ -15,7 +15,13 @@ pub(super) const TF_MESSAGE: &str = "tf2_msgs/msg/TFMessage";
 const NS: u64 = 1_000_000_000;
 
 /// When, ns, and in which frame.
-type At<'a> = (u64, &'a str);
+#[derive(Clone, Copy, Debug)]
+pub(super) struct At<'a> {
+    /// Time, ns.
+    pub(super) time_ns: u64,
+    /// Name of the frame of coordinates.
+    pub(super) frame: &'a str,
+}
 
 /// The fields of the messages, and of those that these are made of.
 const DEFINITIONS: [(&str, &str, &[&str]); 13] = [
@@ -76,13 +82,13 @@ struct Cdr(Vec<u8>);
 
 impl Cdr {
     /// One that begins with a header.
-    fn with_header((time_ns, frame): At<'_>) -> Self {
+    fn with_header(at: At<'_>) -> Self {
         let mut cdr = Self(vec![0, 1, 0, 0]);
-        cdr.header((time_ns, frame));
+        cdr.header(at);
         cdr
     }
 
-    fn header(&mut self, (time_ns, frame): At<'_>) {
+    fn header(&mut self, At { time_ns, frame }: At<'_>) {
         self.u32((time_ns / NS) as u32);
         self.u32((time_ns % NS) as u32);
         self.text(frame);
@@ -147,7 +153,8 @@ const FLOAT32: u8 = 7;
 /// colours (red, green, blue from 0 to 1, as a display shows them); where there is no depth, no number.
 pub(super) fn point_cloud(
     at: At<'_>,
-    (depth, colours): (&Plane<Length>, &Plane<Display>),
+    depth: &Plane<Length>,
+    colours: &Plane<Display>,
     [fx, skew, cx, fy, cy]: [f64; 5],
 ) -> Vec<u8> {
     let (width, height) = (depth.width(), depth.height());
@@ -181,7 +188,7 @@ pub(super) fn point_cloud(
 }
 
 /// A camera without distortion, of this size, px, and fx, skew, cx, fy, cy in raster coordinates.
-pub(super) fn camera_info(at: At<'_>, (width, height): (usize, usize), [fx, skew, cx, fy, cy]: [f64; 5]) -> Vec<u8> {
+pub(super) fn camera_info(at: At<'_>, width: usize, height: usize, [fx, skew, cx, fy, cy]: [f64; 5]) -> Vec<u8> {
     // ROS counts pixel centres as whole numbers.
     let (cx, cy) = (cx - 0.5, cy - 0.5);
     let mut cdr = Cdr::with_header(at);
@@ -200,12 +207,12 @@ pub(super) fn camera_info(at: At<'_>, (width, height): (usize, usize), [fx, skew
 }
 
 /// From the world to a camera.
-pub(super) fn transform((time_ns, camera): At<'_>, pose: &Pose) -> Vec<u8> {
+pub(super) fn transform(camera: At<'_>, pose: &Pose) -> Vec<u8> {
     let [w, x, y, z] = pose.rotation_wxyz;
     let mut cdr = Cdr(vec![0, 1, 0, 0]);
     cdr.u32(1);
-    cdr.header((time_ns, "world"));
-    cdr.text(camera);
+    cdr.header(At { frame: "world", ..camera });
+    cdr.text(camera.frame);
     cdr.f64s(&pose.position_m);
     cdr.f64s(&[x, y, z, w]);
     cdr.0

@@ -68,7 +68,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 fn panicked(job: &Job, folder: &Path, tiles: usize) -> String {
     let observer = Faulty { tiles, told: Mutex::default() };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
-    let run = || pool.install(|| job.save(&options(), (folder, Existing::Refuse), &observer));
+    let run = || pool.install(|| job.save(&options(), folder, Existing::Refuse, &observer));
     catch_unwind(AssertUnwindSafe(run)).expect_err("the observer's panic");
     let told = observer.told.into_inner().expect("no panic holds it");
     told.last().expect("what was kept").clone()
@@ -78,7 +78,7 @@ fn panicked(job: &Job, folder: &Path, tiles: usize) -> String {
 fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
     let place = tempfile::tempdir().expect("a folder");
     let whole = place.path().join("whole");
-    job(false).save(&options(), (&whole, Existing::Refuse), &Unobserved).expect("rendered");
+    job(false).save(&options(), &whole, Existing::Refuse, &Unobserved).expect("rendered");
     let expected = files(&whole);
     // In the first frame: nothing is left, not even the folder.
     let out = place.path().join("out");
@@ -89,7 +89,7 @@ fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
     assert!(told.contains("kept 2 frames that are whole; with `resume`"), "{told}");
     let kept = files(&out);
     assert!(kept.len() > 2 && kept.iter().all(|(name, bytes)| expected.get(name) == Some(bytes)), "{:?}", kept.keys());
-    job(false).save(&options(), (&out, Existing::Resume), &Unobserved).expect("rendered");
+    job(false).save(&options(), &out, Existing::Resume, &Unobserved).expect("rendered");
     assert!(files(&out) == expected);
 }
 
@@ -97,11 +97,11 @@ fn a_panic_of_a_worker_leaves_whole_frames_and_says_so() {
 fn a_panic_between_passes_leaves_the_light_of_the_last() {
     let place = tempfile::tempdir().expect("a folder");
     let (whole, out) = (place.path().join("whole"), place.path().join("out"));
-    job(true).save(&options(), (&whole, Existing::Refuse), &Unobserved).expect("rendered");
+    job(true).save(&options(), &whole, Existing::Refuse, &Unobserved).expect("rendered");
     // The second pass of the first frame.
     let told = panicked(&job(true), &out, 6);
     assert!(told.contains("kept the light of the last whole pass; with `resume`"), "{told}");
-    job(true).save(&options(), (&out, Existing::Resume), &Unobserved).expect("rendered");
+    job(true).save(&options(), &out, Existing::Resume, &Unobserved).expect("rendered");
     assert!(files(&out) == files(&whole));
 }
 
@@ -111,10 +111,10 @@ fn jobs_of_one_process_take_turns_in_a_folder() {
     let place = tempfile::tempdir().expect("a folder");
     panicked(&job(false), place.path(), 2);
     let held = OutputFolder::open(place.path(), Existing::Refuse).expect("free");
-    let refused = job(false).save(&options(), (place.path(), Existing::Replace), &Unobserved).expect_err("held");
+    let refused = job(false).save(&options(), place.path(), Existing::Replace, &Unobserved).expect_err("held");
     assert!(refused.to_string().contains("another run of this process writes into this folder"), "{refused}");
     drop(held);
-    job(false).save(&options(), (place.path(), Existing::Refuse), &Unobserved).expect("free");
+    job(false).save(&options(), place.path(), Existing::Refuse, &Unobserved).expect("free");
 }
 
 #[test]

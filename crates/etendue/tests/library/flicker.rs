@@ -22,7 +22,7 @@ fn frames(folder: &Path, numbers: &[u32]) -> Vec<PathBuf> {
     files.add_text("job.toml", JOB);
     let job = JobRequest::new("job.toml").open_in(&files).unwrap_or_else(|error| panic!("{error}"));
     let options = RenderOptions { frames: 0..5, ..RenderOptions::default() };
-    job.save(&options, (folder, Existing::Refuse), &Unobserved).expect("rendered");
+    job.save(&options, folder, Existing::Refuse, &Unobserved).expect("rendered");
     numbers.iter().map(|number| folder.join(format!("eye/raw.{number:04}.png"))).collect()
 }
 

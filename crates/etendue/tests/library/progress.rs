@@ -34,7 +34,7 @@ fn watched(existing: Existing, folder: &std::path::Path) -> Vec<Told> {
     let job = JobRequest::new("job.toml").open_in(&files).unwrap_or_else(|error| panic!("{error}"));
     let options = RenderOptions { frames: 5..8, ..RenderOptions::default() };
     let watch = Watch::default();
-    job.save(&options, (folder, existing), &watch).expect("rendered");
+    job.save(&options, folder, existing, &watch).expect("rendered");
     watch.0.into_inner().expect("no panic")
 }
 

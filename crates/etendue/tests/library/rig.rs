@@ -22,7 +22,7 @@ fn job() -> Job {
 }
 
 fn written(job: &Job, folder: &Path) -> impl Fn(&str) -> String {
-    job.save_calibration_files(&(0..3), (folder, Existing::Refuse), &Unobserved).expect("written");
+    job.save_calibration_files(&(0..3), folder, Existing::Refuse, &Unobserved).expect("written");
     let root = folder.join("calibration");
     move |name| std::fs::read_to_string(root.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
@@ -293,7 +293,7 @@ fn other_programs_that_read_the_files_see_what_the_program_sees() {
 #[test]
 fn the_files_that_they_read_are_those_that_the_program_writes() {
     let (job, folder) = (job(), tempfile::tempdir().expect("a folder"));
-    let written = job.save_calibration_files(&(0..3), (folder.path(), Existing::Refuse), &Unobserved).expect("written");
+    let written = job.save_calibration_files(&(0..3), folder.path(), Existing::Refuse, &Unobserved).expect("written");
     assert_eq!(written.len(), 11);
     for path in written {
         let name = path.strip_prefix(folder.path()).expect("within");

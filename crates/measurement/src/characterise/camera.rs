@@ -102,25 +102,25 @@ impl Draft<'_> {
     }
 
     /// A number that is measured, or is a stand-in where no base has it.
-    fn or_stand_in(&mut self, table: &mut Table, (section, key): (&str, &str), e: Option<Estimate>, stand_in: f64) {
+    fn or_stand_in(&mut self, table: &mut Table, section: &str, key: &str, e: Option<Estimate>, stand_in: f64) {
         match e {
             Some(e) => self.measured(table, section, key, e),
-            None => self.stand_in(table, (section, key), stand_in),
+            None => self.stand_in(table, section, key, stand_in),
         }
     }
 
     /// A setting of the camera, or a stand-in for it.
-    fn setting(&mut self, table: &mut Table, (section, key): (&str, &str), known: Option<f64>, stand_in: f64) {
+    fn setting(&mut self, table: &mut Table, section: &str, key: &str, known: Option<f64>, stand_in: f64) {
         match known {
             Some(known) => {
                 table.put(key, known);
                 self.beside(&format!("{section}.{key}"), TAKEN);
             }
-            None => self.stand_in(table, (section, key), stand_in),
+            None => self.stand_in(table, section, key, stand_in),
         }
     }
 
-    fn stand_in(&mut self, table: &mut Table, (section, key): (&str, &str), value: f64) {
+    fn stand_in(&mut self, table: &mut Table, section: &str, key: &str, value: f64) {
         if !self.based {
             table.put(key, value);
             self.beside(&format!("{section}.{key}"), STAND_IN);
@@ -154,7 +154,7 @@ impl Draft<'_> {
         }
         // The lens is stated anew, and so is its f-number.
         let based = std::mem::replace(&mut self.based, false);
-        self.setting(&mut lens, ("lens", "f_number"), self.laboratory.camera.f_number, F_NUMBER);
+        self.setting(&mut lens, "lens", "f_number", self.laboratory.camera.f_number, F_NUMBER);
         self.based = based;
         if let Some(fall_off) = &found.fall_off {
             let [radius_mm, ratio] = self.illumination(fall_off);
@@ -194,7 +194,7 @@ impl Draft<'_> {
         let [width, height] = self.laboratory.camera.size_px;
         let mut sensor = Table::new().with("width_px", width as u64).with("height_px", height as u64);
         let pitch_um = self.laboratory.camera.pixel_pitch_um;
-        self.setting(&mut sensor, ("sensor", "pixel_pitch_um"), pitch_um, PITCH_UM);
+        self.setting(&mut sensor, "sensor", "pixel_pitch_um", pitch_um, PITCH_UM);
         let found = self.found;
         if let Some(electronics) = &found.electronics {
             self.electronics(&mut sensor, electronics);
@@ -204,7 +204,7 @@ impl Draft<'_> {
 
     fn electronics(&mut self, sensor: &mut Table, electronics: &Electronics) {
         let f = electronics.figures;
-        self.setting(sensor, ("sensor", "exposure_s"), self.found.exposure_s, EXPOSURE_S);
+        self.setting(sensor, "sensor", "exposure_s", self.found.exposure_s, EXPOSURE_S);
         match self.laboratory.camera.cfa.clone() {
             Some(cfa) => sensor.put("cfa", cfa),
             None if self.based => {}
@@ -217,9 +217,9 @@ impl Draft<'_> {
         self.efficiency(sensor, electronics);
         let full_well = Some(f.saturation_e).filter(|_| electronics.saturated);
         let fallback = f.saturation_e.value.max(FULL_WELL_E);
-        self.or_stand_in(sensor, ("sensor", "full_well_e"), full_well, fallback);
+        self.or_stand_in(sensor, "sensor", "full_well_e", full_well, fallback);
         self.measured(sensor, "sensor", "read_noise_e", f.dark_noise_e);
-        self.or_stand_in(sensor, ("sensor", "dark_current_e_s"), electronics.dark_current_e_s, 0.0);
+        self.or_stand_in(sensor, "sensor", "dark_current_e_s", electronics.dark_current_e_s, 0.0);
         self.measured(sensor, "sensor", "gain_dn_per_e", f.gain_dn_per_e);
         self.measured(sensor, "sensor", "black_level_dn", electronics.black_level_dn);
         match self.laboratory.camera.bits {
@@ -271,7 +271,7 @@ impl Draft<'_> {
                 let told = format!("{}; at {wavelength_nm} nm, taken for all wavelengths", each.join(", "));
                 self.beside("sensor.quantum_efficiency", told);
             }
-            None => self.stand_in(sensor, ("sensor", "quantum_efficiency"), EFFICIENCY),
+            None => self.stand_in(sensor, "sensor", "quantum_efficiency", EFFICIENCY),
         }
     }
 

@@ -48,7 +48,7 @@ pub(super) fn measure(
     let corner = shading.corner.scaled(100.0);
     findings.found(Kind::Field, "lens.relative_illumination.corner_percent", "illumination of the corner", "%", corner);
     let pitch_um = laboratory.camera.pixel_pitch_um.unwrap_or(PITCH_UM);
-    let [radius_mm, mut ratio] = request.relative_illumination(&shading, size, pitch_um);
+    let [radius_mm, mut ratio] = request.relative_illumination(&shading, size.into(), pitch_um);
     // The centre is 1 by definition.
     ratio[0] = 1.0;
     Ok(Some(FallOff { radius_mm, ratio, corner_u: shading.corner.standard_uncertainty }))

@@ -124,7 +124,8 @@ fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<V
     let patch = |(i, patch): (usize, &etendue_spectra::chart::Patch)| {
         let (low, high) = (middle(i) - half, middle(i) + half);
         let beyond = || Error::argument("corners", "`corners`: a patch lies beyond the picture");
-        let at = super::readings::pixels(low.into(), high.into(), colours[1].picture_px).ok_or_else(beyond)?;
+        let at = super::readings::pixels(low.into(), high.into(), colours[1].picture_px.0, colours[1].picture_px.1)
+            .ok_or_else(beyond)?;
         let one = |c: usize| colours[c].part(at, "`corners`: a patch").map_err(|error| error.with_field("corners"));
         let reference = observer::xyz_of_reflectance(&patch.reflectance, illuminant::d65());
         Ok(ColourPatch { name: patch.name.to_owned(), pixels: [one(0)?, one(1)?, one(2)?], reference })

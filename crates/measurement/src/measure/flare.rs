@@ -58,7 +58,7 @@ pub fn flare(request: &FlareRequest) -> Result<Report, Error> {
     };
     let found = traps.iter().map(measured).collect::<Result<Vec<_>, Error>>()?;
     let places: Vec<[usize; 4]> = traps.iter().map(|t| t.trap).collect();
-    let mut report = report(&places, &found, readings.picture_px);
+    let mut report = report(&places, &found, readings.picture_px.0, readings.picture_px.1);
     report.encoding(&readings.stated);
     for place in &traps {
         report.note_cut(&region_label("trap", place.trap), &readings.part_of("traps", place.trap)?, full_scale);
@@ -84,7 +84,7 @@ fn traps(request: &FlareRequest, readings: &Readings) -> Result<Vec<TrapPlace>, 
     }
 }
 
-fn report(traps: &[[usize; 4]], found: &[Estimate], size: (usize, usize)) -> Report {
+fn report(traps: &[[usize; 4]], found: &[Estimate], width_px: usize, height_px: usize) -> Report {
     let mut report = Report::new("flare", "flare after ISO 18844: light in traps over the white field's");
     let largest = found.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
     let mean = found.iter().map(|f| f.value).sum::<f64>() / found.len() as f64;
@@ -95,7 +95,7 @@ fn report(traps: &[[usize; 4]], found: &[Estimate], size: (usize, usize)) -> Rep
     let row = |(at, value): (&[usize; 4], &Estimate)| {
         vec![
             Cell::Text(format!("{},{}", at[0], at[1])),
-            Cell::Number(100.0 * field_position(at, size), 1),
+            Cell::Number(100.0 * field_position(at, width_px, height_px), 1),
             Cell::Estimate(value.scaled(100.0)),
         ]
     };
@@ -104,10 +104,9 @@ fn report(traps: &[[usize; 4]], found: &[Estimate], size: (usize, usize)) -> Rep
         columns: vec![("at_px", "at px"), ("field_percent", "field %"), ("flare_percent", "flare %")],
         rows: traps.iter().zip(found).map(row).collect(),
     });
-    let points = traps
-        .iter()
-        .zip(found)
-        .map(|(at, flare)| (100.0 * field_position(at, size), 100.0 * flare.value, 200.0 * flare.standard_uncertainty));
+    let points = traps.iter().zip(found).map(|(at, flare)| {
+        (100.0 * field_position(at, width_px, height_px), 100.0 * flare.value, 200.0 * flare.standard_uncertainty)
+    });
     report.plot(Plot {
         title: "flare (bars: 95 %)".to_owned(),
         x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),

@@ -30,9 +30,9 @@ pub(super) fn completed(frames: &[PathBuf], given: FrameTimes) -> Result<(FrameT
     let rate_hz = frame_rate_hz(stated, &mut told);
     let exposure_us = exposure_s(stated, &mut told).map(|s| 1e6 * s);
     let times = FrameTimes {
-        row_time_us: told.chosen(("row_time_us", "row time", "µs"), given.row_time_us, row_time_us),
-        frame_rate_hz: told.chosen(("frame_rate_hz", "frame rate", "Hz"), given.frame_rate_hz, rate_hz),
-        exposure_us: told.chosen(("exposure_us", "exposure", "µs"), given.exposure_us, exposure_us),
+        row_time_us: told.chosen("row_time_us", "row time", "µs", given.row_time_us, row_time_us),
+        frame_rate_hz: told.chosen("frame_rate_hz", "frame rate", "Hz", given.frame_rate_hz, rate_hz),
+        exposure_us: told.chosen("exposure_us", "exposure", "µs", given.exposure_us, exposure_us),
     };
     Ok((times, told.into_notes()))
 }
@@ -47,12 +47,7 @@ struct Told {
 
 impl Told {
     /// The caller's number, else the side-car's.
-    fn chosen(
-        &mut self,
-        (field, name, unit): (&str, &str, &str),
-        given: Option<f64>,
-        said: Option<f64>,
-    ) -> Option<f64> {
+    fn chosen(&mut self, field: &str, name: &str, unit: &str, given: Option<f64>, said: Option<f64>) -> Option<f64> {
         match (given, said) {
             (Some(given), Some(said)) if (given - said).abs() > ALIKE * said.abs() => {
                 let side_car = &self.side_car;

@@ -33,7 +33,7 @@ pub(crate) fn read(file: &Path) -> Result<Grid, Error> {
     let places = places(heading).ok_or_else(|| refused(first, format!("{expected}, not '{heading}'")))?;
     let mut nodes: BTreeMap<[usize; 2], (usize, Node)> = BTreeMap::new();
     for (i, line) in lines {
-        let node = node(line, &places).map_err(|what| refused(i, what))?;
+        let node = node(line, &places.0, places.1).map_err(|what| refused(i, what))?;
         let [column, row] = node.index;
         if let Some((other, _)) = nodes.insert([row, column], (i, node)) {
             return Err(refused(i, format!("column {column}, row {row} is in line {} already", other + 1)));
@@ -52,9 +52,9 @@ fn places(heading: &str) -> Option<(Vec<Option<usize>>, usize)> {
     (whole && places.iter().flatten().count() == names.len()).then_some((places, names.len()))
 }
 
-fn node(line: &str, (places, count): &(Vec<Option<usize>>, usize)) -> Result<Node, String> {
+fn node(line: &str, places: &[Option<usize>], count: usize) -> Result<Node, String> {
     let words: Vec<&str> = line.split(',').map(str::trim).collect();
-    if words.len() != *count {
+    if words.len() != count {
         return Err(format!("expected {count} numbers as the first line has names, not '{line}'"));
     }
     let number = |k: usize| {

@@ -408,7 +408,7 @@ impl SignalLevels {
 }
 
 /// The pixels of a picture that lie wholly between two corners: left column, top row, width, height; `None` where these are beyond it.
-pub(crate) fn pixels(low: [f64; 2], high: [f64; 2], (columns, rows): (usize, usize)) -> Option<[usize; 4]> {
+pub(crate) fn pixels(low: [f64; 2], high: [f64; 2], columns: usize, rows: usize) -> Option<[usize; 4]> {
     let start = low.map(f64::ceil);
     let end = high.map(f64::floor);
     let within = start[0] >= 0.0 && start[1] >= 0.0 && end[0] <= columns as f64 && end[1] <= rows as f64;
@@ -417,7 +417,7 @@ pub(crate) fn pixels(low: [f64; 2], high: [f64; 2], (columns, rows): (usize, usi
 }
 
 /// Distance of a part's middle from the picture's, of the half diagonal.
-pub(crate) fn field_position(at: &[usize; 4], (width, height): (usize, usize)) -> f64 {
+pub(crate) fn field_position(at: &[usize; 4], width: usize, height: usize) -> f64 {
     let from = |start: usize, length: usize, whole: usize| start as f64 + 0.5 * length as f64 - 0.5 * whole as f64;
     let (x, y) = (from(at[0], at[2], width), from(at[1], at[3], height));
     let (w, h) = (0.5 * width as f64, 0.5 * height as f64);

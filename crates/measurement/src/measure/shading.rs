@@ -13,6 +13,7 @@ use etendue_metrology::Estimate;
 use etendue_metrology::shading::{
     ColourShading, Shading, ShadingError, ShadingSettings, colour_shading, measure_shading,
 };
+use glam::DVec2;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
@@ -137,8 +138,8 @@ impl VignettingRequest {
     }
 
     /// Relative illumination as a lens states it: radii, mm, and ratios.
-    pub(crate) fn relative_illumination(&self, shading: &Shading, size: (f64, f64), pitch_um: f64) -> [Vec<f64>; 2] {
-        let (width, height) = size;
+    pub(crate) fn relative_illumination(&self, shading: &Shading, size_px: DVec2, pitch_um: f64) -> [Vec<f64>; 2] {
+        let DVec2 { x: width, y: height } = size_px;
         let (x, y) = self.flat.centre_px.unwrap_or((0.5 * width, 0.5 * height));
         let (x, y) = (x.max(width - x), y.max(height - y));
         let corner_mm = (x * x + y * y).sqrt() * pitch_um / 1000.0;
@@ -149,9 +150,9 @@ impl VignettingRequest {
     }
 
     /// The same as keys of a camera file.
-    fn camera(&self, shading: &Shading, size: (f64, f64), pitch_um: f64) -> String {
+    fn camera(&self, shading: &Shading, size_px: DVec2, pitch_um: f64) -> String {
         let list = |values: Vec<f64>| values.iter().map(|v| format!("{v:.6}")).collect::<Vec<_>>().join(", ");
-        let [radii, ratios] = self.relative_illumination(shading, size, pitch_um).map(list);
+        let [radii, ratios] = self.relative_illumination(shading, size_px, pitch_um).map(list);
         format!(
             "# Measured relative illumination, corner ± {:.1e}: for [lens] of a camera file.\nformat = 1\n\n\
              [lens.relative_illumination]\nradius_mm = [{radii}]\nratio = [{ratios}]\n",
@@ -194,7 +195,7 @@ pub(crate) fn falloff(request: &VignettingRequest) -> Result<(Report, Shading, (
     });
     report.plot(profile_plot(&[("", &shading)]));
     if let Some(pitch_um) = pitch_um {
-        report.camera(request.camera(&shading, size, pitch_um));
+        report.camera(request.camera(&shading, size.into(), pitch_um));
     }
     Ok((report, shading, size))
 }

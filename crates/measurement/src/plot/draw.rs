@@ -5,6 +5,7 @@ use super::figure::{Colour, Mark, Plot, Series};
 use super::layout::{BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH};
 use super::legend::{Legend, ROW};
 use etendue_io::escape::escaped;
+use glam::DVec2;
 use std::fmt::Write as _;
 
 /// Colours that people with colour-blindness tell apart (Okabe & Ito 2008).
@@ -87,21 +88,21 @@ impl<'a> Drawing<'a> {
         let (right, bottom) = (WIDTH - RIGHT, HEIGHT - BOTTOM);
         for (place, text) in self.x.ticks() {
             let x = LEFT + place * (right - LEFT);
-            line(out, (x, TOP), (x, bottom), "#dddddd");
-            label(out, (x, bottom + 18.0), "middle", &text);
+            line(out, DVec2::new(x, TOP), DVec2::new(x, bottom), "#dddddd");
+            label(out, x, bottom + 18.0, "middle", &text);
         }
         for (place, text) in self.y.ticks() {
             let y = bottom - place * (bottom - TOP);
-            line(out, (LEFT, y), (right, y), "#dddddd");
-            label(out, (LEFT - 8.0, y + 4.5), "end", &text);
+            line(out, DVec2::new(LEFT, y), DVec2::new(right, y), "#dddddd");
+            label(out, LEFT - 8.0, y + 4.5, "end", &text);
         }
         let (width, height) = (right - LEFT, bottom - TOP);
         let _ = writeln!(
             out,
             "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{width}\" height=\"{height}\" fill=\"none\" stroke=\"#444444\"/>"
         );
-        label(out, (0.5 * (LEFT + right), HEIGHT - 18.0), "middle", &self.plot.x.label);
-        label(out, (0.5 * (LEFT + right), 24.0), "middle", &self.plot.title);
+        label(out, 0.5 * (LEFT + right), HEIGHT - 18.0, "middle", &self.plot.x.label);
+        label(out, 0.5 * (LEFT + right), 24.0, "middle", &self.plot.title);
         let middle = 0.5 * (TOP + bottom);
         let text = escaped(&self.plot.y.label);
         let _ = writeln!(
@@ -128,7 +129,7 @@ impl<'a> Drawing<'a> {
         }
         for [x, y, half] in series.points.iter().filter(|p| p[2] > 0.0) {
             if let (Some(low), Some(high)) = (self.place(*x, y - half), self.place(*x, y + half)) {
-                line(out, low, high, colour);
+                line(out, low.into(), high.into(), colour);
             }
         }
     }
@@ -147,9 +148,9 @@ impl<'a> Drawing<'a> {
                 Mark::Points => {
                     let _ = writeln!(out, "<circle cx=\"{}\" cy=\"{}\" r=\"3\" fill=\"{colour}\"/>", x + 10.0, y - 4.5);
                 }
-                _ => line(out, (x, y - 4.5), (x + 20.0, y - 4.5), colour),
+                _ => line(out, DVec2::new(x, y - 4.5), DVec2::new(x + 20.0, y - 4.5), colour),
             }
-            label(out, (x + 28.0, y), "start", &series.name);
+            label(out, x + 28.0, y, "start", &series.name);
         }
     }
 }
@@ -164,17 +165,16 @@ fn colour(i: usize, series: &Series) -> &'static str {
     COLOURS[place]
 }
 
-fn line(out: &mut String, from: (f64, f64), to: (f64, f64), colour: &str) {
+fn line(out: &mut String, from: DVec2, to: DVec2, colour: &str) {
     let _ = writeln!(
         out,
         "<line x1=\"{:.2}\" y1=\"{:.2}\" x2=\"{:.2}\" y2=\"{:.2}\" stroke=\"{colour}\"/>",
-        from.0, from.1, to.0, to.1
+        from.x, from.y, to.x, to.y
     );
 }
 
-fn label(out: &mut String, at: (f64, f64), anchor: &str, text: &str) {
-    let _ =
-        writeln!(out, "<text x=\"{:.2}\" y=\"{:.2}\" text-anchor=\"{anchor}\">{}</text>", at.0, at.1, escaped(text));
+fn label(out: &mut String, x: f64, y: f64, anchor: &str, text: &str) {
+    let _ = writeln!(out, "<text x=\"{:.2}\" y=\"{:.2}\" text-anchor=\"{anchor}\">{}</text>", x, y, escaped(text));
 }
 
 #[cfg(test)]
@@ -195,7 +195,7 @@ mod tests {
         let in_corner = Drawing::new(&rising);
         assert!(!in_corner.legend.is_below && in_corner.legend.left < 200.0 && in_corner.height() == HEIGHT);
         let crossed = Drawing::new(&all_over);
-        let free = |drawing: &Drawing<'_>| !drawing.drawn().iter().any(|at| drawing.legend.holds(*at));
+        let free = |drawing: &Drawing<'_>| !drawing.drawn().iter().any(|(x, y)| drawing.legend.holds(*x, *y));
         assert!(free(&in_corner) && free(&crossed));
         let zigzag: Vec<_> = (0..40).map(|i| (f64::from(i), f64::from(i % 2))).collect();
         let below = plot(&zigzag);

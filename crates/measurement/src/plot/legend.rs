@@ -32,10 +32,12 @@ impl Legend {
         let (top, bottom) = (TOP + MARGIN, HEIGHT - BOTTOM - MARGIN - self.height);
         let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
         let corners = corners.map(|(left, top)| Self { left, top, is_below: false, ..self });
-        corners.into_iter().find(|corner| right >= left && bottom >= top && !drawn.iter().any(|at| corner.holds(*at)))
+        corners
+            .into_iter()
+            .find(|corner| right >= left && bottom >= top && !drawn.iter().any(|(x, y)| corner.holds(*x, *y)))
     }
 
-    pub(super) fn holds(&self, (x, y): (f64, f64)) -> bool {
+    pub(super) fn holds(&self, x: f64, y: f64) -> bool {
         let within = |at: f64, from: f64, size: f64| at > from - MARGIN && at < from + size + MARGIN;
         within(x, self.left, self.width) && within(y, self.top, self.height)
     }

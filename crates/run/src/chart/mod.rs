@@ -98,7 +98,7 @@ impl ChartRequest {
 ///
 /// # Errors
 /// The camera cannot be used, the chart does not fit it, a change names no key of the job, or the folder cannot be written.
-pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Result<Vec<PathBuf>, Error> {
+pub fn make(request: &ChartRequest, folder: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
     whole("views", request.views, 1..=200)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     let changes = Changes(&request.set);

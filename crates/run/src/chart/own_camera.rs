@@ -48,7 +48,7 @@ impl ChartBeforeCamera {
         let focus_m = ChartCamera::load(&given, &[])?.body.lens.focus_distance_m();
         let far = focus_m.filter(|m| !(m.is_finite() && *m < FAR_M)).map(|_| FAR_M);
         let request = ChartRequest { camera: given, distance_m: request.distance_m.or(far), ..request.clone() };
-        make(&request, (folder, Existing::Refuse))?;
+        make(&request, folder, Existing::Refuse)?;
         Ok(Self { folder: folder.to_owned(), camera: camera.to_owned() })
     }
 
@@ -85,7 +85,7 @@ impl ChartBeforeCamera {
         write(&file, &File::new(chart.to_table()))?;
         let request = JobRequest { films: job.films.clone(), textures: job.textures.clone(), ..JobRequest::new(file) };
         let folder = self.folder.join(PHOTOGRAPHS);
-        let written = request.open()?.save(options, (&folder, Existing::Replace), observer)?;
+        let written = request.open()?.save(options, &folder, Existing::Replace, observer)?;
         let start = if has_picture { "picture." } else { "raw." };
         let is_picture =
             |path: &&PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(start));

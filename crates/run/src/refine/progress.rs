@@ -32,7 +32,7 @@ impl Progress {
     ///
     /// # Errors
     /// Where the folder cannot be written.
-    pub(crate) fn of(is_progressive: bool, (folder, existing): (&OutputFolder, Existing)) -> Result<Self, Error> {
+    pub(crate) fn of(is_progressive: bool, folder: &OutputFolder, existing: Existing) -> Result<Self, Error> {
         let open = || folder.again(Existing::Replace).map_err(Error::input);
         let refined = is_progressive.then(open).transpose()?;
         if existing == Existing::Replace {

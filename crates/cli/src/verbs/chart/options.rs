@@ -62,7 +62,7 @@ impl Common {
 
     /// Makes the chart that is asked for, and prints its files.
     pub fn make(&self, console: &dyn Console, request: &ChartRequest) -> Result<(), Error> {
-        print_paths(console, &chart::make(request, self.output.folder())?);
+        print_paths(console, &chart::make(request, self.output.path(), self.output.existing())?);
         Ok(())
     }
 }

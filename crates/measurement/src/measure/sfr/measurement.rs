@@ -48,7 +48,11 @@ pub(crate) fn responses(request: &SfrRequest) -> Result<(Report, Vec<Sfr>), Erro
     let (mut found, mut left_out) = (Vec::new(), Vec::new());
     for (sought, result) in all.iter().zip(measured) {
         match result {
-            Ok(sfr) => found.push(Found { sought, field: field_position(&sought.at, readings.picture_px), sfr }),
+            Ok(sfr) => found.push(Found {
+                sought,
+                field: field_position(&sought.at, readings.picture_px.0, readings.picture_px.1),
+                sfr,
+            }),
             Err(error) if truth.is_some() => left_out.push((sought, error)),
             Err(error) => return Err(failure(request, sought, &error)),
         }

@@ -27,7 +27,7 @@ pub(super) struct Plane {
 }
 
 /// The planes of the stars among what was found, star by star.
-pub(super) fn of(found: &[Found<'_>], (width, height): (usize, usize)) -> Vec<Plane> {
+pub(super) fn of(found: &[Found<'_>], width: usize, height: usize) -> Vec<Plane> {
     let mut stars: Vec<Star> = Vec::new();
     for star in found.iter().filter_map(|one| one.sought.spoke.as_ref().map(|spoke| spoke.star)) {
         if !stars.contains(&star) {

@@ -29,7 +29,7 @@ pub(super) fn report(
     ));
     shading(&mut report, request, found);
     report.table(edges(request, found));
-    let planes = planes::of(found, readings.picture_px);
+    let planes = planes::of(found, readings.picture_px.0, readings.picture_px.1);
     if planes.is_empty() {
         report.table(curves(found, "response", twentieths));
         report.table_if(false, curves(found, "curve", every));

@@ -84,10 +84,10 @@ impl Truth {
 
     /// Whether a picture has the size of the camera's.
     pub(crate) fn fits(&self, picture: &Path, readings: &Readings) -> Result<(), Error> {
-        self.sized(picture, readings.picture_px)
+        self.sized(picture, readings.picture_px.0, readings.picture_px.1)
     }
 
-    fn sized(&self, picture: &Path, (width, height): (usize, usize)) -> Result<(), Error> {
+    fn sized(&self, picture: &Path, width: usize, height: usize) -> Result<(), Error> {
         let camera = self.seen();
         let [columns, rows] = camera.picture_px;
         if (width, height) == (columns, rows) {
@@ -113,7 +113,7 @@ impl Truth {
         self.filled()?;
         let [w, h] = self.seen().picture_px.map(|n| n as f64);
         let side = |share: f64| [share * w, share * h];
-        pixels(side(0.5 - 0.5 * MIDDLE), side(0.5 + 0.5 * MIDDLE), readings.picture_px)
+        pixels(side(0.5 - 0.5 * MIDDLE), side(0.5 + 0.5 * MIDDLE), readings.picture_px.0, readings.picture_px.1)
             .ok_or_else(|| self.refused("the picture is too small"))
     }
 
@@ -263,13 +263,13 @@ fn square(outline: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
 fn within(middle: DVec2, half: f64, readings: &Readings) -> Option<[usize; 4]> {
     let (low, high) = ((middle - half).into(), (middle + half).into());
     let held = readings.between(low, high).is_some_and(|at| at[2] > 1 && at[3] > 1);
-    pixels(low, high, readings.picture_px).filter(|_| held && half > 0.0)
+    pixels(low, high, readings.picture_px.0, readings.picture_px.1).filter(|_| held && half > 0.0)
 }
 
 /// A strip about a part of a star's edge, in the picture, which widens outwards.
 fn spoke(index: [usize; 2], centre: DVec2, ends: [DVec2; 2], clear: f64, readings: &Readings) -> Option<Sought> {
     let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-    let at = pixels(low.into(), high.into(), readings.picture_px)?;
+    let at = pixels(low.into(), high.into(), readings.picture_px.0, readings.picture_px.1)?;
     let step = readings.period.0 as f64;
     let strip = Strip {
         ends_px: ends.map(|end| readings.place(end.into())),
@@ -285,5 +285,5 @@ fn region(ends: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
     let length = run.max_element();
     let half = 0.5 * length * if run.y > run.x { DVec2::new(ACROSS, ALONG) } else { DVec2::new(ALONG, ACROSS) };
     let middle = 0.5 * (a + b);
-    pixels((middle - half).into(), (middle + half).into(), readings.picture_px)
+    pixels((middle - half).into(), (middle + half).into(), readings.picture_px.0, readings.picture_px.1)
 }

@@ -41,6 +41,6 @@ impl Truth {
 
     /// Whether a picture, or a list of points, has the size of the camera's.
     pub(crate) fn fits_size(&self, file: &Path, [width, height]: [usize; 2]) -> Result<(), Error> {
-        self.sized(file, (width, height))
+        self.sized(file, width, height)
     }
 }

@@ -48,7 +48,7 @@ impl ViewsRequest {
     fn found_by(&self, options: impl Fn([usize; 2]) -> Options, observer: &dyn Observer) -> Result<Found, Error> {
         let seen = all(&self.chart, &self.files, observer)?;
         let options = options(seen.0[0].size_px);
-        let found = self.fitted(self.model, &seen, options)?;
+        let found = self.fitted(self.model, &seen.0, &seen.1, options)?;
         self.advised(self.model, found, options)
     }
 
@@ -64,7 +64,7 @@ impl ViewsRequest {
         let (mut best, mut tried, mut first_error): (Option<(f64, CameraModel, Found)>, Vec<TriedModel>, _) =
             (None, Vec::new(), None);
         for model in models {
-            let found = match self.fitted(*model, &seen, options) {
+            let found = match self.fitted(*model, &seen.0, &seen.1, options) {
                 Ok(found) => found,
                 Err(error) => {
                     first_error.get_or_insert(error);
@@ -92,7 +92,8 @@ impl ViewsRequest {
     fn fitted(
         &self,
         model: CameraModel,
-        (views, without): &(Vec<Seen>, Vec<WithoutChart>),
+        views: &[Seen],
+        without: &[WithoutChart],
         options: Options,
     ) -> Result<Found, Error> {
         let pitch_mm = self.pitch_mm()?;
