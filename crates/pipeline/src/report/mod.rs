@@ -2,7 +2,7 @@
 //!
 //! - [`effects`]: everything that can cost or change a frame, each with its reason and its price.
 //! - [`FrameCost`]: processor time of a frame; [`RunMemory`]: the peak memory of a run.
-//! - [`mesh_sizes`]: the size of meshes as they stand in the scene.
+//! - [`mesh_sizes()`]: the size of meshes as they stand in the scene.
 //! - [`summary`]: the plan as text; `warnings`: why the picture may not be what was meant.
 
 mod cpu_time;
