@@ -91,5 +91,5 @@ def test_a_scale_has_fewer_larger_pixels(scale):
     size = {"cameras.front.sensor.width_px": 48, "cameras.front.sensor.height_px": 32}
     full, half = (etendue.Job.open(JOB, set=size, scale=of).plan()["cameras"][0] for of in (None, scale))
     assert half["sensor_px"] == [side // 2 for side in full["sensor_px"]] and (full["scale"], half["scale"]) == (1.0, 0.5)
-    with pytest.raises(etendue.InputError, match="--scale 1/7"):
+    with pytest.raises(etendue.InputError, match="`scale` 1/7"):
         etendue.Job.open(JOB, set=size, scale="1/7")
