@@ -13,6 +13,11 @@ pub trait Console: Sync {
         self.print(document);
     }
 
+    /// The answer, where it is a JSON document with words of files, which no front end spells.
+    fn print_schema(&self, document: &str) {
+        self.print_json(document);
+    }
+
     /// A line beside the answer that is no message of the library: what the program prints on stderr.
     fn tell(&self, line: &str);
 

@@ -106,6 +106,10 @@ impl Console for SpelledConsole<'_> {
         self.console.print_json(&self.spelling.text(document));
     }
 
+    fn print_schema(&self, document: &str) {
+        self.console.print_schema(document);
+    }
+
     fn tell(&self, line: &str) {
         self.console.tell(&self.spelling.text(line));
     }
