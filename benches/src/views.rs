@@ -83,15 +83,14 @@ fn camera(plan: &Plan, keys: &str, at_pupil: bool) -> CameraPlan {
     let body = compile_camera(&body.unwrap_or_else(|faults| panic!("{faults}")), &Assets::default());
     let body = body.unwrap_or_else(|faults| panic!("{faults:?}"));
     let mut camera = plan.cameras[0].clone();
-    let range_nm = (400.0, 700.0);
+    let range = etendue_core::WavelengthRange::new(400.0, 700.0);
     if at_pupil {
-        let projection =
-            PupilProjection::covering(&body.lens, &body.raster, [0, 0], range_nm.into()).expect("a wide camera");
+        let projection = PupilProjection::covering(&body.lens, &body.raster, [0, 0], range).expect("a wide camera");
         camera.settings.route = Route::Pupil(projection);
     }
     camera.body = body;
-    camera.settings.range_nm = range_nm;
-    camera.settings.bands = etendue_core::Bands::covering(range_nm.0, range_nm.1, 50.0);
+    camera.settings.range = range;
+    camera.settings.bands = etendue_core::Bands::covering(range.low_nm, range.high_nm, 50.0);
     camera.settings.folded = false;
     camera.settings.spp = 16;
     camera.settings.replicates = 2;

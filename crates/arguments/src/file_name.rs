@@ -5,7 +5,7 @@ use std::path::PathBuf;
 /// The name of a plot: nothing but an earlier drawing can be replaced by it.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn svg(text: &str) -> Result<PathBuf, String> {
     ending(text, "svg")
 }
@@ -13,7 +13,7 @@ pub fn svg(text: &str) -> Result<PathBuf, String> {
 /// The name of a page.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn html(text: &str) -> Result<PathBuf, String> {
     ending(text, "html")
 }
@@ -21,7 +21,7 @@ pub fn html(text: &str) -> Result<PathBuf, String> {
 /// The name of a picture.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn png(text: &str) -> Result<PathBuf, String> {
     ending(text, "png")
 }
@@ -29,7 +29,7 @@ pub fn png(text: &str) -> Result<PathBuf, String> {
 /// The name of a camera file.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn toml(text: &str) -> Result<PathBuf, String> {
     ending(text, "toml")
 }

@@ -10,7 +10,7 @@ pub const MAX_FRAMES: usize = 100_000;
 /// Parses a seed, as the key `seed` admits it.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn seed(text: &str) -> Result<u64, String> {
     let seed = text.parse().ok().filter(|seed| *seed <= MAX_SEED);
     seed.ok_or_else(|| format!("expected a whole number from 0 to {MAX_SEED}, not '{text}'"))
@@ -19,7 +19,7 @@ pub fn seed(text: &str) -> Result<u64, String> {
 /// Parses numbers of frames, the last excluded.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn frames(text: &str) -> Result<Range<u32>, String> {
     let expected = || format!("expected FIRST..END with FIRST < END, e.g. 0..10, not '{text}'");
     let (first, end) = text.split_once("..").ok_or_else(expected)?;
@@ -35,7 +35,7 @@ pub fn frames(text: &str) -> Result<Range<u32>, String> {
 /// Parses numbers of samples of a data set, the last excluded.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn samples(text: &str) -> Result<Range<u32>, String> {
     let range = frames(text)?;
     match u64::from(range.end) <= MAX_SAMPLES {

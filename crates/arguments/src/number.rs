@@ -26,7 +26,7 @@ where
 /// Parses a finite number from 0.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn not_negative(text: &str) -> Result<f64, String> {
     let number = text.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v >= 0.0);
     number.ok_or_else(|| format!("expected a number from 0, not '{text}'"))
@@ -35,7 +35,7 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
 /// Parses a finite number above 0.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn positive(text: &str) -> Result<f64, String> {
     let number = text.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v > 0.0);
     number.ok_or_else(|| format!("expected a number above 0, not '{text}'"))

@@ -3,7 +3,7 @@
 /// Parses a tile of colour filters: four letters, row by row, as capitals.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn tile(text: &str) -> Result<String, String> {
     let tile = text.to_ascii_uppercase();
     let known = tile.chars().count() == 4 && tile.chars().all(|c| "RGBCMYWE".contains(c));
@@ -15,7 +15,7 @@ pub fn tile(text: &str) -> Result<String, String> {
 /// Parses a region: left column, top row, width and height.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn region(text: &str) -> Result<[usize; 4], String> {
     let numbers: Option<Vec<usize>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
     let expected = || format!("expected X,Y,WIDTH,HEIGHT in whole pixels, not '{text}'");
@@ -26,7 +26,7 @@ pub fn region(text: &str) -> Result<[usize; 4], String> {
 /// Parses the columns and rows of a grid, each from 2 to 1000.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn grid(text: &str) -> Result<[usize; 2], String> {
     let expected = || format!("expected COLUMNSxROWS, e.g. 11x8, not '{text}'");
     let (columns, rows) = text.split_once(['x', '×']).ok_or_else(expected)?;
@@ -37,7 +37,7 @@ pub fn grid(text: &str) -> Result<[usize; 2], String> {
 /// Parses the width and height of a picture, pixels.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn size(text: &str) -> Result<[usize; 2], String> {
     let expected = || format!("expected WIDTHxHEIGHT in pixels, e.g. 640x480, not '{text}'");
     let (width, height) = text.split_once(['x', '×']).ok_or_else(expected)?;
@@ -48,7 +48,7 @@ pub fn size(text: &str) -> Result<[usize; 2], String> {
 /// Parses two finite numbers.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn place(text: &str) -> Result<[f64; 2], String> {
     let expected = || format!("expected two numbers X,Y, not '{text}'");
     let (x, y) = text.split_once(',').ok_or_else(expected)?;
@@ -59,7 +59,7 @@ pub fn place(text: &str) -> Result<[f64; 2], String> {
 /// Parses two finite numbers as a pair.
 ///
 /// # Errors
-/// What was expected.
+/// The text has another form; the error states the expected one.
 pub fn point(text: &str) -> Result<(f64, f64), String> {
     place(text).map(Into::into)
 }

@@ -58,8 +58,8 @@ impl Exposures {
         }
         let legal = lowest > 0.0 && lowest < highest && highest.is_finite();
         if !legal {
-            let told = format!("expected a share of saturation above 0 and below `highest` {highest}");
-            return Err(ChartError::option("lowest", lowest, told));
+            let message = format!("expected a share of saturation above 0 and below `highest` {highest}");
+            return Err(ChartError::option("lowest", lowest, message));
         }
         let at = |i: u32| {
             let t = f64::from(i) / f64::from(count - 1);

@@ -23,8 +23,8 @@ impl Light {
         let spectrum = illuminant::named(name).ok_or_else(unknown)?;
         let legal = luminance_cd_m2.is_finite() && luminance_cd_m2 > 0.0;
         let radiance = with_luminance(spectrum, luminance_cd_m2).filter(|_| legal);
-        let told = || ChartError::option("luminance_cd_m2", luminance_cd_m2, "expected a luminance above 0, cd/m²");
-        Ok(Self { name: name.to_owned(), radiance: radiance.ok_or_else(told)?, luminance_cd_m2 })
+        let error = || ChartError::option("luminance_cd_m2", luminance_cd_m2, "expected a luminance above 0, cd/m²");
+        Ok(Self { name: name.to_owned(), radiance: radiance.ok_or_else(error)?, luminance_cd_m2 })
     }
 
     /// The illuminant's name.

@@ -13,11 +13,6 @@ pub trait Console: Sync {
         self.print(document);
     }
 
-    /// The answer, where it is a JSON document with words of files, which no front end spells.
-    fn print_schema(&self, document: &str) {
-        self.print_json(document);
-    }
-
     /// A line beside the answer that is no message of the library: what the program prints on stderr.
     fn tell(&self, line: &str);
 
@@ -26,7 +21,8 @@ pub trait Console: Sync {
         false
     }
 
-    /// A text that is written to a file, with the names of arguments as this console spells them.
+    /// Returns a text of the library, such as a report, with the names of arguments as this console spells them. What is printed otherwise
+    /// may hold words of files and stays as it is.
     fn spelled(&self, text: &str) -> String {
         text.to_owned()
     }

@@ -1,4 +1,4 @@
-//! How the names of arguments are spelled in what is told: the library writes a field of a request in backticks, `` `time_s` ``; the program writes
+//! Spelling of the names of arguments in messages and reports: the library writes a field of a request in backticks, `` `time_s` ``; the program writes
 //! the flag, `--time`, a program that calls a verb its parameter, `` `time` ``.
 
 use crate::console::Console;
@@ -91,7 +91,7 @@ impl Spelling {
     }
 }
 
-/// A console that is told everything with the names of arguments spelled.
+/// A console whose messages have the names of arguments spelled, and which spells them in texts of the library.
 pub(crate) struct SpelledConsole<'a> {
     pub(crate) console: &'a dyn Console,
     pub(crate) spelling: &'a Spelling,
@@ -99,19 +99,15 @@ pub(crate) struct SpelledConsole<'a> {
 
 impl Console for SpelledConsole<'_> {
     fn print(&self, text: &str) {
-        self.console.print(&self.spelling.text(text));
+        self.console.print(text);
     }
 
     fn print_json(&self, document: &str) {
-        self.console.print_json(&self.spelling.text(document));
-    }
-
-    fn print_schema(&self, document: &str) {
-        self.console.print_schema(document);
+        self.console.print_json(document);
     }
 
     fn tell(&self, line: &str) {
-        self.console.tell(&self.spelling.text(line));
+        self.console.tell(line);
     }
 
     fn is_terminal(&self) -> bool {

@@ -176,12 +176,6 @@ impl WavelengthRange {
     }
 }
 
-impl From<(f64, f64)> for WavelengthRange {
-    fn from((low_nm, high_nm): (f64, f64)) -> Self {
-        Self { low_nm, high_nm }
-    }
-}
-
 /// Adjoining wavelength bands of equal width: the bins of a spectral image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bands {

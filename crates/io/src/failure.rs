@@ -1,6 +1,7 @@
 //! Errors between a file and its results: of inputs, each with its place, and of the run.
 
 use std::fmt::{self, Display};
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// An error of a call of the library. No file under a final name is half-written.
@@ -159,6 +160,30 @@ impl From<std::io::Error> for Fault {
     }
 }
 
+/// Refuses an argument that is a whole number out of its range.
+///
+/// # Errors
+/// The number is out of the range.
+pub fn check_whole<N: PartialOrd + Display>(field: &str, value: N, range: RangeInclusive<N>) -> Result<(), Error> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    let (low, high) = (range.start(), range.end());
+    Err(Error::argument(field, format!("`{field}`: expected a whole number from {low} to {high}, not {value}")))
+}
+
+/// Refuses an argument that is a number out of its range, or not finite.
+///
+/// # Errors
+/// The number is out of the range.
+pub fn check_number(field: &str, value: f64, range: RangeInclusive<f64>, unit: &str) -> Result<(), Error> {
+    if value.is_finite() && range.contains(&value) {
+        return Ok(());
+    }
+    let (low, high) = (range.start(), range.end());
+    Err(Error::argument(field, format!("`{field}`: expected {low} to {high} {unit}, not {value}")))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -181,5 +206,14 @@ mod tests {
         assert_eq!((faults[0].field.as_deref(), faults[0].key.as_deref()), (Some("time_s"), None));
         assert_eq!(Error::input("job.toml: `time_s`").with_field("spp"), Error::argument("spp", "job.toml: `time_s`"));
         assert_eq!(Fault::new("`corners`: expected four of them").field, None);
+    }
+
+    #[test]
+    fn numbers_out_of_their_range_are_refused_by_their_field() {
+        assert_eq!(check_whole("rings", 4, 4..=1000), Ok(()));
+        let message = check_whole("rings", 3, 4..=1000).map_err(|error| error.to_string());
+        assert_eq!(message, Err("error: `rings`: expected a whole number from 4 to 1000, not 3\n".to_owned()));
+        assert!(check_number("wavelength_nm", f64::NAN, 300.0..=1100.0, "nm").is_err());
+        assert!(check_number("photons", f64::INFINITY, 0.0..=f64::MAX, "photons").is_err());
     }
 }

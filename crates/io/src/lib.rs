@@ -57,7 +57,6 @@ pub mod png;
 mod png_chunks;
 pub mod prescription;
 pub mod provenance;
-pub mod ranges;
 pub mod ray_transfer;
 mod run_mark;
 mod sandbox;

@@ -254,7 +254,7 @@ impl SettingsReport {
                 Route::Lens => "lens",
                 Route::Pupil(_) => "pupil",
             },
-            wavelength_range_nm: [s.range_nm.0, s.range_nm.1],
+            wavelength_range_nm: [s.range.low_nm, s.range.high_nm],
             bands: s.bands.map(|bands| bands.count() as u32),
             band_width_nm: s.bands.map(|bands| bands.width_nm()),
             sums_electrons: s.folded,

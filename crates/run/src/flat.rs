@@ -8,8 +8,8 @@ use clap::{ArgMatches, Args, Command, FromArgMatches};
 use etendue_arguments::{seed, whole};
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::Error;
+use etendue_io::failure::{check_number, check_whole};
 use etendue_io::paths::camera_stem;
-use etendue_io::ranges::{self, number};
 use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, Stack};
 use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};
@@ -168,13 +168,13 @@ impl FlatRequest {
 
 impl FlatRequest {
     fn check(&self) -> Result<(), Error> {
-        number("wavelength_nm", self.wavelength_nm, WAVELENGTHS_NM, "nm")?;
+        check_number("wavelength_nm", self.wavelength_nm, WAVELENGTHS_NM, "nm")?;
         match self.source {
-            FlatSource::Irradiance { w_m2 } => number("irradiance_w_m2", w_m2, 0.0..=f64::MAX, "W/m²"),
-            FlatSource::Photons { per_pixel } => number("photons", per_pixel, 0.0..=f64::MAX, "photons a pixel"),
+            FlatSource::Irradiance { w_m2 } => check_number("irradiance_w_m2", w_m2, 0.0..=f64::MAX, "W/m²"),
+            FlatSource::Photons { per_pixel } => check_number("photons", per_pixel, 0.0..=f64::MAX, "photons a pixel"),
             FlatSource::PhotonTransfer { levels, stack } => {
-                ranges::whole("photon_transfer", levels, LEVELS)?;
-                ranges::whole("stack", stack, LEVELS)
+                check_whole("photon_transfer", levels, LEVELS)?;
+                check_whole("stack", stack, LEVELS)
             }
         }
     }

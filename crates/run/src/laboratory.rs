@@ -22,7 +22,7 @@ use clap::Args;
 use etendue_arguments::{seed, whole};
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
-use etendue_io::ranges;
+use etendue_io::failure::check_whole;
 use etendue_io::source::read_text;
 use etendue_io::{Existing, load_assets};
 use etendue_pipeline::compile_camera;
@@ -103,9 +103,9 @@ pub fn laboratory(
     existing: Existing,
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
-    ranges::whole("levels", request.levels, LEVELS)?;
-    ranges::whole("stack", request.stack, STACK)?;
-    ranges::whole("views", request.views, VIEWS)?;
+    check_whole("levels", request.levels, LEVELS)?;
+    check_whole("stack", request.stack, STACK)?;
+    check_whole("views", request.views, VIEWS)?;
     let camera = declared(request)?;
     let has_frame_period = camera.sensor.electronics.as_ref().is_some_and(|e| e.frame_period_s.is_some());
     let has_isp = camera.isp.is_some();

@@ -26,8 +26,8 @@ impl Characterise {
         let pool = machine::pool(None)?;
         let existing = if self.overwrite { Existing::Replace } else { Existing::Refuse };
         claim(&self.output, existing)?;
-        let found = pool.install(|| characterise(&self.request, console.observer()))?;
-        print_paths(console, &found.save_spelled(&self.output, existing, &|text| console.spelled(text))?);
+        let camera = pool.install(|| characterise(&self.request, console.observer()))?;
+        print_paths(console, &camera.save_spelled(&self.output, existing, &|text| console.spelled(text))?);
         Ok(())
     }
 }

@@ -29,8 +29,8 @@ impl Inspect {
         let report = inspect_showing(&self.file, &shown).map_err(Error::input)?;
         if let Some(path) = &self.png {
             if same(path, &self.file) {
-                let told = format!("`png` {}: this is the file itself; choose another name", path.display());
-                return Err(Error::argument("png", told));
+                let message = format!("`png` {}: this is the file itself; choose another name", path.display());
+                return Err(Error::argument("png", message));
             }
             let Some(preview) = &report.preview else {
                 return Err(Error::input(format!("{}: no picture can be made of it", self.file.display())));

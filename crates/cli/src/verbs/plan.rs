@@ -27,11 +27,11 @@ impl Plan {
             return Ok(());
         }
         if !self.json {
-            console.print(&job.summary());
+            console.print(&console.spelled(&job.summary()));
             return Ok(());
         }
         let text = serde_json::to_string_pretty(&job.report()).map_err(|error| Error::Run(error.to_string()))?;
-        console.print_json(&format!("{text}\n"));
+        console.print_json(&console.spelled(&format!("{text}\n")));
         Ok(())
     }
 }

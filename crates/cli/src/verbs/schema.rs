@@ -27,7 +27,7 @@ pub struct Schema {
 impl Schema {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
         let text = serde_json::to_string_pretty(&schema(self.kind)).map_err(|error| Error::Run(error.to_string()))?;
-        console.print_schema(&format!("{text}\n"));
+        console.print_json(&format!("{text}\n"));
         Ok(())
     }
 }

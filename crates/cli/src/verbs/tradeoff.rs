@@ -122,9 +122,9 @@ impl Tradeoff {
         }
         let written = output.commit().map_err(Error::run)?;
         if self.json {
-            console.print_json(&findings.json);
+            console.print_json(&console.spelled(&findings.json));
         } else {
-            console.print(&format!("{}\n", findings.text));
+            console.print(&console.spelled(&format!("{}\n", findings.text)));
             print_paths(console, &written);
         }
         Ok(())

@@ -113,3 +113,10 @@ fn schemas_are_json_that_names_the_keys() {
         assert!(schema.to_string().contains(&format!("\"{key}\"")), "{kind}: {key}");
     }
 }
+
+/// Words in backticks are keys of files here, although one of them is the name of an argument too (`time_s`, `--time`).
+#[test]
+fn schemas_keep_the_words_of_files() {
+    let schema = etendue(["schema", "job"]).ok().out;
+    assert!(schema.contains("`time_s`, `x_m`, `y_m`") && !schema.contains("--time"), "{schema}");
+}

@@ -5,8 +5,8 @@ use crate::report::{Cell, Report, Table};
 use clap::Args;
 use etendue_arguments::in_range;
 use etendue_io::failure::Error;
+use etendue_io::failure::check_whole;
 use etendue_io::photograph::{Photograph, read_photograph};
-use etendue_io::ranges;
 use etendue_metrology::depth::{Alignment, DepthErrors, DepthSettings, measure_depth};
 use etendue_metrology::{Estimate, Image};
 use std::ops::RangeInclusive;
@@ -97,7 +97,7 @@ pub enum DepthAlignment {
 /// # Errors
 /// Where the pictures cannot be used or differ in size.
 pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
-    ranges::whole("edge_px", request.edge_px, EDGE_PX)?;
+    check_whole("edge_px", request.edge_px, EDGE_PX)?;
     for (field, unit) in [("estimate_unit_m", request.estimate_unit_m), ("truth_unit_m", request.truth_unit_m)] {
         if !(unit > 0.0 && unit.is_finite()) {
             return Err(Error::argument(field, format!("`{field}`: expected a number above 0, not {unit}")));

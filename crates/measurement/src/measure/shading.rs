@@ -8,7 +8,7 @@ use clap::Args;
 use etendue_arguments::{in_range, point};
 use etendue_charts::design::{Backlit, FlatField};
 use etendue_io::failure::Error;
-use etendue_io::ranges::whole;
+use etendue_io::failure::check_whole;
 use etendue_metrology::Estimate;
 use etendue_metrology::shading::{
     ColourShading, Shading, ShadingError, ShadingSettings, colour_shading, measure_shading,
@@ -111,8 +111,8 @@ impl FlatFieldRequest {
     }
 
     fn measured(&self, blocks: u32, report: &mut Report) -> Result<(Shading, (f64, f64)), Error> {
-        whole("rings", self.rings, RINGS)?;
-        whole("blocks", blocks, BLOCKS)?;
+        check_whole("rings", self.rings, RINGS)?;
+        check_whole("blocks", blocks, BLOCKS)?;
         let readings = self.input.linear(&self.picture)?;
         readings.independent(&self.picture, 1)?;
         self.check(&readings)?;

@@ -57,7 +57,7 @@ use crate::plan::{
 };
 use camera_path::{camera_path, mount};
 use context::Context;
-use etendue_core::{CameraPath, Epoch, TimeInterval, WavelengthRange};
+use etendue_core::{CameraPath, Epoch, TimeInterval};
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
@@ -134,8 +134,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
     surroundings::warn_of_enclosed(scene, &frames, &world, &material_table, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
-    let rendered = cameras.iter().map(|camera| camera.settings.range_nm);
-    let rendered = rendered.map(WavelengthRange::from);
+    let rendered = cameras.iter().map(|camera| camera.settings.range);
     if let Some(remark) = rendered.reduce(coverage::around).and_then(|range| context.coverage.remark(range)) {
         context.remark(remark);
     }

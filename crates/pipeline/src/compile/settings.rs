@@ -187,8 +187,8 @@ pub(super) fn settings(
     products.variance &= has_variance(output, replicates, render, context);
     let route = route(render, body, depth_of_field, context)?;
     let (cube, folded) = accumulation(render, body, products, &route, context);
-    let range_nm = range(render, body, cube);
-    let bands = if cube { Some(bands(render, range_nm.into(), context)?) } else { None };
+    let range = range(render, body, cube);
+    let bands = if cube { Some(bands(render, range, context)?) } else { None };
     check_size(body, &route, &Layout { bands, folded, watched: adaptive.is_some() }, context)?;
     remark_losses(products, &route, folded, body, context);
     remark_margin(body, context);
@@ -214,7 +214,7 @@ pub(super) fn settings(
         // Decided where all light is known.
         wavelength_sampling: WavelengthSampling::Uniform,
         route,
-        range_nm,
+        range,
         bands,
         folded,
         adaptive,
@@ -369,9 +369,9 @@ fn route(
         None | Some((render::Route::Lens, _)) => Some(Route::Lens),
         Some((render::Route::Pupil, place)) => {
             context.accept(place, body.check_front_on_picture())?;
-            let range_nm = range(render, body, true);
+            let range = range(render, body, true);
             let margin = body.whole_margin_px(body.blur_margin_px(depth_of_field));
-            let covering = PupilProjection::covering(&body.lens, &body.raster, margin, range_nm.into());
+            let covering = PupilProjection::covering(&body.lens, &body.raster, margin, range);
             let covering = context.accept(place, covering)?;
             Some(Route::Pupil(covering.overscanned(render.overscan.as_ref().map_or(0.0, |o| o.value))))
         }
@@ -411,9 +411,9 @@ fn accumulation(
 }
 
 /// The wavelengths to sample, nm: what the sensor responds to, with the visible where radiance itself is wanted.
-fn range(render: &Render, body: &CameraBody, cube: bool) -> (f64, f64) {
+fn range(render: &Render, body: &CameraBody, cube: bool) -> WavelengthRange {
     if let Some(range) = &render.wavelength_range_nm {
-        return (range.value[0], range.value[1]);
+        return WavelengthRange::new(range.value[0], range.value[1]);
     }
     let sensor = body.sensor.as_ref().and_then(etendue_sensor::Sensor::support_nm);
     let (low, high) = match (sensor, cube) {
@@ -422,10 +422,10 @@ fn range(render: &Render, body: &CameraBody, cube: bool) -> (f64, f64) {
         (None, _) => VISIBLE_NM,
     };
     if !cube {
-        return (low, high);
+        return WavelengthRange::new(low, high);
     }
     let step = render.band_width_nm.as_ref().map_or(BAND_WIDTH_NM, |w| w.value);
-    (((low / step).floor() * step).max(SHORTEST_NM), ((high / step).ceil() * step).min(MAX_NM))
+    WavelengthRange::new(((low / step).floor() * step).max(SHORTEST_NM), ((high / step).ceil() * step).min(MAX_NM))
 }
 
 fn bands(render: &Render, range: WavelengthRange, context: &mut Context<'_>) -> Option<Bands> {

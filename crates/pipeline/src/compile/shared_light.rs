@@ -95,9 +95,9 @@ impl<'a> LightKey<'a> {
         }
         let samples =
             |key: &Self| (key.sampling.spp, key.sampling.passes.clone(), key.sampling.replicates, key.sampling.seed);
-        let kept = |s: &Settings| (s.bands, s.folded, s.range_nm);
+        let kept = |s: &Settings| (s.bands, s.folded, s.range);
         let (a, b) = (&self.settings, &other.settings);
-        let same_kept = Settings { adaptive: b.adaptive, bands: b.bands, folded: b.folded, range_nm: b.range_nm, ..*a };
+        let same_kept = Settings { adaptive: b.adaptive, bands: b.bands, folded: b.folded, range: b.range, ..*a };
         let unlike = [
             (samples(self) != samples(other), "samples or seed"),
             (self.timing != other.timing, "the times of exposure"),

@@ -42,7 +42,7 @@ pub(super) fn choose(
         };
         let keeps_bands = settings.bands.is_some();
         let density =
-            PixelDensity { sampling: settings.wavelength_sampling, sources, range_nm: settings.range_nm, keeps_bands };
+            PixelDensity { sampling: settings.wavelength_sampling, sources, range: settings.range, keeps_bands };
         let gain = spectral_gain(sensor, density, settings.wavelengths);
         camera.settings.wavelength_sampling = match asked.map_or(render::WavelengthDensity::Auto, |asked| asked.value) {
             render::WavelengthDensity::Uniform => WavelengthSampling::Uniform,
@@ -59,7 +59,7 @@ pub(super) fn choose(
 
 /// The gain of a sensor's pixels by the source's spectrum in their density over that by the response alone; `None` where no source gives it anything.
 fn spectral_gain(sensor: &Sensor, pixel_density: PixelDensity<'_>, wavelengths: u32) -> Option<SpectralGain> {
-    let PixelDensity { sources, range_nm, .. } = pixel_density;
+    let PixelDensity { sources, range, .. } = pixel_density;
     let surfaces = SURFACES.map(upsample::reflectance_spectrum);
     let rates = sensor.rate_responsivities();
     let (mut sum, mut sites, mut least, mut most) = (0.0, 0.0, f64::INFINITY, 0.0_f64);
@@ -68,7 +68,7 @@ fn spectral_gain(sensor: &Sensor, pixel_density: PixelDensity<'_>, wavelengths: 
         let density = |sampling| PixelDensity { sampling, ..pixel_density }.of(responsivity);
         let with = Draws::of(&density(WavelengthSampling::ResponseAndSource), wavelengths as usize);
         let without = Draws::of(&density(WavelengthSampling::Response), wavelengths as usize);
-        let lit = sources.lit(responsivity, range_nm.into());
+        let lit = sources.lit(responsivity, range);
         sites += if lit.is_empty() { 0.0 } else { places };
         for (group, surface) in lit.iter().flat_map(|group| surfaces.iter().map(move |surface| (group, surface))) {
             let light = group.product.product(surface);

@@ -34,7 +34,7 @@ pub struct PixelDensity<'a> {
     /// The light's sources.
     pub sources: &'a SourceSpectra,
     /// Shortest and longest wavelength, nm.
-    pub range_nm: (f64, f64),
+    pub range: WavelengthRange,
     /// Whether a spectral cube is kept beside electrons.
     pub keeps_bands: bool,
 }
@@ -52,7 +52,7 @@ impl PixelDensity<'_> {
             }
         };
         let weights: Vec<f32> = weights.iter().map(|weight| *weight as f32).collect();
-        let (low_nm, high_nm) = self.range_nm;
+        let WavelengthRange { low_nm, high_nm } = self.range;
         WavelengthDensity::new(&weights, low_nm as f32, high_nm as f32).expect("weights are positive and finite")
     }
 
@@ -62,13 +62,13 @@ impl PixelDensity<'_> {
 
     /// Steps of the response.
     fn steps(&self) -> usize {
-        ((self.range_nm.1 - self.range_nm.0) / STEP_NM).ceil().max(1.0) as usize
+        (self.range.width_nm() / STEP_NM).ceil().max(1.0) as usize
     }
 
     /// Weights of the response's steps, 1 in the mean.
     fn by_response(&self, responsivity: &Spectrum) -> Vec<f64> {
         let uniform_share = self.uniform_share();
-        match Means::of(responsivity, self.range_nm.into(), self.steps()) {
+        match Means::of(responsivity, self.range, self.steps()) {
             Some(Means { steps, mean }) => {
                 steps.iter().map(|m| uniform_share + (1.0 - uniform_share) * m / mean).collect()
             }
@@ -78,8 +78,8 @@ impl PixelDensity<'_> {
 
     /// Weights of the fine steps, 1 in the mean; `None` where no source gives the pixel anything.
     fn by_source(&self, responsivity: &Spectrum) -> Option<Vec<f64>> {
-        let lit = self.sources.lit(responsivity, self.range_nm.into());
-        let response = Means::of(responsivity, self.range_nm.into(), self.steps()).filter(|_| !lit.is_empty())?;
+        let lit = self.sources.lit(responsivity, self.range);
+        let response = Means::of(responsivity, self.range, self.steps()).filter(|_| !lit.is_empty())?;
         let uniform = self.uniform_share() * if self.keeps_bands { 1.0 } else { DEFENSIVE_SHARE };
         let by_response = (1.0 - self.uniform_share()) * DEFENSIVE_SHARE;
         let by_source = 1.0 - uniform - by_response;
@@ -87,7 +87,7 @@ impl PixelDensity<'_> {
         let mut weights: Vec<f64> =
             (0..count).map(|i| uniform + by_response * response.steps[i / FINE_STEPS] / response.mean).collect();
         for group in &lit {
-            let light = Means::of(&group.product, self.range_nm.into(), count)?;
+            let light = Means::of(&group.product, self.range, count)?;
             let add = |(weight, m): (&mut f64, f64)| *weight += by_source * group.weight * m / light.mean;
             weights.iter_mut().zip(light.steps).for_each(add);
         }
@@ -117,7 +117,7 @@ impl Means {
 mod tests {
     use super::*;
 
-    const RANGE_NM: (f64, f64) = (400.0, 700.0);
+    const RANGE: WavelengthRange = WavelengthRange::new(400.0, 700.0);
 
     fn between(low_nm: f64, high_nm: f64) -> Spectrum {
         Spectrum::from_fn(|nm| if (low_nm..=high_nm).contains(&nm) { 2.0 } else { 0.0 })
@@ -130,7 +130,7 @@ mod tests {
         response: &Spectrum,
     ) -> WavelengthDensity {
         let sources = &SourceSpectra::of(sources.to_vec());
-        PixelDensity { sampling, sources, range_nm: RANGE_NM, keeps_bands }.of(response)
+        PixelDensity { sampling, sources, range: RANGE, keeps_bands }.of(response)
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::wavelength_sampling::WavelengthSampling;
 use crate::sizes::block::Blocks;
 use crate::sizes::tolerance::AdaptiveSampling;
-use etendue_core::Bands;
+use etendue_core::{Bands, WavelengthRange};
 use etendue_optics::PupilProjection;
 use etendue_tracer::integrator::{Level, LightSampling};
 
@@ -46,8 +46,8 @@ pub struct Settings {
     pub wavelength_sampling: WavelengthSampling,
     /// The way to the sensor plane.
     pub route: Route,
-    /// Shortest and longest wavelength sampled, nm.
-    pub range_nm: (f64, f64),
+    /// Wavelengths sampled.
+    pub range: WavelengthRange,
     /// Spectral bands, where a cube is kept.
     pub bands: Option<Bands>,
     /// Whether pixels fold their responsivity into electrons.

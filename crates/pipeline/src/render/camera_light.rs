@@ -134,7 +134,7 @@ pub fn light_counts(plan: &Plan, camera: &CameraPlan) -> LightCounts {
 }
 
 pub(super) fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Lights {
-    Lights::new(view, &plan.material_table, plan.sources.clone(), camera.settings.range_nm.into())
+    Lights::new(view, &plan.material_table, plan.sources.clone(), camera.settings.range)
         .expect("a compiled plan names only materials that it has")
 }
 
@@ -185,13 +185,13 @@ where
 fn sample_spread(camera: &CameraPlan) -> Option<SampleSpread> {
     let CameraPlan { body, settings, .. } = camera;
     let through_lens = settings.route == Route::Lens;
-    through_lens.then(|| body.effects.sample_spread(&body.raster, settings.range_nm.into())).flatten()
+    through_lens.then(|| body.effects.sample_spread(&body.raster, settings.range)).flatten()
 }
 
 /// How the wavelengths of a camera's pixels are drawn.
 fn pixel_density<'a>(plan: &'a Plan, camera: &CameraPlan) -> PixelDensity<'a> {
-    let Settings { wavelength_sampling: sampling, range_nm, bands, .. } = camera.settings;
-    PixelDensity { sampling, sources: &plan.source_spectra, range_nm, keeps_bands: bands.is_some() }
+    let Settings { wavelength_sampling: sampling, range, bands, .. } = camera.settings;
+    PixelDensity { sampling, sources: &plan.source_spectra, range, keeps_bands: bands.is_some() }
 }
 
 /// Up to which distances drops or flakes are modelled one by one for the first picture of a camera; `None` where none fall.
@@ -255,8 +255,8 @@ pub(super) fn render_job<'a>(
             seed: settings.seed,
             camera: camera.light.index,
             shot: request.shot,
-            low_nm: settings.range_nm.0 as f32,
-            high_nm: settings.range_nm.1 as f32,
+            low_nm: settings.range.low_nm as f32,
+            high_nm: settings.range.high_nm as f32,
             spread: camera.spectrum_spread(),
         },
         tolerance: camera.tolerance(),

@@ -8,7 +8,7 @@ use crate::plan::PassAt;
 use crate::sizes::film::Layout;
 use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::{cos, exp, sin};
-use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
+use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, WavelengthRange, Wavelengths};
 use etendue_optics::effects::{
     PointSpread, Psf, PsfParameters, SampleSpread, SpreadBy, SpreadImage, SpreadImageParameters,
 };
@@ -53,7 +53,7 @@ fn spread(psf: PointSpread) -> SampleSpread {
     let spread_by = Some(SpreadBy::Samples);
     let parameters = EffectsParameters { psf: Some(psf), spread_by, margin: Some(0.0), ..Default::default() };
     let effects = Effects::new(parameters, &raster).expect("legal");
-    effects.sample_spread(&raster, (400.0, 700.0).into()).expect("narrow enough for samples")
+    effects.sample_spread(&raster, WavelengthRange::new(400.0, 700.0)).expect("narrow enough for samples")
 }
 
 fn raster() -> Raster {

@@ -15,9 +15,9 @@ use etendue_charts::{
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
 use etendue_io::failure::Error;
+use etendue_io::failure::check_whole;
 use etendue_io::photograph::Encoding;
 use etendue_io::png::{encode_display, encode_raw16};
-use etendue_io::ranges::whole;
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::light_meter::LightMeter;
 use glam::DVec2;
@@ -99,7 +99,7 @@ impl ChartRequest {
 /// # Errors
 /// The camera cannot be used, the chart does not fit it, a change names no key of the job, or the folder cannot be written.
 pub fn make(request: &ChartRequest, folder: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
-    whole("views", request.views, 1..=200)?;
+    check_whole("views", request.views, 1..=200)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     let changes = Changes(&request.set);
     let camera_changes = changes.camera_changes();

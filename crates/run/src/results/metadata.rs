@@ -256,7 +256,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
             "light_sampling": settings.light_sampling.word(),
             "wavelengths_per_path": settings.wavelengths,
             "wavelength_density": settings.wavelength_sampling.word(),
-            "range_nm": [settings.range_nm.0, settings.range_nm.1],
+            "range_nm": [settings.range.low_nm, settings.range.high_nm],
             "band_width_nm": settings.bands.map(etendue_core::Bands::width_nm),
             "route": if settings.route == Route::Lens { "lens" } else { "pupil" },
             "depth_of_field": (settings.route != Route::Lens).then(|| depth_of_field(&camera.depth_of_field)),

@@ -17,12 +17,12 @@ pub struct CompareArgs {
 
 impl CompareArgs {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
-        let found = measure::compare(&self.request)?;
-        self.report.show(console, &found.report)?;
-        let [one, other] = &found.names;
-        match found.differing.is_empty() {
+        let comparison = measure::compare(&self.request)?;
+        self.report.show(console, &comparison.report)?;
+        let [one, other] = &comparison.names;
+        match comparison.differing.is_empty() {
             true => Ok(()),
-            false => Err(Error::Run(format!("{one} and {other} differ: {}", found.differing.join(", ")))),
+            false => Err(Error::Run(format!("{one} and {other} differ: {}", comparison.differing.join(", ")))),
         }
     }
 }

@@ -17,10 +17,10 @@ pub struct LensArgs {
 
 impl LensArgs {
     pub fn run(&self, console: &dyn Console) -> Result<(), Error> {
-        let found = measure::lens(&self.request)?;
+        let report = measure::lens(&self.request)?;
         match self.json {
-            true => console.print_json(&format!("{:#}\n", found.json())),
-            false => console.print(&found.text()),
+            true => console.print_json(&console.spelled(&format!("{:#}\n", report.json()))),
+            false => console.print(&console.spelled(&report.text())),
         }
         Ok(())
     }

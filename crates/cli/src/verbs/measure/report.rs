@@ -32,8 +32,8 @@ impl ReportArgs {
             write_file(file, console.spelled(&report_page(report)).as_bytes(), Existing::Replace)?;
         }
         match self.json {
-            true => console.print_json(&format!("{:#}\n", report.json())),
-            false => console.print(&report.to_string()),
+            true => console.print_json(&console.spelled(&format!("{:#}\n", report.json()))),
+            false => console.print(&console.spelled(&report.to_string())),
         }
         Ok(())
     }

@@ -7,7 +7,7 @@ mod request;
 use crate::report::fixed;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_io::failure::Error;
-use etendue_io::ranges::{number, whole};
+use etendue_io::failure::{check_number, check_whole};
 use etendue_optics::lens::{FieldReport, ImageReport, LensReport, OtherBundle};
 use etendue_optics::{Lens, PRINCIPAL_NM, Prescribed};
 use etendue_pipeline::plan::CameraBody;
@@ -30,10 +30,10 @@ pub struct LensMeasurement {
 /// # Errors
 /// Where the camera or lens file cannot be used.
 pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
-    whole("fields", request.fields, request::FIELDS)?;
+    check_whole("fields", request.fields, request::FIELDS)?;
     let wavelength_nm = request.wavelength_nm;
     if let Some(nm) = wavelength_nm {
-        number("wavelength_nm", nm, SHORTEST_NM..=MAX_NM, "nm")?;
+        check_number("wavelength_nm", nm, SHORTEST_NM..=MAX_NM, "nm")?;
     }
     let (body, remarks) = body::body(request)?;
     if wavelength_nm.is_some() && !matches!(body.lens, Lens::Prescription(_)) {

@@ -12,7 +12,7 @@ use crate::measure::truth::place::Sought;
 use crate::report::Report;
 use etendue_charts::design::{SlantedEdges, SlantedStar};
 use etendue_io::failure::Error;
-use etendue_io::ranges::whole;
+use etendue_io::failure::check_whole;
 use etendue_metrology::sfr::{Sfr, SfrError, SfrSettings, measure_edge, measure_strip};
 use rayon::prelude::*;
 
@@ -29,8 +29,8 @@ pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
 /// The same with the responses themselves.
 pub(crate) fn responses(request: &SfrRequest) -> Result<(Report, Vec<Sfr>), Error> {
     request.input.check_without_black()?;
-    whole("edge_degree", request.edge_degree, EDGE_DEGREES)?;
-    whole("shading_degree", request.shading_degree, SHADING_DEGREES)?;
+    check_whole("edge_degree", request.edge_degree, EDGE_DEGREES)?;
+    check_whole("shading_degree", request.shading_degree, SHADING_DEGREES)?;
     positive("pixel_pitch_um", request.pixel_pitch_um)?;
     positive("pixels_per_degree", Some(request.pixels_per_degree))?;
     let readings = request.input.linear(&request.picture)?;

@@ -107,8 +107,8 @@ pub(crate) fn spp(camera: &CameraPlan) -> u32 {
 
 /// All that a camera's light is sampled over as one band.
 fn whole(camera: &CameraPlan) -> Bands {
-    let (low, high) = camera.settings.range_nm;
-    Bands::new(low, high - low, 1).expect("a compiled plan has a range")
+    let range = camera.settings.range;
+    Bands::new(range.low_nm, range.width_nm(), 1).expect("a compiled plan has a range")
 }
 
 fn radiance(film: &Film) -> SpectralCube<Radiance> {

@@ -132,7 +132,7 @@ fn lateral_colour(camera: &CameraPlan) -> PlannedEffect {
         ),
     };
     let effect = PlannedEffect::new(GROUP, "lateral colour", status).described_by("lens.lateral_colour");
-    match lateral_colour_px(&camera.body, camera.settings.range_nm.into()) {
+    match lateral_colour_px(&camera.body, camera.settings.range) {
         Some(px) => effect.dropped_by([without(camera, "lens.lateral_colour")]).erring("colours apart up to", px, "px"),
         None => effect,
     }

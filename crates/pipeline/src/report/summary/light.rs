@@ -89,6 +89,6 @@ pub(super) fn band_noise(camera: &CameraPlan, bands: Bands) -> String {
 /// The least part of the density of wavelengths that falls in a band: where electrons are folded beside bands, half of the
 /// density is by the pixel's response, which may be nothing there.
 fn band_share(settings: &Settings, bands: Bands) -> f64 {
-    let even = bands.width_nm() / (settings.range_nm.1 - settings.range_nm.0);
+    let even = bands.width_nm() / settings.range.width_nm();
     if settings.folded { UNIFORM_SHARE_WITH_BANDS * even } else { even }
 }

@@ -257,7 +257,7 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         (None, true) => "none is kept: pixels sum electrons directly".to_owned(),
         (None, false) => "nothing is kept".to_owned(),
     };
-    line(f, "spectrum", format!("{} to {} nm; {kept}", s.range_nm.0, s.range_nm.1))
+    line(f, "spectrum", format!("{} to {} nm; {kept}", s.range.low_nm, s.range.high_nm))
 }
 
 fn level(settings: &Settings) -> String {
