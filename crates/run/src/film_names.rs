@@ -5,7 +5,7 @@ use etendue_pipeline::render::Shot;
 use std::fs::DirEntry;
 use std::path::Path;
 
-/// How the name of a film ends.
+/// Ending of the name of a film.
 pub(crate) const FILM: &str = ".film.exr";
 
 /// The name of a camera's film; with frame and capture where each has its own.
@@ -20,7 +20,7 @@ pub(crate) fn film_name(camera: &CameraPlan, shot: Shot) -> String {
 /// The folder of the state of a progressive run, no name of a camera.
 pub(crate) const STATE_FOLDER: &str = ".progress";
 
-/// Whether an output folder holds a state. A link in the place of its folder holds none.
+/// Returns true if an output folder holds a state. A link in the place of its folder holds none.
 pub(crate) fn holds_state(folder: &Path) -> bool {
     let state = folder.join(STATE_FOLDER);
     let is_film = |file: DirEntry| file.file_name().to_string_lossy().ends_with(FILM);

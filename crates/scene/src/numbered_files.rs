@@ -21,7 +21,7 @@ pub(crate) fn numbered(files: &Path, number: u64) -> PathBuf {
     }
 }
 
-/// Whether a file is one of numbered files.
+/// Returns true if a file is one of numbered files.
 pub(crate) fn is_numbered(files: &Path, file: &Path) -> bool {
     let [name, own] = [files, file].map(|path| path.file_name().unwrap_or_default().to_string_lossy());
     let Some((before, _, behind)) = parts(&name).filter(|_| files.parent() == file.parent()) else { return false };

@@ -19,7 +19,7 @@ use crate::{Error, hash, unpacked};
 /// Pixels that are handed over at a time, about.
 const STRIP_PIXELS: usize = 1 << 17;
 
-/// What the head of a picture states: its size, px, and the format of its pixels.
+/// The head of a picture: its size, px, and the format of its pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PictureHead {
     pub(crate) width: u32,

@@ -40,7 +40,7 @@ pub enum Airlight {
     },
 }
 
-/// What is laid over an image.
+/// Weather over an image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weather {
     /// The radiance of fog without end.

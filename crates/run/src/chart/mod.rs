@@ -25,6 +25,9 @@ pub use own_camera::ChartBeforeCamera;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+/// Maximum number of views of a chart.
+pub const MAX_VIEWS: u32 = 200;
+
 /// The distance of a sheet before a camera that is focused nowhere in particular, m.
 const DISTANCE_M: f64 = 1.0;
 /// The luminance of white before a camera without electronics, cd/m².
@@ -99,7 +102,7 @@ impl ChartRequest {
 /// # Errors
 /// The camera cannot be used, the chart does not fit it, a change names no key of the job, or the folder cannot be written.
 pub fn make(request: &ChartRequest, folder: &Path, existing: Existing) -> Result<Vec<PathBuf>, Error> {
-    check_whole("views", request.views, 1..=200)?;
+    check_whole("views", request.views, 1..=MAX_VIEWS)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     let changes = Changes(&request.set);
     let camera_changes = changes.camera_changes();

@@ -77,7 +77,7 @@ pub(super) struct BinaryNode {
     word: u32,
 }
 
-/// What a binary node holds.
+/// Content of a binary node.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum BinaryKind {
     /// Its two children are this node and the next.

@@ -67,7 +67,7 @@ impl SurfacePoint {
     }
 }
 
-/// What a ray meets first.
+/// First hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Where, in lengths of the ray's direction.

@@ -114,7 +114,7 @@ pub(super) type PlaceStatistics = [BinStatistics; BINS];
 
 /// Parts that are locked apart.
 const PARTS: usize = 16;
-/// What 1 counts as: squares of radiance, (W/(m² sr nm))², from 8e-25 on are told apart, and their sums to 2.8e14. Beyond, densities tend to the cosine's.
+/// Unit of the sums: squares of radiance, (W/(m² sr nm))², from 8e-25 on are told apart, and their sums to 2.8e14. Beyond, densities tend to the cosine's.
 const ONE: f64 = (1_u128 << 80) as f64;
 
 /// Paths below which a place has no density of its own.

@@ -97,7 +97,7 @@ pub(super) enum Intersection<'a> {
     Surface(SurfacePoint, Lookup),
 }
 
-/// Whether a path has another vertex.
+/// The next step of a path: another vertex, or its end.
 pub(super) enum PathStep {
     Continue,
     End,

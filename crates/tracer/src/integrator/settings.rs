@@ -63,7 +63,7 @@ pub enum Level {
     Path,
 }
 
-/// What a light's probability of being sampled at a surface goes by. No mean depends on it.
+/// Quantity to which a light's probability of being sampled at a surface is in proportion. No mean depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightSampling {
     /// Its irradiance, and how much of it the surface's narrow lobes send back along the path.

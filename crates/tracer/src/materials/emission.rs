@@ -37,7 +37,7 @@ pub struct Emission {
     pub modulation: Option<Modulation>,
 }
 
-/// What emitted light is evaluated at.
+/// Arguments of an emission: point, direction, wavelengths and time.
 #[derive(Clone, Copy, Debug)]
 pub struct EmissionQuery<'a, const N: usize> {
     /// The wavelengths.

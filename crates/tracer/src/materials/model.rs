@@ -91,7 +91,7 @@ impl<const N: usize> BsdfValue<N> {
     pub const ZERO: Self = Self { value_cos: Spectral::ZERO, pdf: 0.0 };
 }
 
-/// What happened to a path at a surface.
+/// Outcome of a path at a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
     /// It was scattered, by a finite density.

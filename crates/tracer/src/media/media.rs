@@ -33,7 +33,7 @@ pub struct RandomCounter<'s> {
     pub counter: u32,
 }
 
-/// Where a part of a ray begins and ends, in lengths of its direction.
+/// Start and end of a part of a ray, in lengths of its direction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RaySpan {
     pub(crate) from: f64,

@@ -76,7 +76,7 @@ fn water() -> &'static Spectrum {
     &dielectric::named("water").expect("a name of the list").n
 }
 
-/// Where and when a view is.
+/// Position and time of a view.
 #[derive(Clone, Copy, Debug)]
 pub struct ViewPlacement {
     /// The origin of its render frame in the world, m.

@@ -5,7 +5,7 @@ use crate::console::{Console, print_paths};
 use clap::Args;
 use etendue::Error;
 use etendue::chart::design::GridSize;
-use etendue::chart::{self, Chart, ChartError, ChartRequest, Exposures, Spacing};
+use etendue::chart::{self, Chart, ChartError, ChartRequest, Exposures, MAX_VIEWS, Spacing};
 use etendue_arguments::seed;
 use etendue_arguments::{Word, choice};
 
@@ -91,7 +91,7 @@ impl Size {
 #[derive(Debug, Args)]
 pub struct Views {
     /// Views of the chart: the first square to it, the others tilted by 25 degrees all round
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=200))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_VIEWS)))]
     pub views: u32,
     /// Take the views as by hand: up to 0.5 % of the distance aside, 2 % farther away, rolled by 1.5 degrees, drawn by --seed
     #[arg(long)]

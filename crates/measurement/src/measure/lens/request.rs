@@ -4,7 +4,7 @@ use clap::Args;
 use etendue_arguments::whole;
 use std::ops::RangeInclusive;
 
-/// How many field heights may be measured.
+/// Range of the number of field heights.
 pub(super) const FIELDS: RangeInclusive<u32> = 2..=1000;
 
 /// A lens and where it is measured.

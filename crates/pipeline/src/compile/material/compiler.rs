@@ -40,7 +40,7 @@ impl MaterialCompiler<'_, '_> {
 /// How sharply pictures laid on from three sides meet, if it is not said.
 const SHARPNESS: f32 = 4.0;
 
-/// What a picture is used for.
+/// Use of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Use {
     /// Colours: reflectance, light.

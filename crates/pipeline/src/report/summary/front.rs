@@ -112,7 +112,7 @@ pub(super) fn drops(drops: &Drops) -> Vec<String> {
     there.into_iter().chain(p.course.as_ref().map(course)).collect()
 }
 
-/// How they change.
+/// Returns the changes of the drops over time, in words.
 fn course(course: &Course) -> String {
     let Course { start_s, sliding, drying_s, arrivals_hz, wiper } = course;
     let slide = sliding
