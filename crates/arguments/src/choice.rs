@@ -1,6 +1,13 @@
 //! A choice of words.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use etendue_core::Word as FormatWord;
+
+/// A choice of the format, with its own words and their help.
+pub fn word<T: FormatWord>() -> impl TypedValueParser<Value = T> {
+    let words = T::WORDS.iter().zip(T::ABOUT);
+    choice(words.map(|((word, value), about)| (*value, *word, about.trim().trim_end_matches('.'))))
+}
 
 /// What a word stands for, the word, and its line of help.
 pub type Word<T> = (T, &'static str, &'static str);

@@ -7,7 +7,7 @@ mod frames;
 mod number;
 mod place;
 
-pub use choice::{Word, choice};
+pub use choice::{Word, choice, word};
 pub use file_name::{html, png, svg, toml};
 pub use frames::{MAX_FRAMES, frames, samples, seed};
 pub use number::{in_range, not_negative, positive, whole};

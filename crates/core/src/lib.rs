@@ -38,6 +38,7 @@ pub mod warp;
 pub mod waveform;
 pub mod wavelength;
 mod wavelength_density;
+pub mod words;
 
 pub use camera_path::CameraPath;
 pub use effect_status::EffectStatus;
@@ -54,3 +55,4 @@ pub use track::Track;
 pub use waveform::Waveform;
 pub use wavelength::{Bands, Spectral, WavelengthRange, Wavelengths};
 pub use wavelength_density::WavelengthDensity;
+pub use words::{Accelerator, Integrator, LightSampling, Quality, RawFormat, Setting, Word};

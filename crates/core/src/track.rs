@@ -15,7 +15,7 @@ mod turn;
 pub(crate) use rates::{Bend, Moving as MovingTransform};
 pub use rolling::RollingError;
 
-use crate::TimeInterval;
+use crate::{TimeInterval, words};
 use cubic::Cubic;
 use glam::{DAffine3, DQuat, DVec3};
 use span::{Pose, Span};
@@ -40,19 +40,25 @@ pub fn slerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
     Turn::even(from.normalize(), to.normalize()).at(share)
 }
 
-/// How a track moves from key to key.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Interpolation {
-    /// Position and scale along straight lines at an even speed; rotation the short way about one axis at an even rate (slerp,
-    /// Shoemake 1985, "Animating rotation with quaternion curves", SIGGRAPH).
-    #[default]
-    Linear,
-    /// Without jumps of the velocities at the keys. Position and scale by cubic Hermite curves whose derivative at a key is that
-    /// of the parabola through it and its two neighbours (Catmull–Rom for uneven times: Barry, Goldman 1988, "A recursive
-    /// evaluation algorithm for a class of Catmull-Rom splines", SIGGRAPH), at the first and last key that of the parabola
-    /// through three; rotation by the cubic Hermite curve of quaternions (Kim, Kim, Shin 1995) with angular velocities made
-    /// alike from those of the slerps beside a key. Two keys are joined as by `Linear`. The curves may overshoot the keys.
-    Smooth,
+words! {
+    /// How a track moves from key to key. Before its first key and after its last it holds still.
+    pub enum Interpolation {
+        /// Position and scale along straight lines at an even speed; rotation the short way about one axis at an even rate (slerp,
+        /// Shoemake 1985, "Animating rotation with quaternion curves", SIGGRAPH).
+        "linear" => Linear,
+        /// Without jumps of the velocities at the keys. Position and scale by cubic Hermite curves whose derivative at a key is that
+        /// of the parabola through it and its two neighbours (Catmull–Rom for uneven times: Barry, Goldman 1988, "A recursive
+        /// evaluation algorithm for a class of Catmull-Rom splines", SIGGRAPH), at the first and last key that of the parabola
+        /// through three; rotation by the cubic Hermite curve of quaternions (Kim, Kim, Shin 1995) with angular velocities made
+        /// alike from those of the slerps beside a key. Two keys are joined as by `Linear`. The curves may overshoot the keys.
+        "smooth" => Smooth,
+    }
+}
+
+impl Default for Interpolation {
+    fn default() -> Self {
+        Self::Linear
+    }
 }
 
 /// Why a track is refused. Keys are counted from 0.

@@ -3,10 +3,9 @@
 use super::effect::EffectReport;
 use etendue_core::Shutter;
 use etendue_pipeline::Plan;
-use etendue_pipeline::plan::{CameraPlan, Route, SpectralGain, TimeDependence};
+use etendue_pipeline::plan::{CameraPlan, Settings, TimeDependence};
 use etendue_pipeline::render::light_counts;
 use etendue_pipeline::report::FrameCost;
-use etendue_tracer::integrator::Level;
 
 /// A camera of a plan.
 #[derive(Clone, Debug, serde::Serialize)]
@@ -34,7 +33,7 @@ pub struct CameraReport {
     /// What shines.
     pub lights: LightsReport,
     /// How its light is found.
-    pub settings: SettingsReport,
+    pub settings: Settings,
     /// Its lens.
     pub lens: LensSummary,
     /// Dynamic range of a frame, dB; null without electronics.
@@ -60,65 +59,6 @@ pub struct LightsReport {
     pub glowing_spheres: usize,
     /// "sky", "image", "uniform"; null where nothing shines from infinitely far.
     pub surroundings: Option<&'static str>,
-}
-
-/// How the light of a camera is found.
-#[derive(Clone, Debug, serde::Serialize)]
-pub struct SettingsReport {
-    /// "flat", "direct", "path".
-    pub integrator: &'static str,
-    /// Surfaces that a path meets at most.
-    pub max_bounces: u32,
-    /// Whether caustics of lamps are followed.
-    pub caustics: bool,
-    /// Whether lobes are widened that come after wider ones: a bias.
-    pub regularize: bool,
-    /// Whether matt surfaces draw directions by what paths before the picture have found.
-    pub guiding: bool,
-    /// How many paths go on, and lights are drawn, at the first surface of a sample.
-    pub branches: u32,
-    /// Samples a pixel; the most that a pixel gets where noise decides.
-    pub spp: u32,
-    /// Samples that every pixel gets where noise decides; else null.
-    pub min_spp: Option<u32>,
-    /// The limit of noise that decides; else null.
-    pub noise_threshold: Option<f64>,
-    /// Independent replicates.
-    pub replicates: u32,
-    /// Pixels whose paths share their tails; 1: none do.
-    pub pixels_sharing_paths: u32,
-    /// What lights are drawn by: "gloss" or "irradiance".
-    pub light_sampling: &'static str,
-    /// Wavelengths a path.
-    pub wavelengths_per_path: u32,
-    /// The density by which they are drawn: "uniform", "response", "response_and_source".
-    pub wavelength_density: &'static str,
-    /// What the spectra of the light's sources in it save, or would; null where no electrons are summed or no source gives any.
-    pub spectral_gain: Option<SpectralGainReport>,
-    /// "lens" or "pupil".
-    pub route: &'static str,
-    /// Shortest and longest wavelength, nm.
-    pub wavelength_range_nm: [f64; 2],
-    /// Spectral bands that are kept; null where none are.
-    pub bands: Option<u32>,
-    /// Their width, nm; null where none are kept.
-    pub band_width_nm: Option<f64>,
-    /// Whether pixels sum electrons directly.
-    pub sums_electrons: bool,
-    /// The seed of all random numbers.
-    pub seed: u64,
-}
-
-/// Mean squares of a sample's electrons, their wavelengths drawn by the response alone, over those with the sources' spectra: the ratio of the
-/// variances of pixels whose samples differ much.
-#[derive(Clone, Copy, Debug, serde::Serialize)]
-pub struct SpectralGainReport {
-    /// In the mean over pixels, sources and surfaces.
-    pub mean: f64,
-    /// The least.
-    pub least: f64,
-    /// The greatest.
-    pub most: f64,
 }
 
 /// A lens.
@@ -198,7 +138,7 @@ impl CameraReport {
             },
             frame_period_s: camera.timing.period_s,
             lights: LightsReport::of(plan, camera),
-            settings: SettingsReport::of(camera),
+            settings: camera.settings,
             lens: LensSummary::of(camera),
             dynamic_range_db: camera
                 .body
@@ -224,48 +164,6 @@ impl LightsReport {
             glowing_spheres: counts.spheres,
             surroundings: kinds.into_iter().find_map(|(is_there, kind)| is_there.then_some(kind)),
         }
-    }
-}
-
-impl SettingsReport {
-    fn of(camera: &CameraPlan) -> Self {
-        let s = &camera.settings;
-        Self {
-            integrator: match s.level {
-                Level::Flat => "flat",
-                Level::Direct => "direct",
-                Level::Path => "path",
-            },
-            max_bounces: s.max_bounces,
-            caustics: s.caustics && s.level == Level::Path,
-            regularize: s.regularize,
-            guiding: s.guiding,
-            branches: s.branches,
-            spp: s.spp,
-            min_spp: s.adaptive.map(|limit| limit.min_spp),
-            noise_threshold: s.adaptive.map(|limit| limit.threshold),
-            replicates: s.replicates,
-            pixels_sharing_paths: s.blocks.len_px(),
-            light_sampling: s.light_sampling.word(),
-            wavelengths_per_path: s.wavelengths,
-            wavelength_density: s.wavelength_sampling.word(),
-            spectral_gain: camera.spectral_gain.map(SpectralGainReport::of),
-            route: match s.route {
-                Route::Lens => "lens",
-                Route::Pupil(_) => "pupil",
-            },
-            wavelength_range_nm: [s.range.low_nm, s.range.high_nm],
-            bands: s.bands.map(|bands| bands.count() as u32),
-            band_width_nm: s.bands.map(|bands| bands.width_nm()),
-            sums_electrons: s.folded,
-            seed: s.seed,
-        }
-    }
-}
-
-impl SpectralGainReport {
-    fn of(SpectralGain { mean, least, most }: SpectralGain) -> Self {
-        Self { mean, least, most }
     }
 }
 

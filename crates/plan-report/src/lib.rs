@@ -14,7 +14,7 @@ pub mod tone_curve;
 use etendue_pipeline::Plan;
 use std::path::{Path, PathBuf};
 
-pub use camera::{CameraReport, CostReport, FilmPart, LensSummary, LightsReport, SettingsReport};
+pub use camera::{CameraReport, CostReport, FilmPart, LensSummary, LightsReport};
 pub use camera_file::open_camera;
 pub use effect::{EffectReport, IfDroppedReport, Need};
 pub use memory::{CameraMemoryReport, MemoryReport, StageReport};

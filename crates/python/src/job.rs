@@ -6,7 +6,7 @@ use crate::watch::run;
 use crate::{meshes, toml};
 use etendue::{
     Existing, FilmMemory, Integrator, JobRequest, Message, Observer as _, Quality, RenderOptions, ShardRequest,
-    ShardSpec, TextureMemory,
+    ShardSpec, TextureMemory, Word as _,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -70,8 +70,6 @@ impl Job {
         scratch: Option<PathBuf>,
     ) -> PyResult<Self> {
         let (path, text) = source(description, folder)?;
-        let integrators = [Integrator::Flat, Integrator::Direct, Integrator::Path].map(|one| (one.name(), one));
-        let qualities = [("draft", Quality::Draft), ("standard", Quality::Standard), ("reference", Quality::Reference)];
         let request = JobRequest {
             set: toml::changes(set)?,
             spp,
@@ -80,8 +78,8 @@ impl Job {
             progressive,
             scale: scale.map(|scale| Ok::<_, PyErr>(scale.str()?.to_cow()?.into_owned())).transpose()?,
             seed,
-            integrator: integrator.map(|word| of_word(word, "integrator", &integrators)).transpose()?,
-            quality: quality.map(|word| of_word(word, "quality", &qualities)).transpose()?,
+            integrator: integrator.map(|word| of_word(word, "integrator", Integrator::WORDS)).transpose()?,
+            quality: quality.map(|word| of_word(word, "quality", Quality::WORDS)).transpose()?,
             camera,
             sandbox,
             textures: TextureMemory {

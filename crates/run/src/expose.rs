@@ -15,7 +15,7 @@ use etendue_io::{Existing, OutputFolder};
 use etendue_optics::{DepthOfField, OpticsError};
 use etendue_pipeline::defocus::held_margin_px;
 use etendue_pipeline::photograph::Light;
-use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};
+use etendue_pipeline::plan::{Annotations, CameraBody, Products, usual_raw_format};
 use etendue_pipeline::stored;
 use etendue_plan_report::camera_facts;
 use etendue_plan_report::open_camera;
@@ -116,7 +116,7 @@ fn products(body: &CameraBody) -> Products {
         sampling: false,
         electrons: false,
         raw: body.sensor.is_some(),
-        raw_format: RawFormat::usual(body.sensor.as_ref()),
+        raw_format: usual_raw_format(body.sensor.as_ref()),
         signal_breakdown: false,
         picture: body.development.is_some(),
         ground_truth: false,

@@ -12,7 +12,7 @@ use etendue_io::failure::{check_number, check_whole};
 use etendue_io::paths::camera_stem;
 use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, Stack};
-use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};
+use etendue_pipeline::plan::{Annotations, CameraBody, Products, usual_raw_format};
 use etendue_plan_report::camera_facts;
 use etendue_plan_report::open_camera;
 use etendue_sensor::{CaptureLight, FrameAddress, Sensor, SensorState};
@@ -243,7 +243,7 @@ impl Task<'_> {
             sampling: false,
             electrons: false,
             raw: true,
-            raw_format: RawFormat::usual(Some(self.sensor)),
+            raw_format: usual_raw_format(Some(self.sensor)),
             signal_breakdown: self.request.signal_breakdown,
             picture: self.body.development.is_some(),
             ground_truth: false,

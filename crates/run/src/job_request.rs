@@ -1,11 +1,11 @@
 //! A job file and what is changed in it.
 
 use crate::film_memory::FilmMemory;
-use crate::integrator::Integrator;
 use crate::memory_limits::MemoryLimits;
-use crate::quality::Quality;
 use crate::refine::timed;
 use clap::Args;
+use etendue_arguments::word;
+use etendue_core::{Integrator, Quality, Word as _};
 use etendue_io::failure::Error;
 use etendue_io::{CacheUse, Sandbox, TextureMemory};
 use etendue_pipeline::{Choices, Plan, Refinement};
@@ -45,10 +45,10 @@ pub struct JobRequest {
     #[arg(long, value_name = "1/K")]
     pub scale: Option<String>,
     /// How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = word::<Integrator>())]
     pub integrator: Option<Integrator>,
     /// A preset of samples and bounces, for what the job file leaves open
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = word::<Quality>())]
     pub quality: Option<Quality>,
     /// Render only this camera of the job
     #[arg(long, value_name = "NAME")]
@@ -174,8 +174,8 @@ impl JobRequest {
             flag("seed", "seed", seed.to_string(), &seed.to_string());
         }
         if let Some(integrator) = self.integrator {
-            let level = integrator.name();
-            flag("integrator", "integrator", format!("\"{level}\""), level);
+            let word = integrator.word();
+            flag("integrator", "integrator", format!("\"{word}\""), word);
         }
         if let Some(scale) = &self.scale {
             overrides.push_sensor(&format!("`scale` {scale}"), "scale", scale);
@@ -184,17 +184,12 @@ impl JobRequest {
     }
 
     pub(crate) fn choices(&self) -> Choices {
-        let quality = self.quality.map(|quality| match quality {
-            Quality::Draft => etendue_pipeline::Quality::Draft,
-            Quality::Standard => etendue_pipeline::Quality::Standard,
-            Quality::Reference => etendue_pipeline::Quality::Reference,
-        });
         let refinement = match (self.time_s, self.progressive) {
             (Some(_), _) => Refinement::Timed,
             (None, true) => Refinement::Progressive,
             (None, false) => Refinement::Described,
         };
-        Choices { quality, refinement }
+        Choices { quality: self.quality, refinement }
     }
 
     /// Only the camera that was asked for. Its random addresses are those it has among all.

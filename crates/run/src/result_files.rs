@@ -1,9 +1,10 @@
 //! The files that a camera can deliver: their names, and what they hold.
 
+use etendue_core::RawFormat;
 use etendue_core::quantity::{Cover, DigitalNumber, Irradiance, MeanElectrons, Quantity, Radiance, Transmittance};
 use etendue_pipeline::plan::{
-    Annotations, CameraBody, CameraPlan, CorrespondenceFormat, Development, PictureFormat, Products, RawFormat,
-    TimeDependence,
+    Annotations, CameraBody, CameraPlan, CorrespondenceFormat, Development, PictureFormat, Products, TimeDependence,
+    raw_extension,
 };
 use etendue_plan_report::tone_curve::encoding;
 use serde_json::{Value, json};
@@ -88,7 +89,7 @@ impl Files {
     /// The raw picture of a frame.
     #[must_use]
     pub fn raw(frame: u32, format: RawFormat) -> String {
-        format!("raw.{frame:04}.{}", format.extension())
+        format!("raw.{frame:04}.{}", raw_extension(format))
     }
 
     /// What the raw picture of a frame is made of.

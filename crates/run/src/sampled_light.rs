@@ -128,7 +128,11 @@ impl Job {
         Ok([width, height])
     }
 
-    pub(crate) fn camera_plan(&self, name: &str) -> Result<&CameraPlan, Error> {
+    /// The plan of a camera.
+    ///
+    /// # Errors
+    /// The job has no such camera.
+    pub fn camera_plan(&self, name: &str) -> Result<&CameraPlan, Error> {
         self.plan().camera(name).ok_or_else(|| Error::input(format!("the job has no camera {name}")))
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::job_request::JobRequest;
 use crate::memory::MemoryFiles;
+use etendue_core::Accelerator;
 use etendue_io::failure::Error;
-use etendue_scene::record::render::Accelerator;
 use etendue_scene::{Description, stated_render_keys};
 use std::path::Path;
 
@@ -14,8 +14,8 @@ pub struct StatedRender {
     pub keys: Vec<String>,
     /// Cameras of the job.
     pub cameras: usize,
-    /// The word of the key `accelerator` in force, the request's changes included.
-    pub accelerator: &'static str,
+    /// The value of the key `accelerator`, the request's changes included.
+    pub accelerator: Accelerator,
 }
 
 impl JobRequest {
@@ -31,11 +31,7 @@ impl JobRequest {
         let description = description.map_err(|faults| Error::inputs(faults.list()))?;
         let entry = description.cameras.iter().find(|entry| entry.name.value == camera);
         let entry = entry.ok_or_else(|| Error::input(format!("{}: no camera {camera}", self.job.display())))?;
-        let accelerator = match entry.render.accelerator.as_ref().map(|key| key.value) {
-            Some(Accelerator::Fast) => "fast",
-            Some(Accelerator::Default) | None => "default",
-            Some(Accelerator::Best) => "best",
-        };
+        let accelerator = entry.render.accelerator.as_ref().map(|key| key.value).unwrap_or_default();
         let cameras = description.cameras.len();
         Ok(StatedRender { cameras, keys: stated_render_keys(&self.job, camera, &read), accelerator })
     }

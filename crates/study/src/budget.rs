@@ -25,7 +25,7 @@ pub(crate) fn within(
     let all = grid[0] * grid[1];
     let plan = PilotPlan::of_tiles(grid, FEWEST_TILES);
     let look = Pilots { camera, plan, simd, clock, observer };
-    let own = job.render_settings(camera)?.seed;
+    let own = job.camera_plan(camera)?.settings.seed;
     // Twice: the first one finds cold caches.
     look.timed(job, 2, 1, seed(own, 1000))?;
     let stint = Stint::begin(clock);

@@ -4,7 +4,7 @@ use crate::Clock;
 use crate::pilot::seed;
 use crate::study::Request;
 use crate::way::{SAMPLE_KEYS, without_keys};
-use etendue::{CameraResults, Error, Job, JobRequest, Observer, PlannedEffect, RenderOptions};
+use etendue::{CameraResults, Error, Job, JobRequest, Observer, PlannedEffect, RenderOptions, Word as _};
 use etendue_core::quantity::{Display, Quantity, WatchedSignal};
 use etendue_core::{KeptCube, Plane};
 
@@ -17,7 +17,7 @@ const MAX_SPP: f64 = 64.0;
 fn as_changes(job: &JobRequest, camera: &str) -> JobRequest {
     let mut own = without_keys(job, camera, &SAMPLE_KEYS);
     if let Some(integrator) = own.integrator.take() {
-        own.set.push(format!("cameras.{camera}.render.integrator={:?}", integrator.name()));
+        own.set.push(format!("cameras.{camera}.render.integrator={:?}", integrator.word()));
     }
     own
 }
@@ -80,7 +80,7 @@ impl<'a> FrameRenderer<'a> {
     pub(crate) fn open(request: &'a Request, clock: &'a dyn Clock, observer: &'a dyn Observer) -> Result<Self, Error> {
         let job = request.job.clone().open()?;
         let camera = request.camera.clone().unwrap_or_else(|| job.plan().cameras[0].name.clone());
-        let settings = job.render_settings(&camera)?;
+        let settings = job.camera_plan(&camera)?.settings;
         let own = as_changes(&request.job, &camera);
         Ok(Self { request, clock, observer, job, camera, job_spp: settings.spp.into(), seed: settings.seed, own })
     }

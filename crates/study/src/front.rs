@@ -162,8 +162,7 @@ fn samples_for(way: &Measured, target: Target, frame: Frame) -> Option<u32> {
 mod tests {
     use super::*;
     use crate::measured::{PowerLaw, Role};
-    use crate::way::Accelerator;
-    use etendue::Integrator;
+    use etendue::{Accelerator, Integrator, PathSettings};
 
     /// A way whose sample takes `sample_s`, of a variance and bias in the relative currency.
     fn way(integrator: Integrator, sample_s: f64, variance: f64, bias: f64) -> Measured {
@@ -171,13 +170,8 @@ mod tests {
         let law = PowerLaw { samples: 1.0, value: exact(variance), exponent: exact(1.0) };
         Measured {
             way: WayToRender {
-                integrator,
-                max_bounces: 64,
-                caustics: true,
-                regularize: false,
-                branches: 1,
+                paths: PathSettings { integrator, max_bounces: 64, ..PathSettings::default() },
                 path_reuse_px: 1,
-                light_sampling: "gloss",
                 wavelengths: 4,
                 accelerator: Accelerator::Default,
             },
@@ -198,7 +192,7 @@ mod tests {
         let ways = [way(Integrator::Path, 1.0, 0.04, 0.0), way(Integrator::Direct, 0.25, 0.04, 1e-4)];
         let of = |error: f64| {
             recommend(&ways, Target { name: "draft", sensor: None, relative: Some(error) }, FRAME)
-                .map(|r| (r.point.way.integrator, r.point.spp))
+                .map(|r| (r.point.way.paths.integrator, r.point.spp))
         };
         // 0.04/n + 1e-4 is 0.0025 at 16.7.
         assert_eq!(of(0.05), Some((Integrator::Direct, 20)));
@@ -227,7 +221,7 @@ mod tests {
                 .all(|p| p[0].seconds.value <= p[1].seconds.value
                     && p[0].error.relative.value > p[1].error.relative.value)
         );
-        assert_eq!(front.first().map(|p| p.way.integrator), Some(Integrator::Direct));
-        assert_eq!(front.last().map(|p| p.way.integrator), Some(Integrator::Path));
+        assert_eq!(front.first().map(|p| p.way.paths.integrator), Some(Integrator::Direct));
+        assert_eq!(front.last().map(|p| p.way.paths.integrator), Some(Integrator::Path));
     }
 }

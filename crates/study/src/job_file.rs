@@ -2,8 +2,8 @@
 
 use crate::front::Recommendation;
 use crate::report::{error_text, time_text};
-use crate::way::{SAMPLE_KEYS, WAY_KEYS, is_of};
-use etendue::{Error, JobRequest, StatedRender, relative_path};
+use crate::way::{is_of, studied_keys};
+use etendue::{Error, JobRequest, StatedRender, Word as _, relative_path};
 use std::path::{Component, Path, PathBuf};
 
 /// The text of a job file in `folder` that renders `camera` of a job as recommended.
@@ -17,7 +17,7 @@ pub fn job_file(
     folder: &Path,
 ) -> Result<String, Error> {
     let StatedRender { keys: stated, cameras, .. } = job.stated_render(camera)?;
-    let superseded = [&SAMPLE_KEYS[..], &WAY_KEYS[..]].concat();
+    let superseded = studied_keys();
     // What the job says for all cameras is left to the others.
     let is_free = |key: &str| cameras == 1 || !key.starts_with("render.");
     let removed = stated.iter().filter(|key| is_of(key, camera, &superseded) && is_free(key));
@@ -52,9 +52,9 @@ pub fn job_file(
 
 /// What of the command line's changes a job file does not hold.
 fn changes(job: &JobRequest, camera: &str) -> Vec<String> {
-    let held = [&SAMPLE_KEYS[..], &WAY_KEYS[..]].concat();
+    let held = studied_keys();
     let set = job.set.iter().filter(|change| !is_of(change, camera, &held)).map(|change| format!("--set {change}"));
-    let quality = job.quality.map(|quality| format!("--quality {quality:?}").to_lowercase());
+    let quality = job.quality.map(|quality| format!("--quality {}", quality.word()));
     set.chain(quality).chain(job.seed.map(|seed| format!("--seed {seed}"))).collect()
 }
 

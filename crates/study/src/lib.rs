@@ -38,7 +38,7 @@ pub use pictures::{Comparison, pictures};
 pub use report::{plot, table};
 pub use study::{Request, Study, study};
 pub use variation::{Variations, Varied, variation_table, variations};
-pub use way::{Accelerator, WayToRender};
+pub use way::WayToRender;
 
 /// Clocks that only go forward.
 pub trait Clock: Sync {

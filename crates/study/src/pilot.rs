@@ -30,7 +30,7 @@ impl Pilots<'_> {
     /// A pilot of `spp` samples a pixel in one replicate by each of `seeds` seeds. Equal seeds make equal paths as far as two ways have them in common, so that
     /// their differences are little noisy.
     pub(crate) fn run(&self, job: &Job, spp: u32, seeds: u32) -> Result<Pilot, Error> {
-        let own = job.render_settings(self.camera)?.seed;
+        let own = job.camera_plan(self.camera)?.settings.seed;
         let (mut pixels, mut planes, mut processor_s) = (Vec::new(), Vec::new(), Vec::new());
         let all = Stint::begin(self.clock);
         for k in 0..seeds {

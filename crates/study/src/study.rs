@@ -10,11 +10,13 @@ use crate::pixels::Pixels;
 use crate::plan::share;
 use crate::stint::Stint;
 use crate::trial::Trial;
-use crate::way::{Accelerator, EXACT_BOUNCES, LIGHT_SAMPLINGS, WayToRender};
+use crate::way::{EXACT_BOUNCES, WayToRender};
 use clap::Args;
 use etendue::{
-    Error, Existing, Integrator, Job, JobRequest, LightSignal, Observer, Progress, RenderOptions, Simd, Unit,
+    Accelerator, Error, Existing, Integrator, Job, JobRequest, LightSignal, Observer, PathSettings, Progress,
+    RenderOptions, Simd, Unit, Word as _,
 };
+use etendue_core::LightSampling;
 use etendue_core::maths::f64::hypot;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -116,10 +118,10 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     };
     let stated = WayToRender::of(&job, &camera)?;
     bench.look_at_ways(stated)?;
-    let settings = job.render_settings(&camera)?;
+    let settings = job.camera_plan(&camera)?.settings;
     let rest_s = bench.rest_s(scratch)?;
     let frame = Frame { rest_s, replicates: settings.replicates };
-    let spp = if settings.is_adaptive { EVEN_SPP.next_multiple_of(frame.replicates) } else { settings.spp };
+    let spp = if settings.adaptive.is_some() { EVEN_SPP.next_multiple_of(frame.replicates) } else { settings.spp };
     bench.combine(spp, frame)?;
     let ways = &bench.ways;
     let has_sensor = ways[0].bias_squares.sensor.is_some();
@@ -181,17 +183,23 @@ struct Bench<'a> {
 impl Bench<'_> {
     /// Everything that is looked at for itself.
     fn look_at_ways(&mut self, stated: WayToRender) -> Result<(), Error> {
-        let path = WayToRender {
+        let with_paths = |paths| WayToRender { paths, ..stated };
+        let exact = PathSettings {
             integrator: Integrator::Path,
-            max_bounces: stated.max_bounces.max(EXACT_BOUNCES),
+            max_bounces: stated.paths.max_bounces.max(EXACT_BOUNCES),
             caustics: true,
             regularize: false,
+            ..stated.paths
+        };
+        let path = with_paths(exact);
+        let bare = with_paths(PathSettings { caustics: false, ..exact });
+        let short = |max_bounces| with_paths(PathSettings { max_bounces, ..bare.paths });
+        let widened = with_paths(PathSettings { regularize: true, ..exact });
+        let less = |integrator| WayToRender {
+            paths: PathSettings { integrator, max_bounces: 1, branches: 1, ..exact },
+            path_reuse_px: 1,
             ..stated
         };
-        let bare = WayToRender { caustics: false, ..path };
-        let short = |max_bounces| WayToRender { max_bounces, ..bare };
-        let widened = WayToRender { regularize: true, ..path };
-        let less = |integrator| WayToRender { integrator, max_bounces: 1, branches: 1, path_reuse_px: 1, ..path };
         self.keep(path, Role::Exact, None)?;
         self.keep(bare, Role::Approximation, Some(path))?;
         self.look_at(widened, Role::Approximation, Some(path))?;
@@ -201,8 +209,11 @@ impl Bench<'_> {
         self.look_at(less(Integrator::Direct), Role::Approximation, Some(bare))?;
         self.look_at(less(Integrator::Flat), Role::Approximation, Some(bare))?;
         // The job's own, compared with what leaves out as little as it may beside its own omissions.
-        let against =
-            if stated.is_exact() { None } else { Some(if stated.caustics || stated.regularize { path } else { bare }) };
+        let against = if stated.is_exact() {
+            None
+        } else {
+            Some(if stated.paths.caustics || stated.paths.regularize { path } else { bare })
+        };
         self.look_at(stated, Role::Stated, against)?;
         let own = self.ways.iter().position(|measured| measured.way == stated).expect("looked at");
         let own = self.ways.remove(own);
@@ -215,14 +226,23 @@ impl Bench<'_> {
 
     /// Ways with the means of the job's own: other wavelengths, shared and branched paths, choices of lights, trees.
     fn choices_without_bias(&self, stated: WayToRender) -> Result<Vec<WayToRender>, Error> {
-        let disperses = self.job.render_settings(self.pilots.camera)?.disperses;
+        let disperses = self.job.camera_plan(self.pilots.camera)?.disperses();
         let wavelengths = [1, 4, 8].into_iter().filter(|n| !disperses || *n == 1);
         let wavelengths = wavelengths.map(|wavelengths| WayToRender { wavelengths, ..stated });
-        let shares: &[u32] = if stated.integrator == Integrator::Path { &[1, 2, 4, 8] } else { &[] };
-        let branches = shares.iter().map(|branches| WayToRender { branches: *branches, path_reuse_px: 1, ..stated });
-        let shares = shares.iter().map(|px| WayToRender { path_reuse_px: *px, branches: 1, ..stated });
-        let trees = Accelerator::ALL.into_iter().map(|accelerator| WayToRender { accelerator, ..stated });
-        let lights = LIGHT_SAMPLINGS.into_iter().map(|light_sampling| WayToRender { light_sampling, ..stated });
+        let shares: &[u32] = if stated.paths.integrator == Integrator::Path { &[1, 2, 4, 8] } else { &[] };
+        let of_paths = |path_reuse_px, branches| WayToRender {
+            paths: PathSettings { branches, ..stated.paths },
+            path_reuse_px,
+            ..stated
+        };
+        let branches = shares.iter().map(|branches| of_paths(1, *branches));
+        let shares = shares.iter().map(|px| of_paths(*px, 1));
+        let trees =
+            Accelerator::WORDS.iter().map(|(_, accelerator)| WayToRender { accelerator: *accelerator, ..stated });
+        let lights = LightSampling::WORDS.iter().map(|(_, light_sampling)| WayToRender {
+            paths: PathSettings { light_sampling: *light_sampling, ..stated.paths },
+            ..stated
+        });
         Ok(wavelengths.chain(shares).chain(branches).chain(lights).chain(trees).filter(|way| *way != stated).collect())
     }
 
@@ -324,13 +344,16 @@ impl Bench<'_> {
         let wavelengths = best(|own, other| WayToRender { wavelengths: other.wavelengths, ..*own }).wavelengths;
         // Paths share their tails or branch: one of the two.
         let of_paths = |own: &WayToRender, other: &WayToRender| WayToRender {
+            paths: PathSettings { branches: other.paths.branches, ..own.paths },
             path_reuse_px: other.path_reuse_px,
-            branches: other.branches,
             ..*own
         };
-        let WayToRender { path_reuse_px, branches, .. } = best(of_paths);
-        let light_sampling =
-            best(|own, other| WayToRender { light_sampling: other.light_sampling, ..*own }).light_sampling;
+        let shared = best(of_paths);
+        let of_lights = |own: &WayToRender, other: &WayToRender| WayToRender {
+            paths: PathSettings { light_sampling: other.paths.light_sampling, ..own.paths },
+            ..*own
+        };
+        let light_sampling = best(of_lights).paths.light_sampling;
         let accelerator = best(|own, other| WayToRender { accelerator: other.accelerator, ..*own }).accelerator;
         let has_sensor = self.ways[0].bias_squares.sensor.is_some();
         let called: Vec<_> = targets(has_sensor)
@@ -339,9 +362,10 @@ impl Bench<'_> {
             .map(|recommendation| recommendation.point.way)
             .collect();
         for way in called {
-            let (path_reuse_px, branches) =
-                if way.integrator == Integrator::Path { (path_reuse_px, branches) } else { (1, 1) };
-            let joined = WayToRender { wavelengths, path_reuse_px, branches, light_sampling, accelerator, ..way };
+            let traces = way.paths.integrator == Integrator::Path;
+            let (path_reuse_px, branches) = if traces { (shared.path_reuse_px, shared.paths.branches) } else { (1, 1) };
+            let paths = PathSettings { branches, light_sampling, ..way.paths };
+            let joined = WayToRender { paths, path_reuse_px, wavelengths, accelerator };
             let base = self.ways.iter().find(|m| m.way == way).and_then(|m| m.bias.as_ref()).map(|b| b.against);
             self.choose(joined, way, base)?;
         }
@@ -351,11 +375,7 @@ impl Bench<'_> {
     /// Ways that may be recommended: of the choices made from the job's own way those that gain in pixels and in patches.
     fn eligible(&self, spp: u32, frame: Frame) -> Vec<Measured> {
         let stated = self.ways[0].way;
-        let is_of_own = |m: &Measured| {
-            m.role == Role::Choice
-                && (m.way.integrator, m.way.max_bounces, m.way.caustics, m.way.regularize)
-                    == (stated.integrator, stated.max_bounces, stated.caustics, stated.regularize)
-        };
+        let is_of_own = |m: &Measured| m.role == Role::Choice && m.way.paths.has_mean_of(&stated.paths);
         let gains = |m: &&Measured| !is_of_own(m) || cost(m, &self.ways[0], spp, frame) < 1.0;
         self.ways.iter().filter(gains).cloned().collect()
     }

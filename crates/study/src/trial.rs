@@ -89,7 +89,7 @@ impl Trial<'_> {
         let pilots = Pilots { camera, plan: extent.plan, simd, clock, observer };
         let [job, other] = [measured, control].map(|way| way.way.request(self.job.request(), camera).open());
         let (job, other) = (job?, other?);
-        let own = job.render_settings(camera)?.seed;
+        let own = job.camera_plan(camera)?.settings.seed;
         let (mut planes, mut pixels) = (Vec::new(), Vec::new());
         let (mut own_s, mut other_s) = (Moments::default(), Moments::default());
         for k in 0..extent.replicates {

@@ -1,52 +1,17 @@
 //! A way to render: what of a job's rendering a study changes.
 
-use etendue::{Integrator, Job, JobRequest};
-use serde::Serialize;
-
-/// How much work goes into the bounding-volume hierarchies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Accelerator {
-    /// Built quickly.
-    Fast,
-    /// As usual.
-    Default,
-    /// Built for many rays.
-    Best,
-}
-
-impl Accelerator {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Fast, Self::Default, Self::Best];
-
-    /// Its word in the key `render.accelerator`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fast => "fast",
-            Self::Default => "default",
-            Self::Best => "best",
-        }
-    }
-}
+use etendue::{Accelerator, Integrator, Job, JobRequest, PathSettings, Word as _};
+use etendue_core::words::SettingValue;
+use etendue_core::{LightSampling, Setting};
+use serde::{Serialize, Serializer};
 
 /// What of a camera's rendering a study changes; samples come on top.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WayToRender {
-    /// How much of the light's ways is followed.
-    pub integrator: Integrator,
-    /// Greatest number of scattering events; of paths only.
-    pub max_bounces: u32,
-    /// Whether caustics of lamps are followed; of paths only.
-    pub caustics: bool,
-    /// Whether lobes are widened that come after wider ones; of paths only.
-    pub regularize: bool,
-    /// How many paths go on, and lights are drawn, at the first surface of a sample; of paths only.
-    pub branches: u32,
+    /// Which light paths are simulated.
+    pub paths: PathSettings,
     /// Side of the squares of pixels that share the tails of their paths; of paths only.
     pub path_reuse_px: u32,
-    /// What lights are drawn by: "gloss" or "irradiance".
-    pub light_sampling: &'static str,
     /// Wavelengths a path.
     pub wavelengths: u32,
     /// How the hierarchies are built.
@@ -59,44 +24,40 @@ impl WayToRender {
     /// # Errors
     /// Where the job cannot be read or has no such camera.
     pub(crate) fn of(job: &Job, camera: &str) -> Result<Self, etendue::Error> {
-        let settings = job.render_settings(camera)?;
-        let word = job.request().stated_render(camera)?.accelerator;
+        let settings = job.camera_plan(camera)?.settings;
         Ok(Self {
-            integrator: settings.integrator,
-            max_bounces: settings.max_bounces,
-            caustics: settings.caustics,
-            regularize: settings.regularize,
-            branches: settings.branches,
-            path_reuse_px: settings.path_reuse_px,
-            light_sampling: settings.light_sampling,
+            paths: settings.paths,
+            path_reuse_px: settings.blocks.side_px(),
             wavelengths: settings.wavelengths,
-            accelerator: Accelerator::ALL.into_iter().find(|a| a.name() == word).unwrap_or(Accelerator::Default),
+            accelerator: job.request().stated_render(camera)?.accelerator,
         })
+    }
+
+    /// Its settings by their keys in `[render]`.
+    pub(crate) fn settings(&self) -> Vec<Setting> {
+        let own = [
+            Setting::of_paths("path_reuse_px", self.path_reuse_px.into()),
+            Setting::new("wavelengths_per_path", self.wavelengths.into()),
+            Setting::new("accelerator", SettingValue::Word(self.accelerator.word())),
+        ];
+        self.paths.stated().into_iter().chain(own).collect()
     }
 
     /// The keys of `[render]` that say it, with their values as TOML writes them: none that has no effect.
     #[must_use]
     pub fn keys(&self) -> Vec<(&'static str, String)> {
-        let mut keys = vec![("integrator", format!("\"{}\"", self.integrator.name()))];
-        if self.integrator == Integrator::Path {
-            keys.push(("max_bounces", self.max_bounces.to_string()));
-            keys.push(("caustics", self.caustics.to_string()));
-            keys.push(("regularize", self.regularize.to_string()));
-            // What it learns belongs to whole pictures, of which a study renders parts.
-            keys.push(("guiding", "false".to_owned()));
-            keys.push(("branches", self.branches.to_string()));
-            keys.push(("path_reuse_px", self.path_reuse_px.to_string()));
-        }
-        keys.push(("light_sampling", format!("\"{}\"", self.light_sampling)));
-        keys.push(("wavelengths_per_path", self.wavelengths.to_string()));
-        keys.push(("accelerator", format!("\"{}\"", self.accelerator.name())));
-        keys
+        let traces = self.paths.integrator == Integrator::Path;
+        // What guiding learns belongs to whole pictures, of which a study renders parts.
+        let guiding = Setting::of_paths("guiding", false.into());
+        let settings = self.settings().into_iter().chain([guiding]);
+        let in_force = settings.filter(|setting| traces || !setting.is_of_paths);
+        in_force.map(|setting| (setting.key, setting.value.to_string())).collect()
     }
 
     /// The job rendered so, with samples that the caller says.
     pub(crate) fn request(&self, job: &JobRequest, camera: &str) -> JobRequest {
-        let mut request = without_keys(job, camera, &[&SAMPLE_KEYS[..], &WAY_KEYS[..]].concat());
-        request.integrator = Some(self.integrator);
+        let mut request = without_keys(job, camera, &studied_keys());
+        request.integrator = Some(self.paths.integrator);
         let keys = self.keys().into_iter().filter(|(key, _)| *key != "integrator");
         request.set.extend(keys.map(|(key, value)| format!("cameras.{camera}.render.{key}={value}")));
         request.camera = Some(camera.to_owned());
@@ -108,61 +69,72 @@ impl WayToRender {
     pub fn label(&self) -> String {
         let accelerator = match self.accelerator {
             Accelerator::Default => String::new(),
-            other => format!(", {} accelerator", other.name()),
+            other => format!(", {} accelerator", other.word()),
         };
-        let lights = if self.light_sampling == BLIND { ", lights by irradiance" } else { "" };
+        let paths = &self.paths;
+        let lights = if paths.light_sampling == LightSampling::Irradiance { ", lights by irradiance" } else { "" };
         let wavelengths = format!("{} λ{lights}", self.wavelengths);
-        if self.integrator != Integrator::Path {
-            return format!("{}, {wavelengths}{accelerator}", self.integrator.name());
+        if paths.integrator != Integrator::Path {
+            return format!("{}, {wavelengths}{accelerator}", paths.integrator.word());
         }
-        let caustics = if self.caustics { "caustics" } else { "no caustics" };
-        let lobes = if self.regularize { ", widened lobes" } else { "" };
-        let branches = if self.branches == 1 { String::new() } else { format!(", {} branches", self.branches) };
+        let caustics = if paths.caustics { "caustics" } else { "no caustics" };
+        let lobes = if paths.regularize { ", widened lobes" } else { "" };
+        let branches = if paths.branches == 1 { String::new() } else { format!(", {} branches", paths.branches) };
         let reuse = if self.path_reuse_px == 1 { String::new() } else { format!(", reuse {} px", self.path_reuse_px) };
-        format!("path, {} bounces, {caustics}{lobes}{branches}{reuse}, {wavelengths}{accelerator}", self.max_bounces)
+        format!("path, {} bounces, {caustics}{lobes}{branches}{reuse}, {wavelengths}{accelerator}", paths.max_bounces)
     }
 
     /// Whether it follows all the light that the exact form follows: it has no bias.
     #[must_use]
     pub fn is_exact(&self) -> bool {
-        self.integrator == Integrator::Path && self.caustics && !self.regularize && self.max_bounces >= EXACT_BOUNCES
+        let paths = &self.paths;
+        paths.integrator == Integrator::Path
+            && paths.caustics
+            && !paths.regularize
+            && paths.max_bounces >= EXACT_BOUNCES
     }
 
     /// What it leaves out of the exact form, in words.
     #[must_use]
     pub fn left_out(&self) -> String {
-        match self.integrator {
+        let paths = &self.paths;
+        match paths.integrator {
             Integrator::Flat => "shadows and all light from other surfaces".to_owned(),
             Integrator::Direct => "all light from other surfaces".to_owned(),
             Integrator::Path => {
-                let bounces = (self.max_bounces < EXACT_BOUNCES)
-                    .then(|| format!("light after more than {} bounces", self.max_bounces));
-                let caustics = (!self.caustics).then(|| "caustics of lamps".to_owned());
-                let lobes = self.regularize.then(|| "how narrow lobes behind wider ones are".to_owned());
+                let bounces = (paths.max_bounces < EXACT_BOUNCES)
+                    .then(|| format!("light after more than {} bounces", paths.max_bounces));
+                let caustics = (!paths.caustics).then(|| "caustics of lamps".to_owned());
+                let lobes = paths.regularize.then(|| "how narrow lobes behind wider ones are".to_owned());
                 bounces.into_iter().chain(caustics).chain(lobes).collect::<Vec<_>>().join(" and ")
             }
         }
     }
 }
 
-/// The choice of lights that does not know gloss.
-const BLIND: &str = "irradiance";
-/// What lights can be drawn by.
-pub(crate) const LIGHT_SAMPLINGS: [&str; 2] = ["gloss", BLIND];
+/// An object of its settings.
+impl Serialize for WayToRender {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.settings().into_iter().map(|setting| (report_name(setting.key), setting.value)))
+    }
+}
 
-/// Keys of `[render]` that say a way.
-pub(crate) const WAY_KEYS: [&str; 10] = [
-    "integrator",
-    "max_bounces",
-    "caustics",
-    "regularize",
-    "guiding",
-    "branches",
-    "path_reuse_px",
-    "light_sampling",
-    "wavelengths_per_path",
-    "accelerator",
-];
+/// The name of a setting in a study's report.
+fn report_name(key: &'static str) -> &'static str {
+    if key == "wavelengths_per_path" { "wavelengths" } else { key }
+}
+
+/// Keys of `[render]` that a study states itself: those of its ways, and those of samples.
+pub(crate) fn studied_keys() -> Vec<&'static str> {
+    let way = WayToRender {
+        paths: PathSettings::default(),
+        path_reuse_px: 1,
+        wavelengths: 4,
+        accelerator: Accelerator::Default,
+    };
+    way.keys().into_iter().map(|(key, _)| key).chain(SAMPLE_KEYS).collect()
+}
+
 /// Keys of `[render]` that say how many samples there are.
 pub(crate) const SAMPLE_KEYS: [&str; 6] = ["spp", "noise_threshold", "min_spp", "max_spp", "passes", "replicates"];
 

@@ -223,7 +223,7 @@ fn rows() -> Vec<Row> {
 /// The density of a job and what the light's spectrum is foretold to save.
 fn chosen(place: Place, light: &str, sensor: &SensorKind, render: &str) -> (WavelengthSampling, SpectralGain) {
     let plan = job(place, light, sensor, render).plan();
-    (plan.cameras[0].settings.wavelength_sampling, plan.cameras[0].spectral_gain.expect("light"))
+    (plan.cameras[0].settings.wavelength_sampling, plan.cameras[0].settings.spectral_gain.expect("light"))
 }
 
 #[test]
@@ -317,6 +317,6 @@ fn the_density_follows_the_light_where_that_pays() {
     assert!(sampling == WavelengthSampling::Response && gain.pays(), "{gain:?}");
     // Where no electrons are summed the key is idle, and the plan says so.
     let plan = job(Place::Even, "D65", &SENSORS[0], "accumulate = \"cube\"\nwavelength_density = \"response\"").plan();
-    assert!(plan.cameras[0].spectral_gain.is_none());
+    assert!(plan.cameras[0].settings.spectral_gain.is_none());
     assert!(plan.remarks.iter().any(|remark| remark.text.contains("no pixels sum electrons")), "{:?}", plan.remarks);
 }

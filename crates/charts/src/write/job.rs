@@ -2,7 +2,8 @@
 
 use super::Request;
 use crate::camera_station::CameraStation;
-use etendue_scene::record::render::Integrator;
+use etendue_core::Integrator;
+use etendue_scene::record::samples::SampleKeys;
 use etendue_scene::record::sensor::charge::NonUniformity;
 use etendue_scene::record::{Output, Pose, Render};
 use etendue_scene::written::{File, Table};
@@ -13,13 +14,13 @@ pub(super) fn job(request: &Request<'_>) -> String {
     let cameras: Vec<_> = request.stations.iter().map(|station| camera_entry(station, series)).collect();
     // Level "direct": flat sheets light nothing but the camera. Boxes behind holes do.
     let integrator = if request.drawing.cavities.is_empty() { Integrator::Direct } else { Integrator::Path };
-    let render = Render {
+    let samples = SampleKeys {
         spp: Some(u64::from(request.drawing.spp).into()),
         replicates: Some(1.into()),
-        integrator: Some(integrator.into()),
-        seed: Some(request.seed.into()),
-        ..Render::default()
+        ..SampleKeys::default()
     };
+    let render =
+        Render { samples, integrator: Some(integrator.into()), seed: Some(request.seed.into()), ..Render::default() };
     let job = Table::new().with("scene", "scene.toml").with("cameras", cameras).with("render", render.to_table());
     let name = request.chart.name();
     let about = format!("The chart \"{name}\": etendue render job.toml -o DIR. truth.json says what is where.");

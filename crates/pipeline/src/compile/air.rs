@@ -3,9 +3,9 @@
 use super::context::Context;
 use crate::plan::CameraPlan;
 use crate::sizes::block::Blocks;
+use etendue_core::Integrator;
 use etendue_core::{Ray, TimeInterval};
 use etendue_scene::Description;
-use etendue_tracer::integrator::Level;
 use etendue_tracer::media::{Media, Medium};
 use glam::Vec3;
 
@@ -42,7 +42,7 @@ pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Con
     if media.is_empty() {
         return;
     }
-    for camera in cameras.iter().filter(|camera| camera.settings.level == Level::Path) {
+    for camera in cameras.iter().filter(|camera| camera.settings.paths.integrator == Integrator::Path) {
         let about = || format!("camera \"{}\"", camera.name);
         if camera.settings.blocks != Blocks::SINGLE {
             context.remark_on(
@@ -51,13 +51,13 @@ pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Con
             );
         }
         let depth = depth_above(camera, media);
-        let wanted = BOUNCES[usize::from(!camera.settings.caustics)] * (1.0 + depth);
+        let wanted = BOUNCES[usize::from(!camera.settings.paths.caustics)] * (1.0 + depth);
         // In a medium without end no number is told: light of its lamps comes from near by.
-        if depth > 0.0 && depth.is_finite() && f64::from(camera.settings.max_bounces) < wanted {
+        if depth > 0.0 && depth.is_finite() && f64::from(camera.settings.paths.max_bounces) < wanted {
             context.remark_on(about(), format!(
                 "it stands in a medium of optical depth {depth:.1} below the sky; light that is scattered more than max_bounces = {} times is left out, \
                  and the medium looks too dark; some {:.0} find nearly all of it",
-                camera.settings.max_bounces, wanted.min(MAX_BOUNCES).ceil()
+                camera.settings.paths.max_bounces, wanted.min(MAX_BOUNCES).ceil()
             ));
         }
     }

@@ -1,5 +1,7 @@
 //! What the caller chooses beside the description.
 
+use etendue_core::Quality;
+
 /// What the caller chooses beside the description. Samples and seed are no choices but keys: [`Overrides`] set them, and the
 /// description's own checks see them.
 ///
@@ -24,45 +26,20 @@ pub enum Refinement {
     Timed,
 }
 
-/// Presets of the trade of time for accuracy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quality {
-    /// To frame and expose.
-    Draft,
-    /// To look at.
-    Standard,
-    /// To compare with.
-    Reference,
+/// Samples a pixel of a preset.
+pub(super) fn spp(quality: Quality) -> u32 {
+    match quality {
+        Quality::Draft => 16,
+        Quality::Standard => 64,
+        Quality::Reference => 1024,
+    }
 }
 
-impl Quality {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Draft => "draft",
-            Self::Standard => "standard",
-            Self::Reference => "reference",
-        }
-    }
-
-    /// Samples a pixel.
-    #[must_use]
-    pub fn spp(self) -> u32 {
-        match self {
-            Self::Draft => 16,
-            Self::Standard => 64,
-            Self::Reference => 1024,
-        }
-    }
-
-    /// Greatest number of scattering events.
-    #[must_use]
-    pub fn max_bounces(self) -> u32 {
-        match self {
-            Self::Draft => 4,
-            Self::Standard => 16,
-            Self::Reference => 64,
-        }
+/// Greatest number of scattering events of a preset.
+pub(super) fn max_bounces(quality: Quality) -> u32 {
+    match quality {
+        Quality::Draft => 4,
+        Quality::Standard => 16,
+        Quality::Reference => 64,
     }
 }

@@ -1,10 +1,10 @@
 //! Where things are over time: keys and trajectories to motions.
 
 use super::context::Context;
-use etendue_core::track::{Interpolation, Key, RollingError};
+use etendue_core::track::{Key, RollingError};
 use etendue_core::{ExactTime, Motion, Track};
 use etendue_scene::Place;
-use etendue_scene::record::motion::{self, Course, Rolls, Trajectory, TrajectoryAxes};
+use etendue_scene::record::motion::{Course, Rolls, Trajectory, TrajectoryAxes};
 use glam::DVec3;
 
 /// Through `keys`, stated at `place`.
@@ -14,10 +14,8 @@ pub(super) fn through(
     place: &Place,
     context: &mut Context<'_>,
 ) -> Option<Motion> {
-    let interpolation = match course.and_then(|course| course.interpolation.as_ref()).map(|i| i.value) {
-        Some(motion::Interpolation::Smooth) => Interpolation::Smooth,
-        Some(motion::Interpolation::Linear) | None => Interpolation::Linear,
-    };
+    let interpolation =
+        course.and_then(|course| course.interpolation.as_ref()).map(|key| key.value).unwrap_or_default();
     context.accept(place, Track::new(keys, interpolation)).map(Motion::from)
 }
 

@@ -13,10 +13,12 @@
 //! Samples that come in passes are the exception: a schedule or a time makes passes that no description says. There the
 //! passes and the replicates are hashed, and the keys that decide samples are not: the same passes have one hash however they came about.
 
-use super::choices::{Choices, Quality};
+use super::choices::Choices;
 use crate::plan::CameraPasses;
+use etendue_core::{Quality, Word as _};
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Render;
+use etendue_scene::record::samples::SampleKeys;
 use etendue_scene::written::Table;
 use etendue_scene::{CameraSetup, Description};
 use sha2::{Digest, Sha256};
@@ -41,7 +43,7 @@ pub(super) fn fingerprint(
     let table = Table::new()
         .with("version", env!("CARGO_PKG_VERSION"))
         .with("results_revision", RESULTS_REVISION)
-        .with("quality", quality.unwrap_or(Quality::Standard).name())
+        .with("quality", quality.unwrap_or(Quality::Standard).word())
         .with("scene", description.scene.to_table())
         .with("cameras", cameras);
     let table = match &description.sequence {
@@ -57,9 +59,7 @@ pub(super) fn fingerprint(
 fn camera(setup: &CameraSetup, in_passes: bool) -> Table {
     let mut render = Render { tile_px: None, accelerator: None, ..setup.render.clone() };
     if in_passes {
-        let (spp, replicates, noise_threshold, min_spp, max_spp) = (None, None, None, None, None);
-        let passes = Vec::new();
-        render = Render { spp, passes, replicates, noise_threshold, min_spp, max_spp, ..render };
+        render.samples = SampleKeys::default();
     }
     CameraSetup { render, ..setup.clone() }.to_table()
 }

@@ -49,7 +49,7 @@ mod wavelengths;
 mod weather;
 mod world;
 
-pub use choices::{Choices, Quality, Refinement};
+pub use choices::{Choices, Refinement};
 
 use crate::plan::remark::grouped;
 use crate::plan::{
@@ -170,7 +170,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
 
 /// How the samples of a camera come.
 fn camera_passes(setup: &CameraSetup, camera: &CameraPlan) -> CameraPasses {
-    let is_open = setup.render.replicates.as_ref().is_none_or(|given| !given.place.is_command_line());
+    let is_open = setup.render.samples.replicates.as_ref().is_none_or(|given| !given.place.is_command_line());
     CameraPasses { replicates: camera.settings.replicates, is_open, passes: camera.passes.clone() }
 }
 
@@ -210,22 +210,8 @@ fn camera_plan(
     let light = LightOwner { camera: name.clone(), index };
     let time = TimeDependence::None;
     let mount = mount(&setup.pose);
-    let spectral_gain = None;
-    let camera = CameraPlan {
-        name,
-        index,
-        light,
-        path,
-        mount,
-        timing,
-        time,
-        body,
-        settings,
-        spectral_gain,
-        passes,
-        depth_of_field,
-        products,
-    };
+    let camera =
+        CameraPlan { name, index, light, path, mount, timing, time, body, settings, passes, depth_of_field, products };
     camera::check_video(&setup.output, &camera, context);
     Some(camera)
 }

@@ -1,9 +1,10 @@
 //! Samples a pixel, and the replicates that tell their variance.
 
+use super::choices::{self, Choices, Refinement};
 use super::context::Context;
-use super::{Choices, Quality, Refinement};
 use crate::plan::{AdaptiveSampling, MAX_PASSES, Pass, Passes};
-use etendue_scene::record::render::MAX_SPP as MAX_KEY_SPP;
+use etendue_core::Quality;
+use etendue_scene::record::samples::MAX_SPP as MAX_KEY_SPP;
 use etendue_scene::record::{Output, Render};
 use etendue_scene::{Placed, stated};
 
@@ -31,14 +32,14 @@ pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<
     if choices.refinement == Refinement::Timed {
         return timed(render, context);
     }
-    if let Some(threshold) = render.threshold_in_force() {
+    if let Some(threshold) = render.samples.threshold_in_force() {
         if choices.refinement == Refinement::Progressive {
             let problem = "\"noise_threshold\" decides the samples pixel by pixel, and `progressive` refines all pixels pass by pass";
             context.fault(&threshold.place, problem, "give `spp`, or render without `progressive`");
         }
         return adaptive(threshold, render, context);
     }
-    if let Some(numbers) = render.passes_in_force() {
+    if let Some(numbers) = render.samples.passes_in_force() {
         return in_passes(numbers, render, context);
     }
     let (spp, replicates) = even(render, choices, context);
@@ -48,13 +49,13 @@ pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<
 
 /// By a time: one pass, the least, until it is known.
 fn timed(render: &Render, context: &mut Context<'_>) -> Samples {
-    let noise = render.noise_threshold.as_ref().map(|limit| ("noise_threshold", &limit.place));
-    let passes = render.passes.first().map(|pass| ("passes", &pass.place));
-    let spp = render.spp.as_ref().map(|spp| ("spp", &spp.place));
+    let noise = render.samples.noise_threshold.as_ref().map(|limit| ("noise_threshold", &limit.place));
+    let passes = render.samples.passes.first().map(|pass| ("passes", &pass.place));
+    let spp = render.samples.spp.as_ref().map(|spp| ("spp", &spp.place));
     for (key, place) in [noise, passes, spp].into_iter().flatten() {
         context.notice(format!("`time_s` supersedes {}", stated(key, place)));
     }
-    let replicates = render.replicates.as_ref().map_or(REPLICATES, |given| given.value) as u32;
+    let replicates = render.samples.replicates.as_ref().map_or(REPLICATES, |given| given.value) as u32;
     Samples { spp: replicates, replicates, adaptive: None, passes: Some(Passes::new(vec![Pass::whole(replicates)])) }
 }
 
@@ -62,7 +63,7 @@ fn timed(render: &Render, context: &mut Context<'_>) -> Samples {
 fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>) -> Samples {
     let divides = |r: &u64| numbers.iter().all(|n| n.value.fract() != 0.0 || (n.value as u64).is_multiple_of(*r));
     let most = || [REPLICATES, 2, 1].into_iter().find(divides).unwrap_or(1);
-    let replicates = render.replicates.as_ref().map_or_else(most, |given| given.value) as u32;
+    let replicates = render.samples.replicates.as_ref().map_or_else(most, |given| given.value) as u32;
     let mut list = Vec::new();
     for number in numbers {
         match Pass::of_number(number.value, replicates) {
@@ -98,7 +99,7 @@ const LEAST_DECIDING: u64 = 5;
 /// By noise.
 fn adaptive(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>) -> Samples {
     let replicates = deciding(threshold, render, context);
-    let keys = [("min_spp", &render.min_spp), ("max_spp", &render.max_spp)];
+    let keys = [("min_spp", &render.samples.min_spp), ("max_spp", &render.samples.max_spp)];
     for (key, given) in keys.into_iter().filter_map(|(key, given)| Some((key, given.as_ref()?))) {
         if given.value % replicates != 0 {
             let problem = format!("{} samples cannot be shared evenly among {replicates} replicates", given.value);
@@ -106,9 +107,9 @@ fn adaptive(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
         }
     }
     let said = |key: &Option<Placed<u64>>, default: u64| key.as_ref().map_or(default, |spp| spp.value);
-    let min = said(&render.min_spp, MIN_SPP.next_multiple_of(replicates));
-    let max = said(&render.max_spp, MAX_SPP.max(min).next_multiple_of(replicates));
-    if let Some(given) = render.max_spp.as_ref().or(render.min_spp.as_ref()).filter(|_| max < min) {
+    let min = said(&render.samples.min_spp, MIN_SPP.next_multiple_of(replicates));
+    let max = said(&render.samples.max_spp, MAX_SPP.max(min).next_multiple_of(replicates));
+    if let Some(given) = render.samples.max_spp.as_ref().or(render.samples.min_spp.as_ref()).filter(|_| max < min) {
         let problem = format!("at most {max} samples are fewer than the {min} that every pixel gets");
         context.fault(&given.place, problem, "give a larger \"max_spp\" or a smaller \"min_spp\"");
     }
@@ -118,7 +119,7 @@ fn adaptive(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
 
 /// Replicates that decide of each other.
 fn deciding(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>) -> u64 {
-    let Some(given) = &render.replicates else { return DECIDING_REPLICATES };
+    let Some(given) = &render.samples.replicates else { return DECIDING_REPLICATES };
     if given.value >= LEAST_DECIDING {
         return given.value;
     }
@@ -130,20 +131,20 @@ fn deciding(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
 
 /// Samples a pixel and replicates; the replicates divide the samples.
 fn even(render: &Render, choices: &Choices, context: &mut Context<'_>) -> (u32, u32) {
-    let by_quality = || choices.quality.unwrap_or(Quality::Standard).spp();
-    let spp = render.spp.as_ref().map_or_else(by_quality, |s| s.value as u32);
-    let given = render.replicates.as_ref();
+    let by_quality = || choices::spp(choices.quality.unwrap_or(Quality::Standard));
+    let spp = render.samples.spp.as_ref().map_or_else(by_quality, |s| s.value as u32);
+    let given = render.samples.replicates.as_ref();
     if let Some(replicates) = given.filter(|r| u64::from(spp) % r.value == 0) {
         return (spp, replicates.value as u32);
     }
     if let Some(replicates) = given {
         let problem = format!("{spp} samples cannot be shared evenly among {} replicates", replicates.value);
         let remedy = "give samples that are a multiple of the replicates";
-        let by_quality = render.spp.is_none() && choices.quality.is_some();
+        let by_quality = render.samples.spp.is_none() && choices.quality.is_some();
         if by_quality && !replicates.place.is_command_line() {
             context.notice(format!("`quality` supersedes {}", stated("replicates", &replicates.place)));
         } else {
-            let cause = render.spp.as_ref().map(|spp| &spp.place);
+            let cause = render.samples.spp.as_ref().map(|spp| &spp.place);
             context.idle("replicates", &replicates.place, cause, problem, remedy);
         }
     }
@@ -159,7 +160,7 @@ pub(super) fn has_variance(output: &Output, replicates: u32, render: &Render, co
     let Some(variance) = output.variance.as_ref().filter(|variance| variance.value && replicates < 2) else {
         return true;
     };
-    let by_flag = render.spp.as_ref().map(|spp| &spp.place).filter(|place| place.is_command_line());
+    let by_flag = render.samples.spp.as_ref().map(|spp| &spp.place).filter(|place| place.is_command_line());
     if let Some(by) = by_flag.filter(|_| !variance.place.is_command_line()) {
         context.notice(format!(
             "{by} supersedes {}: one replicate knows no variance",
@@ -167,7 +168,7 @@ pub(super) fn has_variance(output: &Output, replicates: u32, render: &Render, co
         ));
         return false;
     }
-    let place = render.replicates.as_ref().map_or(&render.place, |r| &r.place);
+    let place = render.samples.replicates.as_ref().map_or(&render.place, |r| &r.place);
     let remedy = "give \"replicates\" = 2 or more (16 for a golden image) and samples that are a multiple";
     context.fault(place, "one replicate knows no variance, and variance is asked for", remedy);
     true

@@ -1,22 +1,22 @@
 //! `[render]` and `[output]`: what is delivered, and how the light is found.
 
 use super::camera::remark_margin;
+use super::choices::{Choices, max_bounces};
 use super::context::Context;
 use super::samples::{Samples, has_variance, samples};
-use super::{Choices, Quality};
 use crate::plan::raw_colour::RawColour;
 use crate::plan::rectified::RectifiedCamera;
-use crate::plan::{CameraBody, Passes, Products, RawFormat, Route, Settings, WavelengthSampling};
+use crate::plan::{CameraBody, Passes, Products, Route, Settings, WavelengthSampling, usual_raw_format};
 use crate::sizes::block::Blocks;
 use crate::sizes::film::Layout;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
-use etendue_core::{Bands, WavelengthRange};
+use etendue_core::{Bands, Integrator, LightSampling, Quality, RawFormat, WavelengthRange};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters, PupilProjection};
-use etendue_scene::record::output::{self, DepthScale};
+use etendue_scene::record::output::DepthScale;
 use etendue_scene::record::render::{self, Accumulate, DepthMethod};
 use etendue_scene::record::{Output, Render};
 use etendue_scene::{Place, Placed};
-use etendue_tracer::integrator::{Level, LightSampling};
+use etendue_tracer::integrator::PathSettings;
 
 /// Wavelengths of radiance itself, nm.
 const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
@@ -127,18 +127,14 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
 
 /// The raw's file format; what cannot hold it is refused.
 fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> RawFormat {
-    let usual = RawFormat::usual(body.sensor.as_ref());
+    let usual = usual_raw_format(body.sensor.as_ref());
     let Some(key) = &output.raw_format else { return usual };
     if body.sensor.is_none() || output.raw.as_ref().is_some_and(|raw| !raw.value) {
         let cause = output.raw.as_ref().map(|raw| &raw.place);
         let problem = "\"raw_format\" has no effect without raw";
         context.idle("raw_format", &key.place, cause, problem, "ask for \"raw\", or remove it");
     }
-    let format = match key.value {
-        output::RawFormat::Png => RawFormat::Png,
-        output::RawFormat::Tiff => RawFormat::Tiff,
-        output::RawFormat::Dng => RawFormat::Dng,
-    };
+    let format = key.value;
     if format == RawFormat::Png && usual != RawFormat::Png {
         context.fault(
             &key.place,
@@ -193,26 +189,18 @@ pub(super) fn settings(
     remark_losses(products, &route, folded, body, context);
     remark_margin(body, context);
     remark_bands(render, cube, context);
-    let level = level(render);
+    let paths = paths(render, choices);
     let is_watched = adaptive.is_some() && route == Route::Lens;
-    let blocks = blocks(level, render, body, folded || is_watched);
+    let blocks = blocks(paths.integrator, render, body, folded || is_watched);
     let settings = Settings {
         spp,
         replicates,
-        level,
-        max_bounces: max_bounces(level, render, choices),
-        // Of paths only.
-        caustics: level != Level::Path || render.caustics.as_ref().is_none_or(|c| c.value),
-        regularize: level == Level::Path && render.regularize.as_ref().is_some_and(|r| r.value),
-        guiding: guiding(level, render, choices, context),
-        branches: if level == Level::Path { render.branches_in_force() as u32 } else { 1 },
-        light_sampling: match render.light_sampling.as_ref().map(|sampling| sampling.value) {
-            Some(render::LightSampling::Irradiance) => LightSampling::Irradiance,
-            Some(render::LightSampling::Gloss) | None => LightSampling::Gloss,
-        },
+        paths,
+        guiding: guiding(&paths, render, context),
         wavelengths: wavelengths(render, body, &route, context)?,
         // Decided where all light is known.
         wavelength_sampling: WavelengthSampling::Uniform,
+        spectral_gain: None,
         route,
         range,
         bands,
@@ -242,40 +230,47 @@ fn wavelengths(render: &Render, body: &CameraBody, route: &Route, context: &mut 
     Some(1)
 }
 
-fn level(render: &Render) -> Level {
-    match render.integrator.as_ref().map(|l| l.value) {
-        Some(render::Integrator::Flat) => Level::Flat,
-        Some(render::Integrator::Direct) => Level::Direct,
-        Some(render::Integrator::Path) | None => Level::Path,
+/// Which light paths are simulated. What only paths need is at its default where none are traced.
+fn paths(render: &Render, choices: &Choices) -> PathSettings {
+    let keys = &render.paths;
+    let stated = |key: &Option<Placed<bool>>, default: bool| key.as_ref().map_or(default, |flag| flag.value);
+    let settings = PathSettings {
+        integrator: render.integrator.as_ref().map_or(Integrator::Path, |key| key.value),
+        light_sampling: render.light_sampling.as_ref().map_or(LightSampling::Gloss, |key| key.value),
+        max_bounces: 1,
+        ..PathSettings::default()
+    };
+    if settings.integrator != Integrator::Path {
+        return settings;
+    }
+    let by_quality = max_bounces(choices.quality.unwrap_or(Quality::Standard));
+    PathSettings {
+        max_bounces: keys.max_bounces.as_ref().map_or(by_quality, |key| key.value as u32),
+        caustics: stated(&keys.caustics, true),
+        regularize: stated(&keys.regularize, false),
+        branches: keys.branches_in_force() as u32,
+        ..settings
     }
 }
 
-fn guiding(level: Level, render: &Render, choices: &Choices, context: &mut Context<'_>) -> bool {
-    let asked = level == Level::Path && render.guiding.as_ref().is_some_and(|g| g.value);
-    let is_of_use = max_bounces(level, render, choices) > 1;
+fn guiding(paths: &PathSettings, render: &Render, context: &mut Context<'_>) -> bool {
+    let asked = paths.integrator == Integrator::Path && render.paths.guiding.as_ref().is_some_and(|g| g.value);
+    let is_of_use = paths.max_bounces > 1;
     if asked && !is_of_use {
         context.remark("\"guiding\" is passed over: with \"max_bounces\" = 1 no light is indirect");
     }
     asked && is_of_use
 }
 
-fn max_bounces(level: Level, render: &Render, choices: &Choices) -> u32 {
-    let by_quality = || choices.quality.unwrap_or(Quality::Standard).max_bounces();
-    match level {
-        Level::Flat | Level::Direct => 1,
-        Level::Path => render.max_bounces.as_ref().map_or_else(by_quality, |b| b.value as u32),
-    }
-}
-
 /// Pixels that share tails. They carry the same wavelengths: where these are drawn `by_colour`, they have one colour.
-fn blocks(level: Level, render: &Render, body: &CameraBody, by_colour: bool) -> Blocks {
-    if level != Level::Path {
+fn blocks(integrator: Integrator, render: &Render, body: &CameraBody, by_colour: bool) -> Blocks {
+    if integrator != Integrator::Path {
         return Blocks::SINGLE;
     }
     let filter = body.sensor.as_ref().filter(|_| by_colour).map(|sensor| &sensor.parameters().cfa);
     let (columns, rows) =
         filter.map_or((1, 1), |cfa| (cfa.width() as u32, (cfa.channels().len() / cfa.width()) as u32));
-    Blocks::new(render.path_reuse_in_force() as u32, columns, rows)
+    Blocks::new(render.paths.path_reuse_in_force() as u32, columns, rows)
 }
 
 /// The most that a film may take, bytes.

@@ -53,7 +53,7 @@ pub(super) fn choose(
             }
             render::WavelengthDensity::Auto => WavelengthSampling::Response,
         };
-        camera.spectral_gain = gain;
+        camera.settings.spectral_gain = gain;
     }
 }
 

@@ -7,13 +7,13 @@ use super::object_motion::placements;
 use super::opening::OpenLamp;
 use super::{opening, shape, vertex_animation};
 use crate::plan::Identity;
+use etendue_core::Accelerator;
 use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface};
-use etendue_scene::record::render::Accelerator;
 use etendue_scene::record::shape::Shape as ShapeRecord;
 use etendue_scene::record::{self, Body, Object, Scene};
 use etendue_scene::{CameraSetup, Description};
 use etendue_tracer::MaterialId;
-use etendue_tracer::accel::{TreeQuality, World, WorldBuilder};
+use etendue_tracer::accel::{World, WorldBuilder};
 use etendue_tracer::geometry::{DroppedTriangles, Instance, Mesh, MeshError, MeshId, Shape};
 use etendue_tracer::lights::Lamp;
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
@@ -52,14 +52,9 @@ pub(super) fn world(
 }
 
 /// All cameras see one world: the best of what they ask for.
-fn tree_quality(cameras: &[CameraSetup]) -> TreeQuality {
-    let asked = cameras.iter().map(|camera| camera.render.accelerator.as_ref().map(|accelerator| accelerator.value));
-    let quality = asked.map(|accelerator| match accelerator {
-        Some(Accelerator::Fast) => TreeQuality::Fast,
-        Some(Accelerator::Default) | None => TreeQuality::Default,
-        Some(Accelerator::Best) => TreeQuality::Best,
-    });
-    quality.max().unwrap_or_default()
+fn tree_quality(cameras: &[CameraSetup]) -> Accelerator {
+    let asked = |camera: &CameraSetup| camera.render.accelerator.as_ref().map_or(Accelerator::Default, |key| key.value);
+    cameras.iter().map(asked).max().unwrap_or_default()
 }
 
 struct Assembly {

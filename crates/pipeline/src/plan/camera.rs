@@ -5,7 +5,6 @@ use super::passes::{PassAt, Passes};
 use super::products::Products;
 use super::settings::{Route, Settings};
 use super::timing::{TimeDependence, Timing};
-use super::wavelength_sampling::SpectralGain;
 use crate::sizes::film::Layout;
 use crate::sizes::spectrum_spread::SpectrumSpread;
 use crate::sizes::tolerance::Tolerance;
@@ -34,9 +33,6 @@ pub struct CameraPlan {
     pub body: CameraBody,
     /// How its light is found.
     pub settings: Settings,
-    /// What the spectra of the light's sources in the density of wavelengths are foretold to save; `None` where no electrons are summed or
-    /// no source gives any.
-    pub spectral_gain: Option<SpectralGain>,
     /// The passes that its samples come in; `None`: all in one.
     pub passes: Option<Passes>,
     /// How things out of focus are blurred at the pupil; none through the lens, whose rays do it.
@@ -74,6 +70,12 @@ impl CameraPlan {
         let between_s = keys_s.windows(2).map(|pair| pair[0] + 0.5 * (pair[1] - pair[0]));
         let first_s = self.timing.row(0, 0, 0).middle_s();
         [first_s].into_iter().chain(between_s).chain(keys_s.iter().copied()).collect()
+    }
+
+    /// Whether each ray through the lens, or its weight, depends on its wavelength, so that a path carries one.
+    #[must_use]
+    pub fn disperses(&self) -> bool {
+        self.settings.route == Route::Lens && self.body.disperses()
     }
 
     /// Whether no camera before it in the job has the same light.

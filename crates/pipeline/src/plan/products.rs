@@ -1,34 +1,22 @@
 //! The files that a camera delivers: images and their formats, ground truth between frames, between cameras and of objects.
 
+use etendue_core::RawFormat;
 use etendue_isp::{Mosaic, Processing};
 use etendue_sensor::Sensor;
 
-/// File format of digital numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RawFormat {
-    /// 16-bit PNG.
-    Png,
-    /// TIFF of 16 or 32 bits.
-    Tiff,
-    /// Digital Negative.
-    Dng,
+/// The file format that a sensor's numbers have unless another is asked for.
+#[must_use]
+pub fn usual_raw_format(sensor: Option<&Sensor>) -> RawFormat {
+    if sensor.is_some_and(|sensor| sensor.delivered_bits() > 16) { RawFormat::Tiff } else { RawFormat::Png }
 }
 
-impl RawFormat {
-    /// The one that a sensor's numbers have unless another is asked for.
-    #[must_use]
-    pub fn usual(sensor: Option<&Sensor>) -> Self {
-        if sensor.is_some_and(|s| s.delivered_bits() > 16) { Self::Tiff } else { Self::Png }
-    }
-
-    /// The extension of its files.
-    #[must_use]
-    pub fn extension(self) -> &'static str {
-        match self {
-            Self::Png => "png",
-            Self::Tiff => "tif",
-            Self::Dng => "dng",
-        }
+/// The extension of files of digital numbers.
+#[must_use]
+pub fn raw_extension(format: RawFormat) -> &'static str {
+    match format {
+        RawFormat::Png => "png",
+        RawFormat::Tiff => "tif",
+        RawFormat::Dng => "dng",
     }
 }
 

@@ -25,7 +25,7 @@ impl WavelengthSampling {
 
 /// What the source's spectrum in the density is foretold to do: mean squares of a sample's electrons by the response alone over those with
 /// the source's spectrum. Where the samples of a pixel differ much by where their paths go, the variances of its mean have this ratio.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct SpectralGain {
     /// Geometric mean over the pixels of the colour filter's tile, the groups of sources by their shares of the draws, and four surfaces (grey, red,
     /// green, blue).

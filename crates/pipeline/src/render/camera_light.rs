@@ -285,15 +285,9 @@ pub(super) fn path_settings(camera: &CameraPlan, pass: PassAt) -> PathSettings {
     // Where noise decides, runs of samples are as long as all pixels have.
     let samples = adaptive.map_or(spp, |limit| limit.min_spp) / replicates;
     PathSettings {
-        level: camera.settings.level,
-        max_bounces: camera.settings.max_bounces,
         samples,
         cone_spread_rad: pitch_tan(camera) as f32 * sample_width(covering / replicates),
-        caustics: camera.settings.caustics,
-        regularize: camera.settings.regularize,
-        branches: camera.settings.branches,
-        light_sampling: camera.settings.light_sampling,
-        ..PathSettings::default()
+        ..camera.settings.paths
     }
 }
 

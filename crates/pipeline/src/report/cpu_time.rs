@@ -10,10 +10,10 @@ use crate::plan::film::needs_irradiance;
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
 use crate::render::{identity_coverage, weather_layers};
 use etendue_core::Bands;
+use etendue_core::Integrator;
 use etendue_optics::effects::{Effect, OperationCounts};
 use etendue_optics::ghosts;
 use etendue_optics::{DepthOfField, Lens};
-use etendue_tracer::integrator::Level;
 use etendue_tracer::lights::Sun;
 use glam::DVec2;
 
@@ -64,17 +64,17 @@ const WRITTEN_S: f64 = 4.0 / 34.5e6;
 
 /// Processor time of a path by the integrator and bounces of a camera, s.
 pub(crate) fn path_cpu_s(camera: &CameraPlan) -> f64 {
-    match (camera.settings.level, camera.settings.max_bounces) {
-        (Level::Flat, _) => FLAT_PATH_CPU_S,
-        (Level::Direct, _) | (Level::Path, 1) => DIRECT_PATH_CPU_S,
-        (Level::Path, 2) => TWO_BOUNCES_CPU_S,
-        (Level::Path, _) => PATH_CPU_S,
+    match (camera.settings.paths.integrator, camera.settings.paths.max_bounces) {
+        (Integrator::Flat, _) => FLAT_PATH_CPU_S,
+        (Integrator::Direct, _) | (Integrator::Path, 1) => DIRECT_PATH_CPU_S,
+        (Integrator::Path, 2) => TWO_BOUNCES_CPU_S,
+        (Integrator::Path, _) => PATH_CPU_S,
     }
 }
 
 /// What all branches of a path beside its first take, as a share of the path.
 pub(crate) fn branches_share(camera: &CameraPlan) -> f64 {
-    f64::from(camera.settings.branches - 1) * BRANCH
+    f64::from(camera.settings.paths.branches - 1) * BRANCH
 }
 
 /// A part of the work on a finished film.

@@ -6,11 +6,13 @@ use crate::job_request::JobRequest;
 use crate::memory::MemoryFiles;
 use crate::named_file::write_file;
 use crate::render_options::RenderOptions;
+use etendue_core::Integrator;
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
 use etendue_io::{Existing, Sandbox};
 use etendue_scene::CameraSetup;
-use etendue_scene::record::render::Integrator;
+use etendue_scene::record::paths::PathKeys;
+use etendue_scene::record::samples::SampleKeys;
 use etendue_scene::record::{Camera, Output, Render};
 use etendue_scene::written::File;
 use etendue_scene::{Description, Overrides};
@@ -121,22 +123,8 @@ fn of_constant_exposure(mut camera: Camera) -> Camera {
 
 /// Flat sheets light nothing but the camera.
 fn directly_lit(render: Render, spp: u32) -> Render {
-    Render {
-        spp: Some(u64::from(spp).into()),
-        replicates: Some(1.into()),
-        integrator: Some(Integrator::Direct.into()),
-        passes: Vec::new(),
-        noise_threshold: None,
-        min_spp: None,
-        max_spp: None,
-        max_bounces: None,
-        caustics: None,
-        regularize: None,
-        guiding: None,
-        branches: None,
-        path_reuse_px: None,
-        ..render
-    }
+    let samples = SampleKeys { spp: Some(u64::from(spp).into()), replicates: Some(1.into()), ..SampleKeys::default() };
+    Render { samples, integrator: Some(Integrator::Direct.into()), paths: PathKeys::default(), ..render }
 }
 
 fn write(path: &Path, file: &File) -> Result<(), Error> {

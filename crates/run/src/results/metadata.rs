@@ -245,22 +245,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
         "optics": optics(&camera.body),
         "effects": effects(&camera.body),
         "sensor": sensor(&camera.body),
-        "sampling": {
-            "spp": spp(settings),
-            "replicates": settings.replicates,
-            "correlated_block_px": settings.blocks.len_px(),
-            "max_bounces": settings.max_bounces,
-            "regularize": settings.regularize,
-            "guiding": settings.guiding,
-            "branches": settings.branches,
-            "light_sampling": settings.light_sampling.word(),
-            "wavelengths_per_path": settings.wavelengths,
-            "wavelength_density": settings.wavelength_sampling.word(),
-            "range_nm": [settings.range.low_nm, settings.range.high_nm],
-            "band_width_nm": settings.bands.map(etendue_core::Bands::width_nm),
-            "route": if settings.route == Route::Lens { "lens" } else { "pupil" },
-            "depth_of_field": (settings.route != Route::Lens).then(|| depth_of_field(&camera.depth_of_field)),
-        },
+        "sampling": sampling(camera),
         "frame_period_s": camera.timing.period_s,
         "files": files,
         "ground_truth": {
@@ -279,8 +264,29 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
         },
     });
     add_time(&mut facts, &camera.timing, "time", camera.timing.frame_start(first));
-    if let Some(passes) = passes(camera) {
-        facts["sampling"]["passes"] = json!(passes);
-    }
     facts
+}
+
+/// Settings that a side-car does not repeat: those of biased approximations, of a plan's estimates, and of what stands elsewhere in it.
+const NOT_IN_SIDECARS: [&str; 8] =
+    ["integrator", "caustics", "min_spp", "noise_threshold", "bands", "sums_electrons", "spectral_gain", "seed"];
+
+/// The settings of a camera's light, with the names that side-cars have for some of them.
+fn sampling(camera: &CameraPlan) -> Value {
+    let settings = &camera.settings;
+    let Ok(Value::Object(mut sampling)) = serde_json::to_value(settings) else { return Value::Null };
+    for key in NOT_IN_SIDECARS {
+        sampling.remove(key);
+    }
+    for (name, of_sidecar) in [("pixels_sharing_paths", "correlated_block_px"), ("wavelength_range_nm", "range_nm")] {
+        let value = sampling.remove(name).unwrap_or_default();
+        sampling.insert(of_sidecar.to_owned(), value);
+    }
+    sampling.insert("spp".to_owned(), spp(settings));
+    let blur = (settings.route != Route::Lens).then(|| depth_of_field(&camera.depth_of_field));
+    sampling.insert("depth_of_field".to_owned(), json!(blur));
+    if let Some(passes) = passes(camera) {
+        sampling.insert("passes".to_owned(), json!(passes));
+    }
+    sampling.into()
 }

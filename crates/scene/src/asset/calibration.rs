@@ -2,9 +2,9 @@
 
 use etendue_projection::Calibration;
 
-use crate::reader::choice;
+use crate::reader::words;
 
-choice! {
+words! {
     /// Whose calibration file it is.
     pub enum CalibrationFormat {
         /// OpenCV's FileStorage as YAML or JSON: perspective, unless the file says that it is a fisheye or holds ξ.

@@ -21,9 +21,10 @@ pub use usage::Unused;
 use crate::fault::Faults;
 use crate::overrides::Overrides;
 use crate::preset;
-use crate::reader::{Rule as _, record};
+use crate::reader::{Record as _, Rule as _, record};
 use crate::record::job::CameraSource;
-use crate::record::render::{check_levels, check_merged};
+use crate::record::paths::check_path_keys;
+use crate::record::render::check_merged;
 use crate::record::variations::Variations;
 use crate::record::weather::Weather;
 use crate::record::{Camera, CameraEntry, DataSheet, Job, Laboratory, Output, Pose, Render, Scene, Sequence};
@@ -96,7 +97,7 @@ impl Description {
         // A camera with faults of its own is not among them, and it may be the one that traces paths.
         let stated = document.as_table().and_then(|job| job.get("cameras")).map_or(0, |list| list.as_list().len());
         if cameras.len() == stated {
-            check_levels(cameras.iter().map(|c| &c.render), faults);
+            check_path_keys(cameras.iter().map(|c| &c.render), faults);
         }
         Some(Self {
             file: file.to_owned(),
@@ -139,8 +140,8 @@ impl CameraSetup {
             place,
         } = entry;
         let trigger = Trigger { offset_s: trigger_offset_s, jitter_s: trigger_jitter_s };
-        let own_render = own_render.unwrap_or_else(|| Render::silent(place.clone()));
-        let own_output = own_output.unwrap_or_else(|| Output::silent(place));
+        let own_render = own_render.unwrap_or_else(|| Render { place: place.clone(), ..Render::default() });
+        let own_output = own_output.unwrap_or_else(|| Output { place, ..Output::default() });
         let render = render.map_or(own_render.clone(), |base| own_render.over(base));
         let output = output.map_or(own_output.clone(), |base| own_output.over(base));
         Self { name, camera, pose, trigger, render, output }

@@ -6,6 +6,7 @@
 /// - `optional`: `Option<Type>`;
 /// - `many`: `Vec<Type>`, empty where the key is not given (the rule reads the list);
 /// - `inside` (no rule): the keys of another record in the same table;
+/// - `inline` (no rule): the same, of a record none of whose keys must be given;
 /// - `group` (no rule): the same, `None` where none of its keys is given.
 ///
 /// `check(path)` names a function that looks at the whole record, called where its keys are right one by one.
@@ -48,6 +49,11 @@ macro_rules! record {
                 table.stand(&self.place);
                 $( $crate::reader::macros::field!(write $kind $key, self, table $(, $rule)?); )*
             }
+
+            fn over(&self, base: &Self) -> Self {
+                let _ = base;
+                Self { place: self.place.clone(), $( $key: $crate::reader::macros::field!(over $kind $key, self, base) ),* }
+            }
         }
 
         $crate::reader::macros::constructor!($name [] [] $( $kind $key : $ty; )*);
@@ -61,6 +67,7 @@ macro_rules! field {
     (type optional $ty:ty) => { Option<$ty> };
     (type many $ty:ty) => { Vec<$ty> };
     (type inside $ty:ty) => { $ty };
+    (type inline $ty:ty) => { $ty };
     (type group $ty:ty) => { Option<$ty> };
 
     (read required $key:ident, $ty:ty, $reader:ident, $faults:ident, $rule:expr) => {
@@ -73,6 +80,9 @@ macro_rules! field {
         $reader.optional(stringify!($key), &$rule, $faults).map(Option::unwrap_or_default)
     };
     (read inside $key:ident, $ty:ty, $reader:ident, $faults:ident) => {
+        <$ty as $crate::reader::Record>::read_keys($reader, $faults)
+    };
+    (read inline $key:ident, $ty:ty, $reader:ident, $faults:ident) => {
         <$ty as $crate::reader::Record>::read_keys($reader, $faults)
     };
     (read group $key:ident, $ty:ty, $reader:ident, $faults:ident) => {
@@ -99,9 +109,26 @@ macro_rules! field {
     (write inside $key:ident, $record:ident, $table:ident) => {
         $crate::reader::Record::write_keys(&$record.$key, $table);
     };
+    (write inline $key:ident, $record:ident, $table:ident) => {
+        $crate::reader::Record::write_keys(&$record.$key, $table);
+    };
     (write group $key:ident, $record:ident, $table:ident) => {
         if let Some(group) = &$record.$key {
             $crate::reader::Record::write_keys(group, $table);
+        }
+    };
+
+    (over required $key:ident, $record:ident, $base:ident) => { $record.$key.clone() };
+    (over optional $key:ident, $record:ident, $base:ident) => { $record.$key.as_ref().or($base.$key.as_ref()).cloned() };
+    (over many $key:ident, $record:ident, $base:ident) => {
+        if $record.$key.is_empty() { $base.$key.clone() } else { $record.$key.clone() }
+    };
+    (over inside $key:ident, $record:ident, $base:ident) => { $crate::reader::Record::over(&$record.$key, &$base.$key) };
+    (over inline $key:ident, $record:ident, $base:ident) => { $crate::reader::Record::over(&$record.$key, &$base.$key) };
+    (over group $key:ident, $record:ident, $base:ident) => {
+        match (&$record.$key, &$base.$key) {
+            (Some(own), Some(base)) => Some($crate::reader::Record::over(own, base)),
+            (own, base) => own.as_ref().or(base.as_ref()).cloned(),
         }
     };
 
@@ -115,6 +142,10 @@ macro_rules! field {
         $crate::reader::macros::with_key::<Vec<$ty>, _>($forms, stringify!($key), false, $about, &$rule)
     };
     (forms inside $key:ident, $ty:ty, $forms:ident, $about:ident) => {{
+        let _ = $about;
+        $crate::reader::Form::product(&$forms, &<$ty as $crate::reader::Record>::forms())
+    }};
+    (forms inline $key:ident, $ty:ty, $forms:ident, $about:ident) => {{
         let _ = $about;
         $crate::reader::Form::product(&$forms, &<$ty as $crate::reader::Record>::forms())
     }};
@@ -290,23 +321,7 @@ macro_rules! keyed {
     };
 }
 
-/// An enum of words.
-macro_rules! choice {
-    (
-        $(#[doc = $about:literal])*
-        pub enum $name:ident { $( $(#[doc = $doc:literal])* $word:literal => $variant:ident, )* }
-    ) => {
-        $(#[doc = $about])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-        pub enum $name { $( $(#[doc = $doc])* $variant, )* }
-
-        impl $crate::reader::Choice for $name {
-            const WORDS: &'static [(&'static str, Self)] = &[$( ($word, Self::$variant) ),*];
-        }
-    };
-}
-
-pub(crate) use {as_table, choice, constructor, field, keyed, record, variant, variants};
+pub(crate) use {as_table, constructor, field, keyed, record, variant, variants};
 
 use super::rule::Rule;
 use super::table::{Form, Key, Reader};

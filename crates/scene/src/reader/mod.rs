@@ -12,8 +12,9 @@ mod table;
 mod word;
 
 pub(crate) use any_value::{any_value, unread_item};
-pub(crate) use macros::{choice, keyed, record, variant, variants};
+pub(crate) use etendue_core::words;
+pub(crate) use macros::{keyed, record, variant, variants};
 pub(crate) use number::{Number, among, number, percentile, time, vector, whole};
 pub(crate) use rule::{Kind, Rule, RuleExt, either, exactly, keyed_by_name, list, record};
 pub(crate) use table::{Form, Key, Reader, Record};
-pub(crate) use word::{Choice, Known, choice, file_name, flag, known, name_of, path, text, word};
+pub(crate) use word::{Known, choice, file_name, flag, known, name_of, path, text, word};

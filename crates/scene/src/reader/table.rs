@@ -11,13 +11,18 @@ use crate::suggest::nearest;
 use crate::written::Table as Written;
 
 /// A struct or an enum of structs whose fields are keys of a table.
-pub(crate) trait Record: Sized {
+pub(crate) trait Record: Clone {
     /// Takes the record's keys; `None` after noting at least one fault.
     fn read_keys(reader: &mut Reader<'_>, faults: &mut Faults) -> Option<Self>;
     /// The shapes the table can have: one for a plain record, one a variant for an enum.
     fn forms() -> Vec<Form>;
     /// Adds the record's keys to the table that it is, or is a part of.
     fn write_keys(&self, table: &mut Written);
+
+    /// The record, with the keys of `base` where it has none. A table whose keys depend on each other stays whole.
+    fn over(&self, _base: &Self) -> Self {
+        self.clone()
+    }
 
     /// The record as a table.
     fn written(&self) -> Written {
@@ -52,6 +57,9 @@ impl<T: Record> Record for Box<T> {
     }
     fn write_keys(&self, table: &mut Written) {
         T::write_keys(self, table);
+    }
+    fn over(&self, base: &Self) -> Self {
+        Self::new(T::over(self, base))
     }
 }
 

@@ -3,6 +3,7 @@
 use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 
+use etendue_core::Word;
 use serde_json::{Value as Json, json};
 
 use super::rule::{Kind, Rule};
@@ -199,17 +200,6 @@ impl Rule for FilePath {
     }
 }
 
-/// A word that has a meaning: an enum written with `choice!`.
-pub(crate) trait Choice: Copy + PartialEq + 'static {
-    /// The words and their meanings.
-    const WORDS: &'static [(&'static str, Self)];
-
-    /// The words.
-    fn words() -> Vec<&'static str> {
-        Self::WORDS.iter().map(|(w, _)| *w).collect()
-    }
-}
-
 /// One of the names that a library of data knows; `what` says of what: "an illuminant".
 pub(crate) fn known(what: &'static str, names: &[&'static str]) -> Known {
     Known { what, names: names.to_vec() }
@@ -242,14 +232,14 @@ impl Rule for Known {
 }
 
 /// One of the words of `C`.
-pub(crate) const fn choice<C: Choice>() -> Word<C> {
-    Word(PhantomData)
+pub(crate) const fn choice<C: Word>() -> ChoiceRule<C> {
+    ChoiceRule(PhantomData)
 }
 
 /// See [`choice`].
-pub(crate) struct Word<C>(PhantomData<C>);
+pub(crate) struct ChoiceRule<C>(PhantomData<C>);
 
-impl<C: Choice> Rule for Word<C> {
+impl<C: Word> Rule for ChoiceRule<C> {
     type Out = Placed<C>;
     fn takes(&self, kind: Kind) -> bool {
         kind == Kind::Text
@@ -262,11 +252,10 @@ impl<C: Choice> Rule for Word<C> {
     }
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<C>> {
         let word = word(node, &C::words(), faults)?;
-        C::WORDS.iter().find(|(w, _)| *w == word).map(|(_, c)| Placed::new(*c, node.place.clone()))
+        C::from_word(word).map(|value| Placed::new(value, node.place.clone()))
     }
     fn write(&self, value: &Placed<C>) -> Option<Item> {
-        let (word, _) = C::WORDS.iter().find(|(_, c)| *c == value.value)?;
-        Some(Item::at(&value.place, Said::Text((*word).to_owned())))
+        Some(Item::at(&value.place, Said::Text(value.value.word().to_owned())))
     }
 }
 

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{Rule, RuleExt as _, choice, either, exactly, flag, keyed, list, number, path, record, whole};
+use crate::reader::{
+    Rule, RuleExt as _, choice, either, exactly, flag, keyed, list, number, path, record, whole, words,
+};
 
 record! {
     /// What becomes of the irradiance behind the lens, on either route. The film is rendered wider than the picture, for light
@@ -116,7 +118,7 @@ fn check_modulation(table: &ModulationTable, faults: &mut Faults) {
     }
 }
 
-choice! {
+words! {
     /// By what a point-spread function spreads light.
     pub enum SpreadBy {
         /// The film's pixels.

@@ -6,7 +6,7 @@ use super::light::Emission;
 use super::moment::{Date, TimeOfDay, date, time_of_day};
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{choice, flag, number, path, record, variants};
+use crate::reader::{choice, flag, number, path, record, variants, words};
 
 variants! {
     /// The light from infinitely far.
@@ -36,7 +36,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// What becomes of texels below 0.
     pub enum NegativeTexels {
         /// They become 0; the plan says how many there are.

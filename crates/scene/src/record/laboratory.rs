@@ -2,7 +2,7 @@
 
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, exactly, keyed_by_name, list, number, record, text, vector, whole};
+use crate::reader::{choice, exactly, keyed_by_name, list, number, record, text, vector, whole, words};
 
 record! {
     /// What `etendue characterise` cannot read in pictures, their EXIF data or side-cars.
@@ -39,7 +39,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// Charts of points.
     pub enum ChartOfPoints {
         /// Squares, dark and bright; its points are the inner corners.

@@ -8,7 +8,7 @@ use super::vertex_animation::VertexAnimation;
 use crate::asset::is_gltf;
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, keyed, number, path, record, text};
+use crate::reader::{choice, keyed, number, path, record, text, words};
 
 record! {
     /// A triangle mesh. Objects place it in the world; it may be placed many times.
@@ -38,7 +38,7 @@ keyed! {
     }
 }
 
-choice! {
+words! {
     /// An axis of a file, with its sign.
     pub enum Axis {
         /// +x.

@@ -1,6 +1,7 @@
 //! Motion: what objects, frames, lamps and cameras that move say alike.
 
 use etendue_core::ExactTime;
+use etendue_core::track::Interpolation;
 use glam::{DMat3, DQuat, DVec3};
 
 use std::path::PathBuf;
@@ -8,20 +9,9 @@ use std::path::PathBuf;
 use crate::asset::TrajectoryRow;
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{choice, number, path, record, time};
+use crate::reader::{choice, number, path, record, time, words};
 
-choice! {
-    /// How something moves from key to key. Before the first key and after the last it holds still.
-    pub enum Interpolation {
-        /// Position and scale along straight lines at an even speed, rotation the short way about one axis at an even rate.
-        "linear" => Linear,
-        /// Without jumps of velocity at the keys: cubic curves whose velocity at a key is that of the parabola through it and its
-        /// neighbours. They may overshoot.
-        "smooth" => Smooth,
-    }
-}
-
-choice! {
+words! {
     /// The axes of a file of places over time, both of the world and of what moves.
     pub enum TrajectoryAxes {
         /// x forward, y left, z up (ISO 8855, REP-103); of the world also east, north, up.

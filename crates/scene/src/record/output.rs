@@ -1,7 +1,8 @@
 //! `[output]`: what is written. `None` everywhere means: the plan decides.
 
-use crate::place::{Place, Placed};
-use crate::reader::{Rule, choice, either, flag, number, record, text, variant};
+use crate::place::Placed;
+use crate::reader::{Rule, choice, either, flag, number, record, text, variant, words};
+use etendue_core::RawFormat;
 
 record! {
     /// What is written.
@@ -84,19 +85,7 @@ record! {
     }
 }
 
-choice! {
-    /// A file format of digital numbers.
-    pub enum RawFormat {
-        /// 16-bit PNG.
-        "png" => Png,
-        /// 16-bit TIFF, 32-bit for more than 16 bits.
-        "tiff" => Tiff,
-        /// Digital Negative, for raw readers.
-        "dng" => Dng,
-    }
-}
-
-choice! {
+words! {
     /// The files of optical flow or disparity.
     pub enum CorrespondenceFormat {
         /// EXR.
@@ -108,7 +97,7 @@ choice! {
     }
 }
 
-choice! {
+words! {
     /// A file format of videos.
     pub enum VideoFormat {
         /// YUV4MPEG2: not compressed, 8 bits, 4:4:4, the matrix of ITU-R BT.709 in limited range.
@@ -125,7 +114,7 @@ pub enum DepthScale {
     Named(Placed<DepthConvention>),
 }
 
-choice! {
+words! {
     /// The convention of a data set for depths.
     pub enum DepthConvention {
         /// 256 per metre.
@@ -154,77 +143,4 @@ impl DepthScale {
 
 fn depth_scale() -> impl Rule<Out = DepthScale> {
     either(variant!(number("1/m").above(0.0), DepthScale::PerMetre), variant!(choice(), DepthScale::Named))
-}
-
-impl Output {
-    /// A record that says nothing.
-    #[must_use]
-    pub fn silent(place: Place) -> Self {
-        Self {
-            place,
-            radiance: None,
-            irradiance: None,
-            ghosts: None,
-            variance: None,
-            electrons: None,
-            raw: None,
-            raw_format: None,
-            sampling: None,
-            signal_breakdown: None,
-            picture: None,
-            ground_truth: None,
-            camera_space_position: None,
-            weather: None,
-            depth_png: None,
-            depth_png_scale: None,
-            rays: None,
-            undistorted: None,
-            undistorted_scale: None,
-            optical_flow: None,
-            scene_flow: None,
-            disparity_to: None,
-            disparity_format: None,
-            boxes: None,
-            tracks: None,
-            cryptomatte: None,
-            video: None,
-            calibration_files: None,
-        }
-    }
-
-    /// What this record says, and `base` where it is silent.
-    #[must_use]
-    pub fn over(&self, base: &Self) -> Self {
-        let (a, b) = (self.clone(), base.clone());
-        Self {
-            place: a.place,
-            radiance: a.radiance.or(b.radiance),
-            irradiance: a.irradiance.or(b.irradiance),
-            ghosts: a.ghosts.or(b.ghosts),
-            variance: a.variance.or(b.variance),
-            electrons: a.electrons.or(b.electrons),
-            raw: a.raw.or(b.raw),
-            raw_format: a.raw_format.or(b.raw_format),
-            sampling: a.sampling.or(b.sampling),
-            signal_breakdown: a.signal_breakdown.or(b.signal_breakdown),
-            picture: a.picture.or(b.picture),
-            ground_truth: a.ground_truth.or(b.ground_truth),
-            camera_space_position: a.camera_space_position.or(b.camera_space_position),
-            weather: a.weather.or(b.weather),
-            depth_png: a.depth_png.or(b.depth_png),
-            depth_png_scale: a.depth_png_scale.or(b.depth_png_scale),
-            rays: a.rays.or(b.rays),
-            undistorted: a.undistorted.or(b.undistorted),
-            undistorted_scale: a.undistorted_scale.or(b.undistorted_scale),
-            optical_flow: a.optical_flow.or(b.optical_flow),
-            scene_flow: a.scene_flow.or(b.scene_flow),
-            disparity_to: a.disparity_to.or(b.disparity_to),
-            disparity_format: a.disparity_format.or(b.disparity_format),
-            boxes: a.boxes.or(b.boxes),
-            tracks: a.tracks.or(b.tracks),
-            cryptomatte: a.cryptomatte.or(b.cryptomatte),
-            video: a.video.or(b.video),
-            calibration_files: a.calibration_files.or(b.calibration_files),
-        }
-    }
 }

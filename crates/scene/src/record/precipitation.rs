@@ -1,7 +1,7 @@
 //! `[precipitation]`: rain or snow.
 
 use crate::place::{Place, Placed};
-use crate::reader::{choice, flag, number, record, variants, vector, whole};
+use crate::reader::{choice, flag, number, record, variants, vector, whole, words};
 
 variants! {
     /// What falls all over the scene below a height. Near a camera drops and flakes are modelled one by one, farther away as a medium of
@@ -52,7 +52,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// What flakes are made of: their density, by which flakes of the same water are large and slow or small and quick.
     pub enum Crystals {
         /// Dry, feathery crystals: half the density of aggregates.

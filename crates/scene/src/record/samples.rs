@@ -5,16 +5,35 @@
 
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
+use crate::reader::{list, number, record, whole};
 
-/// What a record says of samples.
-#[derive(Clone, Debug)]
-pub(super) struct SampleKeys {
-    pub(super) spp: Option<Placed<u64>>,
-    pub(super) passes: Vec<Placed<f64>>,
-    pub(super) replicates: Option<Placed<u64>>,
-    pub(super) noise_threshold: Option<Placed<f64>>,
-    pub(super) min_spp: Option<Placed<u64>>,
-    pub(super) max_spp: Option<Placed<u64>>,
+/// The most samples of a pixel.
+pub const MAX_SPP: u64 = 1 << 20;
+
+record! {
+    /// What decides the samples.
+    pub struct SampleKeys {
+        /// Samples per pixel, 1 … 1 048 576; a multiple of "replicates". Default: 64, or as `--quality` says.
+        optional spp: Placed<u64> = whole(1, MAX_SPP);
+        /// Samples per pixel of each of the passes whose weighted mean is the light, in the place of "spp": [8, 8, 16] are 32 in three
+        /// independent passes. Each is a multiple of "replicates", or less than that many: then so many on average, as that part
+        /// of the pixels, evenly spread, gets one sample in each replicate. At least one pass is whole; 64 passes at most.
+        /// Default: one pass of "spp" samples, with `--progressive` by its schedule.
+        many passes: Placed<f64> = list(number("").above(0.0).at_most(MAX_SPP as f64), 1);
+        /// Independent replicates from which the variance is told, 1 … 1 024; one gives no variance. Samples
+        /// are spread evenly within a replicate only: where light is even, one replicate of few samples is less noisy than
+        /// several. Wavelengths of bands are spread over all replicates, but where "variance" is asked for. Default: 4, or 2 or 1 where "spp" is no multiple.
+        optional replicates: Placed<u64> = whole(1, 1024);
+        /// A pixel gets samples until its standard error is at most this part of the noise that the sensor adds there (shot, dark,
+        /// read, quantisation), above 0 … 100; of the pixel's own mean where no electrons are made, or with route "pupil". The number is
+        /// decided for each replicate by what others show after "min_spp" samples, so that no mean is
+        /// biased; there are 8 replicates unless said otherwise, and 5 at least. In the place of "spp". Default: every pixel gets "spp" samples.
+        optional noise_threshold: Placed<f64> = number("").above(0.0).at_most(100.0);
+        /// With "noise_threshold": samples that every pixel gets, 8 … 65 536, a multiple of "replicates". Default: 16.
+        optional min_spp: Placed<u64> = whole(8, 65_536);
+        /// With "noise_threshold": samples that a pixel gets at most, a multiple of "replicates", from "min_spp" to 1 048 576. Default: 4 096.
+        optional max_spp: Placed<u64> = whole(8, 1 << 20);
+    }
 }
 
 /// What decides the samples.
@@ -68,43 +87,36 @@ impl Choice {
 }
 
 impl SampleKeys {
-    /// Whether noise decides the samples: the command line's "spp" or "passes" supersede the limit of a file.
-    pub(super) fn has_threshold_in_force(&self) -> bool {
-        Choice::in_force(self) == Some(Choice::Noise)
+    /// The limit of noise, where it decides the samples: the command line's "spp" or "passes" supersede that of a file.
+    #[must_use]
+    pub fn threshold_in_force(&self) -> Option<&Placed<f64>> {
+        self.noise_threshold.as_ref().filter(|_| Choice::in_force(self) == Some(Choice::Noise))
     }
 
-    /// Whether the passes that are stated count.
-    pub(super) fn has_passes_in_force(&self) -> bool {
-        Choice::in_force(self) == Some(Choice::Passes)
+    /// The passes, where they are stated and count.
+    #[must_use]
+    pub fn passes_in_force(&self) -> Option<&[Placed<f64>]> {
+        (Choice::in_force(self) == Some(Choice::Passes)).then_some(&self.passes[..])
     }
 
-    /// What a camera's record says, and the job's where it is silent.
-    pub(super) fn over(self, base: Self) -> Self {
-        let (mut own, mut base) = (self, base);
-        if let Some(choice) = Choice::ALL.into_iter().find(|choice| choice.place(&own).is_some()) {
+    /// Takes out of a camera's keys and the job's, `base`, what the other supersedes.
+    pub(super) fn exclude(&mut self, base: &mut Self) {
+        if let Some(choice) = Choice::ALL.into_iter().find(|choice| choice.place(self).is_some()) {
             for other in Choice::ALL.into_iter().filter(|other| *other != choice) {
-                if !other.is_of_command_line(&base) {
-                    other.remove(&mut base);
+                if !other.is_of_command_line(base) {
+                    other.remove(base);
                 }
             }
         }
-        if Choice::Noise.is_of_command_line(&base) {
-            own.noise_threshold = None;
+        if Choice::Noise.is_of_command_line(base) {
+            self.noise_threshold = None;
         }
-        if Choice::Passes.is_of_command_line(&base) {
-            own.passes.clear();
+        if Choice::Passes.is_of_command_line(base) {
+            self.passes.clear();
             // Those of the passes.
             if base.replicates.as_ref().is_some_and(|given| given.place.is_command_line()) {
-                own.replicates = None;
+                self.replicates = None;
             }
-        }
-        Self {
-            spp: own.spp.or(base.spp),
-            passes: if own.passes.is_empty() { base.passes } else { own.passes },
-            replicates: own.replicates.or(base.replicates),
-            noise_threshold: own.noise_threshold.or(base.noise_threshold),
-            min_spp: own.min_spp.or(base.min_spp),
-            max_spp: own.max_spp.or(base.max_spp),
         }
     }
 
@@ -115,7 +127,7 @@ impl SampleKeys {
             others.for_each(|other| refuse(other, choice, self, faults));
         }
         let keys = [("min_spp", &self.min_spp), ("max_spp", &self.max_spp)];
-        let keys = keys.into_iter().filter(|_| !self.has_threshold_in_force());
+        let keys = keys.into_iter().filter(|_| self.threshold_in_force().is_none());
         for (key, value) in keys.filter_map(|(key, value)| Some((key, value.as_ref()?))) {
             let problem = format!("\"{key}\" has no effect without \"noise_threshold\"");
             let cause = Choice::in_force(self).and_then(|choice| choice.place(self));

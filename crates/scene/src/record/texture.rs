@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, number, path, record, text, vector};
+use crate::reader::{choice, number, path, record, text, vector, words};
 
 record! {
     /// A picture that materials use as reflectance, as a number, as normals or on their light.
@@ -31,7 +31,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// What the numbers of a picture mean.
     pub enum Encoding {
         /// Colours, encoded by the curve of IEC 61966-2-1.
@@ -43,7 +43,7 @@ choice! {
     }
 }
 
-choice! {
+words! {
     /// By what points of a surface find their place in a picture.
     pub enum Mapping {
         /// By the texture coordinates of the mesh.
@@ -53,7 +53,7 @@ choice! {
     }
 }
 
-choice! {
+words! {
     /// What is outside of a picture.
     pub enum Wrap {
         /// The picture again.

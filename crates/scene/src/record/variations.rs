@@ -4,7 +4,7 @@ use super::render::MAX_SEED;
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{
-    RuleExt as _, any_value, choice, either, keyed_by_name, list, number, record, text, variants, whole,
+    RuleExt as _, any_value, choice, either, keyed_by_name, list, number, record, text, variants, whole, words,
 };
 use crate::written::Item;
 
@@ -38,7 +38,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// Formats of data sets.
     pub enum SetFormat {
         /// COCO: pictures, and one JSON file with boxes and masks.

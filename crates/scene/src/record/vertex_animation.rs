@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use crate::fault::Faults;
 use crate::numbered_files::{numbered, parts};
 use crate::place::Placed;
-use crate::reader::{choice, keyed, list, number, path, record, time, whole};
+use crate::reader::{choice, keyed, list, number, path, record, time, whole, words};
 
 record! {
     /// Vertices that move within their mesh: the same mesh in several files, one for each time. From one to the next every vertex goes
@@ -40,7 +40,7 @@ keyed! {
     }
 }
 
-choice! {
+words! {
     /// What follows the last file of moving vertices and precedes the first.
     pub enum FrameRepeat {
         /// The last holds, and the first before its time.

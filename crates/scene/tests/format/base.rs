@@ -99,7 +99,7 @@ fn a_job_says_what_differs_and_its_cameras_are_laid_over_those_of_their_names() 
     let base = load(&Files::of_example(), &[]).expect("the example");
     let job = "[render]\nseed = 9\n[[cameras]]\nname = \"front\"\nrender = { spp = 8 }\n";
     let over = load(&derived_job(job), &[]).expect("laid over");
-    let spp = |d: &etendue_scene::Description, i: usize| d.cameras[i].render.spp.as_ref().map(|spp| spp.value);
+    let spp = |d: &etendue_scene::Description, i: usize| d.cameras[i].render.samples.spp.as_ref().map(|spp| spp.value);
     assert_eq!((spp(&base, 0), spp(&over, 0)), (Some(256), Some(8)));
     assert_eq!(spp(&over, 1), spp(&base, 1), "the other camera is as it was");
     assert!(over.cameras.iter().all(|c| c.render.seed.as_ref().is_some_and(|seed| seed.value == 9)));

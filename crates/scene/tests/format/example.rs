@@ -34,7 +34,7 @@ fn the_small_example_is_read() {
 #[test]
 fn a_camera_renders_and_writes_as_the_job_says_where_it_is_silent() {
     let d = load(&example(), &[]).expect("the example");
-    let spp = |i: usize| d.cameras[i].render.spp.as_ref().map(|v| v.value);
+    let spp = |i: usize| d.cameras[i].render.samples.spp.as_ref().map(|v| v.value);
     assert_eq!((spp(0), spp(1)), (Some(256), Some(64)));
     let raw = |i: usize| d.cameras[i].output.raw.as_ref().map(|v| v.value);
     assert_eq!((raw(0), raw(1)), (Some(true), Some(false)));
@@ -78,7 +78,7 @@ fn assets_are_listed_once_relative_to_the_job() {
 fn overrides_reach_every_file() {
     let sets = [
         "render.spp=16",
-        "cameras.front.render.spp=8",
+        "cameras.front.render.samples.spp=8",
         "cameras.front.lens.f_number=2.8",
         "cameras.1.lens.f_number=4",
         "scene.lights.sun.elevation_deg=10",
@@ -91,8 +91,8 @@ fn overrides_reach_every_file() {
     let Light::Sun(sun) = &d.scene.lights[0] else { panic!("a sun") };
     assert_eq!((front.f_number.value, left.f_number.value, sun.elevation_deg.value), (2.8, 4.0, 10.0));
     assert_eq!(d.scene.objects[2].material.as_ref().expect("a material").value, "red");
-    assert_eq!(d.cameras[1].render.spp.as_ref().expect("given").value, 16);
-    assert_eq!(d.cameras[0].render.spp.as_ref().expect("given").value, 8);
+    assert_eq!(d.cameras[1].render.samples.spp.as_ref().expect("given").value, 16);
+    assert_eq!(d.cameras[0].render.samples.spp.as_ref().expect("given").value, 8);
     assert!(d.cameras[0].output.radiance.is_none(), "the table was replaced as a whole");
     assert_eq!(front.f_number.place.to_string(), "`set` cameras.front.lens.f_number=2.8");
 }
@@ -112,7 +112,7 @@ fn the_last_override_wins() {
     let files = example();
     let d =
         etendue_scene::Description::load(Path::new("job.toml"), &|p| files.read(p), &overrides).expect("the example");
-    assert_eq!(d.cameras[1].render.spp.as_ref().expect("given").value, 24);
+    assert_eq!(d.cameras[1].render.samples.spp.as_ref().expect("given").value, 24);
 }
 
 #[test]

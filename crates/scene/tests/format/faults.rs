@@ -257,8 +257,8 @@ fn what_is_taken_out_is_as_if_it_had_not_been_written() {
     let read = |sets: &[&str]| load(&Files::with_camera(JOB), sets).expect("a job");
     let objects = read(&[]).scene.objects.len();
     assert_eq!(read(&["scene.objects.wall=null"]).scene.objects.len(), objects - 1);
-    assert!(read(&["render.spp=16"]).cameras[0].render.spp.is_some());
-    assert!(read(&["render.spp=16", "render.spp=null"]).cameras[0].render.spp.is_none(), "the last one wins");
+    assert!(read(&["render.spp=16"]).cameras[0].render.samples.spp.is_some());
+    assert!(read(&["render.spp=16", "render.spp=null"]).cameras[0].render.samples.spp.is_none(), "the last one wins");
     assert_eq!(
         faults_of_sets(&["cameras.front.lens.f_number=null"]),
         "job.toml:8:1: cameras.front.lens: the key \"f_number\" is missing; add it: a number of at least 0.5"

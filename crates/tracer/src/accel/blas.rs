@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::build::{TreeQuality, over_triangles};
+use super::build::over_triangles;
 use super::collapse::{WideTree, collapse};
 use super::lanes::{Job, Lanes, Visit};
 use super::node::{Child, Node};
@@ -10,6 +10,7 @@ use super::packet::{BestHit, Half, Names, Packet, RayLanes};
 use super::ray::{LocalRay, SlabRay};
 use super::walk::{Leaves, walk};
 use crate::geometry::Mesh;
+use etendue_core::Accelerator;
 
 /// Triangles a leaf: as many as are met at once.
 const LEAF_SIZE: usize = 8;
@@ -25,12 +26,12 @@ pub(crate) struct Blas {
 
 impl Blas {
     /// Builds the tree. The same mesh and quality give the same tree; every quality gives the same answers.
-    pub(crate) fn new(mesh: &Mesh, quality: TreeQuality) -> Self {
+    pub(crate) fn new(mesh: &Mesh, quality: Accelerator) -> Self {
         Self::over(mesh.triangles().len(), |p| mesh.corners(p), quality)
     }
 
     /// A tree over so many triangles with the given corners.
-    pub(super) fn over(count: usize, corners: impl Fn(u32) -> [Vec3; 3] + Sync, quality: TreeQuality) -> Self {
+    pub(super) fn over(count: usize, corners: impl Fn(u32) -> [Vec3; 3] + Sync, quality: Accelerator) -> Self {
         let binary = over_triangles(count, &corners, quality);
         // What even meshes need; others get room by and by, since memory is short just now.
         let mut halves = Vec::with_capacity(count * 9 / 32 + 2);

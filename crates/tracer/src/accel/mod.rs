@@ -34,7 +34,6 @@ mod visits;
 mod walk;
 mod world;
 
-pub use build::TreeQuality;
 pub use streaks::{Streak, Streaks};
 pub use visits::Visits;
 pub use world::{World, WorldBuilder, WorldError};

@@ -8,7 +8,7 @@ use etendue_core::TimeInterval;
 
 use super::blas::Blas;
 use super::boxes::Box3;
-use super::build::{TreeQuality, over_moving};
+use super::build::over_moving;
 use super::collapse::{WideTree, collapse};
 use super::lanes::{Job, Lanes, Visit};
 use super::node::{Child, Node};
@@ -16,6 +16,7 @@ use super::packet::{BestHit, Half, Names, Packet, RayLanes};
 use super::ray::{LocalRay, SlabRay};
 use super::walk::{Leaves, walk};
 use crate::geometry::{Mesh, MeshPose};
+use etendue_core::Accelerator;
 
 /// Triangles a leaf: as many as are met at once.
 const LEAF_SIZE: usize = 8;
@@ -34,7 +35,7 @@ pub(super) struct SweptTree<'w> {
 
 impl<'w> SweptTree<'w> {
     /// Builds the tree of a mesh for an interval.
-    pub(super) fn new(mesh: &'w Mesh, interval: TimeInterval, quality: TreeQuality) -> Self {
+    pub(super) fn new(mesh: &'w Mesh, interval: TimeInterval, quality: Accelerator) -> Self {
         let poses = mesh.poses_of(interval);
         let swept = |primitive: u32| {
             let boxes = poses.iter().map(|pose| Box3::about(&pose.corners(primitive)));
@@ -177,7 +178,7 @@ pub(super) enum AnimatedTree<'w> {
 
 impl<'w> AnimatedTree<'w> {
     /// Builds the tree for an interval.
-    pub(super) fn new(mesh: &'w Mesh, interval: TimeInterval, quality: TreeQuality) -> Self {
+    pub(super) fn new(mesh: &'w Mesh, interval: TimeInterval, quality: Accelerator) -> Self {
         match mesh.still_over(interval) {
             Some(pose) => Self::Posed(Blas::over(mesh.triangles().len(), |p| pose.corners(p), quality)),
             None => Self::Swept(SweptTree::new(mesh, interval, quality)),

@@ -1,9 +1,9 @@
 //! The world: meshes with their trees, and instances of them.
 
 use super::blas::Blas;
-use super::build::TreeQuality;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, MeshId, Shape, uniform_scale};
+use etendue_core::Accelerator;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
@@ -95,7 +95,7 @@ pub enum WorldError {
 pub struct WorldBuilder {
     meshes: Vec<Mesh>,
     instances: Vec<Instance>,
-    tree_quality: TreeQuality,
+    tree_quality: Accelerator,
 }
 
 impl WorldBuilder {
@@ -107,7 +107,7 @@ impl WorldBuilder {
 
     /// The same with another quality of its meshes' trees.
     #[must_use]
-    pub fn with_tree_quality(self, tree_quality: TreeQuality) -> Self {
+    pub fn with_tree_quality(self, tree_quality: Accelerator) -> Self {
         Self { tree_quality, ..self }
     }
 
@@ -148,7 +148,7 @@ impl WorldBuilder {
         let tree = |mesh: &Mesh| match mesh.animation() {
             None => Blas::new(mesh, self.tree_quality),
             // A view makes one for its own interval.
-            Some(_) => Blas::over(0, |_| unreachable!("no triangles"), TreeQuality::Fast),
+            Some(_) => Blas::over(0, |_| unreachable!("no triangles"), Accelerator::Fast),
         };
         let trees = self.meshes.par_iter().map(tree).collect();
         Ok(World { meshes: self.meshes, trees, instances: self.instances, tree_quality: self.tree_quality })
@@ -196,7 +196,7 @@ pub struct World {
     meshes: Vec<Mesh>,
     trees: Vec<Blas>,
     instances: Vec<Instance>,
-    tree_quality: TreeQuality,
+    tree_quality: Accelerator,
 }
 
 impl World {
@@ -222,7 +222,7 @@ impl World {
 
     /// What was spent on the trees.
     #[must_use]
-    pub fn tree_quality(&self) -> TreeQuality {
+    pub fn tree_quality(&self) -> Accelerator {
         self.tree_quality
     }
 

@@ -4,13 +4,13 @@ use etendue_core::random::Draw;
 use etendue_core::{Ray, Spectral};
 use glam::Vec3;
 
-use super::Level;
 use super::path::{MAX_VERTICES, Path, Vertex};
 use super::path_state::Medium;
 use super::path_tracer::Effects;
 use crate::geometry::SurfacePoint;
 use crate::lights::{LightSample, LightSampleContext};
 use crate::media::{ForwardPeak, MediaRay, RandomCounter};
+use etendue_core::Integrator;
 
 impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// Adds light of as many sampled lights as the receiver draws, as far as it comes through.
@@ -60,7 +60,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// other way, and nor are surfaces where no ray is traced to hit them.
     pub(super) fn light_weight(&self, light: &LightSample<N>, direction_pdf: f32) -> f32 {
         let settings = &self.tracer.settings;
-        let is_only_sampled = light.delta || (settings.level == Level::Flat && light.target.is_some());
+        let is_only_sampled = light.delta || (settings.integrator == Integrator::Flat && light.target.is_some());
         if is_only_sampled {
             1.0 / light.pdf
         } else {
@@ -92,7 +92,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         medium: Medium<'_>,
         peak: ForwardPeak,
     ) -> Option<Spectral<N>> {
-        let fraction = if self.tracer.settings.level == Level::Flat {
+        let fraction = if self.tracer.settings.integrator == Integrator::Flat {
             Spectral::ONE
         } else if E::SURFACES && self.tracer.material_table.has_passages() {
             self.transmittance_of_surfaces(ray, light)?

@@ -38,4 +38,4 @@ mod tests;
 
 pub use path_tracer::{PathTracer, Surroundings};
 pub use radiance::SpectralPaths;
-pub use settings::{Level, LightSampling, PathSettings, Strategies};
+pub use settings::{PathSettings, Strategies};

@@ -9,12 +9,12 @@ use etendue_core::random::Draw;
 use etendue_core::{Ray, Spectral};
 use glam::Vec3;
 
-use super::Level;
 use super::path::{Intersection, Path, PathStep};
 use super::path_tracer::Effects;
 use crate::lights::{LightSampleContext, RaySegment};
 use crate::media::{FlightRandom, ForwardPeak, Media, MediaRay, Phase, RandomCounter, RaySpan};
 use crate::precipitation::{NearParticles, ParticleHit};
+use etendue_core::Integrator;
 
 /// Random numbers of a drop.
 const DRAWS_PER_DROP: u32 = 16;
@@ -200,7 +200,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
         let values = Spectral(phase.values(from, direction, self.wavelengths));
         self.direction_pdf = None;
-        if self.tracer.settings.level != Level::Flat && !self.is_at_max_bounces() {
+        if self.tracer.settings.integrator != Integrator::Flat && !self.is_at_max_bounces() {
             let receiver = LightSampleContext::in_medium(position, self.ray.time_s);
             self.has_hit_particle = true;
             self.sample_direct_light_in_medium(&receiver, phase, false);

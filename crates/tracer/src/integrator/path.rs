@@ -21,9 +21,9 @@ use etendue_core::random::Draw;
 use etendue_core::{FieldRay, Ray, Spectral, TimeInterval, Wavelengths};
 use glam::Vec3;
 
+use super::PathTracer;
 use super::path_state::{Cone, Medium, RouletteState, ScatteringHistory};
 use super::path_tracer::Effects;
-use super::{Level, PathTracer};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::guiding::DirectionDistribution;
@@ -32,6 +32,7 @@ use crate::materials::{Bsdf, BsdfSample, EmissionQuery, Event, ShadingFrame};
 use crate::media::Phase;
 use crate::precipitation::ParticleHit;
 use crate::textures::Lookup;
+use etendue_core::Integrator;
 
 /// Greatest number of surfaces that a path hits, with those that it passes. No scene needs as many; among surfaces closer together
 /// than the step from one to the next a path might go round for ever.
@@ -376,7 +377,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         self.ray = ray;
         self.travelled_m = 0.0;
         self.bounces += 1;
-        if self.tracer.settings.level == Level::Flat {
+        if self.tracer.settings.integrator == Integrator::Flat {
             self.add_distant_light();
             return PathStep::End;
         }

@@ -22,10 +22,11 @@ use etendue_core::random::Draw;
 use etendue_core::{FieldRay, Ray, Spectral, TimeInterval, Wavelengths};
 use glam::Vec3;
 
+use super::PathTracer;
 use super::path::{Intersection, MAX_VERTICES, Path, PathStep, Vertex};
 use super::path_tracer::{Effects, SceneEffects};
-use super::{Level, PathTracer};
 use crate::materials::Bsdf;
+use etendue_core::Integrator;
 
 /// Number of parts of a group, of which one continues.
 const PARTS: usize = 4;
@@ -91,7 +92,7 @@ impl PathTracer<'_> {
         let settings = &self.settings;
         // Between surfaces no path sees what another has found there.
         self.effects != SceneEffects::All
-            && settings.level == Level::Path
+            && settings.integrator == Integrator::Path
             && settings.max_bounces > 1
             && settings.branches <= 1
     }

@@ -6,7 +6,7 @@ use etendue_core::maths::f32::sin_cos;
 use glam::Vec3;
 
 use super::path_state::Medium;
-use super::settings::{Level, PathSettings};
+use super::settings::PathSettings;
 use crate::guiding::Guide;
 use crate::lights::Lights;
 use crate::materials::MaterialTable;
@@ -14,6 +14,7 @@ use crate::media::Media;
 use crate::precipitation::NearParticles;
 use crate::render_space::RenderSpace;
 use crate::{ALL_EFFECTS, MaterialId};
+use etendue_core::Integrator;
 
 /// Traces rays of a view: the result is spectral radiance.
 #[derive(Clone, Copy, Debug)]
@@ -93,9 +94,9 @@ impl<'a> PathTracer<'a> {
 
     /// Scattering events that a path may have.
     pub(super) fn max_bounces(&self) -> u32 {
-        match self.settings.level {
-            Level::Flat | Level::Direct => 1,
-            Level::Path => self.settings.max_bounces,
+        match self.settings.integrator {
+            Integrator::Flat | Integrator::Direct => 1,
+            Integrator::Path => self.settings.max_bounces,
         }
     }
 

@@ -1,11 +1,14 @@
 //! Settings of a path tracer.
 
+use etendue_core::words::SettingValue;
+use etendue_core::{Integrator, LightSampling, Setting, Word as _};
+
 /// Settings of a path tracer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
     /// Which light paths are simulated.
-    pub level: Level,
-    /// Greatest number of scattering events; of the level [`Level::Path`] alone.
+    pub integrator: Integrator,
+    /// Greatest number of scattering events; 1 where no paths are traced.
     pub max_bounces: u32,
     /// Scattering events after which paths may end at random; those that mirrors alone have scattered never do.
     pub roulette_start: u32,
@@ -32,7 +35,7 @@ pub struct PathSettings {
 impl Default for PathSettings {
     fn default() -> Self {
         Self {
-            level: Level::Path,
+            integrator: Integrator::Path,
             max_bounces: 16,
             roulette_start: 2,
             branches: 1,
@@ -47,39 +50,24 @@ impl Default for PathSettings {
     }
 }
 
-/// Which light paths are simulated: the user's trade of time for accuracy. All levels see the same surfaces: depth and identities do not depend on it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Level {
-    /// Local shading: the light of lamps, suns and surroundings that the first surface scatters towards the camera, as
-    /// if nothing else stood in its way. No shadows, nothing reflected but the surroundings, no light from other
-    /// surfaces, nothing seen through solid glass.
-    Flat,
-    /// Direct light: as [`Level::Flat`], but what stands between a light and the surface casts its shadow, and glowing
-    /// surfaces are seen in smooth ones. One scattering event: mirrors show what glows and the surroundings, and other
-    /// surfaces black.
-    Direct,
-    /// Everything, up to the greatest number of scattering events.
-    #[default]
-    Path,
-}
-
-/// Quantity to which a light's probability of being sampled at a surface is in proportion. No mean depends on it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LightSampling {
-    /// Its irradiance, and how much of it the surface's narrow lobes send back along the path.
-    Gloss,
-    /// Its irradiance alone: cheaper at glossy surfaces, and noisier where they mirror lamps.
-    Irradiance,
-}
-
-impl LightSampling {
-    /// Its word in the key `light_sampling`.
+impl PathSettings {
+    /// The settings that a description states, by their keys.
     #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Gloss => "gloss",
-            Self::Irradiance => "irradiance",
-        }
+    pub fn stated(&self) -> Vec<Setting> {
+        vec![
+            Setting::new("integrator", SettingValue::Word(self.integrator.word())),
+            Setting::of_paths("max_bounces", self.max_bounces.into()),
+            Setting::of_paths("caustics", (self.caustics && self.integrator == Integrator::Path).into()),
+            Setting::of_paths("regularize", self.regularize.into()),
+            Setting::of_paths("branches", self.branches.into()),
+            Setting::new("light_sampling", SettingValue::Word(self.light_sampling.word())),
+        ]
+    }
+
+    /// Whether both settings give the same mean: they differ in noise at most.
+    #[must_use]
+    pub fn has_mean_of(&self, other: &Self) -> bool {
+        Self { branches: other.branches, light_sampling: other.light_sampling, ..*self } == *other
     }
 }
 

@@ -16,7 +16,6 @@ use etendue_core::maths::f32::cbrt;
 use etendue_core::random::Draw;
 use glam::{Vec2, Vec3};
 
-use super::LightSampling;
 use super::path::{Path, Vertex};
 use super::path_state::{Cone, Medium};
 use super::path_tracer::Effects;
@@ -26,6 +25,7 @@ use crate::guiding::{DirectionDistribution, GUIDED_BOUNCES};
 use crate::lights::ReceiverGloss;
 use crate::materials::{Bsdf, BsdfSample, BsdfValue, DiffuseBsdf, Event, GlossLobe, ShadingFrame};
 use crate::textures::Lookup;
+use etendue_core::LightSampling;
 
 /// Greatest density of a lobe over that of the widest scattering before it. Of 4, 1, 1/2, 0.3 and 0.2, tried on car paint that sees a wet road at 64
 /// samples, the last two leave no speckle.

@@ -7,7 +7,8 @@ use crate::report::FrameCost;
 use crate::report::cpu_time::{DIRECT_PATH_CPU_S, FLAT_PATH_CPU_S, TWO_BOUNCES_CPU_S, branches_share, path_cpu_s};
 use crate::sizes::block::Blocks;
 use etendue_core::EffectStatus;
-use etendue_tracer::integrator::{Level, LightSampling};
+use etendue_core::{Integrator, LightSampling};
+use etendue_tracer::integrator::PathSettings;
 
 const GROUP: EffectGroup = EffectGroup::LightTransport;
 
@@ -38,9 +39,9 @@ fn first_surfaces(paths: f64) -> PlannedEffect {
 }
 
 fn shadows(camera: &CameraPlan, paths: f64) -> PlannedEffect {
-    let level = camera.settings.level;
+    let integrator = camera.settings.paths.integrator;
     let status = where_there(
-        level != Level::Flat,
+        integrator != Integrator::Flat,
         "a ray to each light that is drawn finds what stands before it",
         "integrator = \"flat\" sends no ray to a light",
     );
@@ -52,11 +53,11 @@ fn shadows(camera: &CameraPlan, paths: f64) -> PlannedEffect {
 fn indirect_light(camera: &CameraPlan, paths: f64) -> PlannedEffect {
     let settings = &camera.settings;
     let status = where_there(
-        settings.level == Level::Path && settings.max_bounces > 1,
-        format!("paths go on from surface to surface, {} of them at most", settings.max_bounces),
-        match settings.level {
-            Level::Path => "a path of one bounce meets one surface",
-            Level::Flat | Level::Direct => "integrator = \"path\" would follow it",
+        settings.paths.integrator == Integrator::Path && settings.paths.max_bounces > 1,
+        format!("paths go on from surface to surface, {} of them at most", settings.paths.max_bounces),
+        match settings.paths.integrator {
+            Integrator::Path => "a path of one bounce meets one surface",
+            Integrator::Flat | Integrator::Direct => "integrator = \"path\" would follow it",
         },
     );
     PlannedEffect::new(GROUP, "indirect light", status)
@@ -75,8 +76,8 @@ fn saved_by(camera: &CameraPlan, paths: f64, sample_s: f64) -> f64 {
 const FEW_BOUNCES: u32 = 2;
 
 fn later_bounces(camera: &CameraPlan, paths: f64) -> PlannedEffect {
-    let Settings { level, max_bounces, .. } = camera.settings;
-    let status = if level == Level::Path && max_bounces > FEW_BOUNCES {
+    let PathSettings { integrator, max_bounces, .. } = camera.settings.paths;
+    let status = if integrator == Integrator::Path && max_bounces > FEW_BOUNCES {
         let text = format!("surfaces 3 to {max_bounces} of a path, as far as Russian roulette lets it go on");
         EffectStatus::WhereNeeded(text)
     } else {
@@ -91,20 +92,20 @@ fn later_bounces(camera: &CameraPlan, paths: f64) -> PlannedEffect {
 }
 
 fn beyond_the_limit(settings: &Settings) -> PlannedEffect {
-    let lack = format!("light that more than {} surfaces scatter is missing", settings.max_bounces);
+    let lack = format!("light that more than {} surfaces scatter is missing", settings.paths.max_bounces);
     let effect = PlannedEffect::new(GROUP, "bounces beyond the limit", EffectStatus::LeftOut(lack));
     effect.described_by("render.max_bounces")
 }
 
 fn caustics(camera: &CameraPlan) -> PlannedEffect {
     let settings = &camera.settings;
-    let status = if settings.level == Level::Path && settings.caustics {
+    let status = if settings.paths.integrator == Integrator::Path && settings.paths.caustics {
         let text = "light of lamps by way of smooth surfaces, for paths that leave a matt one and meet a smooth one";
         EffectStatus::WhereNeeded(text.to_owned())
     } else {
-        EffectStatus::LeftOut(match settings.level {
-            Level::Path => "caustics = false leaves out light thrown by smooth surfaces on matt ones, by mirrors on much less glossy ones".to_owned(),
-            Level::Flat | Level::Direct => "they need paths: integrator = \"path\"".to_owned(),
+        EffectStatus::LeftOut(match settings.paths.integrator {
+            Integrator::Path => "caustics = false leaves out light thrown by smooth surfaces on matt ones, by mirrors on much less glossy ones".to_owned(),
+            Integrator::Flat | Integrator::Direct => "they need paths: integrator = \"path\"".to_owned(),
         })
     };
     let effect = PlannedEffect::new(GROUP, "caustics", status).described_by("render.caustics");
@@ -113,7 +114,7 @@ fn caustics(camera: &CameraPlan) -> PlannedEffect {
 
 fn regularization(camera: &CameraPlan) -> PlannedEffect {
     let status = where_there(
-        camera.settings.regularize,
+        camera.settings.paths.regularize,
         "metals, coats, glass and paint that a path meets behind wider lobes are rougher than they are: a bias"
             .to_owned(),
         "lobes are as narrow as models say",
@@ -145,7 +146,7 @@ fn branches_cpu_s(camera: &CameraPlan, paths: f64) -> f64 {
 }
 
 fn branches(camera: &CameraPlan, paths: f64) -> PlannedEffect {
-    let branches = camera.settings.branches;
+    let branches = camera.settings.paths.branches;
     let status = where_there(
         branches > 1,
         format!("{branches} lights are drawn and {branches} paths go on at the first surface of a sample"),
@@ -156,7 +157,7 @@ fn branches(camera: &CameraPlan, paths: f64) -> PlannedEffect {
 }
 
 fn light_sampling(camera: &CameraPlan) -> PlannedEffect {
-    let status = match camera.settings.light_sampling {
+    let status = match camera.settings.paths.light_sampling {
         LightSampling::Gloss => {
             let text = "at glossy surfaces, lights are drawn by what the surface sends back of them, too";
             EffectStatus::WhereNeeded(text.to_owned())

@@ -47,7 +47,7 @@ pub(super) fn served(plan: &Plan, camera: &CameraPlan) -> String {
 /// electrons are summed.
 pub(super) fn wavelengths(camera: &CameraPlan) -> Option<String> {
     camera.summing_sensor()?;
-    let gain = camera.spectral_gain.as_ref();
+    let gain = camera.settings.spectral_gain.as_ref();
     Some(match (camera.settings.wavelength_sampling, gain) {
         (WavelengthSampling::Uniform, _) => "evenly over the range, as asked".to_owned(),
         (_, None) => "by the pixel's response".to_owned(),

@@ -10,7 +10,7 @@ mod time;
 mod words;
 
 use crate::plan::remark::{Weight, grouped};
-use crate::plan::{AdaptiveSampling, CameraPlan, Passes, Plan, Products, RawFormat, Route, Settings, SkyFacts};
+use crate::plan::{AdaptiveSampling, CameraPlan, Passes, Plan, Products, Route, Settings, SkyFacts};
 use crate::render::{light_counts, training};
 use crate::report::FrameCost;
 use crate::report::cpu_time::Share;
@@ -20,13 +20,11 @@ use crate::report::{FilmBytes, RunMemory};
 use crate::report::{MeshSize, mesh_sizes};
 use crate::sizes::block::Blocks;
 use effects_table::effects_table;
-use etendue_core::{Bands, EffectStatus};
+use etendue_core::{Accelerator, Bands, EffectStatus, Integrator, RawFormat};
 use etendue_optics::effects::Effect;
 use etendue_sensor::dynamic_range::{DynamicRange, Switch};
 use etendue_sensor::emva1288::db;
-use etendue_tracer::accel::TreeQuality;
 use etendue_tracer::geometry::Shape;
-use etendue_tracer::integrator::Level;
 use std::fmt::{self, Display, Formatter};
 use words::{count, figure, line, list, seconds};
 
@@ -82,9 +80,9 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     let instances = plan.world.instances().len();
     let triangles = format!("{} ({stored} stored)", count(seen, "triangle"));
     let trees = match plan.world.tree_quality() {
-        TreeQuality::Fast => "; trees built fast: rays take longer",
-        TreeQuality::Default => "",
-        TreeQuality::Best => "; trees built with care",
+        Accelerator::Fast => "; trees built fast: rays take longer",
+        Accelerator::Default => "",
+        Accelerator::Best => "; trees built with care",
     };
     let (instances, spheres) = (count(instances, "instance"), count(spheres, "sphere"));
     line(f, "geometry", format!("{instances}, {triangles}, {spheres}{trees}"))?;
@@ -226,25 +224,25 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     if let Some(text) = light::wavelengths(camera) {
         line(f, "wavelengths", text)?;
     }
-    line(f, "paths", level(s))?;
+    line(f, "paths", path_depth(s))?;
     if s.blocks != Blocks::SINGLE {
         line(f, "shared", format!("tails of the paths of {} pixels, whose errors are alike", s.blocks.len_px()))?;
     }
-    if !s.caustics {
+    if !s.paths.caustics {
         line(f, "left out", "caustics of suns and lamps (light thrown by smooth surfaces on matt ones), as asked")?;
     }
     if s.guiding {
         let paths = count(training::paths_of(camera) as usize, "path");
         line(f, "guided", format!("directions at matt surfaces, by what {paths} find before the picture"))?;
     }
-    if s.branches > 1 {
+    if s.paths.branches > 1 {
         line(
             f,
             "branched",
-            format!("{0} lights are drawn and {0} paths go on at each sample's first surface", s.branches),
+            format!("{0} lights are drawn and {0} paths go on at each sample's first surface", s.paths.branches),
         )?;
     }
-    if s.regularize {
+    if s.paths.regularize {
         line(f, "widened", "lobes of metals, coats, glass and paint behind wider ones (a bias), as asked")?;
     }
     let cube = |bands: Bands| {
@@ -260,19 +258,21 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     line(f, "spectrum", format!("{} to {} nm; {kept}", s.range.low_nm, s.range.high_nm))
 }
 
-fn level(settings: &Settings) -> String {
-    match settings.level {
-        Level::Flat => {
+fn path_depth(settings: &Settings) -> String {
+    match settings.paths.integrator {
+        Integrator::Flat => {
             "none: local shading of lamps, suns and sky (integrator flat); shadows, reflections and light from \
                         surface to surface are missing"
                 .to_owned()
         }
-        Level::Direct => {
+        Integrator::Direct => {
             "none: direct light with its shadows (integrator direct); reflections and light from surface to \
                           surface are missing"
                 .to_owned()
         }
-        Level::Path => format!("at most {} bounces (light scattered more often is missing)", settings.max_bounces),
+        Integrator::Path => {
+            format!("at most {} bounces (light scattered more often is missing)", settings.paths.max_bounces)
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use super::numbers::{f_number, share};
 use super::projection::{CalibrationFile, Projection, TableSource};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, keyed, list, number, path, record};
+use crate::reader::{choice, keyed, list, number, path, record, words};
 
 record! {
     /// A calibrated or ideal projection with a lens's light.
@@ -61,7 +61,7 @@ impl View {
     }
 }
 
-choice! {
+words! {
     /// How an entrance pupil stands to the rays.
     pub enum Pupil {
         /// A disc across the axis: a direction sees it foreshortened by cos θ, so light falls off as cos θ dΩ/dA; sees less than

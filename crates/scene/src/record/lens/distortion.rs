@@ -1,7 +1,7 @@
 //! Radial distortion of a paraxial lens.
 
 use crate::place::Placed;
-use crate::reader::{choice, number, record};
+use crate::reader::{choice, number, record, words};
 
 record! {
     /// Radial distortion r′ = r·(1 + k1·r² + k2·r⁴) about the principal point.
@@ -17,7 +17,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// Which way a distortion polynomial maps.
     pub enum Direction {
         /// From the undistorted picture to the distorted one (OpenCV).
@@ -27,7 +27,7 @@ choice! {
     }
 }
 
-choice! {
+words! {
     /// The unit of a radius on the sensor.
     pub enum RadiusUnit {
         /// Millimetres.

@@ -1,7 +1,7 @@
 //! Where a lens is focused.
 
 use crate::place::Placed;
-use crate::reader::{Rule, choice, either, number, variant};
+use crate::reader::{Rule, choice, either, number, variant, words};
 
 /// Where a lens is focused.
 #[derive(Clone, Debug)]
@@ -12,7 +12,7 @@ pub enum FocusDistance {
     Infinity,
 }
 
-choice! {
+words! {
     /// The word for a distance without end.
     pub enum Endless {
         /// Infinitely far.

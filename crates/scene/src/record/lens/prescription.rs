@@ -7,7 +7,7 @@ use super::numbers::f_number;
 use crate::asset::ASPHERE_TERMS;
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Rule, choice, either, flag, keyed, list, number, path, record, text, variant, vector};
+use crate::reader::{Rule, choice, either, flag, keyed, list, number, path, record, text, variant, vector, words};
 use crate::record::curve::spectrum_file;
 
 record! {
@@ -119,7 +119,7 @@ pub enum Coating {
     QuarterWave(Placed<f64>),
 }
 
-choice! {
+words! {
     /// The word for a surface without coating.
     pub enum Bare {
         /// Bare glass: Fresnel's reflection.
@@ -144,7 +144,7 @@ pub enum FocusBy {
     Group(Placed<[f64; 2]>),
 }
 
-choice! {
+words! {
     /// The word for focusing by the sensor.
     pub enum Mover {
         /// The sensor moves, or the lens as a whole.

@@ -6,7 +6,7 @@ use super::distortion::Direction;
 use crate::asset::{CalibrationChoice, CalibrationFormat};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, exactly, keyed, list, number, path, record, text, variants};
+use crate::reader::{choice, exactly, keyed, list, number, path, record, text, variants, words};
 
 record! {
     /// A calibration file.
@@ -267,7 +267,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// Which way an f-theta polynomial runs.
     pub enum FThetaSense {
         /// From the field angle, rad, to the radius, px.

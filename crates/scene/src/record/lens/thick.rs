@@ -5,7 +5,7 @@ use super::focus::{FocusDistance, focus_distance};
 use super::lateral_colour::LateralColour;
 use super::numbers::{f_number, focal_length, share};
 use crate::place::Placed;
-use crate::reader::{choice, number, record};
+use crate::reader::{choice, number, record, words};
 
 record! {
     /// A thick lens. Positions are along the axis towards the sensor, from the front principal plane.
@@ -40,7 +40,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// One of the two pupils of a lens.
     pub enum Pupil {
         /// The pupil as seen from the scene.

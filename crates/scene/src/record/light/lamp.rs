@@ -9,7 +9,7 @@ use super::placement::LampPlacement;
 use super::strength::{LampStrength, MeasuredStrength};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, number, path, record, text, vector};
+use crate::reader::{choice, number, path, record, text, vector, words};
 
 record! {
     /// Shines alike in all directions.
@@ -107,7 +107,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// A beam of a head lamp.
     pub enum Beam {
         /// The passing beam, with an asymmetric cut-off.
@@ -117,7 +117,7 @@ choice! {
     }
 }
 
-choice! {
+words! {
     /// The side of the road on which traffic keeps.
     pub enum Traffic {
         /// As in France or the United States.

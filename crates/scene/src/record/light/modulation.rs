@@ -10,7 +10,7 @@ use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::AssetKind;
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{Number, choice, flag, keyed, list, number, path, record, time, variants, vector, whole};
+use crate::reader::{Number, choice, flag, keyed, list, number, path, record, time, variants, vector, whole, words};
 
 variants! {
     /// How the strength of a light changes over time. With "pwm" and "mains" the stated strength is the mean over time, what a
@@ -102,7 +102,7 @@ keyed! {
     }
 }
 
-choice! {
+words! {
     /// What holds between the rows of a table.
     pub enum Interpolation {
         /// Straight lines.
@@ -145,7 +145,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// Whether all places of a light go up and down together.
     pub enum Phases {
         /// Together.

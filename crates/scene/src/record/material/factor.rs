@@ -2,7 +2,7 @@
 
 use crate::fault::Named;
 use crate::place::Placed;
-use crate::reader::{Rule, choice, either, name_of, number, record, variant};
+use crate::reader::{Rule, choice, either, name_of, number, record, variant, words};
 
 /// A number from 0 to 1 over a surface.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// One of a picture's numbers.
     pub enum Channel {
         /// Red.
@@ -54,7 +54,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// Which way green points.
     pub enum Green {
         /// To greater v (OpenGL).

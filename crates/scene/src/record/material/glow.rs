@@ -3,7 +3,7 @@
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::fault::{Faults, Named};
 use crate::place::Placed;
-use crate::reader::{choice, name_of, record};
+use crate::reader::{choice, name_of, record, words};
 use crate::record::light::{Emission, Modulation};
 
 record! {
@@ -30,7 +30,7 @@ impl NamesFiles for SurfaceEmission {
     }
 }
 
-choice! {
+words! {
     /// Sides of a surface.
     pub enum Sides {
         /// The side that the normal points to.

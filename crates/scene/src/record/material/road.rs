@@ -6,7 +6,7 @@ use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::AssetKind;
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{choice, keyed, number, path, record};
+use crate::reader::{choice, keyed, number, path, record, words};
 use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectance};
 
 record! {
@@ -58,7 +58,7 @@ impl NamesFiles for SheetingTable {
     }
 }
 
-choice! {
+words! {
     /// A class of sheeting.
     pub enum SheetingClass {
         /// EN 12899-1, class RA1: glass beads.
@@ -70,7 +70,7 @@ choice! {
     }
 }
 
-choice! {
+words! {
     /// A colour of sheeting.
     pub enum SheetingColour {
         /// White.
@@ -129,7 +129,7 @@ keyed! {
     }
 }
 
-choice! {
+words! {
     /// A class of road markings by their least R_L.
     pub enum MarkingClass {
         /// White, dry: 100.

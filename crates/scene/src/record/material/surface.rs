@@ -12,7 +12,7 @@ use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::{AssetKind, Values};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, flag, keyed, known, list, number, path, record, variants, vector};
+use crate::reader::{choice, flag, keyed, known, list, number, path, record, variants, vector, words};
 use crate::record::curve::{Curve, curve};
 use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectance};
 use etendue_spectra::metal;
@@ -175,7 +175,7 @@ impl NamesFiles for Interface {
     }
 }
 
-choice! {
+words! {
     /// How the slopes of microfacets are distributed.
     pub enum Distribution {
         /// Trowbridge and Reitz 1975; Walter et al. 2007: long tails, as most real surfaces have.
@@ -273,7 +273,7 @@ impl NamesFiles for LobeStrength {
     }
 }
 
-choice! {
+words! {
     /// Where a lobe points.
     pub enum LobeKind {
         /// To the mirror direction.

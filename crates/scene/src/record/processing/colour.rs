@@ -2,10 +2,10 @@
 
 use super::super::light::illuminants;
 use crate::place::Placed;
-use crate::reader::{Rule, choice, either, exactly, keyed, known, list, number, record, variant};
+use crate::reader::{Rule, either, exactly, keyed, known, list, number, record, variant, words};
 use etendue_spectra::illuminant;
 
-choice! {
+words! {
     /// How the colours that a pixel did not measure are found.
     pub enum Demosaic {
         /// Weighted means of the neighbours of each colour.

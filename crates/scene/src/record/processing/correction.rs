@@ -1,7 +1,7 @@
 //! What is put right before colours are made.
 
 use crate::place::Placed;
-use crate::reader::{Rule, choice, either, keyed, list, number, path, record, variant, vector};
+use crate::reader::{Rule, choice, either, keyed, list, number, path, record, variant, vector, words};
 use std::path::PathBuf;
 
 /// What counts as no light.
@@ -13,7 +13,7 @@ pub enum BlackLevel {
     Rule(Placed<BlackLevelRule>),
 }
 
-choice! {
+words! {
     /// How the black level is found.
     pub enum BlackLevelRule {
         /// The sensor states it.

@@ -3,7 +3,9 @@
 use super::tone::{ToneCurve, tone_curve};
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{RuleExt as _, choice, exactly, keyed, list, number, percentile, record, variants, vector, whole};
+use crate::reader::{
+    RuleExt as _, choice, exactly, keyed, list, number, percentile, record, variants, vector, whole, words,
+};
 
 variants! {
     /// A filter of the paper.
@@ -100,7 +102,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// What a change of colours works on.
     pub enum Stage {
         /// The encoded picture.
@@ -132,7 +134,7 @@ keyed! {
     }
 }
 
-choice! {
+words! {
     /// A colour space. The two of primaries are for linear light, those of luma for the encoded picture, CMY for both.
     pub enum ColourSpace {
         /// Primaries of NTSC (1953).

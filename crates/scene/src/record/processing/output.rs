@@ -2,9 +2,9 @@
 
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::choice;
+use crate::reader::words;
 
-choice! {
+words! {
     /// The kind of a picture's file.
     pub enum PictureFormat {
         /// Without loss.

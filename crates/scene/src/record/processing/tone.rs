@@ -2,7 +2,7 @@
 
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Rule, choice, either, keyed, number, path, record, variant};
+use crate::reader::{Rule, choice, either, keyed, number, path, record, variant, words};
 use std::path::PathBuf;
 
 /// From linear light to a picture's numbers.
@@ -14,7 +14,7 @@ pub enum ToneCurve {
     Curve(Box<CurveTable>),
 }
 
-choice! {
+words! {
     /// A tone curve without numbers.
     pub enum NamedCurve {
         /// That of IEC 61966-2-1.

@@ -1,7 +1,7 @@
 //! `cfa`: which pixel measures what.
 
 use crate::place::Placed;
-use crate::reader::{Rule, choice, either, list, record, text, variant, whole};
+use crate::reader::{Rule, choice, either, list, record, text, variant, whole, words};
 
 /// A colour filter array.
 #[derive(Clone, Debug)]
@@ -12,7 +12,7 @@ pub enum CfaSource {
     Tile(Tile),
 }
 
-choice! {
+words! {
     /// A colour filter array by name.
     pub enum Cfa {
         /// No filters.

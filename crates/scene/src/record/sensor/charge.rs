@@ -2,7 +2,7 @@
 
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, number, record, variants, whole};
+use crate::reader::{choice, number, record, variants, whole, words};
 
 record! {
     /// How pixels differ, frame after frame the same. Spreads are standard deviations.
@@ -57,7 +57,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// Shape of a distribution.
     pub enum SpreadDistribution {
         /// Normal, cut at 0.
@@ -158,7 +158,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// Which way charge overflows.
     pub enum Direction {
         /// Half up and half down the column: a CCD.

@@ -1,7 +1,7 @@
 //! From charge to digital numbers.
 
 use crate::place::Placed;
-use crate::reader::{choice, list, number, record, variants, vector, whole};
+use crate::reader::{choice, list, number, record, variants, vector, whole, words};
 
 variants! {
     /// Voltage over charge.
@@ -74,7 +74,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// What is put together.
     pub enum BinningOf {
         /// Charge is added before it is read: the read noise comes once.

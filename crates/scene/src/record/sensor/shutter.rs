@@ -1,7 +1,7 @@
 //! When the rows of a sensor are exposed.
 
 use crate::place::Placed;
-use crate::reader::{choice, number, record, variants, whole};
+use crate::reader::{choice, number, record, variants, whole, words};
 
 variants! {
     /// When the rows of a sensor are exposed. Where nothing of a scene depends on time, only "global_reset" changes the picture.
@@ -40,7 +40,7 @@ record! {
     }
 }
 
-choice! {
+words! {
     /// Which way rows are read.
     pub enum Direction {
         /// The top row of the picture first.

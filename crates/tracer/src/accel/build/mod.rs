@@ -10,25 +10,13 @@
 mod partition;
 mod reference;
 mod reinsertion;
+use etendue_core::Accelerator;
 use glam::Vec3;
 use partition::{Cut, Range, cut, halve};
 use reference::Reference;
 use reinsertion::Effort;
 
 use super::boxes::{BinaryKind, BinaryNode, Box3};
-
-/// What is spent on the trees of meshes. Every choice gives the same answers to rays; docs/performance.md has the price of
-/// each.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum TreeQuality {
-    /// The least time to build: one pass from the top down.
-    Fast,
-    /// The same with large triangles cut, and better places for the largest subtrees.
-    #[default]
-    Default,
-    /// The same for half of all subtrees: the least time a ray.
-    Best,
-}
 
 /// Of the largest subtrees of a mesh. Twice as many gave 3 % fewer nodes a ray in the street, for 15 % more time to build.
 const LARGEST: Effort = Effort { apart: 0.06, tried: 1.0 };
@@ -42,29 +30,29 @@ const ALL: Effort = Effort { apart: 1.0, tried: 0.2 };
 pub(super) fn over_triangles(
     count: usize,
     corners: impl Fn(u32) -> [Vec3; 3] + Sync,
-    quality: TreeQuality,
+    quality: Accelerator,
 ) -> Vec<BinaryNode> {
     let mut references = match quality {
-        TreeQuality::Fast => reference::whole(count, &corners),
-        TreeQuality::Default | TreeQuality::Best => reference::cut_large(count, &corners),
+        Accelerator::Fast => reference::whole(count, &corners),
+        Accelerator::Default | Accelerator::Best => reference::cut_large(count, &corners),
     };
     let binary = build_top_down(&mut references);
     drop(references);
     match quality {
-        TreeQuality::Fast => binary,
-        TreeQuality::Default => reinsertion::improved(binary, LARGEST),
-        TreeQuality::Best => reinsertion::improved(binary, HALF),
+        Accelerator::Fast => binary,
+        Accelerator::Default => reinsertion::improved(binary, LARGEST),
+        Accelerator::Best => reinsertion::improved(binary, HALF),
     }
 }
 
 /// A binary tree over triangles that move, each in its box for all of an interval; empty without triangles. Places found at times in between
 /// may be rounded out of those boxes by a unit in the last place of f32, 1.2e-7 of their coordinates, for which there is room too.
-pub(super) fn over_moving(count: usize, swept: impl Fn(u32) -> Box3 + Sync, quality: TreeQuality) -> Vec<BinaryNode> {
+pub(super) fn over_moving(count: usize, swept: impl Fn(u32) -> Box3 + Sync, quality: Accelerator) -> Vec<BinaryNode> {
     let mut references = reference::swept(count, &swept);
     let binary = build_top_down(&mut references);
     match quality {
-        TreeQuality::Fast => binary,
-        TreeQuality::Default | TreeQuality::Best => reinsertion::improved(binary, LARGEST),
+        Accelerator::Fast => binary,
+        Accelerator::Default | Accelerator::Best => reinsertion::improved(binary, LARGEST),
     }
 }
 

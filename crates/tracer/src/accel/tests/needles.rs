@@ -4,12 +4,13 @@ use etendue_core::Ray;
 use glam::{DAffine3, DVec3};
 
 use super::shapes::{Random, instance, soup};
+use crate::accel::WorldBuilder;
 use crate::accel::blas::Blas;
 use crate::accel::lanes::Plain;
 use crate::accel::packet::{Half, Packet, RayLanes};
 use crate::accel::ray::LocalRay;
-use crate::accel::{TreeQuality, WorldBuilder};
 use crate::geometry::{Mesh, Shape};
+use etendue_core::Accelerator;
 
 /// Triangles of lengths from 1 mm to 10 m, a hundred to a hundred thousand times as long as wide, in a cube of 20 m.
 fn needles(count: u32, seed: u32) -> Mesh {
@@ -53,7 +54,7 @@ fn brute_force(halves: &[Half], ray: &Ray) -> Option<(u32, u32)> {
     hits.map(|hit| (hit.t.to_bits(), hit.primitive)).min()
 }
 
-fn check(mesh: &Mesh, quality: TreeQuality, rays: &[Ray], expected: &[Option<(u32, u32)>]) {
+fn check(mesh: &Mesh, quality: Accelerator, rays: &[Ray], expected: &[Option<(u32, u32)>]) {
     let mut builder = WorldBuilder::new().with_tree_quality(quality);
     let shape = Shape::Mesh(builder.add_mesh(mesh.clone()));
     builder.add_instance(instance(shape, DAffine3::IDENTITY));
@@ -66,7 +67,7 @@ fn check(mesh: &Mesh, quality: TreeQuality, rays: &[Ray], expected: &[Option<(u3
     }
 }
 
-fn agree(count: u32, ray_count: u32, qualities: &[TreeQuality]) {
+fn agree(count: u32, ray_count: u32, qualities: &[Accelerator]) {
     let mesh = needles(count, 3);
     assert!(mesh.triangles().len() > count as usize * 9 / 10, "most needles have an area");
     let numbers: Vec<u32> = (0..mesh.triangles().len() as u32).collect();
@@ -80,12 +81,12 @@ fn agree(count: u32, ray_count: u32, qualities: &[TreeQuality]) {
 
 #[test]
 fn a_million_needles_are_found_as_by_brute_force() {
-    agree(1_000_000, 100, &[TreeQuality::Default]);
+    agree(1_000_000, 100, &[Accelerator::Default]);
 }
 
 #[test]
 fn every_quality_of_tree_gives_the_same_answers() {
-    agree(30_000, 2000, &[TreeQuality::Fast, TreeQuality::Default, TreeQuality::Best]);
+    agree(30_000, 2000, &[Accelerator::Fast, Accelerator::Default, Accelerator::Best]);
 }
 
 #[test]
@@ -95,7 +96,7 @@ fn a_tree_is_the_same_on_any_number_of_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         format!("{:?}", pool.install(|| Blas::new(&mesh, quality)))
     };
-    for quality in [TreeQuality::Fast, TreeQuality::Default, TreeQuality::Best] {
+    for quality in [Accelerator::Fast, Accelerator::Default, Accelerator::Best] {
         assert!(tree(1, quality) == tree(3, quality), "{quality:?}");
     }
 }

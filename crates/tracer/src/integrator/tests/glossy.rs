@@ -3,6 +3,7 @@
 use super::*;
 use crate::lights::{Lamp, Profile};
 use crate::materials::glossy_surfaces;
+use etendue_core::LightSampling;
 use glam::DMat3;
 
 /// Lamps in two rows along a road, unlike in strength.

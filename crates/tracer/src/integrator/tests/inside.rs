@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::materials::Dielectric;
+use etendue_core::Integrator;
 
 const ABSORPTION: f64 = 3.0;
 
@@ -21,8 +22,8 @@ fn middle(t: f64) -> f64 {
     2.25 * (1.0 - r) * t / (1.0 - r * t * t)
 }
 
-fn look(scene: Scene, max_bounces: u32, level: Level) -> ReplicateEstimate {
-    let settings = PathSettings { max_bounces, level, roulette_start: 64, ..PathSettings::default() };
+fn look(scene: Scene, max_bounces: u32, integrator: Integrator) -> ReplicateEstimate {
+    let settings = PathSettings { max_bounces, integrator, roulette_start: 64, ..PathSettings::default() };
     scene.ready().look(&ray([0.0; 3], [0.3, -0.5, 0.8]), 1024, settings)
 }
 
@@ -48,14 +49,14 @@ fn light_is_absorbed_on_its_way_to_a_camera_inside_a_ball() {
         let mut scene = even_light();
         let ball = scene.material(glass(absorption), None);
         scene.sphere(DVec3::ZERO, 1.0, ball);
-        agrees(&look(scene, 64, Level::Path), middle(t));
+        agrees(&look(scene, 64, Integrator::Path), middle(t));
     }
 }
 
 #[test]
 fn the_other_levels_absorb_as_well() {
     // One scattering event: what the ball's surface refracts, n² (1 − R) t; mirrored light is followed no further.
-    for level in [Level::Flat, Level::Direct] {
+    for level in [Integrator::Flat, Integrator::Direct] {
         let mut scene = even_light();
         let ball = scene.material(glass(Some(ABSORPTION)), None);
         scene.sphere(DVec3::ZERO, 1.0, ball);
@@ -63,7 +64,7 @@ fn the_other_levels_absorb_as_well() {
         let once = 2.25 * (1.0 - r) * maths::f64::exp(-ABSORPTION);
         let estimate = look(scene, 1, level);
         // The flat level takes what is mirrored for light of the surroundings too.
-        let mirrored = if level == Level::Flat { r * maths::f64::exp(-ABSORPTION) } else { 0.0 };
+        let mirrored = if level == Integrator::Flat { r * maths::f64::exp(-ABSORPTION) } else { 0.0 };
         agrees(&estimate, once + mirrored);
     }
 }

@@ -2,10 +2,11 @@
 
 use super::*;
 use crate::lights::{Lamp, Profile};
+use etendue_core::Integrator;
 use glam::DMat3;
 
 /// A white floor under a sky of radiance 1 and a lamp at 2 m, with a black block between lamp and origin; seen beside it.
-fn floor(level: Level, x: f32) -> ReplicateEstimate {
+fn floor(integrator: Integrator, x: f32) -> ReplicateEstimate {
     let lamp = Lamp::new(DVec3::Z * 2.0, DMat3::IDENTITY, Spectrum::constant(8.0), Profile::Isotropic).expect("a lamp");
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
     let mut scene =
@@ -13,7 +14,7 @@ fn floor(level: Level, x: f32) -> ReplicateEstimate {
     let (white, black) = (scene.material(matt(1.0), None), scene.material(Surface::Absorber, None));
     scene.square(Vec3::ZERO, 50.0, white);
     scene.square(Vec3::new(0.0, 0.0, 1.0), 0.5, black);
-    let settings = PathSettings { level, max_bounces: 7, ..PathSettings::default() };
+    let settings = PathSettings { integrator, max_bounces: 7, ..PathSettings::default() };
     scene.ready().look(&ray([x, 2.0, 0.9], [x, 0.0, 0.0]), 1024, settings)
 }
 
@@ -26,30 +27,30 @@ fn hidden() -> f64 {
 
 #[test]
 fn flat_is_unshadowed_and_direct_is_shadowed() {
-    agrees(&floor(Level::Flat, 0.0), 1.0 + 8.0 / 4.0 / PI);
-    agrees(&floor(Level::Direct, 0.0), 1.0 - hidden());
+    agrees(&floor(Integrator::Flat, 0.0), 1.0 + 8.0 / 4.0 / PI);
+    agrees(&floor(Integrator::Direct, 0.0), 1.0 - hidden());
     // Nothing throws light back onto the floor, so the whole path is direct light.
-    agrees(&floor(Level::Path, 0.0), 1.0 - hidden());
+    agrees(&floor(Integrator::Path, 0.0), 1.0 - hidden());
 }
 
 /// A white wall of a white box of radiance 1: its own glow, direct light, and all of it.
 #[test]
 fn only_paths_gather_light_of_other_surfaces() {
-    let look = |level| {
+    let look = |integrator| {
         let mut scene = Scene::default();
         let glowing = scene.material(matt(0.5), Some(Glow { radiance: 1.0, sides: EmissionSides::Both }));
         scene.sphere(DVec3::ZERO, 1.0, glowing);
-        let settings = PathSettings { level, max_bounces: 64, roulette_start: 64, ..PathSettings::default() };
+        let settings = PathSettings { integrator, max_bounces: 64, roulette_start: 64, ..PathSettings::default() };
         scene.ready().look(&ray([0.1, 0.2, 0.3], [1.0, 0.3, 0.2]), 64, settings)
     };
-    agrees(&look(Level::Flat), 1.5);
-    agrees(&look(Level::Direct), 1.5);
-    agrees(&look(Level::Path), 2.0);
+    agrees(&look(Integrator::Flat), 1.5);
+    agrees(&look(Integrator::Direct), 1.5);
+    agrees(&look(Integrator::Path), 2.0);
 }
 
 #[test]
 fn mirrors_show_the_surroundings_at_every_level_and_what_glows_from_direct_on() {
-    let look = |level, glows: bool| {
+    let look = |integrator, glows: bool| {
         let environment = Some(Environment::Uniform(Spectrum::constant(2.0)));
         let mut scene = Scene { sources: Sources { environment, ..Sources::default() }, ..Scene::default() };
         let mirror = scene.material(aluminium(0.0), None);
@@ -58,12 +59,12 @@ fn mirrors_show_the_surroundings_at_every_level_and_what_glows_from_direct_on() 
             let lamp = scene.material(Surface::Absorber, Some(Glow { radiance: 5.0, sides: EmissionSides::Both }));
             scene.square(Vec3::new(0.0, 0.0, 3.0), 1.0, lamp);
         }
-        let settings = PathSettings { level, ..PathSettings::default() };
+        let settings = PathSettings { integrator, ..PathSettings::default() };
         scene.ready().look(&ray([0.0, 0.0, 1.0], [0.0, 0.01, 0.0]), 1, settings).mean
     };
-    let sky = look(Level::Path, false);
+    let sky = look(Integrator::Path, false);
     assert!(sky > 1.5, "aluminium reflects more than three quarters");
-    for (level, expected) in [(Level::Flat, sky), (Level::Direct, 2.5 * sky), (Level::Path, 2.5 * sky)] {
+    for (level, expected) in [(Integrator::Flat, sky), (Integrator::Direct, 2.5 * sky), (Integrator::Path, 2.5 * sky)] {
         // Six roundings.
         assert!((look(level, true) / expected - 1.0).abs() < 1e-6, "{level:?}");
         assert!((look(level, false) / sky - 1.0).abs() < 1e-6, "{level:?}");
