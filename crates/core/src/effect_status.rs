@@ -1,6 +1,6 @@
-//! What a plan says of an effect: only what a scene requires is modelled.
+//! What a plan says of an effect: whether it is modelled, which keys leave it out, and what is wrong without it.
 
-use std::fmt;
+use std::fmt::{self, Display, Formatter};
 
 /// Whether an effect is modelled, and why. Displayed as a plan words it: without the reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,12 +32,71 @@ impl EffectStatus {
     }
 }
 
-impl fmt::Display for EffectStatus {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Display for EffectStatus {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Modelled(_) => "modelled",
             Self::WhereNeeded(_) => "where the data need it",
             Self::LeftOut(_) | Self::NotDescribed => "left out",
         })
+    }
+}
+
+/// A change of a key of a camera file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KeyChange {
+    /// The dotted key, as `sensor.lag`.
+    pub key: &'static str,
+    /// The value that it gets, as TOML spells it; `None`: the key is removed.
+    pub value: Option<&'static str>,
+}
+
+impl KeyChange {
+    /// Removes a key.
+    #[must_use]
+    pub fn removed(key: &'static str) -> Self {
+        Self { key, value: None }
+    }
+
+    /// Sets those keys to 0 whose values are not.
+    #[must_use]
+    pub fn zeros<const N: usize>(keys: [(&'static str, f64); N]) -> Vec<Self> {
+        keys.into_iter().filter(|(_, value)| *value != 0.0).map(|(key, _)| Self::zero(key)).collect()
+    }
+
+    /// Sets a key to 0.
+    #[must_use]
+    pub fn zero(key: &'static str) -> Self {
+        Self { key, value: Some("0") }
+    }
+}
+
+/// An error, or a bound of it, that follows from the plan's numbers.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct KnownError {
+    /// Of what, in words.
+    pub quantity: &'static str,
+    /// How much.
+    pub value: f64,
+    /// Its unit; empty for a ratio.
+    pub unit: &'static str,
+}
+
+impl Display for KnownError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { quantity, value, unit } = self;
+        write!(f, "{quantity} {}", three_digits(*value))?;
+        if unit.is_empty() { Ok(()) } else { write!(f, " {unit}") }
+    }
+}
+
+/// A number to three digits where it has a fraction.
+fn three_digits(x: f64) -> String {
+    match x.abs() {
+        a if a >= 100.0 => format!("{x:.0}"),
+        a if a >= 10.0 => format!("{x:.1}"),
+        a if a >= 1.0 => format!("{x:.2}"),
+        a if a >= 0.0005 || a == 0.0 => format!("{x:.3}"),
+        _ => format!("{x:.1e}"),
     }
 }

@@ -41,7 +41,7 @@ mod wavelength_density;
 pub mod words;
 
 pub use camera_path::CameraPath;
-pub use effect_status::EffectStatus;
+pub use effect_status::{EffectStatus, KeyChange, KnownError};
 pub use exact_time::{Cycle, Epoch, ExactTime};
 pub use field::{FieldRay, RadianceField};
 pub use frame::{Basis, CameraPose};

@@ -220,6 +220,6 @@ fn dynamic_range(range: &DynamicRange) -> Value {
 
 /// What is modelled, in the words of the plan.
 fn sensor_effects(sensor: &Sensor) -> BTreeMap<&'static str, String> {
-    let modelled = sensor.effects().into_iter().filter(|(_, status)| status.is_modelled());
-    modelled.map(|(name, status)| (name, status.reason().to_owned())).collect()
+    let modelled = sensor.effects().into_iter().filter(|effect| effect.status.is_modelled());
+    modelled.map(|effect| (effect.name, effect.status.reason().to_owned())).collect()
 }

@@ -1,7 +1,8 @@
 //! An effect of a camera's plan.
 
 use etendue_core::EffectStatus;
-use etendue_pipeline::report::effects::{EffectGroup, KnownError, PlannedEffect};
+use etendue_core::KnownError;
+use etendue_pipeline::report::effects::{EffectGroup, PlannedEffect};
 
 /// Whether an effect is modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]

@@ -55,6 +55,7 @@ impl ExposureControl {
 
 impl Effect for ExposureControl {
     const NAME: &'static str = "exposure control";
+    const KEY: &'static str = "sensor.auto_exposure";
 
     fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
         let inside = |v: f64| v > 0.0 && v < 1.0;

@@ -19,7 +19,7 @@ use crate::check::{Checks, SensorError};
 use crate::effect::{Effect, SensorFacts};
 use crate::operation::Operation;
 use etendue_core::quantity::{Charge, DigitalNumber, MeanElectrons, Quantity, SignalPart};
-use etendue_core::{EffectStatus, Plane};
+use etendue_core::{EffectStatus, KeyChange, Plane};
 pub use skipping::Skipping;
 use skipping::first_of;
 
@@ -80,6 +80,7 @@ pub struct Layout {
 
 impl Effect for Layout {
     const NAME: &'static str = "region and binning";
+    const KEY: &'static str = "sensor.binning";
 
     /// It has to fit the picture, whose size the sensor does not know ([`Layout::errors`]).
     fn check(&self, _: &SensorFacts, _: &mut Checks) {}
@@ -103,6 +104,11 @@ impl Effect for Layout {
             parts.push(format!("{width} × {height} pixels from column {x}, row {y} are read"));
         }
         if parts.is_empty() { EffectStatus::NotDescribed } else { EffectStatus::Modelled(parts.join("; ")) }
+    }
+
+    /// A sensor is not without it.
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        Vec::new()
     }
 }
 

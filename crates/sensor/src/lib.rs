@@ -46,6 +46,7 @@ pub use cfa::{BayerPhase, Cfa, CfaError};
 pub use charge_account::ChargeAccount;
 pub use check::SensorError;
 pub use dynamic_range::DynamicRange;
+pub use effect::SensorEffect;
 pub use effects::{ChargeEffects, LightEffects, VoltageEffects};
 pub use parameters::{Channel, Exposure, Pixel, ReadOut, SensorParameters};
 pub use raw::{LinearRaw, Raw};

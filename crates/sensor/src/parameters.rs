@@ -1,7 +1,7 @@
 //! What a sensor is, as the description says it. Each effect's own parameters stand in the effect's file.
 
 use crate::cfa::Cfa;
-use crate::effect::{Effect, SensorFacts, Visitor};
+use crate::effect::{Effect, SensorEffect, SensorFacts, SignalLevels, Visitor};
 use crate::effects::converter::{self, Converter};
 use crate::effects::dark_current::DarkCurrent;
 use crate::effects::full_well::FullWell;
@@ -14,7 +14,6 @@ use crate::hdr::HighDynamicRange;
 use crate::layout::Layout;
 use crate::operation::Operation;
 use crate::state::OperatingPoint;
-use etendue_core::EffectStatus;
 use etendue_spectra::Spectrum;
 
 /// One kind of pixel.
@@ -198,24 +197,32 @@ impl SensorParameters {
         visitor.visit(&self.hdr.companding);
     }
 
-    /// All effects by their names, whether the first capture as described has them, and why, in physical order.
-    pub(crate) fn effects(&self) -> Vec<(&'static str, EffectStatus)> {
-        let mut statuses = Statuses { facts: self.facts(), operation: self.described_operation(), effects: Vec::new() };
-        self.show(&mut statuses);
-        statuses.effects
+    /// All effects of the first capture as described, in physical order.
+    pub(crate) fn effects(&self, levels: SignalLevels) -> Vec<SensorEffect> {
+        let (facts, operation) = (self.facts(), self.described_operation());
+        let mut list = EffectList { facts, operation, levels, effects: Vec::new() };
+        self.show(&mut list);
+        list.effects
     }
 }
 
-/// Names of effects, whether a capture has them, and why.
-struct Statuses {
+/// The effects of a capture.
+struct EffectList {
     facts: SensorFacts,
     operation: Operation,
-    effects: Vec<(&'static str, EffectStatus)>,
+    levels: SignalLevels,
+    effects: Vec<SensorEffect>,
 }
 
-impl Visitor for Statuses {
+impl Visitor for EffectList {
     fn visit<E: Effect>(&mut self, effect: &E) {
-        self.effects.push((E::NAME, effect.status(&self.facts, &self.operation)));
+        self.effects.push(SensorEffect {
+            name: E::NAME,
+            key: E::KEY,
+            status: effect.status(&self.facts, &self.operation),
+            left_out_by: effect.left_out_by(),
+            errors: effect.errors_without(&self.facts, &self.levels),
+        });
     }
 }
 

@@ -4,11 +4,11 @@
 //! exposure time, quantum efficiency with the colour filter in it, photons a joule (EMVA 1288, equation 2).
 
 use crate::check::SensorError;
+use crate::effect::{SensorEffect, SignalLevels};
 use crate::parameters::{Channel, SensorParameters};
 use crate::photon::photons_per_joule;
 use crate::state::OperatingPoint;
 use crate::validity;
-use etendue_core::EffectStatus;
 use etendue_spectra::Spectrum;
 use std::borrow::Cow;
 
@@ -151,12 +151,18 @@ impl Sensor {
         p.exposure.control.is_some() || !p.charge.lag.traps.is_empty() || jumps
     }
 
-    /// All effects by their names in a plan, whether they are modelled and why, in physical order, of the first capture as described.
+    /// All effects of the first capture as described, in physical order.
     #[must_use]
-    pub fn effects(&self) -> Vec<(&'static str, EffectStatus)> {
-        self.parameters.effects()
+    pub fn effects(&self) -> Vec<SensorEffect> {
+        let range = self.dynamic_range();
+        // Of the least signal, ½ (1 + √(1 + 4 σ²)).
+        let dark_variance_e2 = range.least_e * (range.least_e - 1.0);
+        self.parameters.effects(SignalLevels { grey_e: GREY * range.most_e, dark_variance_e2 })
     }
 }
+
+/// Reflectance of a grey card: the fraction of the largest signal that it has in a well-exposed image.
+const GREY: f64 = 0.18;
 
 /// R(λ) of all channels for an exposure, e⁻ per W·m⁻².
 fn responsivities(p: &SensorParameters, exposure_s: f64) -> Vec<Spectrum> {

@@ -18,7 +18,7 @@ use crate::operation::Operation;
 use crate::signal_breakdown::SignalComponent;
 use crate::state::SensorState;
 use etendue_core::quantity::Quantity;
-use etendue_core::{EffectStatus, Plane};
+use etendue_core::{EffectStatus, KeyChange, KnownError, Plane};
 
 /// Why randomness is absent.
 pub(crate) const NOISE_OFF: &str = "noise is switched off for this sensor";
@@ -28,15 +28,53 @@ pub(crate) trait Effect {
     /// Its name in a plan.
     const NAME: &'static str;
 
+    /// The key of a camera file that describes it.
+    const KEY: &'static str;
+
     /// Refuses parameters that are illegal, or contradict the sensor's.
     fn check(&self, facts: &SensorFacts, checks: &mut Checks);
 
     /// Whether a capture has the effect, and why.
     fn status(&self, facts: &SensorFacts, operation: &Operation) -> EffectStatus;
+
+    /// The changes of keys that leave it out; none where a sensor cannot be without it.
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        vec![KeyChange::removed(Self::KEY)]
+    }
+
+    /// The errors of a frame without it that have a closed form.
+    fn errors_without(&self, _facts: &SensorFacts, _levels: &SignalLevels) -> Vec<KnownError> {
+        Vec::new()
+    }
+}
+
+/// Signals that errors are stated for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct SignalLevels {
+    /// A grey card in a well-exposed image, 18 % of the largest signal, e⁻.
+    pub(crate) grey_e: f64,
+    /// Variance without light, e⁻²: read noise, dark current, rounding.
+    pub(crate) dark_variance_e2: f64,
+}
+
+/// An effect of a sensor, as a plan states it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorEffect {
+    /// Its name.
+    pub name: &'static str,
+    /// The key of a camera file that describes it.
+    pub key: &'static str,
+    /// Whether the first capture as described has it, and why.
+    pub status: EffectStatus,
+    /// The changes of keys that leave it out; empty where a sensor cannot be without it.
+    pub left_out_by: Vec<KeyChange>,
+    /// The errors of a frame without it that have a closed form.
+    pub errors: Vec<KnownError>,
 }
 
 impl<E: Effect> Effect for Option<E> {
     const NAME: &'static str = E::NAME;
+    const KEY: &'static str = E::KEY;
 
     fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
         if let Some(effect) = self {
@@ -46,6 +84,14 @@ impl<E: Effect> Effect for Option<E> {
 
     fn status(&self, facts: &SensorFacts, operation: &Operation) -> EffectStatus {
         self.as_ref().map_or(EffectStatus::NotDescribed, |effect| effect.status(facts, operation))
+    }
+
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        self.as_ref().map_or_else(Vec::new, Effect::left_out_by)
+    }
+
+    fn errors_without(&self, facts: &SensorFacts, levels: &SignalLevels) -> Vec<KnownError> {
+        self.as_ref().map_or_else(Vec::new, |effect| effect.errors_without(facts, levels))
     }
 }
 

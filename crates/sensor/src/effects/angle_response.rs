@@ -42,6 +42,7 @@ impl AngleResponse {
 
 impl Effect for AngleResponse {
     const NAME: &'static str = "angle response";
+    const KEY: &'static str = "sensor.angle_response";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         checks.positive("angle_response.exit_pupil_mm", self.exit_pupil_mm);

@@ -27,6 +27,7 @@ pub struct BrighterFatter {
 
 impl Effect for BrighterFatter {
     const NAME: &'static str = "brighter-fatter";
+    const KEY: &'static str = "sensor.brighter_fatter_per_e";
 
     fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
         let (a, full_well_e) = (self.shift_per_e, facts.max_full_well_e);

@@ -7,10 +7,10 @@
 //! Left out: missing codes, integral and differential non-linearity of the converter.
 
 use crate::check::Checks;
-use crate::effect::{Effect, Row, SensorFacts};
+use crate::effect::{Effect, Row, SensorFacts, SignalLevels};
 use crate::operation::Operation;
-use etendue_core::EffectStatus;
 use etendue_core::quantity::Voltage;
+use etendue_core::{EffectStatus, KeyChange, KnownError};
 
 /// The converter at the gain of a capture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +32,7 @@ pub(crate) fn largest_dn(bits: u32) -> f64 {
 
 impl Effect for Converter {
     const NAME: &'static str = "converter";
+    const KEY: &'static str = "sensor.bits";
 
     /// Of the gain each factor is checked, as it is described.
     fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
@@ -52,6 +53,16 @@ impl Effect for Converter {
         };
         let Self { gain_dn_e, black_level_dn, bits, .. } = self;
         EffectStatus::Modelled(format!("{gain_dn_e} DN/e⁻, black at {black_level_dn} DN, {bits} bits{digital}"))
+    }
+
+    /// A sensor is not without it.
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        Vec::new()
+    }
+
+    /// Rounding to whole numbers: a standard deviation of 1/√12 of a step.
+    fn errors_without(&self, _: &SensorFacts, _: &SignalLevels) -> Vec<KnownError> {
+        vec![KnownError { quantity: "rounding σ", value: 1.0 / 12.0_f64.sqrt(), unit: "DN" }]
     }
 }
 

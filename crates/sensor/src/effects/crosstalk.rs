@@ -18,6 +18,7 @@ pub struct Crosstalk(pub Neighbours);
 
 impl Effect for Crosstalk {
     const NAME: &'static str = "optical crosstalk";
+    const KEY: &'static str = "sensor.crosstalk";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         self.0.check("crosstalk", checks);

@@ -14,15 +14,15 @@
 use super::temperature::Temperature;
 use super::two_level::{self, Draws, Site, TwoLevel, high_in_row};
 use crate::check::Checks;
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts};
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts, SignalLevels};
 use crate::operation::Operation;
 use crate::random::pattern::{Deviations, Sigmas};
 use crate::random::{Poisson, sparse, standard_normal};
 use crate::signal_breakdown::SignalComponent;
-use etendue_core::EffectStatus;
 use etendue_core::maths::f64::{exp, ln_1p};
 use etendue_core::quantity::Charge;
 use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
+use etendue_core::{EffectStatus, KeyChange, KnownError};
 
 /// Shape of the distribution of dark currents over pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -100,6 +100,7 @@ impl DarkCurrent {
 
 impl Effect for DarkCurrent {
     const NAME: &'static str = "dark current";
+    const KEY: &'static str = "sensor.dark_current_e_s";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         checks.not_negative("dark_current_e_s", self.current_e_s);
@@ -136,6 +137,20 @@ impl Effect for DarkCurrent {
             format!("{mean_e} e⁻ a pixel; its shot noise is switched off")
         };
         EffectStatus::Modelled(counted + &differences(self))
+    }
+
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        let parts = [
+            ("sensor.dark.hot", self.hot.is_some()),
+            ("sensor.dark.dark_current_rts", self.dark_current_rts.is_some()),
+        ];
+        let parts = parts.into_iter().filter(|(_, is_there)| *is_there);
+        std::iter::once(KeyChange::zero(Self::KEY)).chain(parts.map(|(key, _)| KeyChange::removed(key))).collect()
+    }
+
+    fn errors_without(&self, facts: &SensorFacts, _: &SignalLevels) -> Vec<KnownError> {
+        let value = self.current_e_s * self.temperature_factor() * facts.exposure_s;
+        vec![KnownError { quantity: "dark level lower by", value, unit: "e⁻" }]
     }
 }
 

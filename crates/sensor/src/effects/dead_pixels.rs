@@ -4,13 +4,13 @@
 //! Draw: `Dead`. Left out: pixels stuck at other values, dead rows and columns, clusters.
 
 use crate::check::Checks;
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts};
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts, SignalLevels};
 use crate::operation::Operation;
 use crate::random::sparse;
 use crate::signal_breakdown::SignalComponent;
-use etendue_core::EffectStatus;
 use etendue_core::quantity::Charge;
 use etendue_core::random::{NoiseDraw, NoiseKey};
+use etendue_core::{EffectStatus, KeyChange, KnownError};
 
 /// Dead pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,6 +21,7 @@ pub struct DeadPixels {
 
 impl Effect for DeadPixels {
     const NAME: &'static str = "dead pixels";
+    const KEY: &'static str = "sensor.non_uniformity.dead_fraction";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         checks.fraction("non_uniformity.dead_fraction", self.fraction);
@@ -31,6 +32,14 @@ impl Effect for DeadPixels {
             0.0 => EffectStatus::NotDescribed,
             fraction => EffectStatus::Modelled(format!("{fraction} of pixels hold no charge")),
         }
+    }
+
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        vec![KeyChange::zero(Self::KEY)]
+    }
+
+    fn errors_without(&self, _: &SensorFacts, _: &SignalLevels) -> Vec<KnownError> {
+        vec![KnownError { quantity: "dead pixels alive", value: 100.0 * self.fraction, unit: "%" }]
     }
 }
 

@@ -16,7 +16,7 @@ use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, Row,
 use crate::operation::Operation;
 use crate::signal_breakdown::SignalComponent;
 use etendue_core::quantity::Charge;
-use etendue_core::{EffectStatus, Plane};
+use etendue_core::{EffectStatus, KeyChange, Plane};
 use rayon::prelude::*;
 
 /// The most electrons a pixel holds.
@@ -64,6 +64,7 @@ impl Blooming {
 
 impl Effect for FullWell {
     const NAME: &'static str = "full well";
+    const KEY: &'static str = "sensor.full_well_e";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         checks.positive("full_well_e", self.capacity_e);
@@ -89,6 +90,11 @@ impl Effect for FullWell {
         } else {
             EffectStatus::WhereNeeded(clips)
         }
+    }
+
+    /// A sensor is not without it.
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        Vec::new()
     }
 }
 

@@ -18,6 +18,7 @@ pub struct InterPixelCapacitance(pub Neighbours);
 
 impl Effect for InterPixelCapacitance {
     const NAME: &'static str = "inter-pixel capacitance";
+    const KEY: &'static str = "sensor.inter_pixel_capacitance";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         self.0.check("inter_pixel_capacitance", checks);

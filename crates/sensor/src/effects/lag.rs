@@ -45,6 +45,7 @@ impl Lag {
 
 impl Effect for Lag {
     const NAME: &'static str = "lag";
+    const KEY: &'static str = "sensor.lag";
 
     fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
         for trap in &self.traps {

@@ -117,6 +117,7 @@ domain! {
 
 #[cfg(test)]
 mod tests {
+    use crate::effect::SignalLevels;
     use crate::parameters::SensorParameters;
     use crate::parameters::tests::ideal;
 
@@ -124,9 +125,9 @@ mod tests {
     fn what_has_no_strength_is_absent_and_says_why() {
         let mut p = ideal();
         let kept = |p: &SensorParameters| -> Vec<_> {
-            let effects = p.effects();
-            assert!(effects.iter().all(|(_, status)| !status.reason().is_empty()));
-            effects.into_iter().filter(|(_, status)| status.is_modelled()).map(|(name, _)| name).collect()
+            let effects = p.effects(SignalLevels::default());
+            assert!(effects.iter().all(|effect| !effect.status.reason().is_empty()));
+            effects.into_iter().filter(|effect| effect.status.is_modelled()).map(|effect| effect.name).collect()
         };
         p.noise = false;
         assert_eq!(kept(&p), ["full well", "converter"]);

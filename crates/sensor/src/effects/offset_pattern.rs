@@ -6,13 +6,13 @@
 
 use super::voltage_deviations::VoltageDeviations;
 use crate::check::Checks;
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, SensorFacts};
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, SensorFacts, SignalLevels};
 use crate::operation::Operation;
 use crate::random::pattern::{Deviations, Sigmas};
 use crate::signal_breakdown::SignalComponent;
-use etendue_core::EffectStatus;
 use etendue_core::quantity::Voltage;
 use etendue_core::random::NoiseDraw;
+use etendue_core::{EffectStatus, KeyChange, KnownError};
 
 /// Standard deviations of the offsets, e⁻, 0 or more; 0: none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,6 +33,7 @@ impl OffsetPattern {
 
 impl Effect for OffsetPattern {
     const NAME: &'static str = "offset non-uniformity";
+    const KEY: &'static str = "sensor.non_uniformity.dsnu_e";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         checks.not_negative("non_uniformity.dsnu_e", self.white_e);
@@ -46,6 +47,19 @@ impl Effect for OffsetPattern {
             return EffectStatus::NotDescribed;
         }
         EffectStatus::Modelled(format!("offsets differ: {}", sigmas.described(" e⁻")))
+    }
+
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        KeyChange::zeros([
+            (Self::KEY, self.white_e),
+            ("sensor.non_uniformity.dsnu_row_e", self.row_e),
+            ("sensor.non_uniformity.dsnu_column_e", self.column_e),
+        ])
+    }
+
+    fn errors_without(&self, _: &SensorFacts, _: &SignalLevels) -> Vec<KnownError> {
+        let value = (self.white_e * self.white_e + self.row_e * self.row_e + self.column_e * self.column_e).sqrt();
+        vec![KnownError { quantity: "missing spread of offsets", value, unit: "e⁻" }]
     }
 }
 

@@ -5,13 +5,13 @@
 //! Left out: differences that depend on wavelength; patterns of lower frequency (shading).
 
 use crate::check::Checks;
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts};
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts, SignalLevels};
 use crate::operation::Operation;
 use crate::random::pattern::{Deviations, Sigmas};
 use crate::signal_breakdown::SignalComponent;
-use etendue_core::EffectStatus;
 use etendue_core::quantity::MeanElectrons;
 use etendue_core::random::NoiseDraw;
+use etendue_core::{EffectStatus, KeyChange, KnownError};
 
 /// Standard deviations of the response, as fractions of it, 0 to 1; 0: none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,6 +32,7 @@ impl PhotoResponse {
 
 impl Effect for PhotoResponse {
     const NAME: &'static str = "photo-response non-uniformity";
+    const KEY: &'static str = "sensor.non_uniformity.prnu";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         checks.fraction("non_uniformity.prnu", self.white);
@@ -45,6 +46,19 @@ impl Effect for PhotoResponse {
             return EffectStatus::NotDescribed;
         }
         EffectStatus::Modelled(format!("responses differ: {}", sigmas.described("")))
+    }
+
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        KeyChange::zeros([
+            (Self::KEY, self.white),
+            ("sensor.non_uniformity.prnu_row", self.row),
+            ("sensor.non_uniformity.prnu_column", self.column),
+        ])
+    }
+
+    fn errors_without(&self, _: &SensorFacts, _: &SignalLevels) -> Vec<KnownError> {
+        let value = 100.0 * (self.white * self.white + self.row * self.row + self.column * self.column).sqrt();
+        vec![KnownError { quantity: "missing spread of responses", value, unit: "%" }]
     }
 }
 

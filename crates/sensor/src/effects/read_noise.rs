@@ -6,13 +6,13 @@
 
 use super::voltage_deviations::VoltageDeviations;
 use crate::check::Checks;
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, NOISE_OFF, SensorFacts};
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, NOISE_OFF, SensorFacts, SignalLevels};
 use crate::operation::Operation;
 use crate::random::pattern::{Deviations, Sigmas};
 use crate::signal_breakdown::SignalComponent;
-use etendue_core::EffectStatus;
 use etendue_core::quantity::Voltage;
 use etendue_core::random::NoiseDraw;
+use etendue_core::{EffectStatus, KeyChange, KnownError};
 
 /// Standard deviations, e⁻, 0 or more.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,6 +33,7 @@ impl ReadNoise {
 
 impl Effect for ReadNoise {
     const NAME: &'static str = "read noise";
+    const KEY: &'static str = "sensor.read_noise_e";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         checks.not_negative("read_noise_e", self.white_e);
@@ -50,6 +51,22 @@ impl Effect for ReadNoise {
         } else {
             EffectStatus::LeftOut(NOISE_OFF.into())
         }
+    }
+
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        let common = [("sensor.row_noise_e", self.row_e), ("sensor.column_noise_e", self.column_e)];
+        let common = common.into_iter().filter(|(_, sigma_e)| *sigma_e != 0.0);
+        std::iter::once(KeyChange::zero(Self::KEY)).chain(common.map(|(key, _)| KeyChange::removed(key))).collect()
+    }
+
+    fn errors_without(&self, _: &SensorFacts, levels: &SignalLevels) -> Vec<KnownError> {
+        let SignalLevels { grey_e, dark_variance_e2 } = levels;
+        let variance_e2 = self.white_e * self.white_e + self.row_e * self.row_e + self.column_e * self.column_e;
+        let lost = |quantity, of_e2: f64| KnownError { quantity, value: 100.0 * variance_e2 / of_e2, unit: "%" };
+        vec![
+            lost("variance of grey lost", grey_e + dark_variance_e2),
+            lost("variance of black lost", *dark_variance_e2),
+        ]
     }
 }
 

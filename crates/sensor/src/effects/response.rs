@@ -97,6 +97,7 @@ impl Response {
 
 impl Effect for Response {
     const NAME: &'static str = "response";
+    const KEY: &'static str = "sensor.response";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         match self {

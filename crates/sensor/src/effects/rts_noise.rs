@@ -18,6 +18,7 @@ pub struct RtsNoise(pub TwoLevel);
 
 impl Effect for RtsNoise {
     const NAME: &'static str = "RTS noise";
+    const KEY: &'static str = "sensor.rts_noise";
 
     fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         self.0.check(["rts_noise.share", "rts_noise.mean_e", "rts_noise.dwell_frames"], checks);

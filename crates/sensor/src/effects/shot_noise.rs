@@ -4,13 +4,13 @@
 //! Draw: `NoiseDraw::Shot` of the pixel. Left out: several electrons a photon (below 400 nm).
 
 use crate::check::Checks;
-use crate::effect::{Context, Effect, NOISE_OFF, Row, RowConversion, SensorFacts};
+use crate::effect::{Context, Effect, NOISE_OFF, Row, RowConversion, SensorFacts, SignalLevels};
 use crate::operation::Operation;
 use crate::random::Poisson;
 use crate::signal_breakdown::SignalComponent;
-use etendue_core::EffectStatus;
 use etendue_core::quantity::{Charge, MeanElectrons};
 use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
+use etendue_core::{EffectStatus, KeyChange, KnownError};
 
 /// Photon shot noise; it has no parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +26,7 @@ impl ShotNoise {
 
 impl Effect for ShotNoise {
     const NAME: &'static str = "shot noise";
+    const KEY: &'static str = "sensor.noise";
 
     fn check(&self, _: &SensorFacts, _: &mut Checks) {}
 
@@ -37,6 +38,17 @@ impl Effect for ShotNoise {
         } else {
             EffectStatus::Modelled("photo-electrons are counted: Poisson, exact at every mean".into())
         }
+    }
+
+    /// The key switches off all randomness from frame to frame.
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        vec![KeyChange { key: Self::KEY, value: Some("false") }]
+    }
+
+    fn errors_without(&self, _: &SensorFacts, levels: &SignalLevels) -> Vec<KnownError> {
+        let SignalLevels { grey_e, dark_variance_e2 } = levels;
+        let value = 100.0 * grey_e / (grey_e + dark_variance_e2);
+        vec![KnownError { quantity: "variance of grey lost", value, unit: "%" }]
     }
 }
 

@@ -65,6 +65,7 @@ impl Smear {
 
 impl Effect for Smear {
     const NAME: &'static str = "smear";
+    const KEY: &'static str = "sensor.smear";
 
     fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
         match *self {

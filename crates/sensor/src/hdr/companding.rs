@@ -21,6 +21,7 @@ pub struct Companding {
 
 impl Effect for Companding {
     const NAME: &'static str = "companding";
+    const KEY: &'static str = "sensor.companding";
 
     /// It is checked with the whole sensor, as it begins where merging ends.
     fn check(&self, _: &SensorFacts, _: &mut Checks) {}

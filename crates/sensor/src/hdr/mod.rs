@@ -23,7 +23,7 @@ use crate::check::Checks;
 use crate::effect::{Effect, SensorFacts};
 use crate::operation::Operation;
 use companding::Companding;
-use etendue_core::EffectStatus;
+use etendue_core::{EffectStatus, KeyChange};
 
 /// A capture after the first, relative to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,6 +156,7 @@ impl HighDynamicRange {
 
 impl Effect for HighDynamicRange {
     const NAME: &'static str = "merging of captures";
+    const KEY: &'static str = "sensor.hdr";
 
     /// Captures are checked with the whole sensor, when its own figures are legal.
     fn check(&self, _: &SensorFacts, _: &mut Checks) {}
@@ -169,5 +170,10 @@ impl Effect for HighDynamicRange {
             scales.join(", "),
             self.switch()
         ))
+    }
+
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        let companding = self.companding.as_ref().map(|_| KeyChange::removed(Companding::KEY));
+        std::iter::once(KeyChange::removed(Self::KEY)).chain(companding).collect()
     }
 }

@@ -2,8 +2,7 @@
 //! (as `--set` takes them).
 
 use crate::plan::CameraPlan;
-use etendue_core::EffectStatus;
-use std::fmt::{self, Display, Formatter};
+use etendue_core::{EffectStatus, KeyChange, KnownError};
 
 /// The parts of a frame's making.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -75,36 +74,6 @@ pub struct IfDropped {
     pub errors: Vec<KnownError>,
 }
 
-/// An error, or a bound of it, that follows from the plan's numbers.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct KnownError {
-    /// Of what, in words.
-    pub quantity: &'static str,
-    /// How much.
-    pub value: f64,
-    /// Its unit; empty for a ratio.
-    pub unit: &'static str,
-}
-
-impl Display for KnownError {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { quantity, value, unit } = self;
-        write!(f, "{quantity} {}", three_digits(*value))?;
-        if unit.is_empty() { Ok(()) } else { write!(f, " {unit}") }
-    }
-}
-
-/// A number to three digits where it has a fraction.
-fn three_digits(x: f64) -> String {
-    match x.abs() {
-        a if a >= 100.0 => format!("{x:.0}"),
-        a if a >= 10.0 => format!("{x:.1}"),
-        a if a >= 1.0 => format!("{x:.2}"),
-        a if a >= 0.0005 || a == 0.0 => format!("{x:.3}"),
-        _ => format!("{x:.1e}"),
-    }
-}
-
 impl PlannedEffect {
     /// An effect of this status, of which nothing else is known.
     pub(super) fn new(group: EffectGroup, name: &'static str, status: EffectStatus) -> Self {
@@ -131,6 +100,11 @@ impl PlannedEffect {
             if_dropped.set = Some(set);
         }
         self
+    }
+
+    /// The same, left out by these changes of keys of its camera.
+    pub(super) fn left_out_by(self, camera: &CameraPlan, changes: &[KeyChange]) -> Self {
+        self.dropped_by(changes.iter().map(|change| of_camera(camera, change.key, change.value.unwrap_or(REMOVED))))
     }
 
     /// The same, taking so many seconds, all of which its dropping saves.

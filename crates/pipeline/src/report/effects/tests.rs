@@ -41,22 +41,6 @@ fn names_are_alone_and_every_reason_is_said() {
     assert!(groups.is_sorted_by_key(order), "effects stand in the order of their groups");
 }
 
-/// A sensor effect that is new to the list needs its keys in `sensor.rs`.
-#[test]
-fn every_effect_of_the_sensors_list_has_its_key() {
-    let electronics = "sensor = { exposure_s = 0.01, cfa = \"mono\", quantum_efficiency = 0.6, full_well_e = 20000, read_noise_e = 2, \
-                       dark_current_e_s = 5, gain_dn_per_e = 0.2, black_level_dn = 64, bits = 12, width_px = 120, \
-                       height_px = 80, pixel_pitch_um = 6.0 }";
-    let plan = plan_of(PINHOLE, electronics, "", "");
-    let camera = &plan.cameras[0];
-    let listed = camera.body.sensor.as_ref().expect("electronics").effects();
-    let planned = plan.effects(camera);
-    for (name, _) in listed {
-        let effect = planned.iter().find(|effect| effect.name == name).expect("the sensor's own list");
-        assert!(effect.key.is_some(), "{name} has no key in plan/effects/sensor.rs");
-    }
-}
-
 #[test]
 fn what_is_skipped_takes_nothing_and_cannot_be_dropped() {
     let plan = plan_of(PINHOLE, "", "", "");

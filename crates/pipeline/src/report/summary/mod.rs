@@ -22,6 +22,7 @@ use crate::sizes::block::Blocks;
 use effects_table::effects_table;
 use etendue_core::{Accelerator, Bands, EffectStatus, Integrator, RawFormat};
 use etendue_optics::effects::Effect;
+use etendue_sensor::SensorEffect;
 use etendue_sensor::dynamic_range::{DynamicRange, Switch};
 use etendue_sensor::emva1288::db;
 use etendue_tracer::geometry::Shape;
@@ -314,11 +315,11 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         ),
     )?;
     let (silent, stated): (Vec<_>, Vec<_>) =
-        sensor.effects().into_iter().partition(|(_, status)| *status == EffectStatus::NotDescribed);
-    for (name, status) in stated {
+        sensor.effects().into_iter().partition(|effect| effect.status == EffectStatus::NotDescribed);
+    for SensorEffect { name, status, .. } in stated {
         line(f, "", format!("{name}: {status}: {}", status.reason()))?;
     }
-    let silent: Vec<_> = silent.into_iter().map(|(name, _)| name).collect();
+    let silent: Vec<_> = silent.into_iter().map(|effect| effect.name).collect();
     line(f, "", format!("left out, as not described: {}", silent.join(", ")))?;
     line(f, "", range(&sensor.dynamic_range()))
 }
