@@ -19,7 +19,9 @@ pub mod report;
 pub mod sizes;
 
 pub use camera::{datasheet, defocus, flat, light_meter, photograph, sampling, stored, weather};
-pub use compile::{Choices, Refinement, compile, compile_camera, compile_camera_with_remarks, compile_weather};
+pub use compile::{
+    Choices, Refinement, compile, compile_camera, compile_camera_with_remarks, compile_weather, stated_projection,
+};
 pub use plan::{Plan, raw_colour, rectified, remark};
 pub use render::observer::{Observer, Unobserved};
 pub use render::{

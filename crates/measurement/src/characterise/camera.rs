@@ -11,7 +11,7 @@ use super::spread::{Spread, told};
 use crate::measure::views::Found as Geometry;
 use crate::report::{Estimate, with_uncertainty};
 use etendue_core::maths::f64::{hypot, log10};
-use etendue_plan_report::calibration;
+use etendue_pipeline::stated_projection;
 use etendue_scene::written::{File, Table};
 
 /// Stand-ins.
@@ -134,7 +134,7 @@ impl Draft<'_> {
         match &found.geometry {
             Some(geometry) => {
                 lens.put("type", "calibrated");
-                lens.put("projection", calibration::projection(&geometry.camera.calibration).to_table().in_line());
+                lens.put("projection", stated_projection(&geometry.camera.calibration).to_table().in_line());
                 let each =
                     geometry.camera.parameters.iter().map(|p| format!("{} {}", p.name, with_uncertainty(p.estimate)));
                 self.beside("lens.projection", each.collect::<Vec<_>>().join(", "));

@@ -23,7 +23,6 @@
 //! Left out: skew, charts that are not flat or not known, several cameras.
 
 mod error;
-mod family;
 mod options;
 mod outlier_rejection;
 mod pose;
@@ -38,7 +37,7 @@ use crate::fit::{Fit, fit};
 use problem::Bundle;
 
 pub use error::CalibrateError;
-pub use family::{CameraModel, Family, Radial};
+pub use etendue_projection::model::{CameraModel, Family, Radial};
 pub use options::Options;
 pub use outlier_rejection::{MIN_VIEWS, OutlierRejection, calibrate_rejecting_outliers};
 pub use pose::Pose;

@@ -50,6 +50,7 @@ mod weather;
 mod world;
 
 pub use choices::{Choices, Refinement};
+pub use lens::stated_projection;
 
 use crate::plan::remark::grouped;
 use crate::plan::{

@@ -2,7 +2,7 @@
 
 use super::found::Found;
 use etendue_io::failure::Error;
-use etendue_plan_report::calibration;
+use etendue_pipeline::stated_projection;
 use etendue_scene::record::lens::calibrated::View;
 use etendue_scene::record::{self, Camera, Lens, Sensor};
 use etendue_scene::written::File;
@@ -16,7 +16,7 @@ impl Found {
         let refused = |folds| Error::input(format!("no camera file of this, figures only: {folds}"));
         self.camera.calibration.check().map_err(refused)?;
         let [width, height] = self.camera.calibration.size_px().map(|n| n as u64);
-        let view = View::Projection(Box::new(calibration::projection(&self.camera.calibration)));
+        let view = View::Projection(Box::new(stated_projection(&self.camera.calibration)));
         let lens = Lens::Calibrated(Box::new(record::lens::Calibrated::new(view, f_number.unwrap_or(4.0))));
         let camera = Camera::new(lens, Sensor::new(width, height, pixel_pitch_um));
         let count = self.views.len();

@@ -5,6 +5,7 @@ mod clear_apertures;
 mod lens_file;
 mod prescription;
 mod projection;
+mod projection_models;
 mod ray_transfer;
 #[cfg(test)]
 mod tests;
@@ -20,6 +21,7 @@ use etendue_scene::Placed;
 use etendue_scene::record::{self, lens as description};
 use glam::DVec2;
 pub(super) use prescription::coating;
+pub use projection_models::stated_projection;
 
 const UM_PER_MM: f64 = 1000.0;
 
