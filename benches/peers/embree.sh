@@ -11,6 +11,8 @@ fi
 "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-deps "embreex==4.4.0.post1"
 library=$(find "$venv" -name "libembree4*.so*" | head -n 1)
 tbb=$(dirname "$library")
+street=$root/target/peers/street.bin
+cargo run --release --locked --quiet --manifest-path "$root/Cargo.toml" -p etendue-benches -- --contest "$street"
 cd "$root/benches/peers/embree"
 cargo build --release --locked --quiet --target-dir "$root/target/peers/embree"
-LD_LIBRARY_PATH=$tbb exec "$root/target/peers/embree/release/etendue-beside-embree" "$library" "$@"
+LD_LIBRARY_PATH=$tbb exec "$root/target/peers/embree/release/etendue-beside-embree" "$library" "$street" "$@"

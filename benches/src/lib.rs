@@ -1,19 +1,16 @@
-//! What the benchmarks are made of: scenes and rays, clocks, tables. The benchmarks beside other programs (peers/) use
-//! it too.
+//! What the benchmarks are made of: scenes and rays, clocks, tables. What needs the core and the tracer alone
+//! stands in `etendue-bench-rays`, which the comparison with Embree links.
 
 pub mod adaptive;
 pub mod child;
-pub mod clock;
 pub mod defocus;
 pub mod files;
 pub mod films;
-pub mod flat;
 pub mod frames;
 pub mod inputs;
 pub mod instances;
 pub mod lamps;
 pub mod lenses;
-pub mod machine;
 pub mod memory;
 pub mod motion;
 pub mod obj;
@@ -22,13 +19,11 @@ pub mod peer;
 pub mod questions;
 pub mod rays;
 pub mod road;
-pub mod runs;
 pub mod scenes;
 pub mod sensor;
 pub mod soak;
-pub mod table;
-pub mod terrain;
 pub mod textures;
-pub mod threads;
 pub mod trees;
 pub mod views;
+
+pub use etendue_bench_rays::{clock, flat, machine, runs, table, terrain, threads};

@@ -35,7 +35,7 @@
 use etendue_benches::table::Table;
 use etendue_benches::{
     adaptive, defocus, files, films, frames, inputs, instances, lamps, lenses, machine, memory, motion, obj, paths,
-    peer, rays, road, sensor, soak, textures, trees, views,
+    peer, questions, rays, road, sensor, soak, textures, trees, views,
 };
 use std::process::ExitCode;
 
@@ -65,6 +65,9 @@ const BENCHMARKS: [Benchmark; 21] = [
     ("inputs", inputs::table),
     ("soak", soak::table),
 ];
+
+/// Writes the street for the comparison with Embree.
+const CONTEST: &str = "--contest";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -96,6 +99,10 @@ fn main() -> ExitCode {
         [flag, renders] if flag == soak::CHILD => {
             println!("{}", soak::child(renders));
             ExitCode::SUCCESS
+        }
+        [flag, file] if flag == CONTEST => {
+            let written = questions::write_street(file.as_ref());
+            answer(written.map(|()| Vec::new()).map_err(|error| format!("{file}: {error}")))
         }
         [flag, order @ ..] if flag == peer::FLAG => answer(peer::rendered(order)),
         names => report(names),

@@ -2,10 +2,10 @@
 
 use crate::embree::{DEFAULT, Embree, HIGH, Mode, ROBUST, ROBUST_HIGH, Scene};
 use crate::flush;
-use etendue_benches::clock::timed;
-use etendue_benches::questions::Questions;
-use etendue_benches::runs::Runs;
-use etendue_benches::table::Table;
+use etendue_bench_rays::clock::timed;
+use etendue_bench_rays::questions::Questions;
+use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::table::Table;
 use etendue_core::TimeInterval;
 use etendue_tracer::accel::{Simd, World};
 use etendue_tracer::geometry::Mesh;

@@ -4,7 +4,7 @@
 //! its output is read.
 
 use crate::embree::{DEFAULT, Embree, ROBUST};
-use etendue_benches::terrain;
+use etendue_bench_rays::terrain;
 use std::path::Path;
 use std::process::Command;
 

@@ -1,6 +1,6 @@
 //! Étendue's accelerator beside Intel Embree: the same triangles, the same rays, one thread, in turns.
 //!
-//! `benches/peers/embree.sh` fetches Embree and runs this: `etendue-beside-embree LIBRARY [rays] [agreement] [sizes]`.
+//! `benches/peers/embree.sh` fetches Embree and runs this: `etendue-beside-embree LIBRARY STREET [rays] [agreement] [sizes]`.
 //! `--max-isa avx2` holds Embree to the instruction set that Étendue uses; `--largest 1000000` leaves out larger hills.
 //! docs/performance.md keeps a set of results.
 
@@ -15,7 +15,8 @@ mod sizes;
 
 use contest::Contest;
 use embree::Embree;
-use etendue_benches::{flat, machine, questions, scenes, terrain};
+use etendue_bench_rays::contest_file::ContestFile;
+use etendue_bench_rays::{flat, machine, questions, terrain};
 use glam::DVec3;
 use std::path::Path;
 use std::process::ExitCode;
@@ -28,8 +29,8 @@ const SIZES: [usize; 4] = [10_000, 100_000, 1_000_000, 10_000_000];
 #[global_allocator]
 static HEAP: heap::Counting = heap::Counting;
 
-const USAGE: &str = "usage: etendue-beside-embree LIBRARY [--max-isa sse4.2|avx|avx2|avx512] [--largest TRIANGLES] \
-    [rays] [agreement] [sizes]; embree.sh finds the library";
+const USAGE: &str = "usage: etendue-beside-embree LIBRARY STREET [--max-isa sse4.2|avx|avx2|avx512] [--largest TRIANGLES] \
+    [rays] [agreement] [sizes]; embree.sh finds the library and writes the street";
 
 /// What is asked for.
 #[derive(Default)]
@@ -48,8 +49,8 @@ fn main() -> ExitCode {
         [flag, library, isa @ ..] if flag == kernels::CHILD => {
             kernels::child(library, isa.first().map(String::as_str)).map_err(|error| error.to_string())
         }
-        [library, rest @ ..] => Order::read(rest).and_then(|order| order.report(library)),
-        [] => Err(USAGE.to_owned()),
+        [library, street, rest @ ..] => Order::read(rest).and_then(|order| order.report(library, Path::new(street))),
+        _ => Err(USAGE.to_owned()),
     };
     done.map_or_else(
         |what| {
@@ -79,13 +80,13 @@ impl Order {
         self.tables.is_empty() || self.tables.iter().any(|n| n == name)
     }
 
-    fn report(&self, library: &str) -> Result<(), String> {
+    fn report(&self, library: &str, street: &Path) -> Result<(), String> {
         let isa = self.isa.as_deref();
         let unusable = |error| format!("{library} cannot be opened as Embree 4: {error}");
         let embree = Embree::open(Path::new(library), isa).map_err(unusable)?;
         println!("{}\n{}", machine::line(), kernels::line(library, isa));
         if self.wants("rays") || self.wants("agreement") {
-            let contests = [street(), hills()];
+            let contests = [self::street(street)?, hills()];
             if self.wants("rays") {
                 println!("\n{}", contest::rates(&embree, &contests));
             }
@@ -102,13 +103,13 @@ impl Order {
     }
 }
 
-/// The street with its instances written out as one mesh.
-fn street() -> Contest {
-    let plan = scenes::STREET.plan();
-    let camera = scenes::camera(&plan);
-    let view = plan.world.render_space(camera.path.at(0.0).position_m);
-    let questions = questions::questions(&plan, camera, &view);
-    Contest { name: "street", world: flat::world(flat::mesh(&view)), questions }
+/// The street with its instances written out as one mesh, from the file that `etendue-benches --contest` writes.
+fn street(file: &Path) -> Result<Contest, String> {
+    let unreadable = |error| format!("{}: {error}", file.display());
+    let ContestFile { corners, primary, sun } = ContestFile::read(file).map_err(unreadable)?;
+    let world = flat::world(flat::of_corners(corners));
+    let questions = questions::about(primary, sun, &world.render_space(DVec3::ZERO));
+    Ok(Contest { name: "street", world, questions })
 }
 
 fn hills() -> Contest {

@@ -3,11 +3,11 @@
 use crate::embree::{DEFAULT, Embree, ROBUST, Scene};
 use crate::flush;
 use crate::heap::{Added, EMBREES, OURS};
-use etendue_benches::clock::timed;
-use etendue_benches::runs::Runs;
-use etendue_benches::table::Table;
-use etendue_benches::threads::pool;
-use etendue_benches::{flat, terrain};
+use etendue_bench_rays::clock::timed;
+use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
+use etendue_bench_rays::{flat, terrain};
 use etendue_core::Ray;
 use etendue_tracer::accel::World;
 use etendue_tracer::geometry::Mesh;

@@ -9,7 +9,11 @@ use glam::{DAffine3, Vec3};
 
 /// All triangles of a view in one mesh, in the render frame. Spheres are left out.
 pub fn mesh(view: &RenderSpace<'_>) -> Mesh {
-    let corners: Vec<Vec3> = instances(view).flat_map(|i| triangles(view, i)).flatten().collect();
+    of_corners(instances(view).flat_map(|i| triangles(view, i)).flatten().collect())
+}
+
+/// A mesh of triangles that share no corners: three corners each.
+pub fn of_corners(corners: Vec<Vec3>) -> Mesh {
     let triangles = (0..corners.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     Mesh::new(corners, vec![], vec![], triangles, vec![]).expect("triangles of a legal world").0
 }
