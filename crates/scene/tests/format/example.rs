@@ -78,7 +78,7 @@ fn assets_are_listed_once_relative_to_the_job() {
 fn overrides_reach_every_file() {
     let sets = [
         "render.spp=16",
-        "cameras.front.render.samples.spp=8",
+        "cameras.front.render.spp=8",
         "cameras.front.lens.f_number=2.8",
         "cameras.1.lens.f_number=4",
         "scene.lights.sun.elevation_deg=10",
