@@ -16,8 +16,8 @@ use crate::chart::design::{Checkerboard, ColorChecker, FlatField, GridSize, Slan
 use crate::chart::{Chart, ChartRequest, make};
 use crate::flat::{FlatRequest, FlatSource, flat};
 use crate::job_request::JobRequest;
+use crate::job_request::RenderOptions;
 use crate::named_file::write_file;
-use crate::render_options::RenderOptions;
 use clap::Args;
 use etendue_arguments::{seed, whole};
 use etendue_core::observer::Observer;

@@ -1,18 +1,15 @@
 //! The shards of one job to the result of an unsharded run.
 
-use crate::delivery::{SoFar, deliver};
 use crate::film_file::FilmOrigin;
-use crate::render_options::RenderOptions;
-use crate::results::{DoneFrames, Kept, Sequence};
-use crate::rig;
+use crate::job_request::RenderOptions;
+use crate::run::Run;
+use crate::run::store::{RunFolder, RunStore, StoredLight};
 use crate::shard::{self, Manifest};
 use etendue_core::observer::Observer;
+use etendue_io::Existing;
 use etendue_io::failure::Error;
-use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::CameraPlan;
-use etendue_pipeline::render::Shot;
 use etendue_pipeline::tile::{Shard, tiles};
 use etendue_tracer::accel::Simd;
 use rayon::prelude::*;
@@ -41,20 +38,25 @@ pub fn merge(
     }
     let job = manifest.request.clone().into_output(folder).open()?;
     check_same_plan(job.plan(), &manifest)?;
-    let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
-    folder.claim(job.file_names(&manifest.frames).iter().map(String::as_str)).map_err(Error::input)?;
-    let kept = Kept::of_run(&folder, observer);
-    let options = RenderOptions { frames: manifest.frames.clone(), simd };
-    let mut sequence = Sequence::default();
-    let film_of = |group: &[&CameraPlan], shot, _: SoFar<'_>| joined(job.plan(), group[0], shot, &shards);
-    deliver(job.shared_plan(), &options, &DoneFrames::default(), film_of, |camera| {
-        sequence.write(&camera, &mut folder, observer)
-    })?;
-    sequence.finish(&mut folder, observer)?;
-    rig::write(&rig::asked_files(job.plan(), &manifest.frames), &mut folder, observer)?;
-    let written = folder.commit().map_err(Error::run)?;
-    kept.all();
-    Ok(written)
+    let frames = manifest.frames.clone();
+    let mut folder = RunFolder::of_shards(job.shared_plan(), frames.clone(), folder, existing, observer)?;
+    let mut run = Run::new(job.shared_plan(), &RenderOptions { frames, simd }, None, observer)?;
+    let mut light = ShardLight { shards: &shards };
+    while let Some(results) = run.next_results(&mut light)? {
+        folder.write(&results)?;
+    }
+    folder.finish()
+}
+
+/// The light of shards that are complete.
+struct ShardLight<'a> {
+    shards: &'a [(Manifest, &'a PathBuf)],
+}
+
+impl RunStore for ShardLight<'_> {
+    fn light(&self, origin: &FilmOrigin<'_>) -> Result<StoredLight, Error> {
+        joined(origin, self.shards).map(StoredLight::Complete)
+    }
 }
 
 /// Every shard of one run, each once.
@@ -98,14 +100,15 @@ fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Error> {
 const AT_ONCE: usize = 4;
 
 /// The film of all shards' tiles.
-fn joined(plan: &Plan, camera: &CameraPlan, shot: Shot, shards: &[(Manifest, &PathBuf)]) -> Result<Film, Error> {
+fn joined(whole: &FilmOrigin<'_>, shards: &[(Manifest, &PathBuf)]) -> Result<Film, Error> {
+    let camera = whole.camera;
     let (width, height) = camera.film_size();
     let settings = &camera.settings;
     let mut film = Film::new(width as usize, height as usize, &camera.film_layout(), settings.replicates);
     let read = |(manifest, folder): &(Manifest, &PathBuf)| {
         let shard = Shard::new(manifest.index, manifest.count)
             .ok_or_else(|| refuse(folder, "its manifest is damaged; render the shard again"))?;
-        shard::read(folder, &FilmOrigin { plan, camera, shot, shard }).map(|film| (shard, film))
+        shard::read(folder, &FilmOrigin { shard, ..*whole }).map(|film| (shard, film))
     };
     for some in shards.chunks(AT_ONCE) {
         let parts: Vec<Result<(Shard, Film), Error>> = some.par_iter().map(read).collect();

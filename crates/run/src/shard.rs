@@ -3,15 +3,13 @@
 //! A film's planes hold the shard's tiles; the other pixels are zero. `merge` makes the plan again from the manifest
 //! and refuses shards of another plan.
 
-use crate::delivery::{check_finite, check_frames, shots_of};
-use crate::exposures::Exposures;
-use crate::film_file::{self, FilmOrigin};
-use crate::film_names::film_name;
+use crate::film_file::{self, FilmOrigin, film_name};
 use crate::job::Job;
-use crate::job_request::JobRequest;
-use crate::results::Kept;
+use crate::job_request::{JobRequest, RenderOptions};
 use crate::results::writer::write_exr;
-use crate::shard_spec::{ShardRequest, ShardSpec};
+use crate::run::Run;
+use crate::run::films::shots_of;
+use crate::run::store::{InterruptionNote, NoStore};
 use etendue_arguments::MAX_FRAMES;
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
@@ -20,17 +18,70 @@ use etendue_io::{Existing, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
-use etendue_pipeline::render::Shot;
+use etendue_pipeline::tile::Shard;
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// A shard of a run: every tile whose number is `index` modulo `count`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShardSpec {
+    /// Which shard, from 0.
+    pub index: u32,
+    /// Of how many.
+    pub count: u32,
+}
+
+/// `I/N`.
+impl FromStr for ShardSpec {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let expected = || format!("expected I/N with I < N, e.g. 0/3, not '{text}'");
+        let (index, count) = text.split_once('/').ok_or_else(expected)?;
+        let number = |s: &str| s.trim().parse::<u32>().map_err(|_| expected());
+        let (index, count) = (number(index)?, number(count)?);
+        if index < count { Ok(Self { index, count }) } else { Err(expected()) }
+    }
+}
+
+impl ShardSpec {
+    pub(crate) fn shard(self) -> Result<Shard, Error> {
+        let told = || Error::input(format!("shard {}/{}: expected an index below the count", self.index, self.count));
+        Shard::new(self.index, self.count).ok_or_else(told)
+    }
+}
+
+/// What one call renders of a shard.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ShardRequest {
+    /// Which tiles.
+    pub spec: ShardSpec,
+    /// The frames of the whole run.
+    pub frames: Range<u32>,
+    /// The only films of the shard to render, by the [names of their files](crate::Job::film_names); empty: all of them.
+    pub films: Vec<String>,
+}
+
+impl ShardRequest {
+    /// All films of a shard.
+    #[must_use]
+    pub fn whole(spec: ShardSpec, frames: Range<u32>) -> Self {
+        Self { spec, frames, films: Vec::new() }
+    }
+}
 
 impl Job {
     /// The names of the films of a shard, relative to its folder: one for each group of cameras of equal light, called after the first of these; where
     /// light depends on time, of each of the frames and of each capture that has a light of its own.
     #[must_use]
     pub fn film_names(&self, frames: &Range<u32>) -> Vec<String> {
-        self.films(frames).map(|(group, shot)| film_name(group[0], shot)).collect()
+        let mut names = Vec::new();
+        for group in self.plan().by_light() {
+            names.extend(shots_of(group[0], frames).into_iter().map(|shot| film_name(group[0], shot)));
+        }
+        names
     }
 
     /// Renders one shard of a run into a folder, or some of its films, for [`merge`](crate::merge::merge), and answers with the paths of its files. Films
@@ -60,23 +111,23 @@ impl Job {
         folder
             .claim(names.iter().map(String::as_str).chain(manifest.as_ref().map(|_| MANIFEST)))
             .map_err(Error::input)?;
-        let kept = Kept::of_run(&folder, observer);
-        self.render_shard((asked, &names), simd, observer, |camera, shot, film| {
-            let origin = FilmOrigin { plan: self.plan(), camera, shot, shard: asked.spec.shard()? };
-            write_exr(&mut folder, &film_name(camera, shot), film_file::image(&film, &origin.facts()))
-        })?;
+        let mut interruption = InterruptionNote::new(&folder, observer);
+        let shard = asked.spec.shard()?;
+        self.warn(observer);
+        self.check_shard_memory()?;
+        let options = RenderOptions { frames: asked.frames.clone(), simd };
+        let is_asked = |camera: &CameraPlan, shot| names.contains(&film_name(camera, shot));
+        let mut run = Run::of_shard(self.shared_plan(), &options, shard, is_asked, observer)?;
+        while let Some((origin, film)) = run.next_film(&mut NoStore)? {
+            let name = film_name(origin.camera, origin.shot);
+            write_exr(&mut folder, &name, film_file::image(&film, &origin.facts()))?;
+        }
         if let Some(manifest) = &manifest {
             folder.write(MANIFEST, manifest).map_err(Error::run)?;
         }
         let written = folder.commit().map_err(Error::run)?;
-        kept.all();
+        interruption.is_complete = true;
         Ok(written)
-    }
-
-    /// The films of a run: cameras of equal light, and which of their pictures.
-    fn films<'a>(&'a self, frames: &'a Range<u32>) -> impl Iterator<Item = (Vec<&'a CameraPlan>, Shot)> {
-        let groups = self.plan().by_light().into_iter();
-        groups.flat_map(|group| shots_of(group[0], frames).into_iter().map(move |shot| (group.clone(), shot)))
     }
 
     /// The names of the films that a request asks for; refused where one is none of the job's.
@@ -106,30 +157,6 @@ impl Job {
             tile_px: tile_sides(self.plan()),
         }
     }
-
-    /// Renders the tiles of one shard: the films of these names, each with the first camera of its group.
-    fn render_shard(
-        &self,
-        (asked, names): (&ShardRequest, &[String]),
-        simd: Simd,
-        observer: &dyn Observer,
-        mut take: impl FnMut(&CameraPlan, Shot, Film) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        let (plan, frames, shard) = (self.plan(), &asked.frames, asked.spec.shard()?);
-        self.warn(observer);
-        self.check_shard_memory()?;
-        check_frames(plan, frames)?;
-        let films: Vec<_> =
-            self.films(frames).filter(|(group, shot)| names.contains(&film_name(group[0], *shot))).collect();
-        let cameras = films.iter().map(|(group, _)| group[0]);
-        let mut exposures = Exposures::new((plan, frames), cameras, (shard, simd), observer);
-        for (group, shot) in &films {
-            let film = exposures.film((group, *shot), None, |_, _| Ok(()))?;
-            check_finite(group[0], &film)?;
-            take(group[0], *shot, film)?;
-        }
-        Ok(())
-    }
 }
 
 /// Films that a message names at most.
@@ -145,7 +172,7 @@ pub(crate) struct Manifest {
     /// The job, so that the plan can be made again.
     pub(crate) request: JobRequest,
     /// Frames to take of the whole.
-    pub(crate) frames: std::ops::Range<u32>,
+    pub(crate) frames: Range<u32>,
     /// Which shard.
     pub(crate) index: u32,
     /// Of how many.
@@ -227,4 +254,16 @@ impl Manifest {
 pub(crate) fn read(folder: &Path, origin: &FilmOrigin<'_>) -> Result<Film, Error> {
     let path = folder.join(film_name(origin.camera, origin.shot));
     film_file::read(&path, origin, "render the shard again").map(|(film, _)| film)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shard_is_one_of_many() {
+        let shard = |text: &str| text.parse::<ShardSpec>();
+        assert_eq!(shard("1/3"), Ok(ShardSpec { index: 1, count: 3 }));
+        assert!(shard("3/3").is_err() && shard("1").is_err());
+    }
 }

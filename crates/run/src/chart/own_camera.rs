@@ -3,9 +3,9 @@
 use super::camera::ChartCamera;
 use super::{ChartRequest, make};
 use crate::job_request::JobRequest;
+use crate::job_request::RenderOptions;
 use crate::memory::MemoryFiles;
 use crate::named_file::write_file;
-use crate::render_options::RenderOptions;
 use etendue_core::Integrator;
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;

@@ -7,7 +7,6 @@ mod cryptomatte;
 mod done_frames;
 mod file_names;
 pub(crate) mod frames;
-mod kept;
 pub(crate) mod levels;
 pub(crate) mod metadata;
 mod save;
@@ -17,8 +16,8 @@ mod video;
 pub(crate) mod writer;
 
 pub use camera::CameraResults;
+pub(crate) use camera::SensorHistory;
 pub(crate) use done_frames::DoneFrames;
 pub(crate) use file_names::file_names;
-pub(crate) use kept::Kept;
 pub use save::Results;
 pub(crate) use sequence::Sequence;

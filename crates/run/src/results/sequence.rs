@@ -65,7 +65,7 @@ impl Sequence {
             let facts = metadata::own_frame(&results.plan, camera, numbers.start, frames.pop());
             let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
             let kept = match results.state_after() {
-                Some((after, since)) => metadata::with_state(facts.clone(), after, since),
+                Some(after) => metadata::with_state(facts.clone(), &after.state, after.since),
                 None => facts.clone(),
             };
             let files = files_of_frame(camera, numbers.start, writer.folder)?;
