@@ -2,6 +2,7 @@
 
 use crate::job_request::{JobRequest, RenderOptions};
 use crate::memory::MemoryFiles;
+use crate::memory_limits;
 use crate::results::{CameraResults, Results, file_names};
 use crate::rig;
 use crate::run::Run;
@@ -11,6 +12,7 @@ use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::Error;
 use etendue_io::{CacheUse, Existing, OutputFolder, complete_assets};
 use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::report::RunMemory;
 use etendue_pipeline::report::effects::PlannedEffect;
 use etendue_pipeline::summary::Summary;
 use etendue_pipeline::{Plan, compile};
@@ -196,6 +198,23 @@ impl Job {
         folder.claim(rig.files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
         rig::write(&rig, &mut folder, observer)?;
         folder.commit().map_err(Error::run)
+    }
+
+    /// Refuses films that cannot be stored, and a run of these frames that needs more memory than is free, before the first sample.
+    fn check_memory(&self, frames: &Range<u32>) -> Result<(), Error> {
+        let memory = RunMemory::new(&self.plan, rayon::current_num_threads());
+        // A run of a stated time holds the films of all cameras and frames.
+        let memory = match self.request.time_s {
+            Some(_) => memory.holding_films(&self.plan, frames.len()),
+            None => memory,
+        };
+        memory_limits::check(&self.plan, &memory, &self.request.memory)
+    }
+
+    /// The same for a shard, which gathers films and writes nothing else.
+    pub(crate) fn check_shard_memory(&self) -> Result<(), Error> {
+        let memory = RunMemory::new(&self.plan, rayon::current_num_threads()).films_only();
+        memory_limits::check(&self.plan, &memory, &self.request.memory)
     }
 
     pub(crate) fn shared_plan(&self) -> &Arc<Plan> {

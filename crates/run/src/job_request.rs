@@ -1,7 +1,6 @@
 //! A job file and what is changed in it, and which of its frames are taken.
 
-use crate::film_memory::FilmMemory;
-use crate::memory_limits::MemoryLimits;
+use crate::memory_limits::{FilmMemory, MemoryLimits};
 use clap::Args;
 use etendue_arguments::{frames, word};
 use etendue_core::{Integrator, Quality, Word as _};

@@ -1,4 +1,4 @@
-//! Shards on disk: a manifest beside one film a camera.
+//! Shards on disk, a manifest beside one film a camera, and what is merged from them.
 //!
 //! A film's planes hold the shard's tiles; the other pixels are zero. `merge` makes the plan again from the manifest
 //! and refuses shards of another plan.
@@ -9,7 +9,7 @@ use crate::job_request::{JobRequest, RenderOptions};
 use crate::results::writer::write_exr;
 use crate::run::Run;
 use crate::run::films::shots_of;
-use crate::run::store::{InterruptionNote, NoStore};
+use crate::run::store::{InterruptionNote, NoStore, RunFolder, RunStore, StoredLight};
 use etendue_arguments::MAX_FRAMES;
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
@@ -18,8 +18,9 @@ use etendue_io::{Existing, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
-use etendue_pipeline::tile::Shard;
+use etendue_pipeline::tile::{Shard, tiles};
 use etendue_tracer::accel::Simd;
+use rayon::prelude::*;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -168,29 +169,29 @@ const MANIFEST: &str = "shard.json";
 /// What a shard is part of.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Manifest {
+struct Manifest {
     /// The job, so that the plan can be made again.
-    pub(crate) request: JobRequest,
+    request: JobRequest,
     /// Frames to take of the whole.
-    pub(crate) frames: Range<u32>,
+    frames: Range<u32>,
     /// Which shard.
-    pub(crate) index: u32,
+    index: u32,
     /// Of how many.
-    pub(crate) count: u32,
+    count: u32,
     /// The plan's hash.
-    pub(crate) plan_hash: String,
+    plan_hash: String,
     /// Side of each camera's tiles, px: the plan's hash leaves it out, but it says which pixels are whose.
-    pub(crate) tile_px: Vec<u32>,
+    tile_px: Vec<u32>,
 }
 
 /// The sides of the tiles of a plan's cameras.
-pub(crate) fn tile_sides(plan: &Plan) -> Vec<u32> {
+fn tile_sides(plan: &Plan) -> Vec<u32> {
     plan.cameras.iter().map(|camera| camera.settings.tile_px).collect()
 }
 
 impl Manifest {
     /// Reads the manifest of a shard's folder.
-    pub(crate) fn read(folder: &Path) -> Result<Self, Error> {
+    fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(MANIFEST);
         let explain =
             |why: String| Error::input(format!("{}: {why}; give folders made by render `shard`", path.display()));
@@ -234,7 +235,7 @@ impl Manifest {
     }
 
     /// Whether two shards were cut from one run: the same plan, cameras, frames and tiles.
-    pub(crate) fn is_of_run(&self, other: &Self) -> bool {
+    fn is_of_run(&self, other: &Self) -> bool {
         let cut = |m: &Self| (m.plan_hash.clone(), m.count, m.frames.clone(), m.tile_px.clone());
         cut(self) == cut(other) && self.request.camera == other.request.camera
     }
@@ -250,10 +251,120 @@ impl Manifest {
     }
 }
 
-/// A film of a shard, from its folder.
-pub(crate) fn read(folder: &Path, origin: &FilmOrigin<'_>) -> Result<Film, Error> {
-    let path = folder.join(film_name(origin.camera, origin.shot));
-    film_file::read(&path, origin, "render the shard again").map(|(film, _)| film)
+/// Joins the folders of all shards of one run to the files of an unsharded one, byte for byte, and answers with their paths. `job` is where the job
+/// file is now, where the shards were rendered from another place. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where shards are missing, given twice or of different runs, the job has changed since, or the folder cannot be written.
+pub fn merge(
+    shards: &[PathBuf],
+    job: Option<&Path>,
+    simd: Simd,
+    folder: &Path,
+    existing: Existing,
+    observer: &dyn Observer,
+) -> Result<Vec<PathBuf>, Error> {
+    let mut shards = MergedShards::read(shards)?;
+    let mut manifest = shards.shards[0].manifest.clone();
+    if let Some(job) = job {
+        manifest.request.job = job.to_path_buf();
+    }
+    let job = manifest.request.clone().into_output(folder).open()?;
+    check_same_plan(job.plan(), &manifest)?;
+    let options = RenderOptions { frames: manifest.frames, simd };
+    let mut folder = RunFolder::of_shards(job.shared_plan(), options.frames.clone(), folder, existing, observer)?;
+    let mut run = Run::new(job.shared_plan(), &options, None, observer)?;
+    while let Some(results) = run.next_results(&mut shards)? {
+        folder.write(&results)?;
+    }
+    folder.finish()
+}
+
+/// The folder of a shard.
+struct ShardFolder<'a> {
+    manifest: Manifest,
+    path: &'a Path,
+}
+
+impl ShardFolder<'_> {
+    fn refused(&self, why: &str) -> Error {
+        Error::input(format!("{}: {why}", self.path.display()))
+    }
+
+    /// Reads the shard's part of a film.
+    fn film(&self, whole: &FilmOrigin<'_>) -> Result<(Shard, Film), Error> {
+        let shard = Shard::new(self.manifest.index, self.manifest.count);
+        let shard = shard.ok_or_else(|| self.refused("its manifest is damaged; render the shard again"))?;
+        let path = self.path.join(film_name(whole.camera, whole.shot));
+        let (film, _) = film_file::read(&path, &FilmOrigin { shard, ..*whole }, "render the shard again")?;
+        Ok((shard, film))
+    }
+}
+
+/// All shards of one run, each once, in their order: the light of a run that merges them.
+struct MergedShards<'a> {
+    shards: Vec<ShardFolder<'a>>,
+}
+
+/// Shards that are read side by side: each takes the memory of the whole film.
+const AT_ONCE: usize = 4;
+
+impl<'a> MergedShards<'a> {
+    /// Reads the manifests of shards.
+    ///
+    /// # Errors
+    /// Where one cannot be read, is missing, given twice or of another run.
+    fn read(folders: &'a [PathBuf]) -> Result<Self, Error> {
+        let read = |path: &'a PathBuf| Ok(ShardFolder { manifest: Manifest::read(path)?, path });
+        let mut shards: Vec<ShardFolder<'_>> = folders.iter().map(read).collect::<Result<_, Error>>()?;
+        shards.sort_by_key(|shard| shard.manifest.index);
+        let (Some(first), Some(last)) = (shards.first(), shards.last()) else {
+            return Err(Error::input("no shards: give the folders of all"));
+        };
+        if let Some(other) = shards.iter().find(|shard| !shard.manifest.is_of_run(&first.manifest)) {
+            return Err(other.refused("it is a shard of another run; give the shards of one run"));
+        }
+        let count = first.manifest.count;
+        for (expected, shard) in shards.iter().enumerate() {
+            if shard.manifest.index as usize != expected {
+                let missing = format!("shard {expected} of {count} is missing or given twice; give each once");
+                return Err(shard.refused(&missing));
+            }
+        }
+        if shards.len() != count as usize {
+            let given = format!("{} of {count} shards are given; give the folders of all", shards.len());
+            return Err(last.refused(&given));
+        }
+        Ok(Self { shards })
+    }
+}
+
+impl RunStore for MergedShards<'_> {
+    /// Returns the film of all shards' tiles.
+    fn light(&self, whole: &FilmOrigin<'_>) -> Result<StoredLight, Error> {
+        let camera = whole.camera;
+        let (width, height) = camera.film_size();
+        let settings = &camera.settings;
+        let mut film = Film::new(width as usize, height as usize, &camera.film_layout(), settings.replicates);
+        for some in self.shards.chunks(AT_ONCE) {
+            let parts: Vec<Result<_, Error>> = some.par_iter().map(|shard| shard.film(whole)).collect();
+            for part in parts {
+                let (shard, part) = part?;
+                tiles(width, height, settings.tile_px, shard).into_iter().for_each(|tile| film.copy_tile(tile, &part));
+            }
+        }
+        Ok(StoredLight::Complete(film))
+    }
+}
+
+fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Error> {
+    if plan.hash_text() == manifest.plan_hash && tile_sides(plan) == manifest.tile_px {
+        return Ok(());
+    }
+    let job = manifest.request.job.display();
+    Err(Error::input(format!(
+        "{job} or a file that it names has changed since the shards were rendered; render them again"
+    )))
 }
 
 #[cfg(test)]

@@ -3,9 +3,10 @@
 use super::frames::{encoded, frames};
 use crate::job_request::RenderOptions;
 use crate::rig;
-use etendue_core::quantity::MeanElectrons;
+use etendue_core::quantity::{Display, MeanElectrons};
 use etendue_core::{CameraPose, ExactTime, Plane};
 use etendue_io::failure::Error;
+use etendue_io::jpeg::encode_jpeg;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::photograph::{Frame, Light, take, take_with_breakdown};
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
@@ -124,9 +125,15 @@ impl CameraResults {
         let light = self.light.captures().filter(|_| known.is_none());
         let anew = light.map(|light| {
             let (address, state) = (|frame| self.address(frame), self.state.clone());
-            frames(&self.camera().body, light, (self.frames.clone(), state), address, signal_breakdown)
+            frames(&self.camera().body, light, self.frames.clone(), state, address, signal_breakdown)
         });
         known.into_iter().chain(anew.into_iter().flatten())
+    }
+
+    /// The first frame's picture as a display shows it, 0 to 1; `None` where the camera has no processing.
+    #[must_use]
+    pub fn display_picture(&self) -> Option<Plane<Display>> {
+        self.frames().next()?.picture.map(|developed| developed.display)
     }
 
     /// The file of a frame's picture as `render` writes it: its extension and its bytes; `None` where the camera does not process its raws.
@@ -195,4 +202,12 @@ impl CameraResults {
         let camera = self.camera();
         FrameAddress { seed: camera.settings.seed, camera: camera.index, frame, capture: 0 }
     }
+}
+
+/// A display picture as a JPEG of a quality from 1 to 100.
+///
+/// # Errors
+/// Where it cannot be encoded.
+pub fn display_jpeg(picture: &Plane<Display>, quality: u8) -> Result<Vec<u8>, Error> {
+    encode_jpeg(picture, quality).map_err(|error| Error::Run(error.to_string()))
 }
