@@ -1,24 +1,24 @@
 //! Another lens and sensor on stored radiance.
 
-use crate::depth_of_field;
 use crate::result_files::Files;
 use crate::results::frames::{Wanted, frames, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
-use crate::stored_radiance::StoredRadiance;
 use clap::Args;
 use etendue_arguments::seed;
 use etendue_core::observer::{Message, Observer};
+use etendue_core::quantity::{Length, Radiance, Variance};
+use etendue_core::{Plane, SpectralCube};
+use etendue_io::exr::{SpectralImage, read_spectral};
 use etendue_io::failure::Error;
 use etendue_io::paths::camera_stem;
-use etendue_io::{Existing, OutputFolder};
-use etendue_optics::{DepthOfField, OpticsError};
+use etendue_io::{Existing, OutputFolder, Provenance};
+use etendue_optics::{DepthOfField, FastBlend, FastParameters, OpticsError, PupilProjection};
 use etendue_pipeline::defocus::held_margin_px;
 use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::{Annotations, CameraBody, Products, usual_raw_format};
 use etendue_pipeline::stored;
-use etendue_plan_report::camera_facts;
-use etendue_plan_report::open_camera;
+use etendue_plan_report::{camera_facts, open_camera};
 use etendue_sensor::{FrameAddress, SensorState};
 use serde_json::json;
 use std::ops::Range;
@@ -44,7 +44,7 @@ pub struct ExposeRequest {
     pub frames: Range<u32>,
     /// How things out of focus are blurred: physical, none, or a look, e.g.
     /// fast:blur_px=8,near_m=0.5..2,far_m=10..40 [default: physical]
-    #[arg(long, value_name = "METHOD", value_parser = depth_of_field::parsed)]
+    #[arg(long, value_name = "METHOD", value_parser = blur_method)]
     pub depth_of_field: Option<DepthOfField>,
 }
 
@@ -164,7 +164,7 @@ fn write(
             one_by_one: false,
             observer,
         };
-        let taken = frames(body, captures, (request.frames.clone(), SensorState::default()), address, false);
+        let taken = frames(body, captures, request.frames.clone(), SensorState::default(), address, false);
         points = write_frames(body, taken, address, wanted, writer)?;
     }
     let mut facts = sidecar(body, stored, request, seed, &depth_of_field);
@@ -262,4 +262,113 @@ fn sidecar(
         "files": Files::of(&products(body), body, &request.frames),
         "time_s": stored.provenance.time_s,
     })
+}
+
+/// A stored radiance image with its geometry.
+pub(crate) struct StoredRadiance {
+    pub(crate) radiance: SpectralCube<Radiance>,
+    /// Variance of its band means, where it is stored.
+    pub(crate) variance: Option<SpectralCube<Variance>>,
+    /// Distance of what each pixel sees; `None` in files of former versions.
+    pub(crate) distance: Option<Plane<Length>>,
+    pub(crate) projection: PupilProjection,
+    pub(crate) provenance: Provenance,
+}
+
+impl StoredRadiance {
+    /// Reads it.
+    ///
+    /// # Errors
+    /// Where the file is no radiance that etendue rendered at the pupil.
+    pub(crate) fn open(path: &Path) -> Result<Self, Error> {
+        let refuse = |why: &str| Error::input(format!("{}: {why}", path.display()));
+        let file = read_spectral(path).map_err(Error::input)?;
+        let SpectralImage::Radiance(image) = file.image else {
+            return Err(refuse("this is irradiance behind a lens; expected radiance, rendered with route = \"pupil\""));
+        };
+        let remedy = "its geometry is not stated; expected radiance that etendue rendered with route = \"pupil\"";
+        let provenance = file.provenance.ok_or_else(|| refuse(remedy))?;
+        let radiance = image.cube;
+        let through_lens = "it was rendered through a lens; render it with `set` render.route=pupil to expose it";
+        let geometry = metadata::pupil_geometry(&provenance, radiance.width(), radiance.height());
+        let projection = geometry.ok_or_else(|| refuse(through_lens))?.map_err(|why| refuse(&why))?;
+        Ok(Self { radiance, variance: image.variance, distance: file.distance, projection, provenance })
+    }
+
+    /// The place of the camera that rendered it in its job; 0 in files of former versions.
+    pub(crate) fn camera_index(&self) -> u32 {
+        self.provenance.further.get("camera_index").and_then(|i| i.parse().ok()).unwrap_or(0)
+    }
+
+    /// The exposure time over which light that depends on time was gathered; `None` where it does not.
+    pub(crate) fn exposure_s(&self) -> Option<f64> {
+        self.provenance.further.get(metadata::EXPOSURE_S).and_then(|s| s.parse().ok())
+    }
+
+    /// Pixels whose errors may be equal.
+    pub(crate) fn correlated_block_px(&self) -> u32 {
+        self.provenance.further.get("correlated_block_px").and_then(|n| n.parse().ok()).unwrap_or(1)
+    }
+}
+
+fn blur_method(text: &str) -> Result<DepthOfField, String> {
+    match text.split_once(':') {
+        None if text == "physical" => Ok(DepthOfField::Physical),
+        None if text == "none" => Ok(DepthOfField::None),
+        Some(("fast", keys)) => blend(keys).map(DepthOfField::Fast),
+        _ => Err(format!("expected physical, none or fast:blur_px=…, not '{text}'")),
+    }
+}
+
+fn blend(keys: &str) -> Result<FastBlend, String> {
+    let (mut near, mut far, mut blur_px) = (None, None, None);
+    for pair in keys.split(',') {
+        let expected = || format!("expected blur_px=NUMBER, near_m=FROM..TO or far_m=FROM..TO, not '{pair}'");
+        let number = |text: &str| text.trim().parse::<f64>().map_err(|_| expected());
+        let (key, value) = pair.split_once('=').ok_or_else(expected)?;
+        let range = || {
+            let (from, to) = value.split_once("..").ok_or_else(expected)?;
+            Ok::<_, String>((number(from)?, number(to)?))
+        };
+        match key.trim() {
+            "blur_px" => blur_px = Some(number(value)?),
+            "near_m" => near = Some(range()?),
+            "far_m" => far = Some(range()?),
+            _ => return Err(expected()),
+        }
+    }
+    let blur_px = blur_px.ok_or("the diameter of the blur is missing: add blur_px=NUMBER")?;
+    if near.is_none() && far.is_none() {
+        return Err("nothing is blurred by this: add near_m=FROM..TO or far_m=FROM..TO".to_owned());
+    }
+    let (blurred_near_m, sharp_near_m) = near.unwrap_or((0.0, 0.0));
+    let (sharp_far_m, blurred_far_m) = far.unwrap_or((f64::INFINITY, f64::INFINITY));
+    let parameters = FastParameters { sharp_near_m, sharp_far_m, blurred_near_m, blurred_far_m, blur_px };
+    FastBlend::new(parameters).map_err(|error| error.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn depth_of_field_is_a_word_or_a_look_with_numbers() {
+        assert_eq!(blur_method("physical"), Ok(DepthOfField::Physical));
+        assert_eq!(blur_method("none"), Ok(DepthOfField::None));
+        let look = blur_method("fast:blur_px=8,far_m=10..40");
+        let Ok(DepthOfField::Fast(blend)) = look else { panic!("{look:?}") };
+        let p = blend.parameters();
+        assert_eq!((p.blur_px, p.sharp_near_m, p.sharp_far_m, p.blurred_far_m), (8.0, 0.0, 10.0, 40.0));
+        let wrong = [
+            "fast",
+            "fast:",
+            "fast:blur_px=8",
+            "fast:far_m=10..40",
+            "fast:blur=8",
+            "sharp",
+            "fast:blur_px=8,far_m=10",
+            "fast:blur_px=8,far_m=40..10",
+        ];
+        assert!(wrong.iter().all(|text| blur_method(text).is_err()));
+    }
 }

@@ -3,19 +3,47 @@
 //! Every number of a film is stored as it is in memory (32 bits), so that one that is read back is the same to the bit. Its header states what it is of: plan,
 //! seed, camera, frame, capture and shard. A film is used only where all of them are those that are expected, every pixel of the shard's tiles has samples and
 //! no other has, and its numbers are finite.
+//!
+//! The state of a progressive run is its films so far, in a folder beside the results: a file a film, replaced as a whole after each pass, whose header says as
+//! well which passes it holds. A run that is killed at any moment finds the last whole pass; at the end of a run there is no state.
 
 use crate::results::metadata;
+use crate::results::writer::write_exr;
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Quantity};
 use etendue_io::Provenance;
 use etendue_io::exr::{ExrFile, ExrImage, Layer, Samples, layers_image, read_exr_within};
 use etendue_io::failure::Error;
+use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::plan::{CameraPlan, Passes, TimeDependence};
 use etendue_pipeline::render::Shot;
 use etendue_pipeline::tile::{Shard, tiles};
+use std::fs::DirEntry;
 use std::path::Path;
+
+/// Ending of the name of a film.
+const FILM: &str = ".film.exr";
+
+/// The name of a camera's film; with frame and capture where each has its own.
+pub(crate) fn film_name(camera: &CameraPlan, shot: Shot) -> String {
+    let Shot { frame, capture } = shot;
+    match camera.time {
+        TimeDependence::None => format!("{}{FILM}", camera.name),
+        TimeDependence::Lights | TimeDependence::Motion => format!("{}.{frame:04}.{capture}{FILM}", camera.name),
+    }
+}
+
+/// The folder of the state of a progressive run, no name of a camera.
+const STATE_FOLDER: &str = ".progress";
+
+/// Returns true if an output folder holds a state. A link in the place of its folder holds none.
+pub(crate) fn holds_state(folder: &Path) -> bool {
+    let state = folder.join(STATE_FOLDER);
+    let is_film = |file: DirEntry| file.file_name().to_string_lossy().ends_with(FILM);
+    !state.is_symlink() && state.read_dir().into_iter().flatten().flatten().any(is_film)
+}
 
 /// A film, to be written.
 pub(crate) fn image<'a>(film: &'a Film, facts: &Provenance) -> ExrImage<'a> {
@@ -189,4 +217,83 @@ fn fill_counts(plane: &mut Plane<Identity>, file: &ExrFile, name: &str) -> Optio
         }
         _ => None,
     }
+}
+
+/// Facts of a film of a state.
+const PASSES: &str = "passes_done";
+const REPLICATES: &str = "passes_replicates";
+const SECONDS: &str = "passes_s";
+
+/// The passes that a stored film holds.
+#[derive(Clone, Debug)]
+pub(crate) struct StoredPasses {
+    /// At least one.
+    pub(crate) passes: Passes,
+    /// Replicates of each of them.
+    pub(crate) replicates: u32,
+    /// Time that the run had taken, s, where a time decides the passes.
+    pub(crate) elapsed_s: f64,
+}
+
+/// The name, within an output folder, of the state of a film.
+pub(crate) fn state_name(camera: &CameraPlan, shot: Shot) -> String {
+    format!("{STATE_FOLDER}/{}", film_name(camera, shot))
+}
+
+/// Removes the state in an output folder: the films, and their folder where nothing else is in it.
+///
+/// # Errors
+/// Where a link is in the place of the folder, or a film cannot be removed.
+pub(crate) fn remove_state(folder: &OutputFolder) -> Result<(), etendue_io::Error> {
+    let films = folder.files_in(STATE_FOLDER)?;
+    folder.remove(films.iter().map(String::as_str).filter(|name| name.ends_with(FILM)))
+}
+
+/// Refuses a folder that holds the state of another run, where the run may neither go on with it nor replace it, and a link in the place of the state.
+pub(crate) fn check_state(folder: &OutputFolder, existing: Existing) -> Result<(), Error> {
+    folder.files_in(STATE_FOLDER).map_err(Error::input)?;
+    if existing != Existing::Refuse || !holds_state(folder.path()) {
+        return Ok(());
+    }
+    Err(Error::input(format!(
+        "{}: a run that was interrupted left its state here; go on with `resume`, or begin anew with `overwrite`",
+        folder.path().join(STATE_FOLDER).display()
+    )))
+}
+
+/// The film that an interrupted run left in an output folder, and its passes; `None` where there is none.
+///
+/// # Errors
+/// Where it is of another origin, or cannot be read.
+pub(crate) fn read_state(folder: &Path, origin: &FilmOrigin<'_>) -> Result<Option<(Film, StoredPasses)>, Error> {
+    let path = folder.join(state_name(origin.camera, origin.shot));
+    if !path.exists() {
+        return Ok(None);
+    }
+    let remedy = "resume with the same options, choose another output folder, or `overwrite` it";
+    let (film, facts) = read(&path, origin, remedy)?;
+    let fact = |name: &str| facts.further.get(name);
+    let replicates = fact(REPLICATES).and_then(|text| text.parse().ok());
+    let passes = fact(PASSES).zip(replicates).and_then(|(text, replicates)| Passes::of_text(text, replicates));
+    let elapsed_s = fact(SECONDS).and_then(|text| text.parse().ok()).filter(|s: &f64| s.is_finite() && *s >= 0.0);
+    match (passes, replicates, elapsed_s) {
+        (Some(passes), Some(replicates), Some(elapsed_s)) if !passes.list().is_empty() => {
+            Ok(Some((film, StoredPasses { passes, replicates, elapsed_s })))
+        }
+        _ => Err(Error::input(format!("{}: its header states no passes that were done; {remedy}", path.display()))),
+    }
+}
+
+/// Writes a film to the state in an output folder, where it has its final name when that publishes.
+pub(crate) fn write_state(
+    folder: &mut OutputFolder,
+    origin: &FilmOrigin<'_>,
+    film: &Film,
+    stored: &StoredPasses,
+) -> Result<(), Error> {
+    let mut facts = origin.facts();
+    facts.further.insert(PASSES.to_owned(), stored.passes.text());
+    facts.further.insert(REPLICATES.to_owned(), stored.replicates.to_string());
+    facts.further.insert(SECONDS.to_owned(), stored.elapsed_s.to_string());
+    write_exr(folder, &state_name(origin.camera, origin.shot), image(film, &facts))
 }

@@ -289,9 +289,9 @@ impl Task<'_> {
             one_by_one: false,
             observer: self.observer,
         };
-        let begun = (self.request.frames.clone(), SensorState::default());
         let steady = CaptureLight::steady(&electrons);
-        let taken = frames(self.body, steady, begun, |n| self.address(n), products.signal_breakdown);
+        let (numbers, before) = (self.request.frames.clone(), SensorState::default());
+        let taken = frames(self.body, steady, numbers, before, |n| self.address(n), products.signal_breakdown);
         let points = write_frames(self.body, taken, |n| self.address(n), wanted, writer)?;
         let mut facts = self.sidecar(light);
         facts["light"]["photons_per_pixel"] =
@@ -308,11 +308,11 @@ impl Task<'_> {
             let told = format!("the sensor has {channels} kinds of pixel: measure each kind by itself");
             self.observer.message(Message::Warning(&told));
         }
-        let mut size = (0, 0);
+        let (mut columns, mut rows) = (0, 0);
         for stack in &series.stacks {
-            size = self.stack(stack, series.light, writer)?;
+            (columns, rows) = self.stack(stack, series.light, writer)?;
         }
-        writer.write(DESCRIPTOR, Ok(self.descriptor(series, size).into_bytes()))?;
+        writer.write(DESCRIPTOR, Ok(self.descriptor(series, columns, rows).into_bytes()))?;
         let mut facts = self.sidecar(series.light);
         let stack = |s: &Stack| json!({ "exposure_s": s.exposure_s, "photons_per_pixel": s.photons, "frames": [s.frames.start, s.frames.end] });
         facts["stacks"] = series.stacks.iter().map(stack).collect();
@@ -339,7 +339,7 @@ impl Task<'_> {
 
     /// The series in the words of the reference program: `n` bits, columns, rows; `b` exposure in ns, photons a pixel; `d`
     /// exposure in the dark; `i` a file.
-    fn descriptor(&self, series: &PhotonTransfer, (columns, rows): (usize, usize)) -> String {
+    fn descriptor(&self, series: &PhotonTransfer, columns: usize, rows: usize) -> String {
         let mut text = format!("v 4.0\nn {} {columns} {rows}\n", self.sensor.delivered_bits());
         for stack in &series.stacks {
             let exposure_ns = 1e9 * stack.exposure_s;

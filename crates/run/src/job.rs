@@ -1,24 +1,23 @@
 //! From a job file and what changes it to a plan, and from a plan to results.
 
-use crate::delivery::{SoFar, check_frames, deliver, films_of};
-use crate::exposures::Exposures;
-use crate::job_request::JobRequest;
+use crate::job_request::{JobRequest, RenderOptions};
 use crate::memory::MemoryFiles;
-use crate::refine::{Progress, state, timed};
-use crate::render_options::RenderOptions;
-use crate::results::{CameraResults, DoneFrames, Kept, Results, Sequence, file_names};
+use crate::memory_limits;
+use crate::results::{CameraResults, Results, file_names};
 use crate::rig;
+use crate::run::Run;
+use crate::run::films::check_frames;
+use crate::run::store::{NoStore, RunFolder};
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::Error;
 use etendue_io::{CacheUse, Existing, OutputFolder, complete_assets};
-use etendue_pipeline::plan::{CameraPlan, Passes};
+use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::report::RunMemory;
 use etendue_pipeline::report::effects::PlannedEffect;
 use etendue_pipeline::summary::Summary;
-use etendue_pipeline::tile::Shard;
 use etendue_pipeline::{Plan, compile};
 use etendue_plan_report::PlanReport;
 use etendue_scene::Description;
-use std::cell::RefCell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -146,46 +145,11 @@ impl Job {
         observer: &dyn Observer,
         mut take: impl FnMut(CameraResults) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let progress = RefCell::new(Progress::default());
-        self.deliver(options, |_| Ok(DoneFrames::default()), &progress, observer, &mut take)
-    }
-
-    /// The results of all cameras. `done` are the frames that an earlier run of the plan has written, which is the job's, with the passes that
-    /// were done where a time decides them.
-    fn deliver(
-        &self,
-        options: &RenderOptions,
-        done: impl FnOnce(&Arc<Plan>) -> Result<DoneFrames, Error>,
-        progress: &RefCell<Progress>,
-        observer: &dyn Observer,
-        take: impl FnMut(CameraResults) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        self.warn(observer);
-        self.check_memory(&options.frames)?;
-        if let Some(total_s) = self.request.time_s {
-            check_frames(&self.plan, &options.frames)?;
-            let mut light = timed::light(&self.plan, total_s, options, observer, &mut progress.borrow_mut())?;
-            let plan = Arc::clone(&light.plan);
-            return deliver(&plan, options, &done(&plan)?, |group, shot, _| light.take(group[0], shot), take);
+        let mut run = self.run(options, observer)?;
+        while let Some(results) = run.next_results(&mut NoStore)? {
+            take(results)?;
         }
-        let (plan, done) = (&self.plan, done(&self.plan)?);
-        let films = films_of(plan, &options.frames, &done);
-        let mut exposures = Exposures::new((plan, &options.frames), films, (Shard::WHOLE, options.simd), observer);
-        let film_of = |group: &[&CameraPlan], shot, so_far: SoFar<'_>| {
-            let camera = group[0];
-            let kept = progress.borrow().kept(plan, camera, shot)?;
-            let kept = kept.map(|kept| (kept.film, kept.passes.list().len()));
-            exposures.film((group, shot), kept, |film, passes| {
-                let mut progress = progress.borrow_mut();
-                let done = Passes::new((0..passes).map(|number| camera.pass(number).pass).collect());
-                progress.keep(plan, (camera, shot), film, (&done, camera.settings.replicates, 0.0))?;
-                match passes < camera.pass_count() {
-                    true => progress.refine(plan, (group, shot), film, so_far, options),
-                    false => Ok(()),
-                }
-            })
-        };
-        deliver(plan, options, &done, film_of, take)
+        Ok(())
     }
 
     /// Renders camera after camera, where light depends on time frame after frame, and writes each one's files before the next is
@@ -201,41 +165,19 @@ impl Job {
         existing: Existing,
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
-        let root = folder;
-        let done = |plan: &Arc<Plan>| match existing {
-            Existing::Resume => DoneFrames::in_folder(root, plan, &options.frames, observer),
-            Existing::Refuse | Existing::Replace => Ok(DoneFrames::default()),
-        };
-        let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
-        // Where a time decides the passes, the plan of the frames is known when they are done.
-        let mut known = self.request.time_s.is_none().then(|| done(&self.plan)).transpose()?;
-        state::check(&folder, existing)?;
-        folder.claim(self.file_names(&options.frames).iter().map(String::as_str)).map_err(Error::input)?;
-        let mut folder = if self.request.progressive { folder.refining() } else { folder };
-        let progress = RefCell::new(Progress::of(self.request.progressive, &folder, existing)?);
-        let kept = Kept::of_run(&folder, observer);
-        let (sequence, mut written) = (RefCell::new(Sequence::default()), Vec::new());
-        let done_and_noted = |plan: &Arc<Plan>| {
-            let done = known.take().map_or_else(|| done(plan), Ok)?;
-            done.note_all(plan, &options.frames, &mut sequence.borrow_mut());
-            Ok(done)
-        };
-        self.deliver(options, done_and_noted, &progress, observer, |camera| {
-            sequence.borrow_mut().write(&camera, &mut folder, observer)?;
-            if camera.has_own_light() {
-                written.extend(folder.publish().map_err(Error::run)?);
-                kept.frame();
-                progress.borrow().forget(camera.camera(), camera.frame_numbers().start)?;
-            }
-            Ok(())
-        })?;
-        let sequence = sequence.into_inner();
-        sequence.finish(&mut folder, observer)?;
-        rig::write(&rig::asked_files(&self.plan, &options.frames), &mut folder, observer)?;
-        written.extend(folder.publish().map_err(Error::run)?);
-        progress.into_inner().finish(&folder)?;
-        kept.all();
-        Ok(written)
+        let mut folder = RunFolder::open(&self.request, &self.plan, options, folder, existing, observer)?;
+        let mut run = self.run(options, observer)?;
+        while let Some(results) = run.next_results(&mut folder)? {
+            folder.write(&results)?;
+        }
+        folder.finish()
+    }
+
+    /// Begins a run of all cameras.
+    fn run<'a>(&self, options: &RenderOptions, observer: &'a dyn Observer) -> Result<Run<'a>, Error> {
+        self.warn(observer);
+        self.check_memory(&options.frames)?;
+        Run::new(&self.plan, options, self.request.time_s, observer)
     }
 
     /// Writes where all cameras stand and how they project, over frames, in the files of ROS, Kalibr and COLMAP; answers with their paths. Nothing is
@@ -256,6 +198,23 @@ impl Job {
         folder.claim(rig.files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
         rig::write(&rig, &mut folder, observer)?;
         folder.commit().map_err(Error::run)
+    }
+
+    /// Refuses films that cannot be stored, and a run of these frames that needs more memory than is free, before the first sample.
+    fn check_memory(&self, frames: &Range<u32>) -> Result<(), Error> {
+        let memory = RunMemory::new(&self.plan, rayon::current_num_threads());
+        // A run of a stated time holds the films of all cameras and frames.
+        let memory = match self.request.time_s {
+            Some(_) => memory.holding_films(&self.plan, frames.len()),
+            None => memory,
+        };
+        memory_limits::check(&self.plan, &memory, &self.request.memory)
+    }
+
+    /// The same for a shard, which gathers films and writes nothing else.
+    pub(crate) fn check_shard_memory(&self) -> Result<(), Error> {
+        let memory = RunMemory::new(&self.plan, rayon::current_num_threads()).films_only();
+        memory_limits::check(&self.plan, &memory, &self.request.memory)
     }
 
     pub(crate) fn shared_plan(&self) -> &Arc<Plan> {

@@ -1,16 +1,20 @@
-//! A job file and what is changed in it.
+//! A job file and what is changed in it, and which of its frames are taken.
 
-use crate::film_memory::FilmMemory;
-use crate::memory_limits::MemoryLimits;
-use crate::refine::timed;
+use crate::memory_limits::{FilmMemory, MemoryLimits};
 use clap::Args;
-use etendue_arguments::word;
+use etendue_arguments::{frames, word};
 use etendue_core::{Integrator, Quality, Word as _};
 use etendue_io::failure::Error;
 use etendue_io::{CacheUse, Sandbox, TextureMemory};
 use etendue_pipeline::{Choices, Plan, Refinement};
 use etendue_scene::Overrides;
+use etendue_tracer::accel::Simd;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
+
+/// The least time that can be kept, s.
+const MIN_TIME_S: f64 = 10.0;
+
 /// The folder of tiles in an output folder, no name of a camera.
 const TILES: &str = ".texture-cache";
 
@@ -76,6 +80,25 @@ pub struct JobRequest {
     pub memory: MemoryLimits,
 }
 
+/// Which frames are taken, and how: what does not change the light.
+#[derive(Args, Clone, Debug, Eq, PartialEq)]
+pub struct RenderOptions {
+    /// Frames to take, first to last (the last excluded); each has its own sensor noise. Light that does not depend on time is
+    /// rendered once
+    #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
+    pub frames: Range<u32>,
+    /// The instruction set of the accelerator. The result does not depend on it.
+    #[arg(skip)]
+    pub simd: Simd,
+}
+
+impl Default for RenderOptions {
+    /// Frame 0, by the best instruction set of the processor.
+    fn default() -> Self {
+        Self { frames: 0..1, simd: Simd::Auto }
+    }
+}
+
 impl JobRequest {
     /// A job file as it is.
     pub fn new(job: impl Into<PathBuf>) -> Self {
@@ -139,13 +162,11 @@ impl JobRequest {
             ));
         }
         let Some(time_s) = self.time_s else { return Ok(()) };
-        if !(time_s.is_finite() && time_s >= timed::MIN_TIME_S) {
+        if !(time_s.is_finite() && time_s >= MIN_TIME_S) {
             return Err(Error::argument(
                 "time_s",
                 format!(
-                    "`time_s` {time_s}: a time of {} s or more is kept; give `time_s` {} or samples with `spp`",
-                    timed::MIN_TIME_S,
-                    timed::MIN_TIME_S
+                    "`time_s` {time_s}: a time of {MIN_TIME_S} s or more is kept; give `time_s` {MIN_TIME_S} or samples with `spp`"
                 ),
             ));
         }

@@ -16,8 +16,8 @@ use crate::chart::design::{Checkerboard, ColorChecker, FlatField, GridSize, Slan
 use crate::chart::{Chart, ChartRequest, make};
 use crate::flat::{FlatRequest, FlatSource, flat};
 use crate::job_request::JobRequest;
-use crate::named_file::write_file;
-use crate::render_options::RenderOptions;
+use crate::job_request::RenderOptions;
+use crate::result_files::write_file;
 use clap::Args;
 use etendue_arguments::{seed, whole};
 use etendue_core::observer::Observer;
@@ -34,7 +34,7 @@ use etendue_scene::record::sensor::charge::NonUniformity;
 use etendue_scene::written::File;
 use etendue_scene::{Overrides, load_camera, named_files, record};
 use etendue_sensor::Sensor;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
 const WAVELENGTH_NM: f64 = 550.0;
@@ -120,7 +120,7 @@ pub fn laboratory(
     // Where there is no series, there is no laboratory.
     files.extend(series.inspect_err(|_| drop(std::fs::remove_file(&bench.declared)))?);
     files.extend(bench.long_exposures(sensor.parameters().charge.dark.mean_e_s())?);
-    files.extend(bench.lens(sensor.parameters().channels.len() > 1, (body.raster.width(), body.raster.height()))?);
+    files.extend(bench.lens(sensor.parameters().channels.len() > 1, body.raster.width(), body.raster.height())?);
     Ok(files)
 }
 
@@ -163,7 +163,8 @@ impl Bench<'_> {
         part: &str,
         exposure_s: f64,
         irradiance_w_m2: f64,
-        (frames, seed): (std::ops::Range<u32>, u64),
+        frames: Range<u32>,
+        seed: u64,
     ) -> Result<Vec<PathBuf>, Error> {
         let mut set = vec![format!("sensor.exposure_s={exposure_s:e}")];
         if self.has_isp {
@@ -189,7 +190,8 @@ impl Bench<'_> {
                 &part,
                 stack.exposure_s,
                 irradiance_w_m2,
-                (stack.frames.clone(), self.request.seed),
+                stack.frames.clone(),
+                self.request.seed,
             )?);
         }
         let photons_per_s = photons(sensor, light, 1.0);
@@ -224,14 +226,14 @@ impl Bench<'_> {
         let mut files = Vec::new();
         for (i, share) in LONG.iter().enumerate() {
             let first = i as u32 * LONG_FRAMES;
-            let frames = (first..first + LONG_FRAMES, self.request.seed ^ SEEDS_APART);
-            files.extend(self.flat(&format!("dark/long-{}", i + 1), share * longest_s, 0.0, frames)?);
+            let (part, frames) = (format!("dark/long-{}", i + 1), first..first + LONG_FRAMES);
+            files.extend(self.flat(&part, share * longest_s, 0.0, frames, self.request.seed ^ SEEDS_APART)?);
         }
         Ok(files)
     }
 
     /// Pictures through the lens.
-    fn lens(&self, in_colour: bool, (width_px, height_px): (usize, usize)) -> Result<Vec<PathBuf>, Error> {
+    fn lens(&self, in_colour: bool, width_px: usize, height_px: usize) -> Result<Vec<PathBuf>, Error> {
         let open = GridSize { columns: None, rows: None, pitch_mm: None };
         // Regions about the edges of squares want 16 readings of a colour each way.
         let wide = (width_px as u32 / if in_colour { 2 * EDGES_PX } else { EDGES_PX }).clamp(1, 3);

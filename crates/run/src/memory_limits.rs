@@ -1,4 +1,12 @@
-//! The memory that is free for a run, as the caller states it.
+//! The memory that a run may take: what is free, as the caller states it, what films may take of it, and the comparison with what a run needs.
+
+use etendue_io::ScratchFolder;
+use etendue_io::failure::Error;
+use etendue_pipeline::Plan;
+use etendue_pipeline::plan::{CameraPlan, FilmLimit};
+use etendue_pipeline::report::RunMemory;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A limit on the memory of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,4 +46,93 @@ impl MemoryLimit {
             Self::Stated => "by `memory_mb`",
         }
     }
+}
+
+/// How much memory the bands of a film may take, and where those are kept that take more. No result depends on it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FilmMemory {
+    /// Most bytes of the means and variances of one film's bands in memory.
+    pub limit_bytes: u64,
+    /// The folder for the scratch files of larger ones; `None`: that of tiles of textures ([`TextureMemory::cache`](etendue_io::TextureMemory)).
+    pub scratch: Option<PathBuf>,
+}
+
+impl Default for FilmMemory {
+    /// 2048 MB.
+    fn default() -> Self {
+        Self { limit_bytes: 2_048_000_000, scratch: None }
+    }
+}
+
+impl FilmMemory {
+    /// What a plan is told, where tiles of textures are in `cache`.
+    pub(crate) fn limit(&self, cache: Option<&PathBuf>) -> FilmLimit {
+        let folder = self.scratch.as_ref().or(cache).map(PathBuf::as_path);
+        FilmLimit { bytes: self.limit_bytes, store: Arc::new(ScratchFolder::new(folder)) }
+    }
+}
+
+/// Refuses a run that needs more memory than is free, before the first sample, and films that cannot be stored.
+pub(crate) fn check(plan: &Plan, memory: &RunMemory, limits: &MemoryLimits) -> Result<(), Error> {
+    check_folder(plan)?;
+    let Some((limit, free)) = limits.tightest() else { return check_films(plan) };
+    // The free memory was measured before the job was read: the scene counts and the program does not.
+    if memory.beyond_program() <= free as f64 {
+        return Ok(());
+    }
+    let camera = memory.largest().and_then(|(name, _)| plan.camera(name));
+    Err(Error::input(format!(
+        "the run needs {:.0} MB of memory beside the program, and {:.0} MB are free {} ({}); {}",
+        memory.beyond_program() / 1e6,
+        free as f64 / 1e6,
+        limit.words(),
+        memory.parts(),
+        camera.map_or_else(|| "free memory or give the run more".to_owned(), remedies),
+    )))
+}
+
+/// Returns the keys that reduce the memory of a camera.
+fn remedies(camera: &CameraPlan) -> String {
+    let name = &camera.name;
+    let products = &camera.products;
+    let spectra = products.radiance || products.irradiance;
+    let products_made = [
+        (products.ground_truth, "output.ground_truth = false"),
+        (products.radiance, "output.radiance = false"),
+        (products.irradiance, "output.irradiance = false"),
+        (products.undistorted.is_some(), "no output.undistorted"),
+        (products.signal_breakdown, "output.signal_breakdown = false"),
+    ];
+    let product_keys = products_made.into_iter().filter(|(is_made, _)| *is_made).map(|(_, key)| key.to_owned());
+    let size = format!("smaller width_px and height_px of [sensor] of camera {name}");
+    let bands = spectra.then(|| "a larger render.band_width_nm".to_owned());
+    let keys: Vec<String> = [size].into_iter().chain(bands).chain(product_keys).collect();
+    format!(
+        "reduce it with {}; keep more of films and textures on the disk with `film_memory_mb` and `texture_memory_mb`; run fewer `threads`; or give the run more memory (`memory_mb` 0 omits this check)",
+        keys.join(", ")
+    )
+}
+
+/// Checks that the folder for scratch files can be written.
+fn check_folder(plan: &Plan) -> Result<(), Error> {
+    let store = plan.cameras.iter().find_map(|camera| plan.scratch(camera));
+    store.map_or(Ok(()), |store| store.room(0).map(|_| ()).map_err(Error::input))
+}
+
+/// Checks that the system has memory for the film of each camera.
+fn check_films(plan: &Plan) -> Result<(), Error> {
+    plan.cameras.iter().try_for_each(|camera| check_room(plan, camera))
+}
+
+/// Allocates the memory of a camera's film and frees it: a later allocation that fails would end the process.
+fn check_room(plan: &Plan, camera: &CameraPlan) -> Result<(), Error> {
+    let bytes = plan.film_bytes(camera).memory;
+    Vec::<u8>::new().try_reserve_exact(bytes as usize).map_err(|_| {
+        Error::run(format!(
+            "camera {}: the system does not give the {:.0} MB of memory that its film takes; make room, render fewer pixels or bands, or keep more of it on \
+             the disk with `film_memory_mb`",
+            camera.name,
+            bytes / 1e6
+        ))
+    })
 }

@@ -1,7 +1,10 @@
 //! The files that a camera can deliver: their names, and what they hold.
+//! Also files that the user names one by one: plots, previews, camera files.
 
 use etendue_core::RawFormat;
 use etendue_core::quantity::{Cover, DigitalNumber, Irradiance, MeanElectrons, Quantity, Radiance, Transmittance};
+use etendue_io::failure::Error;
+use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::plan::{
     Annotations, CameraBody, CameraPlan, CorrespondenceFormat, Development, PictureFormat, Products, TimeDependence,
     raw_extension,
@@ -10,6 +13,7 @@ use etendue_plan_report::tone_curve::encoding;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::path::Path;
 
 /// What a file holds: its quantity and unit.
 fn entry(quantity: &str, unit: &str) -> Value {
@@ -230,4 +234,17 @@ impl Files {
         }
         files
     }
+}
+
+/// Writes a file and the folders that lead to it; never half of it.
+///
+/// # Errors
+/// Where it cannot be written, or is there and must not be replaced.
+pub fn write_file(path: &Path, bytes: &[u8], existing: Existing) -> Result<(), Error> {
+    let name = path.file_name().and_then(|name| name.to_str());
+    let name = name.ok_or_else(|| Error::input(format!("{}: expected the name of a file", path.display())))?;
+    let parent = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut folder = OutputFolder::open_beside(parent, existing).map_err(Error::input)?;
+    folder.write(name, bytes).map_err(Error::input)?;
+    folder.commit().map_err(|error| Error::Run(error.to_string())).map(|_| ())
 }

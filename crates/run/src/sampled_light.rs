@@ -1,8 +1,8 @@
 //! The light of some of a camera's pixels, sampled otherwise than the job says: what a study of time and error is made of.
 
-use crate::delivery::{check_finite, check_textures};
 use crate::job::Job;
-use crate::shard_spec::ShardSpec;
+use crate::run::films::{check_finite, check_textures};
+use crate::shard::ShardSpec;
 use etendue_core::observer::Observer;
 use etendue_core::random::Pixel;
 use etendue_io::failure::Error;

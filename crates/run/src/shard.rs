@@ -1,17 +1,15 @@
-//! Shards on disk: a manifest beside one film a camera.
+//! Shards on disk, a manifest beside one film a camera, and what is merged from them.
 //!
 //! A film's planes hold the shard's tiles; the other pixels are zero. `merge` makes the plan again from the manifest
 //! and refuses shards of another plan.
 
-use crate::delivery::{check_finite, check_frames, shots_of};
-use crate::exposures::Exposures;
-use crate::film_file::{self, FilmOrigin};
-use crate::film_names::film_name;
+use crate::film_file::{self, FilmOrigin, film_name};
 use crate::job::Job;
-use crate::job_request::JobRequest;
-use crate::results::Kept;
+use crate::job_request::{JobRequest, RenderOptions};
 use crate::results::writer::write_exr;
-use crate::shard_spec::{ShardRequest, ShardSpec};
+use crate::run::Run;
+use crate::run::films::shots_of;
+use crate::run::store::{InterruptionNote, NoStore, RunFolder, RunStore, StoredLight};
 use etendue_arguments::MAX_FRAMES;
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
@@ -20,17 +18,71 @@ use etendue_io::{Existing, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
-use etendue_pipeline::render::Shot;
+use etendue_pipeline::tile::{Shard, tiles};
 use etendue_tracer::accel::Simd;
+use rayon::prelude::*;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// A shard of a run: every tile whose number is `index` modulo `count`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShardSpec {
+    /// Which shard, from 0.
+    pub index: u32,
+    /// Of how many.
+    pub count: u32,
+}
+
+/// `I/N`.
+impl FromStr for ShardSpec {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let expected = || format!("expected I/N with I < N, e.g. 0/3, not '{text}'");
+        let (index, count) = text.split_once('/').ok_or_else(expected)?;
+        let number = |s: &str| s.trim().parse::<u32>().map_err(|_| expected());
+        let (index, count) = (number(index)?, number(count)?);
+        if index < count { Ok(Self { index, count }) } else { Err(expected()) }
+    }
+}
+
+impl ShardSpec {
+    pub(crate) fn shard(self) -> Result<Shard, Error> {
+        let told = || Error::input(format!("shard {}/{}: expected an index below the count", self.index, self.count));
+        Shard::new(self.index, self.count).ok_or_else(told)
+    }
+}
+
+/// What one call renders of a shard.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ShardRequest {
+    /// Which tiles.
+    pub spec: ShardSpec,
+    /// The frames of the whole run.
+    pub frames: Range<u32>,
+    /// The only films of the shard to render, by the [names of their files](crate::Job::film_names); empty: all of them.
+    pub films: Vec<String>,
+}
+
+impl ShardRequest {
+    /// All films of a shard.
+    #[must_use]
+    pub fn whole(spec: ShardSpec, frames: Range<u32>) -> Self {
+        Self { spec, frames, films: Vec::new() }
+    }
+}
 
 impl Job {
     /// The names of the films of a shard, relative to its folder: one for each group of cameras of equal light, called after the first of these; where
     /// light depends on time, of each of the frames and of each capture that has a light of its own.
     #[must_use]
     pub fn film_names(&self, frames: &Range<u32>) -> Vec<String> {
-        self.films(frames).map(|(group, shot)| film_name(group[0], shot)).collect()
+        let mut names = Vec::new();
+        for group in self.plan().by_light() {
+            names.extend(shots_of(group[0], frames).into_iter().map(|shot| film_name(group[0], shot)));
+        }
+        names
     }
 
     /// Renders one shard of a run into a folder, or some of its films, for [`merge`](crate::merge::merge), and answers with the paths of its files. Films
@@ -60,23 +112,23 @@ impl Job {
         folder
             .claim(names.iter().map(String::as_str).chain(manifest.as_ref().map(|_| MANIFEST)))
             .map_err(Error::input)?;
-        let kept = Kept::of_run(&folder, observer);
-        self.render_shard((asked, &names), simd, observer, |camera, shot, film| {
-            let origin = FilmOrigin { plan: self.plan(), camera, shot, shard: asked.spec.shard()? };
-            write_exr(&mut folder, &film_name(camera, shot), film_file::image(&film, &origin.facts()))
-        })?;
+        let mut interruption = InterruptionNote::new(&folder, observer);
+        let shard = asked.spec.shard()?;
+        self.warn(observer);
+        self.check_shard_memory()?;
+        let options = RenderOptions { frames: asked.frames.clone(), simd };
+        let is_asked = |camera: &CameraPlan, shot| names.contains(&film_name(camera, shot));
+        let mut run = Run::of_shard(self.shared_plan(), &options, shard, is_asked, observer)?;
+        while let Some((origin, film)) = run.next_film(&mut NoStore)? {
+            let name = film_name(origin.camera, origin.shot);
+            write_exr(&mut folder, &name, film_file::image(&film, &origin.facts()))?;
+        }
         if let Some(manifest) = &manifest {
             folder.write(MANIFEST, manifest).map_err(Error::run)?;
         }
         let written = folder.commit().map_err(Error::run)?;
-        kept.all();
+        interruption.is_complete = true;
         Ok(written)
-    }
-
-    /// The films of a run: cameras of equal light, and which of their pictures.
-    fn films<'a>(&'a self, frames: &'a Range<u32>) -> impl Iterator<Item = (Vec<&'a CameraPlan>, Shot)> {
-        let groups = self.plan().by_light().into_iter();
-        groups.flat_map(|group| shots_of(group[0], frames).into_iter().map(move |shot| (group.clone(), shot)))
     }
 
     /// The names of the films that a request asks for; refused where one is none of the job's.
@@ -106,30 +158,6 @@ impl Job {
             tile_px: tile_sides(self.plan()),
         }
     }
-
-    /// Renders the tiles of one shard: the films of these names, each with the first camera of its group.
-    fn render_shard(
-        &self,
-        (asked, names): (&ShardRequest, &[String]),
-        simd: Simd,
-        observer: &dyn Observer,
-        mut take: impl FnMut(&CameraPlan, Shot, Film) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        let (plan, frames, shard) = (self.plan(), &asked.frames, asked.spec.shard()?);
-        self.warn(observer);
-        self.check_shard_memory()?;
-        check_frames(plan, frames)?;
-        let films: Vec<_> =
-            self.films(frames).filter(|(group, shot)| names.contains(&film_name(group[0], *shot))).collect();
-        let cameras = films.iter().map(|(group, _)| group[0]);
-        let mut exposures = Exposures::new((plan, frames), cameras, (shard, simd), observer);
-        for (group, shot) in &films {
-            let film = exposures.film((group, *shot), None, |_, _| Ok(()))?;
-            check_finite(group[0], &film)?;
-            take(group[0], *shot, film)?;
-        }
-        Ok(())
-    }
 }
 
 /// Films that a message names at most.
@@ -141,29 +169,29 @@ const MANIFEST: &str = "shard.json";
 /// What a shard is part of.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Manifest {
+struct Manifest {
     /// The job, so that the plan can be made again.
-    pub(crate) request: JobRequest,
+    request: JobRequest,
     /// Frames to take of the whole.
-    pub(crate) frames: std::ops::Range<u32>,
+    frames: Range<u32>,
     /// Which shard.
-    pub(crate) index: u32,
+    index: u32,
     /// Of how many.
-    pub(crate) count: u32,
+    count: u32,
     /// The plan's hash.
-    pub(crate) plan_hash: String,
+    plan_hash: String,
     /// Side of each camera's tiles, px: the plan's hash leaves it out, but it says which pixels are whose.
-    pub(crate) tile_px: Vec<u32>,
+    tile_px: Vec<u32>,
 }
 
 /// The sides of the tiles of a plan's cameras.
-pub(crate) fn tile_sides(plan: &Plan) -> Vec<u32> {
+fn tile_sides(plan: &Plan) -> Vec<u32> {
     plan.cameras.iter().map(|camera| camera.settings.tile_px).collect()
 }
 
 impl Manifest {
     /// Reads the manifest of a shard's folder.
-    pub(crate) fn read(folder: &Path) -> Result<Self, Error> {
+    fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(MANIFEST);
         let explain =
             |why: String| Error::input(format!("{}: {why}; give folders made by render `shard`", path.display()));
@@ -207,7 +235,7 @@ impl Manifest {
     }
 
     /// Whether two shards were cut from one run: the same plan, cameras, frames and tiles.
-    pub(crate) fn is_of_run(&self, other: &Self) -> bool {
+    fn is_of_run(&self, other: &Self) -> bool {
         let cut = |m: &Self| (m.plan_hash.clone(), m.count, m.frames.clone(), m.tile_px.clone());
         cut(self) == cut(other) && self.request.camera == other.request.camera
     }
@@ -223,8 +251,130 @@ impl Manifest {
     }
 }
 
-/// A film of a shard, from its folder.
-pub(crate) fn read(folder: &Path, origin: &FilmOrigin<'_>) -> Result<Film, Error> {
-    let path = folder.join(film_name(origin.camera, origin.shot));
-    film_file::read(&path, origin, "render the shard again").map(|(film, _)| film)
+/// Joins the folders of all shards of one run to the files of an unsharded one, byte for byte, and answers with their paths. `job` is where the job
+/// file is now, where the shards were rendered from another place. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where shards are missing, given twice or of different runs, the job has changed since, or the folder cannot be written.
+pub fn merge(
+    shards: &[PathBuf],
+    job: Option<&Path>,
+    simd: Simd,
+    folder: &Path,
+    existing: Existing,
+    observer: &dyn Observer,
+) -> Result<Vec<PathBuf>, Error> {
+    let mut shards = MergedShards::read(shards)?;
+    let mut manifest = shards.shards[0].manifest.clone();
+    if let Some(job) = job {
+        manifest.request.job = job.to_path_buf();
+    }
+    let job = manifest.request.clone().into_output(folder).open()?;
+    check_same_plan(job.plan(), &manifest)?;
+    let options = RenderOptions { frames: manifest.frames, simd };
+    let mut folder = RunFolder::of_shards(job.shared_plan(), options.frames.clone(), folder, existing, observer)?;
+    let mut run = Run::new(job.shared_plan(), &options, None, observer)?;
+    while let Some(results) = run.next_results(&mut shards)? {
+        folder.write(&results)?;
+    }
+    folder.finish()
+}
+
+/// The folder of a shard.
+struct ShardFolder<'a> {
+    manifest: Manifest,
+    path: &'a Path,
+}
+
+impl ShardFolder<'_> {
+    fn refused(&self, why: &str) -> Error {
+        Error::input(format!("{}: {why}", self.path.display()))
+    }
+
+    /// Reads the shard's part of a film.
+    fn film(&self, whole: &FilmOrigin<'_>) -> Result<(Shard, Film), Error> {
+        let shard = Shard::new(self.manifest.index, self.manifest.count);
+        let shard = shard.ok_or_else(|| self.refused("its manifest is damaged; render the shard again"))?;
+        let path = self.path.join(film_name(whole.camera, whole.shot));
+        let (film, _) = film_file::read(&path, &FilmOrigin { shard, ..*whole }, "render the shard again")?;
+        Ok((shard, film))
+    }
+}
+
+/// All shards of one run, each once, in their order: the light of a run that merges them.
+struct MergedShards<'a> {
+    shards: Vec<ShardFolder<'a>>,
+}
+
+/// Shards that are read side by side: each takes the memory of the whole film.
+const AT_ONCE: usize = 4;
+
+impl<'a> MergedShards<'a> {
+    /// Reads the manifests of shards.
+    ///
+    /// # Errors
+    /// Where one cannot be read, is missing, given twice or of another run.
+    fn read(folders: &'a [PathBuf]) -> Result<Self, Error> {
+        let read = |path: &'a PathBuf| Ok(ShardFolder { manifest: Manifest::read(path)?, path });
+        let mut shards: Vec<ShardFolder<'_>> = folders.iter().map(read).collect::<Result<_, Error>>()?;
+        shards.sort_by_key(|shard| shard.manifest.index);
+        let (Some(first), Some(last)) = (shards.first(), shards.last()) else {
+            return Err(Error::input("no shards: give the folders of all"));
+        };
+        if let Some(other) = shards.iter().find(|shard| !shard.manifest.is_of_run(&first.manifest)) {
+            return Err(other.refused("it is a shard of another run; give the shards of one run"));
+        }
+        let count = first.manifest.count;
+        for (expected, shard) in shards.iter().enumerate() {
+            if shard.manifest.index as usize != expected {
+                let missing = format!("shard {expected} of {count} is missing or given twice; give each once");
+                return Err(shard.refused(&missing));
+            }
+        }
+        if shards.len() != count as usize {
+            let given = format!("{} of {count} shards are given; give the folders of all", shards.len());
+            return Err(last.refused(&given));
+        }
+        Ok(Self { shards })
+    }
+}
+
+impl RunStore for MergedShards<'_> {
+    /// Returns the film of all shards' tiles.
+    fn light(&self, whole: &FilmOrigin<'_>) -> Result<StoredLight, Error> {
+        let camera = whole.camera;
+        let (width, height) = camera.film_size();
+        let settings = &camera.settings;
+        let mut film = Film::new(width as usize, height as usize, &camera.film_layout(), settings.replicates);
+        for some in self.shards.chunks(AT_ONCE) {
+            let parts: Vec<Result<_, Error>> = some.par_iter().map(|shard| shard.film(whole)).collect();
+            for part in parts {
+                let (shard, part) = part?;
+                tiles(width, height, settings.tile_px, shard).into_iter().for_each(|tile| film.copy_tile(tile, &part));
+            }
+        }
+        Ok(StoredLight::Complete(film))
+    }
+}
+
+fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Error> {
+    if plan.hash_text() == manifest.plan_hash && tile_sides(plan) == manifest.tile_px {
+        return Ok(());
+    }
+    let job = manifest.request.job.display();
+    Err(Error::input(format!(
+        "{job} or a file that it names has changed since the shards were rendered; render them again"
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shard_is_one_of_many() {
+        let shard = |text: &str| text.parse::<ShardSpec>();
+        assert_eq!(shard("1/3"), Ok(ShardSpec { index: 1, count: 3 }));
+        assert!(shard("3/3").is_err() && shard("1").is_err());
+    }
 }

@@ -1,7 +1,7 @@
 //! Weather laid over stored radiance.
 
+use crate::expose::StoredRadiance;
 use crate::results::metadata;
-use crate::stored_radiance::StoredRadiance;
 use clap::Args;
 use etendue_core::quantity::Variance;
 use etendue_core::{CameraPose, Plane, SpectralCube, TimeInterval};

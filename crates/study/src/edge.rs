@@ -67,7 +67,7 @@ impl<'a> EdgeChart<'a> {
         let design = design::SlantedEdges { size: grid(renderer), angle_deg: ANGLE_DEG, contrast: CONTRAST };
         // The camera is the job's.
         let request = ChartRequest { white: WHITE, ..ChartRequest::new(design.into(), "") };
-        let chart = ChartBeforeCamera::make(&request, (&renderer.own, &renderer.camera), path)?;
+        let chart = ChartBeforeCamera::make(&request, &renderer.own, &renderer.camera, path)?;
         let mut own = Self { renderer, chart, _folder: folder, stated: Vec::new() };
         own.stated = own.measure(&[])?;
         Ok(Some(own))

@@ -3,9 +3,9 @@
 use super::camera::ChartCamera;
 use super::{ChartRequest, make};
 use crate::job_request::JobRequest;
+use crate::job_request::RenderOptions;
 use crate::memory::MemoryFiles;
-use crate::named_file::write_file;
-use crate::render_options::RenderOptions;
+use crate::result_files::write_file;
 use etendue_core::Integrator;
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
@@ -38,7 +38,7 @@ impl ChartBeforeCamera {
     ///
     /// # Errors
     /// Where the job has faults or no such camera, the chart does not fit the camera, or the folder cannot be written.
-    pub fn make(request: &ChartRequest, (job, camera): (&JobRequest, &str), folder: &Path) -> Result<Self, Error> {
+    pub fn make(request: &ChartRequest, job: &JobRequest, camera: &str, folder: &Path) -> Result<Self, Error> {
         let setup = setup(job, camera)?;
         let failed = |error| Error::run(format!("{}: {error}", folder.display()));
         std::fs::create_dir_all(folder).map_err(failed)?;

@@ -1,22 +1,23 @@
 //! Ground truth between frames, between cameras and of objects: in memory, and as files.
 
-use super::boxes::boxes_json;
 use super::camera::CameraResults;
-use super::cryptomatte::cryptomatte_image_of;
+use super::metadata::add_time;
 use super::writer::{Encoder, ResultWriter};
 use crate::result_files::Files;
 use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, Identity};
 use etendue_io::Provenance;
 use etendue_io::correspondence::{encode_flo, encode_kitti_disparity, encode_kitti_flow, encode_pfm};
-use etendue_io::exr::{self, ExrImage, encode_disparity, encode_motion};
+use etendue_io::exr::{self, CryptomatteLayer, ExrImage, cryptomatte_image, encode_disparity, encode_motion};
 use etendue_io::failure::Error;
-use etendue_pipeline::boxes::{ObjectBoxes, WorldObject, object_boxes, silhouettes, world_objects};
+use etendue_pipeline::boxes::{
+    ObjectBoxes, PixelBox, SolidBox, Stance, WorldObject, object_boxes, silhouettes, world_objects,
+};
 use etendue_pipeline::frame_view::FrameView;
-use etendue_pipeline::identity_coverage::{IdentityCoverage, identity_coverage};
+use etendue_pipeline::identity_coverage::{IdentityCoverage, Share, identity_coverage};
 use etendue_pipeline::motion::{MotionTruth, NeighbourTruth, disparity, motion_truth};
-use etendue_pipeline::plan::{CorrespondenceFormat, Products};
-use serde_json::Value;
+use etendue_pipeline::plan::{CorrespondenceFormat, Plan, Products};
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 impl CameraResults {
@@ -165,4 +166,83 @@ fn planes<'a>(truth: &'a MotionTruth, products: &Products) -> exr::MotionTruth<'
         velocity: asked.scene_flow.then_some(&truth.velocity),
         time: Some(&truth.time),
     }
+}
+
+/// What `boxes.json` says of a frame.
+fn boxes_json(plan: &Plan, frame: &FrameView<'_>, boxes: &[ObjectBoxes]) -> Value {
+    let raster = &frame.camera.body.raster;
+    let (width, height) = (raster.width(), raster.height());
+    let mut facts = json!({
+        "camera": frame.camera.name,
+        "frame": frame.frame,
+        "width_px": width,
+        "height_px": height,
+        "conventions": {
+            "boxes": "left, top, right, bottom; raster coordinates, px: a pixel (x, y) fills x to x + 1 and y to y + 1",
+            "visible_box_px": "about the pixels that show the object; null: none",
+            "amodal_box_px": "about the whole object, also beyond the picture; where is_cut about the parts that have an image",
+            "amodal_box_in_picture_px": "about the part of the whole object's image within the picture, whatever hides it; null: none",
+            "visible_fraction": "pixels that show it over those that would if it were alone",
+            "truncated_fraction": "part of the amodal box's area outside the picture; null where is_cut",
+            "box_3d": "along the object's axes (x forward, y left, z up) at time_s: size; centre and rotation (quaternion w, x, y, z) in the \
+                       camera's frame (x right, y down, z forward) and in the world (x forward, y left, z up)",
+            "id": "as instance.ID of the ground truth, the same in all frames",
+        },
+        "objects": boxes.iter().map(|object| object_json(plan, width, height, object)).collect::<Vec<_>>(),
+    });
+    let timing = &frame.camera.timing;
+    add_time(&mut facts, timing, "time", timing.frame_middle(frame.frame));
+    facts
+}
+
+fn object_json(plan: &Plan, width: usize, height: usize, object: &ObjectBoxes) -> Value {
+    let identity = plan.identity(object.id);
+    json!({
+        "id": object.id,
+        "name": identity.map(|identity| &identity.name),
+        "class": identity.and_then(|identity| identity.class.as_ref()),
+        "visible_box_px": object.visible.map(edges),
+        "amodal_box_px": object.amodal.map(edges),
+        "amodal_box_in_picture_px": object.amodal_in_picture.map(edges),
+        "is_cut": object.is_cut,
+        "visible_pixels": object.visible_pixels,
+        "alone_pixels": object.alone_pixels,
+        "visible_fraction": object.visible_fraction(),
+        "truncated_fraction": object.truncated_fraction(width, height),
+        "box_3d": solid(&object.solid),
+    })
+}
+
+fn edges(found: PixelBox) -> [f64; 4] {
+    found.edges_px()
+}
+
+fn solid(found: &SolidBox) -> Value {
+    json!({ "size_m": found.size_m.to_array(), "world": stance(&found.world), "camera": stance(&found.camera) })
+}
+
+fn stance(found: &Stance) -> Value {
+    let [x, y, z, w] = found.rotation.to_array();
+    json!({ "centre_m": found.centre_m.to_array(), "rotation_wxyz": [w, x, y, z] })
+}
+
+/// Layers of objects and of materials.
+fn cryptomatte_image_of(coverage: &IdentityCoverage, plan: &Plan, provenance: &Provenance) -> ExrImage<'static> {
+    let objects = numbered(plan.identities.iter().map(|identity| identity.name.as_str()));
+    let materials = numbered(plan.materials.iter().map(String::as_str));
+    let (seen_objects, seen_materials) = (ranked(&coverage.instances), ranked(&coverage.materials));
+    let layers = [
+        CryptomatteLayer { name: "CryptoObject", names: &objects, pixels: &seen_objects },
+        CryptomatteLayer { name: "CryptoMaterial", names: &materials, pixels: &seen_materials },
+    ];
+    cryptomatte_image(coverage.width, coverage.height, &layers, provenance)
+}
+
+/// Ids count from 1 in the order of the plan.
+fn numbered<'a>(names: impl Iterator<Item = &'a str>) -> BTreeMap<u32, &'a str> {
+    (1..).zip(names).collect()
+}
+
+fn ranked(shares: &[Vec<Share>]) -> Vec<Vec<(u32, f32)>> {
+    shares.iter().map(|pixel| pixel.iter().map(|share| (share.id, share.coverage)).collect()).collect()
 }

@@ -1,11 +1,12 @@
 //! One camera's results in memory.
 
 use super::frames::{encoded, frames};
-use crate::render_options::RenderOptions;
+use crate::job_request::RenderOptions;
 use crate::rig;
-use etendue_core::quantity::MeanElectrons;
+use etendue_core::quantity::{Display, MeanElectrons};
 use etendue_core::{CameraPose, ExactTime, Plane};
 use etendue_io::failure::Error;
+use etendue_io::jpeg::encode_jpeg;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::photograph::{Frame, Light, take, take_with_breakdown};
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
@@ -34,17 +35,22 @@ pub struct CameraResults {
     /// Of the sensor before the first of them.
     state: SensorState,
     /// The only one, where it has a light of its own and the sensor remembers it: the frames after it need it before anybody asks.
-    taken: Option<Taken>,
+    remembered: Option<RememberedFrame>,
     pub(super) simd: Simd,
+}
+
+/// What a sensor remembers, and the first frame that it remembers anything of.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SensorHistory {
+    pub(crate) state: SensorState,
+    pub(crate) since: u32,
 }
 
 /// A frame that has been taken, and what the sensor remembers of it.
 #[derive(Clone, Debug)]
-struct Taken {
+struct RememberedFrame {
     frame: Frame,
-    after: SensorState,
-    /// The first frame that the sensor remembers.
-    since: u32,
+    after: SensorHistory,
 }
 
 impl CameraResults {
@@ -53,7 +59,7 @@ impl CameraResults {
         plan: &Arc<Plan>,
         camera: &CameraPlan,
         films: Vec<Film>,
-        (state, since): (SensorState, u32),
+        before: SensorHistory,
         options: &RenderOptions,
     ) -> Result<Self, Error> {
         let place = plan.cameras.iter().position(|c| c.name == camera.name).expect("a camera of the plan");
@@ -66,10 +72,12 @@ impl CameraResults {
             RectifiedCamera::of(&camera.body, scale).expect("a compiled plan's camera has its rectified twin")
         });
         let (frames, simd) = (options.frames.clone(), options.simd);
-        let (plan, taken) = (Arc::clone(plan), None);
-        let mut results = Self { plan, camera: place, light, sampling, depth, undistorted, frames, state, taken, simd };
+        let (plan, SensorHistory { state, since }) = (Arc::clone(plan), before);
+        let remembered = None;
+        let mut results =
+            Self { plan, camera: place, light, sampling, depth, undistorted, frames, state, remembered, simd };
         if results.has_own_light() {
-            results.taken = results.remembered(since);
+            results.remembered = results.remembered_frame(since);
         }
         Ok(results)
     }
@@ -113,13 +121,19 @@ impl CameraResults {
     /// The same with their numbers; one that has been taken is not taken again.
     pub(super) fn numbered_frames(&self) -> impl Iterator<Item = (u32, Cow<'_, Frame>)> + '_ {
         let signal_breakdown = self.camera().products.signal_breakdown;
-        let kept = self.taken.as_ref().map(|taken| (self.frames.start, Cow::Borrowed(&taken.frame)));
-        let light = self.light.captures().filter(|_| kept.is_none());
+        let known = self.remembered.as_ref().map(|known| (self.frames.start, Cow::Borrowed(&known.frame)));
+        let light = self.light.captures().filter(|_| known.is_none());
         let anew = light.map(|light| {
             let (address, state) = (|frame| self.address(frame), self.state.clone());
-            frames(&self.camera().body, light, (self.frames.clone(), state), address, signal_breakdown)
+            frames(&self.camera().body, light, self.frames.clone(), state, address, signal_breakdown)
         });
-        kept.into_iter().chain(anew.into_iter().flatten())
+        known.into_iter().chain(anew.into_iter().flatten())
+    }
+
+    /// The first frame's picture as a display shows it, 0 to 1; `None` where the camera has no processing.
+    #[must_use]
+    pub fn display_picture(&self) -> Option<Plane<Display>> {
+        self.frames().next()?.picture.map(|developed| developed.display)
     }
 
     /// The file of a frame's picture as `render` writes it: its extension and its bytes; `None` where the camera does not process its raws.
@@ -169,18 +183,18 @@ impl CameraResults {
         self.camera().time != TimeDependence::None
     }
 
-    /// What the sensor remembers of a frame that has a light of its own, and since which frame; `None` where it remembers nothing.
-    pub(crate) fn state_after(&self) -> Option<(&SensorState, u32)> {
-        self.taken.as_ref().map(|taken| (&taken.after, taken.since))
+    /// What the sensor remembers after a frame that has a light of its own; `None` where it remembers nothing.
+    pub(crate) fn state_after(&self) -> Option<&SensorHistory> {
+        self.remembered.as_ref().map(|known| &known.after)
     }
 
     /// Takes the frame, where anything is remembered.
-    fn remembered(&self, since: u32) -> Option<Taken> {
+    fn remembered_frame(&self, since: u32) -> Option<RememberedFrame> {
         let camera = self.camera();
         let light = self.light.captures().filter(|_| camera.body.sensor.as_ref().is_some_and(Sensor::remembers))?;
         let step = if camera.products.signal_breakdown { take_with_breakdown } else { take };
-        let (after, frame) = step(&camera.body, self.state.clone(), light, self.address(self.frames.start))?;
-        Some(Taken { frame, after, since })
+        let (state, frame) = step(&camera.body, self.state.clone(), light, self.address(self.frames.start))?;
+        Some(RememberedFrame { frame, after: SensorHistory { state, since } })
     }
 
     /// Where a frame of the camera stands among all.
@@ -188,4 +202,12 @@ impl CameraResults {
         let camera = self.camera();
         FrameAddress { seed: camera.settings.seed, camera: camera.index, frame, capture: 0 }
     }
+}
+
+/// A display picture as a JPEG of a quality from 1 to 100.
+///
+/// # Errors
+/// Where it cannot be encoded.
+pub fn display_jpeg(picture: &Plane<Display>, quality: u8) -> Result<Vec<u8>, Error> {
+    encode_jpeg(picture, quality).map_err(|error| Error::Run(error.to_string()))
 }

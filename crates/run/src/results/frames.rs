@@ -54,7 +54,8 @@ pub(crate) fn encoded(picture: &Plane<Display>, development: &Development) -> Re
 pub(crate) fn frames<'a>(
     body: &'a CameraBody,
     light: CaptureLight<'a>,
-    (frames, before): (Range<u32>, SensorState),
+    frames: Range<u32>,
+    before: SensorState,
     address: impl Fn(u32) -> FrameAddress + 'a,
     signal_breakdown: bool,
 ) -> impl Iterator<Item = (u32, Cow<'a, Frame>)> + 'a {

@@ -1,13 +1,10 @@
 //! A camera's results as files.
 
 use super::camera::CameraResults;
-use super::file_names::file_names;
 use super::frames::{Wanted, write_frames};
 use super::metadata;
-use super::sequence::Sequence;
 use super::writer::ResultWriter;
 use crate::result_files::Files;
-use crate::rig;
 use etendue_core::observer::Observer;
 use etendue_core::quantity::Radiance;
 use etendue_io::exr::{
@@ -15,7 +12,7 @@ use etendue_io::exr::{
     plane_image, radiance_image, spectral_image,
 };
 use etendue_io::failure::Error;
-use etendue_io::{Existing, OutputFolder, png};
+use etendue_io::{OutputFolder, png};
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::rectified::RectifiedCamera;
@@ -25,54 +22,6 @@ use etendue_pipeline::truth::{GroundTruth, TruthRows, ground_truth};
 use etendue_pipeline::weather_layers::weather_layers;
 use serde_json::Value;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
-
-/// The results of a job's cameras.
-#[derive(Clone, Debug)]
-pub struct Results {
-    cameras: Vec<CameraResults>,
-}
-
-impl Results {
-    pub(crate) fn new(cameras: Vec<CameraResults>) -> Self {
-        Self { cameras }
-    }
-
-    /// The cameras, those of equal light one after the other; where light depends on time, once for each frame.
-    #[must_use]
-    pub fn cameras(&self) -> &[CameraResults] {
-        &self.cameras
-    }
-
-    /// A camera by its name; where light depends on time, its first frame.
-    #[must_use]
-    pub fn camera(&self, name: &str) -> Option<&CameraResults> {
-        self.cameras.iter().find(|camera| camera.name() == name)
-    }
-
-    /// Writes all files that the job asks for into a folder, one folder a camera, and answers with their paths. They get
-    /// their names when all are complete. Runs on the caller's thread pool.
-    ///
-    /// # Errors
-    /// Where the folder cannot be written, or files are there that must not be replaced.
-    pub fn save(&self, folder: &Path, existing: Existing, observer: &dyn Observer) -> Result<Vec<PathBuf>, Error> {
-        let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
-        for camera in &self.cameras {
-            let names = file_names(&camera.plan, &camera.frames);
-            let own = names.iter().filter(|name| name.starts_with(&format!("{}/", camera.name())));
-            folder.claim(own.map(String::as_str)).map_err(Error::input)?;
-        }
-        let mut sequence = Sequence::default();
-        self.cameras.iter().try_for_each(|camera| sequence.write(camera, &mut folder, observer))?;
-        sequence.finish(&mut folder, observer)?;
-        if let Some(first) = self.cameras.first() {
-            let frames = self.cameras.iter().map(CameraResults::frame_numbers);
-            let frames = frames.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or_default();
-            rig::write(&rig::asked_files(&first.plan, &frames), &mut folder, observer)?;
-        }
-        folder.commit().map_err(Error::run)
-    }
-}
 
 impl CameraResults {
     /// Writes all files but the camera's side-car; answers with what that says of each frame.

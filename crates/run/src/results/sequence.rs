@@ -1,22 +1,26 @@
-//! The results of cameras as they are written, and at the end each camera's side-car.
+//! The results of cameras as they are written, and what is made of all frames at the end: tracks of objects, videos, and each camera's side-car.
 
 use super::camera::CameraResults;
-use super::levels;
-use super::metadata;
-use super::tracks::write_tracks;
-use super::video::write_video;
 use super::writer::ResultWriter;
+use super::{levels, metadata};
 use crate::result_files::Files;
+use crate::rig::asked_files;
 use etendue_core::observer::Observer;
 use etendue_io::exr::{ExrImage, rays_image};
 use etendue_io::failure::Error;
-use etendue_io::{FileDigest, OutputFolder, Provenance};
-use etendue_pipeline::plan::{CameraPlan, Plan};
+use etendue_io::picture::read_picture;
+use etendue_io::y4m::{VideoFacts, write_frame, write_head};
+use etendue_io::{FileDigest, OutputFolder, Provenance, read_regular};
+use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_pipeline::rays::{RayTable, ray_table};
 use etendue_pipeline::rectified::RectifiedCamera;
-use serde_json::Value;
+use etendue_scene::asset::{ImageAsset, ImagePixels};
+use etendue_scene::limits::DESCRIPTION;
+use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
+use std::io;
 use std::ops::Range;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What was written of each camera.
@@ -65,7 +69,7 @@ impl Sequence {
             let facts = metadata::own_frame(&results.plan, camera, numbers.start, frames.pop());
             let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
             let kept = match results.state_after() {
-                Some((after, since)) => metadata::with_state(facts.clone(), after, since),
+                Some(after) => metadata::with_state(facts.clone(), &after.state, after.since),
                 None => facts.clone(),
             };
             let files = files_of_frame(camera, numbers.start, writer.folder)?;
@@ -152,4 +156,114 @@ fn write_rays(camera: &CameraPlan, facts: &Provenance, folder: &mut OutputFolder
 
 fn image_of_rays<'a>(table: &'a RayTable, facts: &Provenance) -> ExrImage<'a> {
     rays_image(&table.origin, &table.direction, &table.ray, table.path.as_ref(), facts)
+}
+
+/// What a track says of its object, not of its frames.
+const OF_OBJECT: [&str; 3] = ["id", "name", "class"];
+
+/// Keys of the frame that are copied from the boxes.
+const OF_FRAME: [&str; 3] = ["frame", "time_s", "time"];
+
+/// Writes `tracks.json`.
+fn write_tracks(camera: &CameraPlan, frames: &Range<u32>, folder: &mut OutputFolder) -> Result<(), Error> {
+    let files: Vec<String> = match camera.time {
+        TimeDependence::None => vec![Files::BOXES.to_owned()],
+        _ => frames.clone().map(|frame| Files::numbered(Files::BOXES, frame)).collect(),
+    };
+    let mut tracks = Tracks::default();
+    for file in files {
+        tracks.add(read_boxes(&format!("{}/{file}", camera.name), folder)?);
+    }
+    let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
+    writer.json(Files::TRACKS, &tracks.into_json(camera))
+}
+
+fn read_boxes(name: &str, folder: &OutputFolder) -> Result<Value, Error> {
+    let path = folder.readable(name).map_err(Error::run)?;
+    let unread = |why: String| Error::run(format!("{}: {why}", path.display()));
+    let bytes = read_regular(&path, &DESCRIPTION).map_err(|cause| unread(format!("it cannot be read: {cause}")))?;
+    serde_json::from_slice(&bytes).map_err(|_| unread("this is not the file of a frame's boxes".to_owned()))
+}
+
+/// What was read so far.
+#[derive(Default)]
+struct Tracks {
+    conventions: Value,
+    frames: Vec<Value>,
+    /// By identity: the object, and its frames.
+    objects: BTreeMap<u64, (Value, Vec<Value>)>,
+}
+
+impl Tracks {
+    /// Adds a frame's boxes.
+    fn add(&mut self, mut boxes: Value) {
+        let moment: Map<String, Value> =
+            OF_FRAME.iter().filter_map(|key| Some(((*key).to_owned(), boxes.get(*key)?.clone()))).collect();
+        self.conventions = boxes["conventions"].take();
+        let Value::Array(objects) = boxes["objects"].take() else { return };
+        for mut object in objects {
+            let (Some(id), Some(keys)) = (object["id"].as_u64(), object.as_object_mut()) else { continue };
+            let of_object = OF_OBJECT.map(|key| (key.to_owned(), keys.remove(key).unwrap_or(Value::Null)));
+            keys.extend(moment.clone());
+            let (_, seen) =
+                self.objects.entry(id).or_insert_with(|| (Value::Object(of_object.into_iter().collect()), Vec::new()));
+            seen.push(object);
+        }
+        self.frames.push(Value::Object(moment));
+    }
+
+    fn into_json(mut self, camera: &CameraPlan) -> Value {
+        let raster = &camera.body.raster;
+        self.conventions["tracks"] = json!(
+            "an object has a place in \"frames\" for each frame in which it has pixels, or would if it stood alone"
+        );
+        let track = |(mut object, seen): (Value, Vec<Value>)| {
+            object["frames"] = Value::Array(seen);
+            object
+        };
+        json!({
+            "camera": camera.name,
+            "width_px": raster.width(),
+            "height_px": raster.height(),
+            "conventions": self.conventions,
+            "frames": self.frames,
+            "tracks": self.objects.into_values().map(track).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// Writes the video, one picture in memory at a time.
+fn write_video(camera: &CameraPlan, frames: &Range<u32>, folder: &mut OutputFolder) -> Result<(), Error> {
+    let format = camera.body.picture_format();
+    let file = |frame| folder.readable(&format!("{}/{}", camera.name, Files::picture(frame, format)));
+    let files: Vec<PathBuf> = frames.clone().map(file).collect::<Result<_, _>>().map_err(Error::run)?;
+    let period_s = camera.timing.period_s.expect("a compiled plan's video has a rate");
+    let pitch = camera.body.raster.pitch_mm();
+    let name = format!("{}/{}", camera.name, Files::VIDEO);
+    let written = folder.write_with(&name, |out| {
+        for (i, file) in files.iter().enumerate() {
+            let ImageAsset { width, height, pixels, .. } = read_picture(file).map_err(io::Error::other)?;
+            let ImagePixels::Rgb8(pixels) = pixels else {
+                return Err(io::Error::other(format!("{}: expected a picture of 8 bits in colour", file.display())));
+            };
+            if i == 0 {
+                let (width, height) = (width as usize, height as usize);
+                let (frame_rate_hz, pixel_aspect) = (1.0 / period_s, pitch.x / pitch.y);
+                write_head(out, &VideoFacts { width, height, frame_rate_hz, pixel_aspect })?;
+            }
+            write_frame(out, &pixels)?;
+        }
+        Ok(())
+    });
+    written.map_err(Error::run)
+}
+
+/// The names, relative to the output folder, of all files of a plan.
+pub(crate) fn file_names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
+    let of_camera = |camera: &CameraPlan| {
+        let names = Files::of_camera(camera, frames).into_keys().chain([Files::SIDECAR.to_owned()]);
+        names.map(|name| format!("{}/{name}", camera.name)).collect::<Vec<_>>()
+    };
+    let rig = asked_files(plan, frames).files.into_iter().map(|(name, _)| name);
+    plan.cameras.iter().flat_map(of_camera).chain(rig).collect()
 }

@@ -7,19 +7,18 @@
 //! | `kalibr/camchain-NAME.yaml` | the cameras that one frame carries, beginning with NAME |
 //! | `colmap/cameras.txt`, `images.txt`, `points3D.txt` | all cameras, and the pose of every frame in the world |
 
-mod intrinsics;
-mod view;
-
-pub use view::{PinholeView, camera_mount, pinhole_view};
-
 use crate::result_files::Files;
 use etendue_core::CameraPose;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::OutputFolder;
 use etendue_io::calibration::export::{NamedCamera, colmap, kalibr, ros};
 use etendue_io::failure::Error;
-use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
-use etendue_projection::Calibration;
+use etendue_optics::{Front, Lens};
+use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, TimeDependence};
+use etendue_projection::model::Perspective;
+use etendue_projection::plane::DistortionTerms;
+use etendue_projection::{Calibration, CameraMatrix, Model, Sense};
+use glam::DVec2;
 use std::ops::Range;
 
 /// What carries a camera that no frame does.
@@ -68,7 +67,7 @@ fn rig_files(plan: &Plan, cameras: &[&CameraPlan], frames: &Range<u32>) -> RigFi
     let mut rig = RigFiles::default();
     let mut found = Vec::new();
     for camera in cameras {
-        match intrinsics::calibration(&camera.body) {
+        match calibration(&camera.body) {
             Ok(calibration) => found.push(Calibrated { plan: camera, calibration }),
             Err(why) => rig.left_out.push(format!("calibration files leave camera {} out: {why}", camera.name)),
         }
@@ -188,4 +187,118 @@ fn picture(camera: &CameraPlan, frame: u32) -> String {
         false => Files::picture(frame, camera.body.picture_format()),
     };
     format!("{}/{file}", camera.name)
+}
+
+/// A camera whose pictures are rectilinear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PinholeView {
+    /// fx, skew, cx, fy, cy, px; raster coordinates: pixel centres are at + 0.5.
+    pub matrix_px: [f64; 5],
+    /// From the camera's frame (x right, y down, z forward) to the frame of the scene that carries it, m; `None` where none does, or where
+    /// the camera moves in it.
+    pub mount: Option<CameraPose>,
+}
+
+/// The camera matrix of a camera of a plan.
+///
+/// # Errors
+/// The rest of a sentence that begins with the camera: why none describes it.
+pub fn pinhole_view(camera: &CameraPlan) -> Result<PinholeView, String> {
+    let matrix = pinhole(&camera.body)?;
+    let matrix_px = [matrix.fx, matrix.skew, matrix.cx, matrix.fy, matrix.cy];
+    Ok(PinholeView { matrix_px, mount: camera_mount(camera) })
+}
+
+/// From a camera's frame to the frame of the scene that carries it, m; `None` where none does, or where the camera moves in it.
+#[must_use]
+pub fn camera_mount(camera: &CameraPlan) -> Option<CameraPose> {
+    camera.mount.pose.filter(|_| camera.mount.frame.is_some())
+}
+
+/// Farthest (px) that the calibration may see a point from where the camera does.
+const TOLERANCE_PX: f64 = 1e-6;
+/// Places along each side of the picture at which this is checked.
+const PLACES: u32 = 9;
+
+/// The calibration that sees every direction where the camera does.
+///
+/// # Errors
+/// The rest of a sentence that begins with the camera: why there is none.
+fn calibration(body: &CameraBody) -> Result<Calibration, String> {
+    if let Some(optic) = body.front.as_ref().and_then(Front::optic) {
+        return Err(format!("it looks by a {}, which no calibration file describes", optic.name()));
+    }
+    let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
+    if layout.is_some_and(|layout| !layout.is_whole()) {
+        return Err(
+            "its pictures are a region, or of binned or skipped pixels, whose grid is not the lens's".to_owned()
+        );
+    }
+    let found = match &body.lens {
+        Lens::Calibrated(lens) => lens.parameters().calibration.clone(),
+        Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) => paraxial(body)?,
+        Lens::Prescription(_) => {
+            return Err(
+                "its lens is traced surface by surface; \"etendue calibrate\" fits a model to pictures of a chart"
+                    .to_owned(),
+            );
+        }
+        Lens::RayTransfer(_) => {
+            return Err("its lens is known by ray-transfer functions; \"etendue calibrate\" fits a model to pictures of a chart".to_owned());
+        }
+        Lens::Telecentric(_) => return Err("its rays are parallel".to_owned()),
+    };
+    match farthest_px(body, &found) {
+        off if off <= TOLERANCE_PX => Ok(found),
+        off => Err(format!("its projection differs from every model by {off:.2e} px")),
+    }
+}
+
+/// The camera matrix of a camera whose pictures are rectilinear, in raster coordinates.
+///
+/// # Errors
+/// The rest of a sentence that begins with the camera: why there is none.
+fn pinhole(body: &CameraBody) -> Result<CameraMatrix, String> {
+    let found = calibration(body)?;
+    let straight = Perspective::new(DistortionTerms::default(), [0.0; 2]).map_err(|error| error.to_string())?;
+    match found.model() {
+        Model::Perspective(model) if *model == straight => Ok(found.matrix()),
+        _ => Err("its pictures are distorted, and the format knows a camera matrix alone".to_owned()),
+    }
+}
+
+/// The camera matrix of a paraxial lens, with its radial distortion.
+fn paraxial(body: &CameraBody) -> Result<Calibration, String> {
+    let (lens, raster) = (&body.lens, &body.raster);
+    let principal_mm = lens.principal_distance_mm();
+    let mut terms = DistortionTerms::default();
+    if let Some(distortion) = lens.distortion() {
+        if distortion.sense() == Sense::ObservedToIdeal {
+            return Err(
+                "its distortion is a polynomial from observed to ideal points, and calibration files have the other \
+                        direction"
+                    .to_owned(),
+            );
+        }
+        let [k1, k2] = distortion.coefficients();
+        let square = (principal_mm / distortion.unit_mm()) * (principal_mm / distortion.unit_mm());
+        (terms.numerator[0], terms.numerator[1]) = (k1 * square, k2 * square * square);
+    }
+    let model = Perspective::new(terms, [0.0; 2]).map_err(|error| error.to_string())?;
+    let size_px = [raster.width(), raster.height()];
+    Calibration::new(Model::Perspective(model), raster.camera_matrix(principal_mm), size_px)
+        .map_err(|error| error.to_string())
+}
+
+/// How far (px) the calibration sees directions from where the camera does, over a grid of the picture.
+fn farthest_px(body: &CameraBody, calibration: &Calibration) -> f64 {
+    let raster = &body.raster;
+    let size = DVec2::new(raster.width() as f64, raster.height() as f64);
+    let last = f64::from(PLACES - 1);
+    let places = (0..PLACES * PLACES).map(|i| DVec2::new(f64::from(i % PLACES), f64::from(i / PLACES)) / last * size);
+    let off = |at_px: DVec2| {
+        let direction = body.lens.direction(raster.sensor_mm(at_px))?;
+        Some(calibration.project(direction).map_or(f64::INFINITY, |seen| (seen - at_px).length()))
+    };
+    places.filter_map(off).fold(0.0, f64::max)
 }

@@ -1,0 +1,91 @@
+//! Descriptions that are read by themselves, without a plan: what a job says of rendering, variations of a job, and the data sheet of a camera.
+
+use crate::job_request::JobRequest;
+use crate::memory::MemoryFiles;
+use etendue_core::Accelerator;
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
+use etendue_io::paths::camera_stem;
+use etendue_io::source::read_text;
+use etendue_io::{Existing, OutputFolder};
+use etendue_pipeline::datasheet::imported;
+use etendue_scene::record::variations::Variations;
+use etendue_scene::{Description, Place, load_datasheet, load_variations, stated_render_keys};
+use std::path::{Path, PathBuf};
+
+/// How a job's file says that a camera renders.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StatedRender {
+    /// Its keys, as dotted keys of the job: `render.spp`, `cameras.front.render.spp`.
+    pub keys: Vec<String>,
+    /// Cameras of the job.
+    pub cameras: usize,
+    /// The value of the key `accelerator`, the request's changes included.
+    pub accelerator: Accelerator,
+}
+
+impl JobRequest {
+    /// What the job's file says of how a camera renders.
+    ///
+    /// # Errors
+    /// All faults of the job, and where it has no such camera.
+    pub fn stated_render(&self, camera: &str) -> Result<StatedRender, Error> {
+        let files = MemoryFiles::new();
+        let sandbox = self.folders()?;
+        let read = |path: &Path| files.read(path, &sandbox);
+        let description = Description::load(&self.job, &read, &self.overrides());
+        let description = description.map_err(|faults| Error::inputs(faults.list()))?;
+        let entry = description.cameras.iter().find(|entry| entry.name.value == camera);
+        let entry = entry.ok_or_else(|| Error::input(format!("{}: no camera {camera}", self.job.display())))?;
+        let accelerator = entry.render.accelerator.as_ref().map(|key| key.value).unwrap_or_default();
+        let cameras = description.cameras.len();
+        Ok(StatedRender { cameras, keys: stated_render_keys(&self.job, camera, &read), accelerator })
+    }
+}
+
+/// Reads and checks a variations file; the keys that it names are checked by [`JobRequest::check_changes`].
+///
+/// # Errors
+/// All faults of the file.
+pub fn open_variations(file: &Path) -> Result<Variations, Error> {
+    load_variations(file, &read_text).map_err(|faults| Error::inputs(faults.list()))
+}
+
+impl JobRequest {
+    /// Whether the description takes changes `key=value` after those of the request: a fault of one is told where a file states it. The files that
+    /// the description names are not read but for scenes, cameras and bases, and nothing is compiled.
+    ///
+    /// # Errors
+    /// All faults of the description with the changes.
+    pub fn check_changes(&self, changes: &[(String, Place)]) -> Result<(), Error> {
+        let (files, sandbox) = (MemoryFiles::new(), self.folders()?);
+        let mut overrides = self.overrides();
+        changes.iter().for_each(|(change, place)| overrides.push_stated(change, place));
+        let description = Description::load(&self.job, &|path| files.read(path, &sandbox), &overrides);
+        description.map(|_| ()).map_err(|faults| Error::inputs(faults.list()))
+    }
+}
+
+/// Makes a camera file, with its tables beside it, of a data sheet (TOML); answers with their paths.
+///
+/// # Errors
+/// Where figures are missing, illegal or contradict each other, or the folder cannot be written.
+pub fn datasheet(
+    sheet: &Path,
+    folder: &Path,
+    existing: Existing,
+    observer: &dyn Observer,
+) -> Result<Vec<PathBuf>, Error> {
+    let record = load_datasheet(sheet, &read_text).map_err(|f| Error::inputs(f.list()))?;
+    let stem = camera_stem(sheet);
+    let made = imported(&record, &stem).map_err(Error::inputs)?;
+    let camera = (format!("{stem}.toml"), made.camera);
+    let files: Vec<_> = std::iter::once(camera).chain(made.tables).collect();
+    let mut folder = OutputFolder::open_beside(folder, existing).map_err(Error::input)?;
+    folder.claim(files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
+    for (name, text) in &files {
+        folder.write(name, text.as_bytes()).map_err(Error::run)?;
+    }
+    made.warnings.iter().for_each(|warning| observer.message(Message::Warning(warning)));
+    folder.commit().map_err(Error::run)
+}

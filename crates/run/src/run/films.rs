@@ -1,0 +1,202 @@
+//! The films of a run in the order of their frames, and how far each is.
+//!
+//! Light that does not depend on time has one film, which serves all frames. Light that does has one for each frame and for each
+//! capture whose exposure differs.
+
+use crate::film_file::StoredPasses;
+use etendue_io::failure::Error;
+use etendue_pipeline::Plan;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::plan::{CameraPlan, TimeDependence};
+use etendue_pipeline::render::Shot;
+use etendue_pipeline::tile::{Shard, tiles};
+use etendue_sensor::SensorState;
+use std::ops::Range;
+
+/// How far a film is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FilmStage {
+    /// Nothing is known of it, and light of it may be stored.
+    New,
+    /// It holds the first of its passes, or none.
+    Open,
+    /// It holds all light that it gets.
+    Complete,
+}
+
+/// A film and the passes that it holds.
+#[derive(Debug)]
+pub(super) struct RunFilm {
+    /// Frame and capture.
+    pub(super) shot: Shot,
+    pub(super) stage: FilmStage,
+    /// Passes that it holds, that of an unfinished round included.
+    pub(super) passes: usize,
+    /// The light of the passes; `None` before the first.
+    pub(super) light: Option<Film>,
+    /// The same with the pass of an unfinished round.
+    pub(super) with_round: Option<Film>,
+}
+
+impl RunFilm {
+    fn new(shot: Shot) -> Self {
+        Self { shot, stage: FilmStage::New, passes: 0, light: None, with_round: None }
+    }
+
+    /// Takes over stored light.
+    pub(super) fn resume(&mut self, film: Film, stored: &StoredPasses) {
+        (self.light, self.passes) = (Some(film), stored.passes.list().len());
+    }
+}
+
+/// The films whose results are delivered together: those of a frame, or the one of all frames; of a shard a single one.
+#[derive(Debug)]
+pub(super) struct FrameFilms {
+    /// Which group of cameras of equal light, in the order of [`Plan::by_light`].
+    pub(super) group: usize,
+    /// The frames that they serve.
+    pub(super) frames: Range<u32>,
+    /// One a capture.
+    pub(super) films: Vec<RunFilm>,
+    /// The states of the sensors afterwards, where an earlier run has written the results.
+    pub(super) done: Option<Vec<SensorState>>,
+}
+
+impl FrameFilms {
+    /// Places of films that are not complete.
+    pub(super) fn first_incomplete(&self) -> Option<usize> {
+        self.films.iter().position(|film| film.stage != FilmStage::Complete)
+    }
+
+    /// Takes the light of all films.
+    ///
+    /// # Errors
+    /// Where one has none.
+    pub(super) fn take_light(&mut self, camera: &CameraPlan) -> Result<Vec<Film>, Error> {
+        let no_pass = || Error::Run(format!("camera {}: no pass was rendered", camera.name));
+        self.films.iter_mut().map(|film| film.light.take().ok_or_else(no_pass)).collect()
+    }
+}
+
+/// A film by its place: among those of which entry, and which of these.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct FilmPlace {
+    pub(super) entry: usize,
+    pub(super) film: usize,
+}
+
+/// All films of a run in the order in which their results are delivered.
+#[derive(Debug)]
+pub(super) struct RunFilms {
+    pub(super) entries: Vec<FrameFilms>,
+}
+
+impl RunFilms {
+    /// Returns the films of all cameras over frames, by groups of cameras of equal light. Groups whose light does not depend on time are the last: what is
+    /// written of them gets its name at the end of the run, not with the frames of others.
+    pub(super) fn of_frames(plan: &Plan, frames: &Range<u32>) -> Self {
+        let mut moving = Vec::new();
+        let mut steady = Vec::new();
+        for (group, cameras) in plan.by_light().into_iter().enumerate() {
+            let camera = cameras[0];
+            if camera.time == TimeDependence::None {
+                steady.push(FrameFilms::new(group, frames.clone(), vec![Shot::default()]));
+                continue;
+            }
+            moving.extend(frames.clone().map(|k| FrameFilms::new(group, k..k + 1, shots(camera, k))));
+        }
+        moving.extend(steady);
+        Self { entries: moving }
+    }
+
+    /// Returns the films of cameras over frames that are `wanted`, each by itself, in the order of [`shots_of`].
+    pub(super) fn one_by_one(plan: &Plan, frames: &Range<u32>, wanted: impl Fn(&CameraPlan, Shot) -> bool) -> Self {
+        let mut entries = Vec::new();
+        for (group, cameras) in plan.by_light().into_iter().enumerate() {
+            let shots = shots_of(cameras[0], frames).into_iter().filter(|shot| wanted(cameras[0], *shot));
+            entries.extend(shots.map(|shot| FrameFilms::new(group, shot.frame..shot.frame + 1, vec![shot])));
+        }
+        Self { entries }
+    }
+
+    /// Places of all films in the order of the groups.
+    pub(super) fn by_light(&self) -> Vec<FilmPlace> {
+        let mut entries: Vec<usize> = (0..self.entries.len()).collect();
+        entries.sort_by_key(|entry| self.entries[*entry].group);
+        let of_entry = |entry: usize| (0..self.entries[entry].films.len()).map(move |film| FilmPlace { entry, film });
+        entries.into_iter().flat_map(of_entry).collect()
+    }
+
+    pub(super) fn at(&self, place: FilmPlace) -> &RunFilm {
+        &self.entries[place.entry].films[place.film]
+    }
+
+    pub(super) fn at_mut(&mut self, place: FilmPlace) -> &mut RunFilm {
+        &mut self.entries[place.entry].films[place.film]
+    }
+
+    pub(super) fn all_mut(&mut self) -> impl Iterator<Item = &mut RunFilm> {
+        self.entries.iter_mut().flat_map(|entry| &mut entry.films)
+    }
+}
+
+impl FrameFilms {
+    fn new(group: usize, frames: Range<u32>, shots: Vec<Shot>) -> Self {
+        Self { group, frames, films: shots.into_iter().map(RunFilm::new).collect(), done: None }
+    }
+}
+
+/// The pictures of a frame that have a film of their own.
+fn shots(camera: &CameraPlan, frame: u32) -> Vec<Shot> {
+    match camera.time {
+        TimeDependence::None => vec![Shot::default()],
+        TimeDependence::Lights | TimeDependence::Motion => {
+            let captures = camera.body.exposure.distinct_captures();
+            captures.into_iter().map(|capture| Shot { frame, capture: capture as u32 }).collect()
+        }
+    }
+}
+
+/// All of some frames.
+pub(crate) fn shots_of(camera: &CameraPlan, frames: &Range<u32>) -> Vec<Shot> {
+    match camera.time {
+        TimeDependence::None => shots(camera, 0),
+        TimeDependence::Lights | TimeDependence::Motion => frames.clone().flat_map(|k| shots(camera, k)).collect(),
+    }
+}
+
+/// Number of tiles of a camera's film.
+pub(super) fn tile_count(camera: &CameraPlan, shard: Shard) -> usize {
+    let (width, height) = camera.film_size();
+    tiles(width, height, camera.settings.tile_px, shard).len()
+}
+
+/// Frames after the first need a rate where light depends on time.
+pub(crate) fn check_frames(plan: &Plan, frames: &Range<u32>) -> Result<(), Error> {
+    let needs = |camera: &&CameraPlan| camera.time != TimeDependence::None && camera.timing.period_s.is_none();
+    match plan.cameras.iter().find(needs) {
+        Some(camera) if frames.end > 1 => Err(Error::input(format!(
+            "camera {}: its light depends on time, and nothing says when its frames after frame 0 are taken; add [sequence] with \
+             \"frame_rate_hz\" to the job, or render `frames` 0..1",
+            camera.name
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses light, once gathered, for which a tile of a texture could not be read.
+pub(crate) fn check_textures(plan: &Plan) -> Result<(), Error> {
+    plan.material_table.texture_failure().map_or(Ok(()), |failure| Err(Error::run(failure)))
+}
+
+/// Refuses a film that holds what is no finite number.
+pub(crate) fn check_finite(camera: &CameraPlan, film: &Film) -> Result<(), Error> {
+    match film.not_finite_samples() {
+        0 => Ok(()),
+        count => Err(Error::Run(format!(
+            "camera {}: {count} samples of its light were not finite numbers, so nothing is delivered; a light is too bright \
+             or too near for 32-bit floats: lower it or move it",
+            camera.name
+        ))),
+    }
+}

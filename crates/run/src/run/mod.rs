@@ -1,0 +1,378 @@
+//! One run: what is asked for, what has been done, and what comes next.
+//!
+//! A [`Run`] is the whole state of a run: its plan, its films with the passes that they hold, the states of the sensors, how far it is. [`Run::next`] reads off it
+//! what comes next, a [`Step`]; the step is done and changes the state; this goes on until the results of a camera, or the film of a shard, can be handed over.
+//! All runs are this loop:
+//!
+//! | run | differs by |
+//! | --- | --- |
+//! | plain, noise-limited, frames of a data set | nothing: the passes and samples are the plan's |
+//! | progressive | light is stored and pictures are refined after each pass ([`RunStore`]) |
+//! | for a given time | passes of all films in turn until the time is up ([`timed`]), then results |
+//! | resumed | films begin with stored light, frames that are whole are left out |
+//! | shard, one film of a shard | some tiles, some films, and films in the place of results |
+//! | merged from shards | the stored light is complete |
+//!
+//! - [`films`] are the films in the order of their frames; [`pass`] renders one pass of one.
+//! - [`rounds`] are the steps of a run for a given time, whose passes [`timed`] decides with the sizes of [`pace`], and what is stored after passes.
+//! - [`store`] is what a run asks of what is stored of it, and its output folder.
+
+pub(crate) mod films;
+mod pace;
+mod pass;
+mod rounds;
+pub(crate) mod store;
+mod timed;
+
+use crate::film_file::FilmOrigin;
+use crate::job_request::RenderOptions;
+use crate::results::{CameraResults, SensorHistory};
+use etendue_core::observer::{FramePlace, Observer};
+use etendue_io::failure::Error;
+use etendue_pipeline::Plan;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::plan::{CameraPlan, PassAt, TimeDependence};
+use etendue_pipeline::render::{FilmKeeping, Request, Shot};
+use etendue_pipeline::tile::Shard;
+use etendue_sensor::SensorState;
+use films::{FilmPlace, FilmStage, RunFilms, check_finite, check_frames, check_textures, tile_count};
+use pass::{TileCount, WatchedPass, report_noise};
+use std::sync::Arc;
+use store::{RunStore, StoredLight};
+use timed::TimedPasses;
+
+/// What a run does next.
+enum Step {
+    /// Takes over the light that is stored of a film.
+    Open(FilmPlace),
+    /// Measures how fast samples are made, where a time decides the passes.
+    Pilot,
+    /// Ends a round, one pass of all films, and begins the next or none.
+    Round,
+    /// Renders a pass of a film.
+    Pass(FilmPlace, PassAt),
+    /// Completes a film.
+    Complete(FilmPlace),
+    /// Finds the frames whose results an earlier run has written.
+    FindDone,
+    /// Leaves such a frame out.
+    Skip,
+    /// Hands over the results of the next camera of a frame, or its film.
+    Deliver,
+    /// Nothing.
+    End,
+}
+
+/// The state of a run.
+pub(crate) struct Run<'a> {
+    /// With the passes that were done, where a time decides them.
+    plan: Arc<Plan>,
+    /// Cameras of equal light, by their places in the plan; the light is that of the first.
+    groups: Vec<Vec<usize>>,
+    options: RenderOptions,
+    shard: Shard,
+    observer: &'a dyn Observer,
+    films: RunFilms,
+    /// The passes, where a time decides them; else they are the plan's.
+    timed: Option<TimedPasses<'a>>,
+    /// Whether the frames that an earlier run has written are known.
+    knows_done: bool,
+    /// The frame of the next results, by its place among the films, and which camera of its group.
+    entry: usize,
+    camera: usize,
+    /// The light of that frame, once a camera of it has been handed over.
+    light: Vec<Film>,
+    /// By groups: the states of the sensors before their next frame.
+    states: Vec<Vec<SensorState>>,
+    /// The same after the frame of the next results, of the cameras before the next.
+    states_after: Vec<SensorState>,
+    /// Tiles of passes that are finished, and all, where the plan says the passes.
+    done_tiles: usize,
+    total_tiles: usize,
+}
+
+impl<'a> Run<'a> {
+    /// Begins a run of all cameras of a plan, for the time, s, where one is given.
+    ///
+    /// # Errors
+    /// Where frames have no times, or the observer has no clock for a time.
+    pub(crate) fn new(
+        plan: &Arc<Plan>,
+        options: &RenderOptions,
+        time_s: Option<f64>,
+        observer: &'a dyn Observer,
+    ) -> Result<Self, Error> {
+        check_frames(plan, &options.frames)?;
+        let timed = time_s.map(|time_s| TimedPasses::new(plan, time_s, observer)).transpose()?;
+        let films = RunFilms::of_frames(plan, &options.frames);
+        Ok(Self { timed, ..Self::of_films(plan, options, films, observer) })
+    }
+
+    /// Begins a run of a shard: its films that are `wanted`.
+    ///
+    /// # Errors
+    /// Where frames have no times.
+    pub(crate) fn of_shard(
+        plan: &Arc<Plan>,
+        options: &RenderOptions,
+        shard: Shard,
+        wanted: impl Fn(&CameraPlan, Shot) -> bool,
+        observer: &'a dyn Observer,
+    ) -> Result<Self, Error> {
+        check_frames(plan, &options.frames)?;
+        let films = RunFilms::one_by_one(plan, &options.frames, wanted);
+        Ok(Self { shard, ..Self::of_films(plan, options, films, observer) })
+    }
+
+    fn of_films(plan: &Arc<Plan>, options: &RenderOptions, films: RunFilms, observer: &'a dyn Observer) -> Self {
+        let place = |camera: &CameraPlan| plan.cameras.iter().position(|c| c.name == camera.name);
+        let places = |group: Vec<&CameraPlan>| group.into_iter().filter_map(place).collect::<Vec<_>>();
+        let groups: Vec<_> = plan.by_light().into_iter().map(places).collect();
+        let states = groups.iter().map(|group| vec![SensorState::default(); group.len()]).collect();
+        Self {
+            plan: Arc::clone(plan),
+            groups,
+            options: options.clone(),
+            shard: Shard::WHOLE,
+            observer,
+            films,
+            timed: None,
+            knows_done: false,
+            entry: 0,
+            camera: 0,
+            light: Vec::new(),
+            states,
+            states_after: Vec::new(),
+            done_tiles: 0,
+            total_tiles: 0,
+        }
+    }
+
+    /// Goes on until the results of the next camera are there: of a group of cameras of equal light one after the other, where light depends on time frame
+    /// after frame. `None` at the end.
+    ///
+    /// # Errors
+    /// Where the observer cancels, light is not finite, or the store fails.
+    pub(crate) fn next_results(&mut self, store: &mut dyn RunStore) -> Result<Option<CameraResults>, Error> {
+        match self.go_on(store)? {
+            true => self.results().map(Some),
+            false => Ok(None),
+        }
+    }
+
+    /// Goes on until the next film of a shard is there; `None` at the end.
+    ///
+    /// # Errors
+    /// Where the observer cancels, or light is not finite.
+    pub(crate) fn next_film(&mut self, store: &mut dyn RunStore) -> Result<Option<(FilmOrigin<'_>, Film)>, Error> {
+        if !self.go_on(store)? {
+            return Ok(None);
+        }
+        let place = FilmPlace { entry: self.entry, film: 0 };
+        let light = self.take_light()?;
+        self.entry += 1;
+        Ok(light.into_iter().next().map(|film| (self.origin(place), film)))
+    }
+
+    /// Does step after step until something can be handed over; returns false at the end.
+    fn go_on(&mut self, store: &mut dyn RunStore) -> Result<bool, Error> {
+        loop {
+            match self.next() {
+                Step::Open(place) => self.open(place, store)?,
+                Step::Pilot => self.pilot()?,
+                Step::Round => self.round(store)?,
+                Step::Pass(place, at) => self.pass(place, at, store)?,
+                Step::Complete(place) => self.complete(place),
+                Step::FindDone => self.find_done(store)?,
+                Step::Skip => self.skip(),
+                Step::Deliver => return Ok(true),
+                Step::End => return Ok(false),
+            }
+        }
+    }
+
+    /// Returns what comes next.
+    fn next(&self) -> Step {
+        if let Some(timed) = self.timed.as_ref().filter(|timed| !timed.is_over) {
+            return self.next_timed(timed);
+        }
+        if !self.knows_done {
+            return Step::FindDone;
+        }
+        let Some(entry) = self.films.entries.get(self.entry) else { return Step::End };
+        if entry.done.is_some() {
+            return Step::Skip;
+        }
+        let Some(film) = entry.first_incomplete() else { return Step::Deliver };
+        let place = FilmPlace { entry: self.entry, film };
+        let film = self.films.at(place);
+        match film.stage {
+            FilmStage::New => Step::Open(place),
+            FilmStage::Open if film.passes < self.first_camera(place).pass_count() => {
+                Step::Pass(place, self.first_camera(place).pass(film.passes))
+            }
+            FilmStage::Open | FilmStage::Complete => Step::Complete(place),
+        }
+    }
+
+    /// Returns what comes next before the time is up.
+    fn next_timed(&self, timed: &TimedPasses<'_>) -> Step {
+        let places = self.films.by_light();
+        if let Some(new) = places.iter().find(|place| self.films.at(**place).stage == FilmStage::New) {
+            return Step::Open(*new);
+        }
+        if !timed.has_rate() {
+            return Step::Pilot;
+        }
+        // Films that were behind when their run ended get the passes that they lack.
+        let wanted = timed.wanted();
+        match places.into_iter().find(|place| self.films.at(*place).passes < wanted.list().len()) {
+            Some(behind) => Step::Pass(behind, wanted.at(self.films.at(behind).passes)),
+            None => Step::Round,
+        }
+    }
+
+    fn open(&mut self, place: FilmPlace, store: &mut dyn RunStore) -> Result<(), Error> {
+        let stored = store.light(&self.origin(place))?;
+        let tiles = tile_count(self.first_camera(place), self.shard);
+        let film = self.films.at_mut(place);
+        film.stage = FilmStage::Open;
+        match stored {
+            StoredLight::None => {}
+            StoredLight::Passes(light, passes) => {
+                film.resume(light, &passes);
+                self.done_tiles += film.passes * tiles;
+                if let Some(timed) = &mut self.timed {
+                    timed.resume(&passes);
+                }
+            }
+            StoredLight::Complete(light) => {
+                (film.light, film.stage) = (Some(light), FilmStage::Complete);
+            }
+        }
+        Ok(())
+    }
+
+    fn pass(&mut self, place: FilmPlace, at: PassAt, store: &mut dyn RunStore) -> Result<(), Error> {
+        let joined = self.watched(place).render(at, self.films.at(place).light.as_ref())?;
+        let Some(joined) = joined else {
+            self.give_up_round();
+            return Ok(());
+        };
+        let is_in_round = self.timed.as_ref().is_some_and(TimedPasses::is_in_round);
+        let film = self.films.at_mut(place);
+        film.passes += 1;
+        if is_in_round {
+            film.with_round = Some(joined);
+        } else {
+            film.light = Some(joined);
+        }
+        if self.timed.is_some() {
+            return Ok(());
+        }
+        self.done_tiles += tile_count(self.first_camera(place), self.shard);
+        self.store_pass(place, store)
+    }
+
+    fn complete(&mut self, place: FilmPlace) {
+        let film = self.films.at_mut(place);
+        film.stage = FilmStage::Complete;
+        let shot = film.shot;
+        if let Some(light) = &self.films.at(place).light {
+            report_noise(self.first_camera(place), shot, light, self.observer);
+        }
+    }
+
+    fn find_done(&mut self, store: &mut dyn RunStore) -> Result<(), Error> {
+        let done = store.done_frames(&self.plan)?;
+        self.knows_done = true;
+        for entry in &mut self.films.entries {
+            let group: Vec<&CameraPlan> = self.groups[entry.group].iter().map(|c| &self.plan.cameras[*c]).collect();
+            if group[0].time != TimeDependence::None {
+                entry.done = done.states(&group, entry.frames.start);
+            }
+            if entry.done.is_none() {
+                self.total_tiles += entry.films.len() * group[0].pass_count() * tile_count(group[0], self.shard);
+            }
+        }
+        Ok(())
+    }
+
+    fn skip(&mut self) {
+        let entry = &mut self.films.entries[self.entry];
+        if let Some(states) = entry.done.take() {
+            self.states[entry.group] = states;
+        }
+        self.entry += 1;
+    }
+
+    /// Makes the results of the next camera of the next frame.
+    fn results(&mut self) -> Result<CameraResults, Error> {
+        if self.camera == 0 {
+            self.light = self.take_light()?;
+        }
+        let entry = &self.films.entries[self.entry];
+        let group = &self.groups[entry.group];
+        let is_last = self.camera + 1 == group.len();
+        let light = if is_last { std::mem::take(&mut self.light) } else { self.light.clone() };
+        let state = self.states[entry.group][self.camera].clone();
+        let before = SensorHistory { state, since: self.options.frames.start };
+        let options = RenderOptions { frames: entry.frames.clone(), ..self.options.clone() };
+        let camera = &self.plan.cameras[group[self.camera]];
+        let results = CameraResults::of_films(&self.plan, camera, light, before, &options)?;
+        check_textures(&self.plan)?;
+        let after = results.state_after().map(|after| after.state.clone());
+        self.states_after.push(after.unwrap_or_default());
+        self.camera += 1;
+        if is_last {
+            self.states[entry.group] = std::mem::take(&mut self.states_after);
+            (self.camera, self.entry) = (0, self.entry + 1);
+        }
+        Ok(results)
+    }
+
+    /// Takes the light of the next frame; refuses such as is not finite.
+    fn take_light(&mut self) -> Result<Vec<Film>, Error> {
+        let entry = &mut self.films.entries[self.entry];
+        let camera = &self.plan.cameras[self.groups[entry.group][0]];
+        let light = entry.take_light(camera)?;
+        light.iter().try_for_each(|film| check_finite(camera, film))?;
+        Ok(light)
+    }
+
+    /// The first of the cameras that share a film.
+    fn first_camera(&self, place: FilmPlace) -> &CameraPlan {
+        &self.plan.cameras[self.groups[self.films.entries[place.entry].group][0]]
+    }
+
+    fn origin(&self, place: FilmPlace) -> FilmOrigin<'_> {
+        let shot = self.films.at(place).shot;
+        FilmOrigin { plan: &self.plan, camera: self.first_camera(place), shot, shard: self.shard }
+    }
+
+    /// A pass of a film among all of the run, or of the round.
+    fn watched(&self, place: FilmPlace) -> WatchedPass<'_> {
+        let (camera, shot) = (self.first_camera(place), self.films.at(place).shot);
+        let request = Request { shot, simd: self.options.simd, shard: self.shard, keeping: FilmKeeping::Planned };
+        let (plan, observer) = (&*self.plan, self.observer);
+        if let Some(timed) = &self.timed {
+            let places = self.films.by_light();
+            let before = places.iter().take_while(|before| **before != place).count();
+            let count = TileCount::OfRound { before, films: places.len() };
+            let (heading, watch) = (camera.name.clone(), Some(&timed.watch));
+            return WatchedPass { plan, camera, request, observer, heading, frame: None, count, watch, is_shown: true };
+        }
+        let heading = match self.groups[self.films.entries[place.entry].group].len() {
+            1 => camera.name.clone(),
+            n => format!("{} and {} more", camera.name, n - 1),
+        };
+        let frames = &self.options.frames;
+        let frame = (camera.time != TimeDependence::None).then(|| FramePlace {
+            number: shot.frame,
+            place: shot.frame - frames.start + 1,
+            count: frames.len() as u32,
+        });
+        let count = TileCount::OfRun { before: self.done_tiles, total: self.total_tiles };
+        WatchedPass { plan, camera, request, observer, heading, frame, count, watch: None, is_shown: true }
+    }
+}

@@ -1,0 +1,169 @@
+//! One pass of a film, watched: how far the run is, whether it is to stop, and tiles of light to look at.
+//!
+//! Where a spectrum is kept tiles are radiance in linear sRGB, (1, 1, 1) at 1 cd/m², the same numbers as the channels `R`, `G`, `B` of `radiance.exr`. Where pixels
+//! make electrons directly: `Y`, the mean electrons of the exposure, each pixel in the colour of its filter.
+
+use super::films::check_textures;
+use super::timed::Watch;
+use etendue_core::observer::{FramePlace, ImageTile, Message, Observer, Progress, Unit};
+use etendue_io::failure::Error;
+use etendue_pipeline::Plan;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::noise_reached::NoiseReached;
+use etendue_pipeline::plan::{CameraPlan, PassAt, TimeDependence};
+use etendue_pipeline::render::{Request, Shot, pass};
+use etendue_pipeline::tile::Tile;
+use etendue_spectra::colour::linear_srgb_from_xyz;
+use etendue_spectra::observer::xyz_weights;
+
+/// The tiles of a pass among all that are counted.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum TileCount {
+    /// Of the whole run: tiles before it, and all.
+    OfRun { before: usize, total: usize },
+    /// Of one pass of all films: films before it, and all.
+    OfRound { before: usize, films: usize },
+}
+
+/// A pass of a film, and who watches it.
+pub(super) struct WatchedPass<'a> {
+    pub(super) plan: &'a Plan,
+    /// The first of the cameras that share the light.
+    pub(super) camera: &'a CameraPlan,
+    /// What is rendered: picture and tiles.
+    pub(super) request: Request,
+    pub(super) observer: &'a dyn Observer,
+    /// What progress is headed by.
+    pub(super) heading: String,
+    pub(super) frame: Option<FramePlace>,
+    pub(super) count: TileCount,
+    /// Where a time decides the passes.
+    pub(super) watch: Option<&'a Watch<'a>>,
+    /// Whether tiles are shown: those of a pilot are not.
+    pub(super) is_shown: bool,
+}
+
+impl WatchedPass<'_> {
+    /// Renders the pass and joins it with the light of the passes before it; `None` where the time is well over.
+    ///
+    /// # Errors
+    /// Where the observer cancels, or a texture cannot be read.
+    pub(super) fn render(&self, at: PassAt, before: Option<&Film>) -> Result<Option<Film>, Error> {
+        let film = pass(self.plan, self.camera, self.request, at, before, self);
+        if let Some(watch) = self.watch {
+            watch.end_pass();
+        }
+        check_textures(self.plan)?;
+        match film {
+            Ok(film) => Ok(Some(film)),
+            Err(_) if self.watch.is_some_and(Watch::was_over) => Ok(None),
+            Err(cause) => Err(Error::Run(cause.to_string())),
+        }
+    }
+}
+
+impl etendue_pipeline::Observer for WatchedPass<'_> {
+    fn begins(&self) {
+        if let Some(watch) = self.watch {
+            watch.begin_pass();
+        }
+    }
+
+    fn tile(&self, tile: Tile, film: &Film) {
+        if self.is_shown {
+            show(self.observer, self.camera, self.request.shot, tile, film);
+        }
+    }
+
+    fn tiles(&self, done: usize, of_film: usize) {
+        let (done, total) = match self.count {
+            TileCount::OfRun { before, total } => (before + done, total),
+            TileCount::OfRound { before, films } => (before * of_film + done, films * of_film),
+        };
+        self.observer.progress(Progress { heading: &self.heading, frame: self.frame, unit: Unit::Tiles, done, total });
+    }
+
+    fn cancelled(&self) -> bool {
+        self.observer.cancelled()
+            || self.watch.is_some_and(Watch::is_over)
+            || self.plan.material_table.texture_failure().is_some()
+    }
+}
+
+/// Sends the observer, where noise decided the samples, how many it took, and whether the limit was reached.
+pub(super) fn report_noise(camera: &CameraPlan, shot: Shot, film: &Film, observer: &dyn Observer) {
+    let Some((limit, tolerance)) = camera.settings.adaptive.zip(camera.tolerance()) else { return };
+    let Some(reached) = NoiseReached::of(film, &tolerance, camera.settings.spp) else { return };
+    let place = match camera.time {
+        TimeDependence::None => format!("camera {}", camera.name),
+        _ => format!("camera {}, frame {}, capture {}", camera.name, shot.frame, shot.capture),
+    };
+    let of = if tolerance.sensor().is_some() { "the sensor's noise" } else { "the pixel's mean" };
+    let (fewest, most) = reached.range_spp;
+    observer.message(Message::Note(&format!(
+        "{place}: {:.1} samples a pixel ({fewest} to {most}); standard error {:.3} of {of} (root mean square; asked for {})",
+        reached.mean_spp,
+        limit.threshold * reached.error,
+        limit.threshold
+    )));
+    if reached.short > 0.0 {
+        observer.message(Message::Warning(&format!(
+            "{place}: {:.2} % of the pixels are still noisier than {} of {of} with at most {most} samples; give a larger \"max_spp\"",
+            100.0 * reached.short,
+            limit.threshold
+        )));
+    }
+}
+
+/// Shows a tile of a film to an observer that wants it.
+fn show(observer: &dyn Observer, camera: &CameraPlan, shot: Shot, tile: Tile, film: &Film) {
+    if !observer.wants_tiles() {
+        return;
+    }
+    let (channels, values) = match (&film.cube, &film.electron_rate) {
+        (Some(_), _) => match radiance(film, tile) {
+            Ok(values) => (&["R", "G", "B"][..], values),
+            // The run that cannot read its film tells so itself.
+            Err(_) => return,
+        },
+        (None, Some(_)) => (&["Y"][..], electrons(film, tile, camera.body.exposure.exposure_s)),
+        (None, None) => return,
+    };
+    let size_px = [film.weight.width() as u32, film.weight.height() as u32];
+    let image = &image_name(camera, shot);
+    let (first_px, tile_px) = ([tile.x0, tile.y0], [tile.x1 - tile.x0, tile.y1 - tile.y0]);
+    observer.tile(&ImageTile { image, size_px, first_px, tile_px, channels, values: &values });
+}
+
+/// What a viewer calls a film.
+fn image_name(camera: &CameraPlan, shot: Shot) -> String {
+    match (camera.time, shot.capture) {
+        (TimeDependence::None, _) => camera.name.clone(),
+        (_, 0) => format!("{}, frame {}", camera.name, shot.frame),
+        (_, capture) => format!("{}, frame {}, capture {capture}", camera.name, shot.frame),
+    }
+}
+
+/// Planes of linear sRGB, one after the other.
+fn radiance(film: &Film, tile: Tile) -> Result<Vec<f32>, String> {
+    let Some(((of, _), bands)) = film.bands().zip(film.tile_bands(tile)?) else { return Ok(Vec::new()) };
+    let weights: Vec<[f64; 3]> = xyz_weights(of).into_iter().map(linear_srgb_from_xyz).collect();
+    let mut sums = vec![0.0_f64; 3 * tile.len()];
+    for (place, pixel) in tile.pixels().enumerate() {
+        let pupil_sr = film.weight.at(pixel.x as usize, pixel.y as usize);
+        if pupil_sr > 0.0 {
+            for (mean, weight) in bands.means(pixel).zip(&weights) {
+                let radiance = f64::from(mean / pupil_sr);
+                (0..3).for_each(|channel| sums[channel * tile.len() + place] += weight[channel] * radiance);
+            }
+        }
+    }
+    Ok(sums.into_iter().map(|sum| sum as f32).collect())
+}
+
+/// Mean electrons of an exposure, s.
+fn electrons(film: &Film, tile: Tile, exposure_s: f64) -> Vec<f32> {
+    let Some(rate) = &film.electron_rate else { return Vec::new() };
+    let of = |x: u32, y: u32| (f64::from(rate.mean.at(x as usize, y as usize)) * exposure_s) as f32;
+    tile.pixels().map(|pixel| of(pixel.x, pixel.y)).collect()
+}

@@ -1,0 +1,291 @@
+//! What is stored of a run: what an earlier run has left, light after each pass, and the results, in an output folder.
+//!
+//! A progressive run stores the state of its films after each pass and refines the pictures on disk. Those are the files of light and photographs that it
+//! writes at its end, made of the film so far: complete, and each replaced as a whole. Of light that serves many frames the first is refined. What comes of
+//! other captures of a frame, or of frames before it, is known by then: of a frame of several films the picture is refined with the last of them.
+
+use super::films::check_finite;
+use crate::film_file::{self, FilmOrigin, StoredPasses, holds_state, state_name};
+use crate::job_request::{JobRequest, RenderOptions};
+use crate::results::{CameraResults, DoneFrames, Sequence, file_names};
+use crate::rig;
+use etendue_core::observer::{Message, Observer, Unobserved};
+use etendue_io::failure::Error;
+use etendue_io::{Existing, OutputFolder};
+use etendue_pipeline::Plan;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::render::Shot;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The light that is stored of a film.
+#[derive(Debug)]
+pub(crate) enum StoredLight {
+    /// None.
+    None,
+    /// That of some passes, of an interrupted run.
+    Passes(Film, StoredPasses),
+    /// All of it, of shards.
+    Complete(Film),
+}
+
+/// Where a run finds light and frames that other runs have left, and leaves its own after each pass.
+pub(crate) trait RunStore {
+    /// Returns what is stored of a film.
+    fn light(&self, _origin: &FilmOrigin<'_>) -> Result<StoredLight, Error> {
+        Ok(StoredLight::None)
+    }
+
+    /// Returns the frames whose results an earlier run of the plan has written. Called once, when the plan's passes are known.
+    fn done_frames(&mut self, _plan: &Arc<Plan>) -> Result<DoneFrames, Error> {
+        Ok(DoneFrames::default())
+    }
+
+    /// Returns true if anything is done after a pass.
+    fn stores_passes(&self) -> bool {
+        false
+    }
+
+    /// Stores a film after some of its passes.
+    fn store(&mut self, _origin: &FilmOrigin<'_>, _film: &Film, _passes: &StoredPasses) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Refines the pictures of a frame by the results of its cameras so far.
+    fn refine(&mut self, _results: &mut dyn Iterator<Item = Result<CameraResults, Error>>) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// Stores nothing.
+pub(crate) struct NoStore;
+
+impl RunStore for NoStore {}
+
+/// The folder that a run writes its results to.
+pub(crate) struct RunFolder<'a> {
+    interruption: InterruptionNote<'a>,
+    folder: OutputFolder,
+    /// Of runs that go on and can be gone on with: all but `merge`.
+    state: Option<RunState>,
+    /// What an earlier run has written, where it is known before the light.
+    done: Option<DoneFrames>,
+    sequence: Sequence,
+    written: Vec<PathBuf>,
+    plan: Arc<Plan>,
+    frames: Range<u32>,
+    observer: &'a dyn Observer,
+}
+
+/// The state of a run.
+struct RunState {
+    /// Where it is stored and pictures are refined, of a progressive run.
+    progressive: Option<OutputFolder>,
+    /// Where that of an earlier run is, of a run that resumes.
+    resumed: Option<PathBuf>,
+}
+
+impl<'a> RunFolder<'a> {
+    /// Opens the folder of a run. One that replaces what is there begins anew.
+    ///
+    /// # Errors
+    /// Where files are there that must not be replaced, the state is that of another run, or the folder cannot be written.
+    pub(crate) fn open(
+        request: &JobRequest,
+        plan: &Arc<Plan>,
+        options: &RenderOptions,
+        root: &Path,
+        existing: Existing,
+        observer: &'a dyn Observer,
+    ) -> Result<Self, Error> {
+        let frames = options.frames.clone();
+        let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
+        let resumed = (existing == Existing::Resume).then(|| root.to_path_buf());
+        // Where a time decides the passes, the plan of the frames is known when they are done.
+        let done = match (&resumed, request.time_s) {
+            (Some(root), None) => Some(DoneFrames::in_folder(root, plan, &frames, observer)?),
+            _ => None,
+        };
+        film_file::check_state(&folder, existing)?;
+        claim(&folder, plan, &frames)?;
+        let folder = if request.progressive { folder.refining() } else { folder };
+        let open_again = || folder.again(Existing::Replace).map_err(Error::input);
+        let progressive = request.progressive.then(open_again).transpose()?;
+        if existing == Existing::Replace {
+            film_file::remove_state(&folder).map_err(Error::run)?;
+        }
+        let state = Some(RunState { progressive, resumed });
+        Ok(Self { state, done, ..Self::new(folder, plan, frames, observer) })
+    }
+
+    /// Opens the folder that takes the results of shards.
+    ///
+    /// # Errors
+    /// Where files are there that must not be replaced, or the folder cannot be written.
+    pub(crate) fn of_shards(
+        plan: &Arc<Plan>,
+        frames: Range<u32>,
+        root: &Path,
+        existing: Existing,
+        observer: &'a dyn Observer,
+    ) -> Result<Self, Error> {
+        let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
+        claim(&folder, plan, &frames)?;
+        Ok(Self::new(folder, plan, frames, observer))
+    }
+
+    fn new(folder: OutputFolder, plan: &Arc<Plan>, frames: Range<u32>, observer: &'a dyn Observer) -> Self {
+        let interruption = InterruptionNote::new(&folder, observer);
+        let (plan, written) = (Arc::clone(plan), Vec::new());
+        Self {
+            interruption,
+            folder,
+            state: None,
+            done: None,
+            sequence: Sequence::default(),
+            written,
+            plan,
+            frames,
+            observer,
+        }
+    }
+
+    /// Writes a camera's results. The files of a frame that has a light of its own get their names at once.
+    ///
+    /// # Errors
+    /// Where a file cannot be made or written.
+    pub(crate) fn write(&mut self, results: &CameraResults) -> Result<(), Error> {
+        self.sequence.write(results, &mut self.folder, self.observer)?;
+        let Some(state) = self.state.as_ref().filter(|_| results.has_own_light()) else { return Ok(()) };
+        self.written.extend(self.folder.publish().map_err(Error::run)?);
+        self.interruption.frames += 1;
+        state.forget(results.camera(), results.frame_numbers().start)
+    }
+
+    /// Writes what is made of all frames and cameras, gives all files their names, and removes the state; answers with the paths of all files.
+    ///
+    /// # Errors
+    /// Where a file cannot be made, written or removed.
+    pub(crate) fn finish(mut self) -> Result<Vec<PathBuf>, Error> {
+        self.sequence.finish(&mut self.folder, self.observer)?;
+        rig::write(&rig::asked_files(&self.plan, &self.frames), &mut self.folder, self.observer)?;
+        self.written.extend(self.folder.publish().map_err(Error::run)?);
+        if self.state.is_some() {
+            film_file::remove_state(&self.folder).map_err(Error::run)?;
+        }
+        self.interruption.is_complete = true;
+        Ok(self.written)
+    }
+}
+
+/// Refuses early where a result is already there.
+fn claim(folder: &OutputFolder, plan: &Plan, frames: &Range<u32>) -> Result<(), Error> {
+    folder.claim(file_names(plan, frames).iter().map(String::as_str)).map_err(Error::input)
+}
+
+impl RunState {
+    /// Removes what was stored of a frame that has its files.
+    fn forget(&self, camera: &CameraPlan, frame: u32) -> Result<(), Error> {
+        let Some(folder) = &self.progressive else { return Ok(()) };
+        let captures = camera.body.exposure.distinct_captures();
+        let names: Vec<String> =
+            captures.into_iter().map(|capture| state_name(camera, Shot { frame, capture: capture as u32 })).collect();
+        folder.remove(names.iter().map(String::as_str)).map_err(Error::run)
+    }
+}
+
+impl RunFolder<'_> {
+    fn progressive(&mut self) -> Option<&mut OutputFolder> {
+        self.state.as_mut()?.progressive.as_mut()
+    }
+
+    fn resumed(&self) -> Option<&Path> {
+        self.state.as_ref()?.resumed.as_deref()
+    }
+}
+
+impl RunStore for RunFolder<'_> {
+    fn light(&self, origin: &FilmOrigin<'_>) -> Result<StoredLight, Error> {
+        let Some(root) = self.resumed() else { return Ok(StoredLight::None) };
+        match film_file::read_state(root, origin)? {
+            Some((film, passes)) => Ok(StoredLight::Passes(film, passes)),
+            None => Ok(StoredLight::None),
+        }
+    }
+
+    fn done_frames(&mut self, plan: &Arc<Plan>) -> Result<DoneFrames, Error> {
+        let done = match (self.done.take(), self.resumed()) {
+            (Some(done), _) => done,
+            (None, Some(root)) => DoneFrames::in_folder(root, plan, &self.frames, self.observer)?,
+            (None, None) => DoneFrames::default(),
+        };
+        done.note_all(plan, &self.frames, &mut self.sequence);
+        Ok(done)
+    }
+
+    fn stores_passes(&self) -> bool {
+        self.state.as_ref().is_some_and(|state| state.progressive.is_some())
+    }
+
+    fn store(&mut self, origin: &FilmOrigin<'_>, film: &Film, passes: &StoredPasses) -> Result<(), Error> {
+        let Some(folder) = self.progressive() else { return Ok(()) };
+        check_finite(origin.camera, film)?;
+        film_file::write_state(folder, origin, film, passes)?;
+        folder.publish().map_err(Error::run)?;
+        Ok(())
+    }
+
+    fn refine(&mut self, results: &mut dyn Iterator<Item = Result<CameraResults, Error>>) -> Result<(), Error> {
+        let Some(folder) = self.progressive() else { return Ok(()) };
+        for camera in results {
+            camera?.write_light(folder, &Unobserved)?;
+        }
+        folder.publish().map_err(Error::run)?;
+        Ok(())
+    }
+}
+
+/// Sends the observer what a run that fails, is cancelled or panics leaves in its folder, when it is dropped before the run is complete.
+pub(crate) struct InterruptionNote<'a> {
+    root: PathBuf,
+    observer: &'a dyn Observer,
+    /// Frames of cameras that have their files.
+    frames: usize,
+    /// Whether all has been written.
+    pub(crate) is_complete: bool,
+}
+
+impl<'a> InterruptionNote<'a> {
+    /// Of a run that writes into a folder from now on.
+    pub(crate) fn new(folder: &OutputFolder, observer: &'a dyn Observer) -> Self {
+        Self { root: folder.path().to_path_buf(), observer, frames: 0, is_complete: false }
+    }
+
+    fn text(&self) -> String {
+        let frames = match self.frames {
+            0 => None,
+            1 => Some("1 frame that is whole".to_owned()),
+            n => Some(format!("{n} frames that are whole")),
+        };
+        let light = holds_state(&self.root).then(|| "the light of the last whole pass".to_owned());
+        let left: Vec<String> = frames.into_iter().chain(light).collect();
+        let folder = self.root.display();
+        match left.is_empty() {
+            true => format!("{folder}: nothing of this run was kept"),
+            false => format!(
+                "{folder}: kept {}; with `resume` in the place of `overwrite` a run goes on",
+                left.join(" and ")
+            ),
+        }
+    }
+}
+
+impl Drop for InterruptionNote<'_> {
+    fn drop(&mut self) {
+        if !self.is_complete {
+            self.observer.message(Message::Note(&self.text()));
+        }
+    }
+}

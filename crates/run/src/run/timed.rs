@@ -1,0 +1,310 @@
+//! The passes of a run that lasts a given time: as many as the time allows.
+//!
+//! The films of all cameras and frames get the same passes in turn, so that a list of them makes the same bits again; they are held in memory together.
+//! A pilot, a part of the pixels whose light is not kept, tells the rate first. Time counts from its first sample. A round, one pass of
+//! all films, that is not done when the time is well over is given up.
+
+use super::pace::{Pace, Rate};
+use crate::film_file::StoredPasses;
+use etendue_core::maths::integer::least_common_multiple;
+use etendue_core::observer::{Message, Observer};
+use etendue_io::failure::Error;
+use etendue_pipeline::Plan;
+use etendue_pipeline::plan::{MAX_PASSES, PARTS, Pass, PassAt, Passes};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, OnceLock};
+
+/// A round is given up at this part of the time.
+const GIVE_UP_RATIO: f64 = 1.05;
+
+/// Part of the time that the pilot is to take at least, and the most parts of the pixels for it.
+const PILOT_FRACTION: f64 = 0.01;
+const MAX_PILOT_PARTS: u32 = PARTS / 4;
+
+/// A moment of a run: time, and how much of it samples have taken, s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moment {
+    now_s: f64,
+    light_s: f64,
+}
+
+/// One pass of all films that is under way.
+#[derive(Debug)]
+struct Round {
+    /// The passes, that of the round included.
+    passes: Passes,
+    begin: Moment,
+}
+
+/// The passes of a run, where a time decides them.
+pub(super) struct TimedPasses<'a> {
+    /// The plan as it was compiled, which knows no passes.
+    pub(super) compiled: Arc<Plan>,
+    total_s: f64,
+    observer: &'a dyn Observer,
+    pub(super) watch: Watch<'a>,
+    /// Those that are done.
+    passes: Passes,
+    round: Option<Round>,
+    /// Replicates of each pass: of an interrupted run, or as the time allows; `None` where the job says how many.
+    replicates: Option<u32>,
+    /// How many 256ths of the pixels the next pilot takes.
+    pilot_part: u32,
+    /// How fast samples are made; `None` before a pilot was long enough.
+    rate: Option<Rate>,
+    has_warned: bool,
+    /// Whether the time is up.
+    pub(super) is_over: bool,
+}
+
+impl<'a> TimedPasses<'a> {
+    /// Returns no passes yet, of a run for `total_s`.
+    ///
+    /// # Errors
+    /// Where the observer has no clock.
+    pub(super) fn new(compiled: &Arc<Plan>, total_s: f64, observer: &'a dyn Observer) -> Result<Self, Error> {
+        Ok(Self {
+            compiled: Arc::clone(compiled),
+            total_s,
+            observer,
+            watch: Watch::new(observer)?,
+            passes: Passes::default(),
+            round: None,
+            replicates: None,
+            pilot_part: 1,
+            rate: None,
+            has_warned: false,
+            is_over: false,
+        })
+    }
+
+    /// Takes over the passes of an interrupted run by one of its films: those of the film that has most.
+    pub(super) fn resume(&mut self, stored: &StoredPasses) {
+        if stored.passes.list().len() >= self.passes.list().len() {
+            self.passes = stored.passes.clone();
+            self.replicates = Some(stored.replicates);
+            self.watch.before_s = stored.elapsed_s;
+        }
+    }
+
+    /// Returns true if the rate is known.
+    pub(super) fn has_rate(&self) -> bool {
+        self.rate.is_some()
+    }
+
+    /// The passes that all films are to have: those that are done, and that of the round under way.
+    pub(super) fn wanted(&self) -> &Passes {
+        self.round.as_ref().map_or(&self.passes, |round| &round.passes)
+    }
+
+    /// The passes that are done.
+    pub(super) fn done(&self) -> &Passes {
+        &self.passes
+    }
+
+    /// Returns true if a round is under way.
+    pub(super) fn is_in_round(&self) -> bool {
+        self.round.is_some()
+    }
+
+    /// Returns the plan with the passes that are done.
+    pub(super) fn plan_of_done(&self, plan: &Plan) -> Plan {
+        plan.with_passes(&self.passes, self.replicates)
+    }
+
+    /// Returns the next pilot.
+    pub(super) fn pilot(&self, plan: &Plan) -> PassAt {
+        PassAt { pass: Pass { samples: least_samples(plan), part: self.pilot_part }, ..PassAt::only(0) }
+    }
+
+    /// Ends a pilot that began at a moment. Returns the plan of the run, with its replicates, or `None` where another pilot, four times as large, is
+    /// needed.
+    pub(super) fn end_pilot(&mut self, plan: &Plan, pilot: PassAt, begin: Moment) -> Option<Plan> {
+        let rate = self.watch.rate(pilot.pass, begin);
+        let is_long = rate.sample_s * pilot.pass.number() >= PILOT_FRACTION * self.total_s;
+        if !is_long && pilot.pass.part < MAX_PILOT_PARTS {
+            self.pilot_part *= 4;
+            return None;
+        }
+        self.rate = Some(rate);
+        self.replicates = match (plan.open_replicates(), self.replicates) {
+            (None, _) => None,
+            (Some(_), Some(stored)) => Some(stored),
+            (Some(most), None) => Some(self.affordable_replicates(plan, most, rate.sample_s)),
+        };
+        Some(self.plan_of_done(plan))
+    }
+
+    /// Returns `most` replicates, or fewer where the time does not allow so many.
+    fn affordable_replicates(&self, plan: &Plan, most: u32, sample_s: f64) -> u32 {
+        let fewest = if plan.cameras.iter().any(|camera| camera.products.variance) { 2 } else { 1 };
+        let choice: Vec<u32> = (fewest..=most).rev().filter(|replicates| most.is_multiple_of(*replicates)).collect();
+        let replicates = self.pace(plan).replicates(sample_s, &choice);
+        if replicates < most {
+            let note =
+                format!("`time_s` {} does not allow passes of {most} replicates; they have {replicates}", self.total_s);
+            self.observer.message(Message::Note(&note));
+        }
+        replicates
+    }
+
+    /// Begins the next round. Returns false where there is none.
+    pub(super) fn begin_round(&mut self, plan: &Plan) -> bool {
+        let Some(rate) = self.rate else { return false };
+        let pace = self.pace(plan);
+        if !self.has_warned {
+            self.has_warned = true;
+            self.warn(pace, rate);
+        }
+        if self.passes.list().len() >= MAX_PASSES {
+            return false;
+        }
+        let Some(next) = pace.next(self.watch.elapsed_s(), rate, self.passes.spp()) else { return false };
+        let mut passes = self.passes.clone();
+        passes.push(next);
+        let may_be_given_up = !self.passes.list().is_empty();
+        let begin = self.watch.moment();
+        self.watch.limit_s = may_be_given_up.then_some(GIVE_UP_RATIO * self.total_s);
+        self.round = Some(Round { passes, begin });
+        true
+    }
+
+    /// Ends the round, whose pass all films have.
+    pub(super) fn end_round(&mut self) {
+        let Some(Round { passes, begin }) = self.round.take() else { return };
+        self.rate = passes.list().last().map(|last| self.watch.rate(*last, begin));
+        self.passes = passes;
+    }
+
+    /// Gives the round up.
+    pub(super) fn give_up_round(&mut self) {
+        self.round = None;
+    }
+
+    /// Adds a time, s, to that of a round beside its samples.
+    pub(super) fn add_beside(&mut self, time_s: f64) {
+        if let Some(rate) = &mut self.rate {
+            rate.beside_s += time_s;
+        }
+    }
+
+    fn pace(&self, plan: &Plan) -> Pace {
+        let least = least_samples(plan);
+        Pace { total_s: self.total_s, least, has_parts: plan.replicates().all(|replicates| replicates == least) }
+    }
+
+    fn warn(&self, pace: Pace, rate: Rate) {
+        let needed_s = rate.sample_s * f64::from(pace.least);
+        if needed_s > GIVE_UP_RATIO * self.total_s {
+            let samples = if pace.least == 1 { "one sample".to_owned() } else { format!("{} samples", pace.least) };
+            self.observer.message(Message::Warning(&format!(
+                "{samples} of every pixel, the least that can be delivered, take about {needed_s:.0} s here, more than `time_s` {}; \
+                 give more time, smaller pictures, or fewer frames, cameras or replicates",
+                self.total_s
+            )));
+        }
+    }
+
+    /// Sends the observer the time that was taken, and the keys that make the same bytes again.
+    pub(super) fn report(&self, plan: &Plan) {
+        let mut replicates: Vec<u32> = plan.replicates().collect();
+        replicates.dedup();
+        let replicates = match replicates[..] {
+            [one] => format!("`set` render.replicates={one} "),
+            _ => String::new(),
+        };
+        self.observer.message(Message::Note(&format!(
+            "{:.2} s of light (`time_s` {}): {} samples a pixel; {replicates}`set` \"render.passes={}\" gives the same bytes",
+            self.watch.elapsed_s(),
+            self.total_s,
+            self.passes.mean_spp(),
+            self.passes.text()
+        )));
+    }
+}
+
+/// The samples that all cameras can share.
+fn least_samples(plan: &Plan) -> u32 {
+    plan.replicates().fold(1, least_common_multiple)
+}
+
+/// Measures the time that the light takes.
+pub(super) struct Watch<'a> {
+    observer: &'a dyn Observer,
+    /// Time that an interrupted run has taken, s.
+    before_s: f64,
+    /// When the first sample was begun.
+    start_s: OnceLock<f64>,
+    /// When the pass was begun that is under way, and the time of samples before it, s.
+    pass: Mutex<(f64, f64)>,
+    /// When a pass is given up, s.
+    limit_s: Option<f64>,
+    /// Whether one was.
+    is_over: AtomicBool,
+}
+
+impl<'a> Watch<'a> {
+    fn new(observer: &'a dyn Observer) -> Result<Self, Error> {
+        if observer.now_s().is_none() {
+            return Err(Error::input("a time is asked for, and the caller has no clock; give samples in its place"));
+        }
+        Ok(Self {
+            observer,
+            before_s: 0.0,
+            start_s: OnceLock::new(),
+            pass: Mutex::default(),
+            limit_s: None,
+            is_over: AtomicBool::new(false),
+        })
+    }
+
+    fn now_s(&self) -> f64 {
+        self.observer.now_s().unwrap_or_default()
+    }
+
+    pub(super) fn moment(&self) -> Moment {
+        Moment { now_s: self.now_s(), light_s: self.light_s() }
+    }
+
+    /// Time since the first sample, s, that of an interrupted run included.
+    pub(super) fn elapsed_s(&self) -> f64 {
+        self.before_s + self.start_s.get().map_or(0.0, |start_s| self.now_s() - start_s)
+    }
+
+    /// Time of samples alone.
+    fn light_s(&self) -> f64 {
+        self.pass.lock().expect("no clock panics").1
+    }
+
+    pub(super) fn begin_pass(&self) {
+        let now_s = self.now_s();
+        self.start_s.get_or_init(|| now_s);
+        self.pass.lock().expect("no clock panics").0 = now_s;
+    }
+
+    pub(super) fn end_pass(&self) {
+        let mut pass = self.pass.lock().expect("no clock panics");
+        pass.1 += self.now_s() - pass.0;
+    }
+
+    /// The rate of a pass of all films that began at a moment.
+    fn rate(&self, pass: Pass, begin: Moment) -> Rate {
+        let light_s = self.light_s() - begin.light_s;
+        let beside_s = (self.now_s() - begin.now_s - light_s).max(0.0);
+        Rate { sample_s: (light_s / pass.number()).max(f64::MIN_POSITIVE), beside_s }
+    }
+
+    /// Returns true if the pass under way is to be given up.
+    pub(super) fn is_over(&self) -> bool {
+        let is_over = self.limit_s.is_some_and(|limit_s| self.elapsed_s() > limit_s);
+        if is_over {
+            self.is_over.store(true, Ordering::Relaxed);
+        }
+        is_over
+    }
+
+    /// Returns true if a pass was given up.
+    pub(super) fn was_over(&self) -> bool {
+        self.is_over.load(Ordering::Relaxed)
+    }
+}
