@@ -182,6 +182,12 @@ words! {
 
 serde_words!(Integrator, LightSampling, Accelerator, Quality);
 
+impl Default for RawFormat {
+    fn default() -> Self {
+        Self::Png
+    }
+}
+
 impl Default for Integrator {
     fn default() -> Self {
         Self::Path

@@ -16,7 +16,7 @@ use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters, OpticsError, PupilProjection};
 use etendue_pipeline::defocus::held_margin_px;
 use etendue_pipeline::photograph::Light;
-use etendue_pipeline::plan::{Annotations, CameraBody, Products, usual_raw_format};
+use etendue_pipeline::plan::{CameraBody, Products, usual_raw_format};
 use etendue_pipeline::stored;
 use etendue_plan_report::{camera_facts, open_camera};
 use etendue_sensor::{FrameAddress, SensorState};
@@ -109,26 +109,12 @@ fn check_shutter(
 /// Everything that the camera can make of the light.
 fn products(body: &CameraBody) -> Products {
     Products {
-        radiance: false,
         irradiance: true,
         ghosts: body.effects.ghosts().is_some(),
-        variance: false,
-        sampling: false,
-        electrons: false,
         raw: body.sensor.is_some(),
         raw_format: usual_raw_format(body.sensor.as_ref()),
-        signal_breakdown: false,
         picture: body.development.is_some(),
-        ground_truth: false,
-        camera_space_position: false,
-        weather: false,
-        cover: false,
-        depth_png_per_m: None,
-        rays: false,
-        undistorted: None,
-        video: false,
-        annotations: Annotations::default(),
-        calibration_files: false,
+        ..Products::default()
     }
 }
 

@@ -12,7 +12,7 @@ use etendue_io::failure::{check_number, check_whole};
 use etendue_io::paths::camera_stem;
 use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, Stack};
-use etendue_pipeline::plan::{Annotations, CameraBody, Products, usual_raw_format};
+use etendue_pipeline::plan::{CameraBody, Products, usual_raw_format};
 use etendue_plan_report::camera_facts;
 use etendue_plan_report::open_camera;
 use etendue_sensor::{CaptureLight, FrameAddress, Sensor, SensorState};
@@ -236,26 +236,11 @@ struct Task<'a> {
 impl Task<'_> {
     fn products(&self) -> Products {
         Products {
-            radiance: false,
-            irradiance: false,
-            ghosts: false,
-            variance: false,
-            sampling: false,
-            electrons: false,
             raw: true,
             raw_format: usual_raw_format(Some(self.sensor)),
             signal_breakdown: self.request.signal_breakdown,
             picture: self.body.development.is_some(),
-            ground_truth: false,
-            camera_space_position: false,
-            weather: false,
-            cover: false,
-            depth_png_per_m: None,
-            rays: false,
-            undistorted: None,
-            video: false,
-            annotations: Annotations::default(),
-            calibration_files: false,
+            ..Products::default()
         }
     }
 

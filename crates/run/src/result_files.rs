@@ -1,13 +1,13 @@
 //! The files that a camera can deliver: their names, and what they hold.
 //! Also files that the user names one by one: plots, previews, camera files.
 
+use crate::results::{FileEntries, PRODUCT_FILES};
 use etendue_core::RawFormat;
-use etendue_core::quantity::{Cover, DigitalNumber, Irradiance, MeanElectrons, Quantity, Radiance, Transmittance};
+use etendue_core::quantity::{DigitalNumber, Quantity};
 use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::plan::{
-    Annotations, CameraBody, CameraPlan, CorrespondenceFormat, Development, PictureFormat, Products, TimeDependence,
-    raw_extension,
+    CameraBody, CameraPlan, Development, PictureFormat, Products, TimeDependence, raw_extension,
 };
 use etendue_plan_report::tone_curve::encoding;
 use serde_json::{Value, json};
@@ -16,12 +16,12 @@ use std::ops::Range;
 use std::path::Path;
 
 /// What a file holds: its quantity and unit.
-fn entry(quantity: &str, unit: &str) -> Value {
+pub(crate) fn entry(quantity: &str, unit: &str) -> Value {
     json!({ "quantity": quantity, "unit": unit })
 }
 
 /// [`entry`] of a quantity of the core.
-fn entry_of<Q: Quantity>() -> Value {
+pub(crate) fn entry_of<Q: Quantity>() -> Value {
     entry(Q::NAME, Q::UNIT)
 }
 
@@ -158,53 +158,20 @@ impl Files {
 
     /// The files of light and ground truth.
     fn of_light(p: &Products) -> BTreeMap<String, Value> {
-        let mut files = BTreeMap::new();
-        let mut add = |wanted: bool, name: &str, entry: Value| {
-            if wanted {
-                files.insert(name.to_owned(), entry);
-            }
-        };
-        add(p.radiance, Self::RADIANCE, entry_of::<Radiance>());
-        add(p.irradiance, Self::IRRADIANCE, entry_of::<Irradiance>());
-        add(p.ghosts, Self::GHOSTS, entry_of::<Irradiance>());
-        add(
-            p.sampling,
-            Self::SAMPLING,
-            entry("samples, variance of the mean by them and by the sensor", "1, e^2, e^2"),
+        let mut files = FileEntries::default();
+        PRODUCT_FILES.iter().for_each(|product| (product.entries)(p, &mut files));
+        files.add(
+            p.annotations.tracks,
+            Self::TRACKS,
+            entry("boxes of objects over all frames, object by object", "px, m, s"),
         );
-        add(p.electrons, Self::ELECTRONS, entry_of::<MeanElectrons>());
-        add(p.weather, Self::TRANSMITTANCE, entry_of::<Transmittance>());
-        add(p.weather, Self::AIRLIGHT, entry_of::<Radiance>());
-        add(p.cover, Self::COVER, entry_of::<Cover>());
-        add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
-        let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));
-        add(p.depth_png_per_m.is_some(), Self::DEPTH, entry("planar depth, 0 is invalid", &depth_unit));
-        Self::of_annotations(&p.annotations, &mut add);
-        add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
+        files.add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
         let twin = p.undistorted.is_some();
         let planes = entry("depth, distance, normal, position, ids of the undistorted twin", "m, m, 1, m, 1");
-        add(twin && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
+        files.add(twin && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
         let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
-        add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
-        files
-    }
-
-    fn of_annotations(asked: &Annotations, add: &mut impl FnMut(bool, &str, Value)) {
-        let flow = entry("optical flow to the next frame", "px");
-        let layers = "flow, visibility, image velocity, scene flow, velocity and time, as far as asked for";
-        add(asked.needs_neighbours(), Self::MOTION, entry(layers, "px, 1, px/s, m, m/s, s"));
-        add(asked.optical_flow == Some(CorrespondenceFormat::Middlebury), Self::FLOW_FLO, flow.clone());
-        add(asked.optical_flow == Some(CorrespondenceFormat::Kitti), Self::FLOW_PNG, flow);
-        let disparity = asked.disparity.map(|asked| asked.format);
-        add(disparity.is_some(), Self::DISPARITY, entry("disparity, visibility", "px, 1"));
-        let map = entry("disparity; infinite where it is not known", "px");
-        add(disparity == Some(CorrespondenceFormat::Middlebury), Self::DISPARITY_PFM, map);
-        let picture = entry("disparity; 0 where it is not known", "1/256 px");
-        add(disparity == Some(CorrespondenceFormat::Kitti), Self::DISPARITY_PNG, picture);
-        add(asked.boxes, Self::BOXES, entry("boxes of objects in the picture and in space", "px, m"));
-        let ranked = "objects and materials of each pixel by falling coverage, Cryptomatte 1.2";
-        add(asked.cryptomatte, Self::CRYPTOMATTE, entry(ranked, "1"));
-        add(asked.tracks, Self::TRACKS, entry("boxes of objects over all frames, object by object", "px, m, s"));
+        files.add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
+        files.0.into_iter().collect()
     }
 
     /// The files of photographs.

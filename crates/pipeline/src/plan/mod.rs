@@ -32,8 +32,8 @@ pub use film::FilmLimit;
 pub(crate) use passes::{CameraPasses, hash_with_passes};
 pub use passes::{MAX_PASSES, PARTS, Pass, PassAt, Passes};
 pub use products::{
-    Annotations, CorrespondenceFormat, Development, DisparityProduct, PictureFormat, Products, raw_extension,
-    usual_raw_format,
+    Annotations, CorrespondenceFormat, Development, DisparityProduct, ListedProduct, PictureFormat, Products,
+    raw_extension, usual_raw_format,
 };
 pub use row_exposure::{CaptureTiming, RowExposure, RowSkipping};
 pub use settings::{Route, Settings};

@@ -20,8 +20,8 @@ pub fn raw_extension(format: RawFormat) -> &'static str {
     }
 }
 
-/// What a camera delivers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What a camera delivers; nothing by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Products {
     /// Spectral radiance.
     pub radiance: bool,
@@ -65,18 +65,98 @@ pub struct Products {
     pub calibration_files: bool,
 }
 
+/// A product as plans list it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ListedProduct {
+    /// The key that asks for it.
+    pub key: &'static str,
+    /// Its name among the effects of a camera.
+    pub name: &'static str,
+    /// Its name in the list of what is delivered; `None` where another product's has it.
+    pub text: Option<&'static str>,
+    /// Whether it is delivered.
+    pub is_delivered: bool,
+    /// Whether it is a result by itself, of which a camera delivers one at least.
+    pub is_result: bool,
+    /// Whether its key is true or false.
+    pub is_flag: bool,
+}
+
+impl ListedProduct {
+    /// A result that a key set to true asks for.
+    const fn flag(key: &'static str, name: &'static str, is_delivered: bool, text: &'static str) -> Self {
+        Self { key, name, text: Some(text), is_delivered, is_result: true, is_flag: true }
+    }
+
+    /// A result that a key names.
+    const fn named(key: &'static str, name: &'static str, is_delivered: bool, text: &'static str) -> Self {
+        Self { is_flag: false, ..Self::flag(key, name, is_delivered, text) }
+    }
+
+    /// What changes other results, or is made of them.
+    const fn beside(self) -> Self {
+        Self { is_result: false, ..self }
+    }
+}
+
 impl Products {
+    /// All products, in the order of a plan.
+    #[must_use]
+    pub fn listed(&self) -> Vec<ListedProduct> {
+        let (flag, named) = (ListedProduct::flag, ListedProduct::named);
+        let annotations = &self.annotations;
+        let raw = match self.raw_format {
+            RawFormat::Png => "raw",
+            RawFormat::Tiff => "raw TIFF",
+            RawFormat::Dng => "raw DNG",
+        };
+        let ground_truth = match self.camera_space_position {
+            true => "ground truth with positions in the camera's frame",
+            false => "ground truth",
+        };
+        let silent = |product: ListedProduct| ListedProduct { text: None, ..product };
+        let depth_png = self.depth_png_per_m.is_some();
+        vec![
+            flag("output.radiance", "spectral radiance", self.radiance, "radiance"),
+            flag("output.irradiance", "spectral irradiance", self.irradiance, "irradiance"),
+            flag("output.ghosts", "ghosts by themselves", self.ghosts, "ghosts"),
+            flag("output.variance", "variance", self.variance, "variance").beside(),
+            silent(flag("output.sampling", "samples of pixels", self.sampling, "")),
+            flag("output.electrons", "electrons", self.electrons, "electrons"),
+            flag("output.raw", "raw", self.raw, raw),
+            flag("output.signal_breakdown", "signal breakdown", self.signal_breakdown, "signal_breakdown"),
+            ListedProduct { is_flag: !self.video, ..flag("output.picture", "picture", self.picture, "picture") },
+            named("output.video", "video", self.video, "video").beside(),
+            flag("output.ground_truth", "ground truth", self.ground_truth, ground_truth),
+            silent(
+                flag("output.camera_space_position", "positions in the camera's frame", self.camera_space_position, "")
+                    .beside(),
+            ),
+            flag("output.depth_png", "depth PNG", depth_png, "depth PNG"),
+            flag("output.rays", "ray table", self.rays, "ray table"),
+            flag("output.undistorted", "undistorted twin", self.undistorted.is_some(), "the undistorted twin of these")
+                .beside(),
+            named("output.optical_flow", "optical flow", annotations.optical_flow.is_some(), "optical flow"),
+            flag("output.scene_flow", "scene flow", annotations.scene_flow, "scene flow"),
+            named("output.disparity_to", "disparity", annotations.disparity.is_some(), "disparity"),
+            flag("output.boxes", "boxes", annotations.boxes, "boxes"),
+            flag("output.tracks", "tracks", annotations.tracks, "tracks").beside(),
+            flag("output.cryptomatte", "Cryptomatte", annotations.cryptomatte, "Cryptomatte"),
+            flag("output.weather", "layers of weather", self.weather, "transmittance, airlight and cover"),
+            flag("output.calibration_files", "calibration files", self.calibration_files, "calibration files").beside(),
+        ]
+    }
+
     /// Whether nothing is delivered.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        let light = self.radiance || self.irradiance || self.ghosts || self.electrons || self.sampling;
-        let images = light || self.raw || self.picture || self.signal_breakdown;
-        !(images
-            || self.weather
-            || self.ground_truth
-            || self.depth_png_per_m.is_some()
-            || self.rays
-            || !self.annotations.is_empty())
+        self.is_empty_without("")
+    }
+
+    /// Whether nothing would be delivered without the result of a key.
+    #[must_use]
+    pub fn is_empty_without(&self, key: &str) -> bool {
+        !self.listed().iter().any(|product| product.is_delivered && product.is_result && product.key != key)
     }
 }
 

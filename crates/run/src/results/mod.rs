@@ -6,6 +6,7 @@ mod done_frames;
 pub(crate) mod frames;
 pub(crate) mod levels;
 pub(crate) mod metadata;
+mod products;
 mod save;
 mod sequence;
 pub(crate) mod writer;
@@ -13,6 +14,7 @@ pub(crate) mod writer;
 pub(crate) use camera::SensorHistory;
 pub use camera::{CameraResults, display_jpeg};
 pub(crate) use done_frames::DoneFrames;
+pub(crate) use products::{FileEntries, PRODUCT_FILES};
 pub(crate) use sequence::{Sequence, file_names};
 
 use crate::rig;

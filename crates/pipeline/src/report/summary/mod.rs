@@ -20,7 +20,7 @@ use crate::report::{FilmBytes, RunMemory};
 use crate::report::{MeshSize, mesh_sizes};
 use crate::sizes::block::Blocks;
 use effects_table::effects_table;
-use etendue_core::{Accelerator, Bands, EffectStatus, Integrator, RawFormat};
+use etendue_core::{Accelerator, Bands, EffectStatus, Integrator};
 use etendue_optics::effects::Effect;
 use etendue_sensor::SensorEffect;
 use etendue_sensor::dynamic_range::{DynamicRange, Switch};
@@ -343,40 +343,9 @@ fn range(range: &DynamicRange) -> String {
     format!("dynamic range: {:.1} dB, {:.4} to {:.4e} e⁻{switches}", range.db(), range.least_e, range.most_e)
 }
 
-fn raw_name(format: RawFormat) -> &'static str {
-    match format {
-        RawFormat::Png => "raw",
-        RawFormat::Tiff => "raw TIFF",
-        RawFormat::Dng => "raw DNG",
-    }
-}
-
-fn products(p: &Products) -> String {
-    let named = [
-        (p.radiance, "radiance"),
-        (p.irradiance, "irradiance"),
-        (p.ghosts, "ghosts"),
-        (p.variance, "variance"),
-        (p.electrons, "electrons"),
-        (p.raw, raw_name(p.raw_format)),
-        (p.signal_breakdown, "signal_breakdown"),
-        (p.picture, "picture"),
-        (p.ground_truth && !p.camera_space_position, "ground truth"),
-        (p.ground_truth && p.camera_space_position, "ground truth with positions in the camera's frame"),
-        (p.weather, "transmittance, airlight and cover"),
-        (p.depth_png_per_m.is_some(), "depth PNG"),
-        (p.rays, "ray table"),
-        (p.undistorted.is_some(), "the undistorted twin of these"),
-        (p.annotations.optical_flow.is_some(), "optical flow"),
-        (p.annotations.scene_flow, "scene flow"),
-        (p.annotations.disparity.is_some(), "disparity"),
-        (p.annotations.boxes, "boxes"),
-        (p.annotations.tracks, "tracks"),
-        (p.annotations.cryptomatte, "Cryptomatte"),
-        (p.video, "video"),
-        (p.calibration_files, "calibration files"),
-    ];
-    let list: Vec<&str> = named.iter().filter(|(wanted, _)| *wanted).map(|(_, name)| *name).collect();
+fn products(products: &Products) -> String {
+    let listed = products.listed().into_iter().filter(|product| product.is_delivered);
+    let list: Vec<&str> = listed.filter_map(|product| product.text).collect();
     if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }
 }
 

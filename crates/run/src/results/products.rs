@@ -1,0 +1,224 @@
+//! The files of light and ground truth that a camera can deliver: their names, what they hold, and how they are written.
+
+use super::annotations::ANNOTATIONS;
+use super::camera::CameraResults;
+use super::metadata;
+use super::writer::ResultWriter;
+use crate::result_files::{Files, entry, entry_of};
+use etendue_core::quantity::{Cover, Irradiance, MeanElectrons, Radiance, Transmittance};
+use etendue_io::exr::{
+    self, ExrImage, Layer, Lengths, SpectralBands, ground_truth_image, ground_truth_of_planes, layers_image,
+    plane_image, radiance_image, spectral_image,
+};
+use etendue_io::failure::Error;
+use etendue_io::{Provenance, png};
+use etendue_pipeline::Plan;
+use etendue_pipeline::plan::{CameraPlan, Products};
+use etendue_pipeline::render::Shot;
+use etendue_pipeline::sampling::SamplingPlanes;
+use etendue_pipeline::truth::{GroundTruth, TruthRows};
+use etendue_pipeline::weather_layers::weather_layers;
+use serde_json::Value;
+use std::ops::Range;
+
+/// Files that are written together, of a frame, or of all frames where light does not depend on time.
+pub(crate) struct ProductFiles {
+    /// Adds the files that are asked for, with what they hold.
+    pub(crate) entries: fn(&Products, &mut FileEntries),
+    /// When they are written.
+    pub(crate) stage: Stage,
+    /// Writes those that are asked for.
+    pub(crate) write: fn(&CameraResults, &mut ResultWriter<'_>) -> Result<(), Error>,
+}
+
+/// When files are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stage {
+    /// Before the photographs, and whenever those are refined.
+    Light,
+    /// After them.
+    GroundTruth,
+}
+
+/// Names of files, and what each holds.
+#[derive(Debug, Default)]
+pub(crate) struct FileEntries(pub(crate) Vec<(String, Value)>);
+
+impl FileEntries {
+    /// Adds a file where it is asked for.
+    pub(crate) fn add(&mut self, is_wanted: bool, name: &str, entry: Value) {
+        if is_wanted {
+            self.0.push((name.to_owned(), entry));
+        }
+    }
+}
+
+impl ProductFiles {
+    /// Whether any of them is asked for.
+    pub(crate) fn is_wanted(&self, products: &Products) -> bool {
+        let mut entries = FileEntries::default();
+        (self.entries)(products, &mut entries);
+        !entries.0.is_empty()
+    }
+}
+
+/// All of them, in the order in which they are written.
+pub(crate) const PRODUCT_FILES: &[ProductFiles] = &[
+    ProductFiles {
+        entries: |p, files| files.add(p.radiance, Files::RADIANCE, entry_of::<Radiance>()),
+        stage: Stage::Light,
+        write: write_radiance,
+    },
+    ProductFiles {
+        entries: |p, files| files.add(p.irradiance, Files::IRRADIANCE, entry_of::<Irradiance>()),
+        stage: Stage::Light,
+        write: |results, writer| {
+            let variance = results.camera().products.variance;
+            writer.irradiance(&results.file(Files::IRRADIANCE), &results.light, variance, &results.provenance())
+        },
+    },
+    ProductFiles {
+        entries: |p, files| files.add(p.ghosts, Files::GHOSTS, entry_of::<Irradiance>()),
+        stage: Stage::Light,
+        write: |results, writer| writer.ghosts(&results.file(Files::GHOSTS), &results.light, &results.provenance()),
+    },
+    ProductFiles {
+        entries: |p, files| {
+            let entry = entry("samples, variance of the mean by them and by the sensor", "1, e^2, e^2");
+            files.add(p.sampling, Files::SAMPLING, entry);
+        },
+        stage: Stage::Light,
+        write: write_sampling,
+    },
+    ProductFiles {
+        entries: |p, files| files.add(p.electrons, Files::ELECTRONS, entry_of::<MeanElectrons>()),
+        stage: Stage::Light,
+        write: write_electrons,
+    },
+    ProductFiles { entries: truth_entries, stage: Stage::GroundTruth, write: write_truth },
+    ProductFiles {
+        entries: |p, files| {
+            files.add(p.weather, Files::TRANSMITTANCE, entry_of::<Transmittance>());
+            files.add(p.weather, Files::AIRLIGHT, entry_of::<Radiance>());
+            files.add(p.cover, Files::COVER, entry_of::<Cover>());
+        },
+        stage: Stage::GroundTruth,
+        write: write_weather,
+    },
+    ANNOTATIONS,
+];
+
+fn write_radiance(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+    let camera = results.camera();
+    let Some(radiance) = &results.light.radiance else { return Ok(()) };
+    let variance = camera.products.variance.then_some(&radiance.variance);
+    let facts = metadata::radiance_provenance(results.provenance(), camera);
+    let lengths = results.depth.as_ref().map(|d| Lengths { distance: &d.distance, depth: &d.depth });
+    let bands = SpectralBands::of_kept(&radiance.mean, variance);
+    writer.exr(&results.file(Files::RADIANCE), radiance_image(bands, lengths, &facts))
+}
+
+fn write_electrons(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+    let light = &results.light;
+    let Some(mean) = &light.electrons else { return Ok(()) };
+    let variance = light.electrons_variance.as_ref().filter(|_| results.camera().products.variance);
+    writer.exr(&results.file(Files::ELECTRONS), plane_image(mean, variance, &results.provenance()))
+}
+
+fn write_sampling(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+    let Some(sampling) = &results.sampling else { return Ok(()) };
+    writer.exr(&results.file(Files::SAMPLING), sampling_image(sampling, &results.provenance()))
+}
+
+fn sampling_image<'a>(sampling: &'a SamplingPlanes, facts: &Provenance) -> ExrImage<'a> {
+    let SamplingPlanes { samples, monte_carlo, sensor } = sampling;
+    let variances = [("monte_carlo_variance", monte_carlo), ("sensor_variance", sensor)];
+    let variances =
+        variances.into_iter().filter_map(|(name, plane)| Some((name, Layer::Float(plane.as_ref()?.samples()))));
+    let layers: Vec<_> = [("samples", Layer::Uint(samples.samples()))].into_iter().chain(variances).collect();
+    let layers: Vec<_> = layers.into_iter().map(|(name, layer)| (name.to_owned(), layer)).collect();
+    layers_image(samples.width(), samples.height(), &layers, facts)
+}
+
+fn truth_entries(p: &Products, files: &mut FileEntries) {
+    files.add(p.ground_truth, Files::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
+    if let Some(per_m) = p.depth_png_per_m {
+        files.add(true, Files::DEPTH, entry("planar depth, 0 is invalid", &format!("1/{per_m} m")));
+    }
+}
+
+fn write_truth(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+    let products = &results.camera().products;
+    if is_large(&results.plan, results.camera()) {
+        return write_large_truth(results, writer);
+    }
+    let truth = results.ground_truth();
+    if products.ground_truth {
+        let name = results.file(Files::GROUND_TRUTH);
+        let image = ground_truth_of_planes(&planes(&truth), &results.provenance());
+        writer.exr(&name, image.map_err(|error| Error::Run(format!("{name}: {error}")))?)?;
+    }
+    match products.depth_png_per_m {
+        Some(per_metre) => writer.write(&results.file(Files::DEPTH), png::encode_depth16(&truth.depth, per_metre)),
+        None => Ok(()),
+    }
+}
+
+/// The same of planes that are larger than films may be in memory: found when they are written, some rows at a time.
+fn write_large_truth(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+    let camera = results.camera();
+    let rows = TruthRows::new(&results.plan, camera, results.frame_numbers().start, results.simd);
+    if camera.products.ground_truth {
+        writer.exr(&results.file(Files::GROUND_TRUTH), truth_image(&rows, &results.provenance()))?;
+    }
+    match camera.products.depth_png_per_m {
+        Some(per_metre) => writer.write(&results.file(Files::DEPTH), png::encode_depth16(&rows.depth(), per_metre)),
+        None => Ok(()),
+    }
+}
+
+/// What weather does to each pixel: found anew, with the samples of the light.
+fn write_weather(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+    let camera = results.camera();
+    let shot = Shot { frame: results.frame_numbers().start, capture: 0 };
+    let layers = weather_layers(&results.plan, camera, shot, results.simd);
+    let facts = metadata::radiance_provenance(results.provenance(), camera);
+    writer.exr(&results.file(Files::TRANSMITTANCE), plane_image(&layers.transmittance, None, &facts))?;
+    let airlight = SpectralBands::of(&layers.airlight, None);
+    writer.exr(&results.file(Files::AIRLIGHT), spectral_image::<Radiance>(airlight, &facts))?;
+    layers.cover.iter().try_for_each(|cover| writer.exr(&results.file(Files::COVER), plane_image(cover, None, &facts)))
+}
+
+/// Whether a picture is so large that its ground truth, about as much as all else that is made of it, would take more memory than the bands of a film may.
+pub(super) fn is_large(plan: &Plan, camera: &CameraPlan) -> bool {
+    plan.film_limit.as_ref().is_some_and(|limit| TruthRows::bytes(camera) > limit.bytes as f64)
+}
+
+/// Rows of ground truth for a file.
+struct RowsOfFile<'a>(&'a TruthRows<'a>);
+
+impl exr::GroundTruthRows for RowsOfFile<'_> {
+    fn rows(&self, rows: Range<usize>, take: &mut dyn FnMut(&exr::GroundTruth<'_>)) {
+        take(&planes(&self.0.rows(rows)));
+    }
+}
+
+pub(super) fn truth_image<'a>(rows: &'a TruthRows<'a>, facts: &Provenance) -> ExrImage<'a> {
+    ground_truth_image(rows.size().0, rows.size().1, rows.has_gaps(), RowsOfFile(rows), facts)
+}
+
+pub(super) fn planes(truth: &GroundTruth) -> exr::GroundTruth<'_> {
+    exr::GroundTruth {
+        depth: Some(&truth.depth),
+        distance: Some(&truth.distance),
+        normal: Some(&truth.normal),
+        position: Some(&truth.position),
+        position_low: truth.position_low.as_ref(),
+        camera_space_position: truth.camera_space_position.as_ref(),
+        instance: Some(&truth.instance),
+        semantic: Some(&truth.semantic),
+        material: Some(&truth.material),
+        ray: Some(&truth.ray),
+        mirror: truth.mirror.as_ref(),
+    }
+}
