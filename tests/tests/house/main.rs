@@ -4,6 +4,7 @@ mod circles;
 mod counts;
 mod dependencies;
 mod links;
+mod sensor_scale;
 mod tidy;
 
 use std::path::{Path, PathBuf};
