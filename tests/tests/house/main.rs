@@ -1,5 +1,6 @@
 //! Rules of the repository: dependencies, names, sizes, links, and which file may import which.
 
+mod additions;
 mod circles;
 mod counts;
 mod dependencies;
