@@ -65,6 +65,10 @@ oracles:
 freeze *arguments:
     tests/freeze/run {{arguments}}
 
+# Additions of docs/how-to-add applied to a copy, which is checked, and their tests (`branch`, `store`: how the patches are regenerated, tests/additions/run)
+additions *arguments:
+    tests/additions/run {{arguments}}
+
 # The reader of Universal Scene Description, its tests and its fuzz targets (in a folder of their own: it changes how PNGs are compressed)
 usd:
     CARGO_TARGET_DIR=target/usd cargo test -p etendue-import -p etendue -p etendue-cli -p etendue-fuzz --features etendue-import/usd,etendue/usd,etendue-cli/usd,etendue-fuzz/usd -- usd what_was_found

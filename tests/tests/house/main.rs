@@ -1,9 +1,11 @@
 //! Rules of the repository: dependencies, names, sizes, links, and which file may import which.
 
+mod additions;
 mod circles;
 mod counts;
 mod dependencies;
 mod links;
+mod sensor_scale;
 mod tidy;
 
 use std::path::{Path, PathBuf};

@@ -9,26 +9,26 @@
 //! and what it calls, which runs them. What needs the whole sensor or the picture's size is checked elsewhere: captures and companding in
 //! `validity`, the layout where the size is known.
 //!
-//! | order | effect | on | acts on |
-//! | --- | --- | --- | --- |
-//! | 1 | [angle response](angle_response) | mean electrons | rows |
-//! | 2 | [optical crosstalk](crosstalk) | mean electrons | plane |
-//! | 3 | [photo-response non-uniformity](photo_response) | mean electrons | rows |
-//! | 4 | [smear] | adds to mean electrons | plane |
-//! | 5 | [shot noise](shot_noise) | mean electrons → charge | rows |
-//! | 6 | [dark current](dark_current) with its pattern | charge: adds its own electrons | rows |
-//! | 7 | [lag] | charge: exchanged with traps | plane |
-//! | 8 | [brighter-fatter](brighter_fatter) | charge: moved | plane |
-//! | 9 | [full well](full_well), blooming | charge: cut and moved | rows; plane |
-//! | 10 | [dead pixels](dead_pixels) | charge: emptied | rows |
-//! | 11 | binning of charge ([`layout`](crate::layout)) | charge: pixels are added | plane |
-//! | 12 | [response] | charge → voltage | rows |
-//! | 13 | [inter-pixel capacitance](inter_pixel_capacitance) | voltage: moved | plane |
-//! | 14 | [offset non-uniformity](offset_pattern) | voltage: added | rows |
-//! | 15 | [read noise](read_noise) | voltage: added | rows |
-//! | 16 | [RTS noise](rts_noise) | voltage: added | rows |
-//! | 17 | [converter] | voltage → DN: gain, black level, rounding, range | rows |
-//! | 18 | merging and companding ([`hdr`](crate::hdr)) | DN | plane |
+//! | effect | on | acts on |
+//! | --- | --- | --- |
+//! | [angle response](angle_response) | mean electrons | rows |
+//! | [optical crosstalk](crosstalk) | mean electrons | plane |
+//! | [photo-response non-uniformity](photo_response) | mean electrons | rows |
+//! | [smear] | adds to mean electrons | plane |
+//! | [shot noise](shot_noise) | mean electrons → charge | rows |
+//! | [dark current](dark_current) with its pattern | charge: adds its own electrons | rows |
+//! | [lag] | charge: exchanged with traps | plane |
+//! | [brighter-fatter](brighter_fatter) | charge: moved | plane |
+//! | [full well](full_well), blooming | charge: cut and moved | rows; plane |
+//! | [dead pixels](dead_pixels) | charge: emptied | rows |
+//! | binning of charge ([`layout`](crate::layout)) | charge: pixels are added | plane |
+//! | [response] | charge → voltage | rows |
+//! | [inter-pixel capacitance](inter_pixel_capacitance) | voltage: moved | plane |
+//! | [offset non-uniformity](offset_pattern) | voltage: added | rows |
+//! | [read noise](read_noise) | voltage: added | rows |
+//! | [RTS noise](rts_noise) | voltage: added | rows |
+//! | [converter] | voltage → DN: gain, black level, rounding, range | rows |
+//! | merging and companding ([`hdr`](crate::hdr)) | DN | plane |
 //!
 //! Shot noise and dark current commute: both are independent counts that are added.
 

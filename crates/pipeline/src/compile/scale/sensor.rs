@@ -1,4 +1,5 @@
-//! The sensor with pixels of k × k. Every key is named here, so that a new key needs a decision; docs/sensor.md states the reasons.
+//! The sensor with pixels of k × k. Keys that are not here are unchanged, or are converted where they are compiled; docs/sensor.md has every key, with the
+//! reason (`tests/tests/house/sensor_scale.rs`).
 
 use etendue_core::maths::f64::{exp_m1, ln_1p, pow};
 use etendue_scene::record::sensor::Shutter;
@@ -34,40 +35,19 @@ pub(super) fn enlarge(sensor: &mut Sensor, k: f64) {
 
 fn enlarge_electronics(electronics: &mut Electronics, k: f64) {
     let Electronics {
-        place: _,
-        exposure_s: _,
-        cfa: _,
-        quantum_efficiency: _,
         full_well_e,
-        read_noise_e: _,
         dark_current_e_s,
         gain_dn_per_e,
-        black_level_dn: _,
-        bits: _,
-        noise: _,
-        frame_period_s: _,
-        analogue_gain: _,
-        digital_gain: _,
-        auto_exposure: _,
-        angle_response: _,
         crosstalk,
-        non_uniformity: _,
         dark,
         smear,
-        lag: _,
         brighter_fatter_per_e,
         blooming,
         response,
         inter_pixel_capacitance,
-        row_noise_e: _,
-        column_noise_e: _,
-        rts_noise: _,
-        optical_black: _,
         roi_px,
-        binning: _,
-        skipping: _,
         hdr,
-        companding: _,
+        ..
     } = electronics;
     let area = k * k;
     full_well_e.value *= area;
