@@ -7,7 +7,7 @@ use crate::results::metadata;
 use crate::results::writer::ResultWriter;
 use clap::Args;
 use etendue_arguments::seed;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::paths::camera_stem;
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::photograph::{Developed, developed};
@@ -53,7 +53,10 @@ pub fn develop(request: &DevelopRequest, folder: &Path, existing: Existing) -> R
     let body = open_camera(&request.camera, &request.set)?;
     let camera = Camera::of(&body).ok_or_else(|| {
         let file = request.camera.display();
-        Error::input(format!("{file}: the camera has no [isp], so nothing says how a picture is made: add it"))
+        Error::coded(
+            ErrorCode::MissingKey,
+            format!("{file}: the camera has no [isp], so nothing says how a picture is made: add it"),
+        )
     })?;
     let name = camera_stem(&request.camera);
     let mut folder = OutputFolder::open_part(folder, &name, existing).map_err(Error::input)?;
@@ -79,18 +82,19 @@ impl<'a> Camera<'a> {
 fn all(camera: &Camera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
     let (mut frames, mut files, mut correlated_block_px) = (Vec::new(), Map::new(), 1);
     for (number, file) in request.raws.iter().enumerate() {
-        let mut taken = taken(file, request.levels, number as u32, camera.body, camera.sensor).map_err(Error::input)?;
+        let mut taken = taken(file, request.levels, number as u32, camera.body, camera.sensor)
+            .map_err(|words| Error::coded(ErrorCode::UnsuitableFile, words))?;
         correlated_block_px = correlated_block_px.max(taken.correlated_block_px);
         taken.address.seed = request.seed.unwrap_or(taken.address.seed);
         let name = Files::picture(taken.address.frame, camera.development.format);
         if files.contains_key(&name) {
             let told =
                 format!("{}: another raw is frame {}, too: develop them apart", file.display(), taken.address.frame);
-            return Err(Error::input(told));
+            return Err(Error::coded(ErrorCode::Duplicate, told));
         }
         writer.claim(&name)?;
         let picture = developed(camera.development, &taken.raw, taken.address)
-            .map_err(|error| Error::input(format!("{}: {error}", file.display())))?;
+            .map_err(|error| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", file.display())))?;
         writer.write(&name, encoded(&picture.display, camera.development))?;
         frames.push(frame(file, &taken, &picture));
         files.insert(name, Files::picture_entry(camera.development));

@@ -9,7 +9,7 @@ use crate::stored_radiance::StoredRadiance;
 use clap::Args;
 use etendue_arguments::seed;
 use etendue_core::observer::{Message, Observer};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::paths::camera_stem;
 use etendue_io::{Existing, OutputFolder};
 use etendue_optics::{DepthOfField, OpticsError};
@@ -91,10 +91,13 @@ fn check_shutter(
     let Some(stored_s) = stored.exposure_s() else { return Ok(()) };
     let (radiance, camera) = (request.radiance.display(), request.camera.display());
     if !body.exposure.is_global() {
-        return Err(Error::input(format!(
-            "{radiance} through {camera}: its light depends on time and is the mean over one exposure of {stored_s} s, and the camera reads its rows \
+        return Err(Error::coded(
+            ErrorCode::NotModelled,
+            format!(
+                "{radiance} through {camera}: its light depends on time and is the mean over one exposure of {stored_s} s, and the camera reads its rows \
              in turn; give it a \"global\" shutter, or render the job through the lens"
-        )));
+            ),
+        ));
     }
     let exposure = &body.exposure;
     if exposure.exposure_s != stored_s || exposure.distinct_captures().len() > 1 {
@@ -143,7 +146,7 @@ fn write(
     let at_pupil = stored::Stored { projection, radiance, distance: distance.as_ref() };
     let refuse = |error: OpticsError| {
         let (radiance, camera) = (request.radiance.display(), request.camera.display());
-        Error::input(format!("{radiance} through {camera}: {error}{}", margin(body)))
+        Error::coded(ErrorCode::UnsuitableFile, format!("{radiance} through {camera}: {error}{}", margin(body)))
     };
     let depth_of_field = depth_of_field(body, stored, request, observer)?;
     warn_of_margin(body, stored, &depth_of_field, observer).map_err(refuse)?;
@@ -194,17 +197,21 @@ fn depth_of_field(
     let file = request.radiance.display();
     match request.depth_of_field {
         Some(DepthOfField::None) => Ok(DepthOfField::None),
-        Some(_) if stored.distance.is_none() => Err(Error::input(format!(
-            "{file}: it has no distances (channel distance.Z), which depth of field needs: render it anew, or give \
+        Some(_) if stored.distance.is_none() => Err(Error::coded(
+            ErrorCode::UnsuitableFile,
+            format!(
+                "{file}: it has no distances (channel distance.Z), which depth of field needs: render it anew, or give \
              `depth_of_field` none"
-        ))),
+            ),
+        )),
         Some(DepthOfField::Physical) if !blurs => Err(Error::argument(
             "depth_of_field",
             format!(
                 "`depth_of_field` physical has no effect: to the lens of {} everything is sharp",
                 request.camera.display()
             ),
-        )),
+        )
+        .with_code(ErrorCode::NoEffect)),
         Some(asked) => Ok(asked),
         None if blurs && stored.distance.is_some() => Ok(DepthOfField::Physical),
         None => {

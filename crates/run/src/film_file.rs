@@ -9,7 +9,7 @@ use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Quantity};
 use etendue_io::Provenance;
 use etendue_io::exr::{ExrFile, ExrImage, Layer, Samples, layers_image, read_exr_within};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
@@ -127,7 +127,7 @@ impl FilmOrigin<'_> {
 /// # Errors
 /// Where it cannot be read, is of another origin, is not complete, or has numbers that are not finite.
 pub(crate) fn read(path: &Path, origin: &FilmOrigin<'_>, remedy: &str) -> Result<(Film, Provenance), Error> {
-    let refused = |why: &str| Error::input(format!("{}: {why}; {remedy}", path.display()));
+    let refused = |why: &str| Error::coded(ErrorCode::OtherRun, format!("{}: {why}; {remedy}", path.display()));
     let camera = origin.camera;
     let (width, height) = camera.film_size();
     // Most of a shard's film is black, and packs well.

@@ -1,7 +1,7 @@
 //! How much memory films may take.
 
 use etendue_io::ScratchFolder;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::{CameraPlan, FilmLimit};
 use std::path::PathBuf;
@@ -34,7 +34,9 @@ impl FilmMemory {
 /// Checks that the folder for scratch files can be written.
 pub(crate) fn check_folder(plan: &Plan) -> Result<(), Error> {
     let store = plan.cameras.iter().find_map(|camera| plan.scratch(camera));
-    store.map_or(Ok(()), |store| store.room(0).map(|_| ()).map_err(Error::input))
+    store.map_or(Ok(()), |store| {
+        store.room(0).map(|_| ()).map_err(|words| Error::coded(ErrorCode::UnwritableOutput, words))
+    })
 }
 
 /// Checks that the system has memory for the film of each camera.

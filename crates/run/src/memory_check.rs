@@ -2,7 +2,7 @@
 
 use crate::film_memory;
 use crate::job::Job;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::report::RunMemory;
 use std::ops::Range;
@@ -33,14 +33,17 @@ impl Job {
             return Ok(());
         }
         let camera = memory.largest().and_then(|(name, _)| self.plan().camera(name));
-        Err(Error::input(format!(
-            "the run needs {:.0} MB of memory beside the program, and {:.0} MB are free {} ({}); {}",
-            memory.beyond_program() / 1e6,
-            free as f64 / 1e6,
-            limit.words(),
-            memory.parts(),
-            camera.map_or_else(|| "free memory or give the run more".to_owned(), remedies),
-        )))
+        Err(Error::coded(
+            ErrorCode::NotEnoughMemory,
+            format!(
+                "the run needs {:.0} MB of memory beside the program, and {:.0} MB are free {} ({}); {}",
+                memory.beyond_program() / 1e6,
+                free as f64 / 1e6,
+                limit.words(),
+                memory.parts(),
+                camera.map_or_else(|| "free memory or give the run more".to_owned(), remedies),
+            ),
+        ))
     }
 }
 

@@ -7,7 +7,7 @@ use crate::results::{DoneFrames, Kept, Sequence};
 use crate::rig;
 use crate::shard::{self, Manifest};
 use etendue_core::observer::Observer;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
@@ -59,7 +59,9 @@ pub fn merge(
 
 /// Every shard of one run, each once.
 fn check_complete(shards: &[(Manifest, &PathBuf)]) -> Result<(), Error> {
-    let Some((first, _)) = shards.first() else { return Err(Error::input("no shards: give the folders of all")) };
+    let Some((first, _)) = shards.first() else {
+        return Err(Error::coded(ErrorCode::MissingArgument, "no shards: give the folders of all"));
+    };
     for (manifest, folder) in shards {
         if !manifest.is_of_run(first) {
             return Err(refuse(folder, "it is a shard of another run; give the shards of one run"));
@@ -81,7 +83,7 @@ fn check_complete(shards: &[(Manifest, &PathBuf)]) -> Result<(), Error> {
 }
 
 fn refuse(folder: &Path, why: &str) -> Error {
-    Error::input(format!("{}: {why}", folder.display()))
+    Error::coded(ErrorCode::OtherRun, format!("{}: {why}", folder.display()))
 }
 
 fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Error> {
@@ -89,9 +91,10 @@ fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Error> {
         return Ok(());
     }
     let job = manifest.request.job.display();
-    Err(Error::input(format!(
-        "{job} or a file that it names has changed since the shards were rendered; render them again"
-    )))
+    Err(Error::coded(
+        ErrorCode::OtherRun,
+        format!("{job} or a file that it names has changed since the shards were rendered; render them again"),
+    ))
 }
 
 /// Shards that are read side by side: each takes the memory of the whole film.

@@ -5,7 +5,7 @@ use crate::job::Job;
 use crate::shard_spec::ShardSpec;
 use etendue_core::observer::Observer;
 use etendue_core::random::Pixel;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, Route};
 use etendue_pipeline::render::{FilmKeeping, Request, Shot, light};
@@ -129,7 +129,9 @@ impl Job {
     }
 
     pub(crate) fn camera_plan(&self, name: &str) -> Result<&CameraPlan, Error> {
-        self.plan().camera(name).ok_or_else(|| Error::input(format!("the job has no camera {name}")))
+        self.plan()
+            .camera(name)
+            .ok_or_else(|| Error::coded(ErrorCode::UnknownName, format!("the job has no camera {name}")))
     }
 }
 

@@ -14,7 +14,7 @@ use crate::results::writer::write_exr;
 use crate::shard_spec::{ShardRequest, ShardSpec};
 use etendue_arguments::MAX_FRAMES;
 use etendue_core::observer::Observer;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::read_text;
 use etendue_io::{Existing, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
@@ -47,7 +47,8 @@ impl Job {
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
         if self.request().progressive || self.request().time_s.is_some() {
-            return Err(Error::input(
+            return Err(Error::coded(
+                ErrorCode::Contradiction,
                 "a shard is rendered in the passes of its job: give them by the key render.passes in the place of `progressive` or `time_s`",
             ));
         }
@@ -89,7 +90,8 @@ impl Job {
             return Err(Error::argument(
                 "films",
                 format!("`films` {unknown}: no film of these frames; there are {some}{more}"),
-            ));
+            )
+            .with_code(ErrorCode::UnknownName));
         }
         names.retain(|name| asked.films.is_empty() || asked.films.contains(name));
         Ok(names)
@@ -165,9 +167,10 @@ impl Manifest {
     /// Reads the manifest of a shard's folder.
     pub(crate) fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(MANIFEST);
-        let explain =
-            |why: String| Error::input(format!("{}: {why}; give folders made by render `shard`", path.display()));
-        let text = read_text(&path).map_err(explain)?;
+        let explain = |why: String| {
+            Error::coded(ErrorCode::OtherRun, format!("{}: {why}; give folders made by render `shard`", path.display()))
+        };
+        let text = read_text(&path).map_err(|problem| explain(problem.words))?;
         let manifest: Self = serde_json::from_str(&text)
             .map_err(|error| explain(format!("this is no shard manifest of this version ({error})")))?;
         match manifest.fault() {
@@ -199,10 +202,13 @@ impl Manifest {
         let there = Self::read(folder)?;
         match there.index == self.index && there.is_of_run(self) {
             true => Ok(true),
-            false => Err(Error::input(format!(
-                "{}: films of another run or shard are here; choose another output folder, or render the whole shard",
-                path.display()
-            ))),
+            false => Err(Error::coded(
+                ErrorCode::OtherRun,
+                format!(
+                    "{}: films of another run or shard are here; choose another output folder, or render the whole shard",
+                    path.display()
+                ),
+            )),
         }
     }
 
@@ -216,7 +222,7 @@ impl Manifest {
     fn encoded(&self) -> Result<Vec<u8>, Error> {
         sidecar::encode(self).map_err(|error| {
             let job = self.request.job.display();
-            Error::input(format!(
+            Error::coded(ErrorCode::InvalidArgument, format!(
                 "{job}: the manifest of a shard is text: {error}; expected paths in UTF-8: rename the folder or file"
             ))
         })

@@ -1,6 +1,6 @@
 //! Which part of a run a shard is.
 
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::tile::Shard;
 use std::ops::Range;
 use std::str::FromStr;
@@ -29,7 +29,12 @@ impl FromStr for ShardSpec {
 
 impl ShardSpec {
     pub(crate) fn shard(self) -> Result<Shard, Error> {
-        let told = || Error::input(format!("shard {}/{}: expected an index below the count", self.index, self.count));
+        let told = || {
+            Error::coded(
+                ErrorCode::OutOfRange,
+                format!("shard {}/{}: expected an index below the count", self.index, self.count),
+            )
+        };
         Shard::new(self.index, self.count).ok_or_else(told)
     }
 }

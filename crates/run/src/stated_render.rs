@@ -2,7 +2,7 @@
 
 use crate::job_request::JobRequest;
 use crate::memory::MemoryFiles;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_scene::record::render::Accelerator;
 use etendue_scene::{Description, stated_render_keys};
 use std::path::Path;
@@ -30,7 +30,9 @@ impl JobRequest {
         let description = Description::load(&self.job, &read, &self.overrides());
         let description = description.map_err(|faults| Error::inputs(faults.list()))?;
         let entry = description.cameras.iter().find(|entry| entry.name.value == camera);
-        let entry = entry.ok_or_else(|| Error::input(format!("{}: no camera {camera}", self.job.display())))?;
+        let entry = entry.ok_or_else(|| {
+            Error::coded(ErrorCode::UnknownName, format!("{}: no camera {camera}", self.job.display()))
+        })?;
         let accelerator = match entry.render.accelerator.as_ref().map(|key| key.value) {
             Some(Accelerator::Fast) => "fast",
             Some(Accelerator::Default) | None => "default",

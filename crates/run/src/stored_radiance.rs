@@ -5,7 +5,7 @@ use etendue_core::quantity::{Length, Radiance, Variance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_io::Provenance;
 use etendue_io::exr::{SpectralImage, read_spectral};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_optics::PupilProjection;
 use std::path::Path;
 
@@ -26,7 +26,7 @@ impl StoredRadiance {
     /// # Errors
     /// Where the file is no radiance that etendue rendered at the pupil.
     pub(crate) fn open(path: &Path) -> Result<Self, Error> {
-        let refuse = |why: &str| Error::input(format!("{}: {why}", path.display()));
+        let refuse = |why: &str| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {why}", path.display()));
         let file = read_spectral(path).map_err(Error::input)?;
         let SpectralImage::Radiance(image) = file.image else {
             return Err(refuse("this is irradiance behind a lens; expected radiance, rendered with route = \"pupil\""));

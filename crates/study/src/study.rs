@@ -13,7 +13,7 @@ use crate::trial::Trial;
 use crate::way::{Accelerator, EXACT_BOUNCES, LIGHT_SAMPLINGS, WayToRender};
 use clap::Args;
 use etendue::{
-    Error, Existing, Integrator, Job, JobRequest, LightSignal, Observer, Progress, RenderOptions, Simd, Unit,
+    Error, ErrorCode, Existing, Integrator, Job, JobRequest, LightSignal, Observer, Progress, RenderOptions, Simd, Unit,
 };
 use etendue_core::maths::f64::hypot;
 use serde::Serialize;
@@ -92,7 +92,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     if scratch.exists() {
         let problem =
             "is there already, and a study writes a frame there and removes it; move it away, or give another folder";
-        return Err(Error::input(format!("{}: {problem}", scratch.display())));
+        return Err(Error::coded(ErrorCode::OutputExists, format!("{}: {problem}", scratch.display())));
     }
     let from_s = clock.seconds();
     let job = request.job.clone().open()?;

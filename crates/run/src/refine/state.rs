@@ -6,7 +6,7 @@
 use crate::film_file::{self, FilmOrigin};
 use crate::film_names::{FILM, STATE_FOLDER, film_name, holds_state};
 use crate::results::writer::write_exr;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
@@ -53,10 +53,13 @@ pub(crate) fn check(folder: &OutputFolder, existing: Existing) -> Result<(), Err
     if existing != Existing::Refuse || !holds_state(folder.path()) {
         return Ok(());
     }
-    Err(Error::input(format!(
-        "{}: a run that was interrupted left its state here; go on with `resume`, or begin anew with `overwrite`",
-        folder.path().join(STATE_FOLDER).display()
-    )))
+    Err(Error::coded(
+        ErrorCode::OtherRun,
+        format!(
+            "{}: a run that was interrupted left its state here; go on with `resume`, or begin anew with `overwrite`",
+            folder.path().join(STATE_FOLDER).display()
+        ),
+    ))
 }
 
 /// The film that an interrupted run of the plan left in an output folder; `None` where there is none.
@@ -79,7 +82,10 @@ pub(crate) fn read(folder: &Path, plan: &Plan, camera: &CameraPlan, shot: Shot) 
         (Some(passes), Some(replicates), Some(elapsed_s)) if !passes.list().is_empty() => {
             Ok(Some(KeptFilm { film, passes, replicates, elapsed_s }))
         }
-        _ => Err(Error::input(format!("{}: its header states no passes that were done; {remedy}", path.display()))),
+        _ => Err(Error::coded(
+            ErrorCode::OtherRun,
+            format!("{}: its header states no passes that were done; {remedy}", path.display()),
+        )),
     }
 }
 

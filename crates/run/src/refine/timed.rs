@@ -12,7 +12,7 @@ use crate::display;
 use crate::render_options::RenderOptions;
 use etendue_core::maths::integer::least_common_multiple;
 use etendue_core::observer::{Message, Observer, Progress as Told, Unit};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, MAX_PASSES, PARTS, Pass, PassAt, Passes};
@@ -298,7 +298,10 @@ struct Watch<'a> {
 impl<'a> Watch<'a> {
     fn new(observer: &'a dyn Observer) -> Result<Self, Error> {
         if observer.now_s().is_none() {
-            return Err(Error::input("a time is asked for, and the caller has no clock; give samples in its place"));
+            return Err(Error::coded(
+                ErrorCode::InvalidArgument,
+                "a time is asked for, and the caller has no clock; give samples in its place",
+            ));
         }
         Ok(Self {
             observer,

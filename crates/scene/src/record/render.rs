@@ -1,6 +1,6 @@
 //! `[render]`: how the light is found. `None` everywhere means: the plan decides.
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{Rule, among, choice, either, flag, keyed, list, number, record, variant, vector, whole};
 use crate::record::samples::SampleKeys;
@@ -140,7 +140,12 @@ fn check_blend(blend: &FastBlend, faults: &mut Faults) {
     for range in [&blend.near_m, &blend.far_m].into_iter().flatten() {
         if range[0] >= range[1] {
             let problem = format!("found {} m before {} m", range[0], range[1]);
-            faults.add(&range.place, problem, "give the shorter distance first and a longer one after it");
+            faults.add(
+                ErrorCode::WrongOrder,
+                &range.place,
+                problem,
+                "give the shorter distance first and a longer one after it",
+            );
         }
     }
 }
@@ -362,7 +367,12 @@ fn check(render: &Render, faults: &mut Faults) {
         && range[0] >= range[1]
     {
         let problem = format!("found {} to {}", range[0], range[1]);
-        faults.add(&range.place, problem, "give the shorter wavelength first and a longer one after it");
+        faults.add(
+            ErrorCode::WrongOrder,
+            &range.place,
+            problem,
+            "give the shorter wavelength first and a longer one after it",
+        );
     }
 }
 
@@ -375,7 +385,7 @@ pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone
             if !cameras.clone().any(|r| traces(r) && r.states(place)) {
                 let problem = format!("\"{key}\" has no effect here, it belongs to integrator = \"path\"");
                 let cause = render.integrator.as_ref().map(|i| &i.place);
-                faults.add_idle(key, place, cause, problem, "remove it, or change the integrator");
+                faults.add_idle(ErrorCode::NoEffect, key, place, cause, problem, "remove it, or change the integrator");
             }
         }
     }
@@ -387,7 +397,14 @@ fn check_branches(render: &Render, faults: &mut Faults) {
     let mut idle = |(key, of): (&str, &Placed<u64>), (other, cause): (&str, &Placed<u64>)| {
         let problem =
             format!("\"{key}\" and \"{other}\" = {} exclude each other: paths that branch share no tails", cause.value);
-        faults.add_idle(key, &of.place, Some(&cause.place), problem, "give one of the two, or 1 for the other");
+        faults.add_idle(
+            ErrorCode::Contradiction,
+            key,
+            &of.place,
+            Some(&cause.place),
+            problem,
+            "give one of the two, or 1 for the other",
+        );
     };
     if render.reuse_counts() {
         idle(("branches", branches), ("path_reuse_px", reuse));
@@ -418,7 +435,14 @@ pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
     for (key, place, remedy) in keys {
         if let Some(place) = place {
             let problem = format!("\"{key}\" has no effect here, it belongs to route = \"pupil\"");
-            faults.add_idle(key, place, render.route.as_ref().map(|route| &route.place), problem, remedy);
+            faults.add_idle(
+                ErrorCode::NoEffect,
+                key,
+                place,
+                render.route.as_ref().map(|route| &route.place),
+                problem,
+                remedy,
+            );
         }
     }
 }
