@@ -1,5 +1,6 @@
 //! Errors between a file and its results: of inputs, each with its place, and of the run.
 
+use crate::error::code_of;
 pub use etendue_scene::{ErrorCode, ExampleContext, Problem};
 use std::fmt::{self, Display};
 use std::ops::RangeInclusive;
@@ -173,6 +174,13 @@ impl From<crate::Error> for Fault {
     }
 }
 
+/// A file that the caller reads.
+impl From<std::io::Error> for Fault {
+    fn from(error: std::io::Error) -> Self {
+        Self::new(code_of(&error), error.to_string())
+    }
+}
+
 impl From<Problem> for Fault {
     fn from(problem: Problem) -> Self {
         Self::new(problem.code, problem.words)
@@ -211,12 +219,17 @@ mod tests {
 
     #[test]
     fn of_many_errors_the_first_are_shown_and_the_number_of_all() {
-        let shown = |count: usize| Error::inputs((0..count).map(|i| format!("fault {i}"))).to_string();
-        assert_eq!(shown(1), "error: fault 0\n");
-        assert!(shown(50).ends_with("error: fault 49\n50 errors; nothing was written\n"));
+        let shown = |count: usize| {
+            Error::all_coded(ErrorCode::MalformedFile, (0..count).map(|i| format!("fault {i}"))).to_string()
+        };
+        assert_eq!(shown(1), "error[malformed-file]: fault 0\n");
+        assert!(shown(50).ends_with("error[malformed-file]: fault 49\n50 errors; nothing was written\n"));
         let many = shown(1234);
         assert_eq!(many.lines().count(), 51);
-        assert!(many.ends_with("error: fault 49\nand 1184 more; 1234 errors in all; nothing was written\n"), "{many}");
+        assert!(
+            many.ends_with("error[malformed-file]: fault 49\nand 1184 more; 1234 errors in all; nothing was written\n"),
+            "{many}"
+        );
     }
 
     #[test]
@@ -225,15 +238,19 @@ mod tests {
             panic!()
         };
         assert_eq!((faults[0].field.as_deref(), faults[0].key.as_deref()), (Some("time_s"), None));
-        assert_eq!(Error::input("job.toml: `time_s`").with_field("spp"), Error::argument("spp", "job.toml: `time_s`"));
-        assert_eq!(Fault::new("`corners`: expected four of them").field, None);
+        let plain = Error::coded(ErrorCode::InvalidArgument, "job.toml: `time_s`");
+        assert_eq!(plain.with_field("spp"), Error::argument("spp", "job.toml: `time_s`"));
+        assert_eq!(Fault::new(ErrorCode::WrongCount, "`corners`: expected four of them").field, None);
     }
 
     #[test]
     fn numbers_out_of_their_range_are_refused_by_their_field() {
         assert_eq!(check_whole("rings", 4, 4..=1000), Ok(()));
         let message = check_whole("rings", 3, 4..=1000).map_err(|error| error.to_string());
-        assert_eq!(message, Err("error: `rings`: expected a whole number from 4 to 1000, not 3\n".to_owned()));
+        assert_eq!(
+            message,
+            Err("error[out-of-range]: `rings`: expected a whole number from 4 to 1000, not 3\n".to_owned())
+        );
         assert!(check_number("wavelength_nm", f64::NAN, 300.0..=1100.0, "nm").is_err());
         assert!(check_number("photons", f64::INFINITY, 0.0..=f64::MAX, "photons").is_err());
     }

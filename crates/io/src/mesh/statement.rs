@@ -119,8 +119,8 @@ mod tests {
     #[test]
     fn numbers_are_finite() {
         assert_eq!(number("-1.5e-3"), Ok(-1.5e-3));
-        assert_eq!(number("nan"), Err("`nan` is not finite; expected a finite number".to_owned()));
-        assert_eq!(number("1e999"), Err("`1e999` is not finite; expected a finite number".to_owned()));
-        assert_eq!(number("1,5"), Err("`1,5` is not a number".to_owned()));
+        assert_eq!(number("nan"), Err("`nan` is not finite; expected a finite number".into()));
+        assert_eq!(number("1e999"), Err("`1e999` is not finite; expected a finite number".into()));
+        assert_eq!(number("1,5"), Err("`1,5` is not a number".into()));
     }
 }

@@ -106,7 +106,7 @@ impl fmt::Display for ErrorCode {
 
 /// A word that is no code.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no error code \"{word}\"{}", .nearest.map_or_else(String::new, |code| format!("; did you mean \"{code}\"?")))]
+#[error("there is no error code \"{word}\"{}", .nearest.map_or_else(|| "; explain without a code lists all".to_owned(), |code| format!("; did you mean \"{code}\"?")))]
 pub struct UnknownCode {
     word: String,
     nearest: Option<ErrorCode>,
