@@ -4,7 +4,7 @@ use etendue_io::{Sandbox, TextureMemory, complete_assets};
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::asset::Assets;
-use etendue_scene::{Description, Overrides};
+use etendue_scene::{Description, Overrides, Problem, ReadText};
 use std::path::{Path, PathBuf};
 
 /// A scene, and how it is measured.
@@ -104,20 +104,15 @@ pub fn plan_of_text(job: &str) -> Plan {
     compiled(Path::new("job.toml"), &|_| Ok(job.to_owned()), &Overrides::default())
 }
 
-fn read(path: &Path) -> Result<String, String> {
-    std::fs::read_to_string(path).map_err(|error| error.to_string())
+fn read(path: &Path) -> Result<String, Problem> {
+    std::fs::read_to_string(path).map_err(|error| error.to_string().into())
 }
 
-fn compiled(job: &Path, read: &dyn Fn(&Path) -> Result<String, String>, overrides: &Overrides) -> Plan {
+fn compiled(job: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Plan {
     compiled_within(job, read, overrides, &TextureMemory::default())
 }
 
-fn compiled_within(
-    job: &Path,
-    read: &dyn Fn(&Path) -> Result<String, String>,
-    overrides: &Overrides,
-    memory: &TextureMemory,
-) -> Plan {
+fn compiled_within(job: &Path, read: &ReadText<'_>, overrides: &Overrides, memory: &TextureMemory) -> Plan {
     let description = Description::load(job, read, overrides).unwrap_or_else(|faults| panic!("{faults}"));
     let assets = complete_assets(Assets::default(), &description.assets(), memory, &Sandbox::NONE)
         .unwrap_or_else(|faults| panic!("{faults:?}"));

@@ -52,8 +52,9 @@ impl Comparison {
         entry: &str,
         factor: f64,
     ) -> Result<Reached, etendue::Error> {
-        let row =
-            self.curves().next().ok_or_else(|| etendue::Error::input(format!("{quantity}: no curve was compared")))?;
+        let row = self.curves().next().ok_or_else(|| {
+            etendue::Error::coded(etendue::ErrorCode::NotMeasurable, format!("{quantity}: no curve was compared"))
+        })?;
         let error = row[entry].as_f64().map(|e| factor * e);
         Ok(Reached { quantity: quantity.to_owned(), bound, error, e_n: row["e_n"].as_f64() })
     }

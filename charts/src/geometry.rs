@@ -10,7 +10,7 @@ use etendue::chart::{Chart, ChartRequest};
 use etendue::measure::{
     CameraModel, ChartInput, CompareRequest, DistortionRequest, FocalRequest, StatedLength, Target, ViewsRequest,
 };
-use etendue::{Error, Existing, measure, write_file};
+use etendue::{Error, ErrorCode, Existing, measure, write_file};
 use std::path::{Path, PathBuf};
 
 /// The chart's place is known to so much, mm: as well as a laboratory knows it.
@@ -82,7 +82,8 @@ fn simulated(bench: &Bench, found: &Path) -> Result<Section, Error> {
     let file = bench.folder.join("twin.toml");
     // The principal distance is measured, at the focus that is declared: the focal length is in proportion to it.
     let ratio = declared.reached(bounds::FOCAL_LENGTH, |key| key == "fx_mm").first().and_then(|r| r.error);
-    let ratio = 1.0 + 0.01 * ratio.ok_or_else(|| Error::input("the focal length is not declared"))?;
+    let ratio =
+        1.0 + 0.01 * ratio.ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, "the focal length is not declared"))?;
     let text = camera_of(bench, &first, found, ratio)?;
     write_file(&file, text.as_bytes(), Existing::Replace)?;
     let request = ChartRequest::new(dots(bench), file.display().to_string());

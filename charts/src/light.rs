@@ -10,7 +10,7 @@ use etendue::chart::{Chart, ChartRequest, Exposures, Series, Spacing};
 use etendue::measure::{
     CompareRequest, FlatFieldRequest, OecfRequest, PictureInput, Selection, SignalLevels, VignettingRequest,
 };
-use etendue::{Error, Existing, ExposeRequest, JobRequest, RenderOptions, expose, measure};
+use etendue::{Error, ErrorCode, Existing, ExposeRequest, JobRequest, RenderOptions, expose, measure};
 use std::path::{Path, PathBuf};
 
 const EXPOSURES: usize = 15;
@@ -55,7 +55,7 @@ fn black_dn(bench: &Bench, field: &Path) -> Result<f64, Error> {
 fn tone(bench: &Bench) -> Result<Section, Error> {
     let [lowest, highest] = RANGE;
     let exposures = Exposures::spaced(EXPOSURES as u32, Spacing::Log, lowest, highest)
-        .map_err(|error| Error::input(error.to_string()))?;
+        .map_err(|error| Error::coded(ErrorCode::NotMeasurable, error.to_string()))?;
     let series = Some(Series { exposures, required: true });
     let chart = ChartRequest { series, ..bench.request(Chart::Backlit(Backlit), "tone") };
     let panel = bench.drawn("backlit", &chart)?;
@@ -83,7 +83,10 @@ fn exposed(panel: &Path, cameras: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
         let to = panel.join(format!("shot-{seed}"));
         let request = ExposeRequest { seed: Some(seed), ..ExposeRequest::new(&light, camera) };
         let files = expose(&request, &to, Existing::Refuse, &Warnings)?;
-        let folder = files.first().and_then(|file| file.parent()).ok_or_else(|| Error::input("no results"))?;
+        let folder = files
+            .first()
+            .and_then(|file| file.parent())
+            .ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, "no results"))?;
         shots.push(folder.to_owned());
     }
     Ok(shots)
@@ -103,7 +106,10 @@ fn curve(bench: &Bench, of: &str, channel: Option<String>, request: OecfRequest)
     keep(&measured, &report)?;
     let (plot, shown) = bench.plot(&format!("tone-{of}"));
     let found = compared(&CompareRequest::new(report, bench.file("tone")), Some(&plot))?;
-    let full_scale = measured.value("full_scale").ok_or_else(|| Error::input("the full scale is not told"))?.value;
+    let full_scale = measured
+        .value("full_scale")
+        .ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, "the full scale is not told"))?
+        .value;
     let of = format!("tone curve, {of}");
     let reached = found.curve(&of, bounds::TONE, "largest_difference", 100.0 / full_scale)?;
     Ok((reached, found.told(&format!("Reading over exposure ({of})")) + &shown))

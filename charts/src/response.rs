@@ -5,10 +5,10 @@ use crate::cameras::Bench;
 use crate::comparison::{Comparison, Reached};
 use crate::page::Section;
 use crate::run::{compared, keep};
-use etendue::Error;
 use etendue::chart::Chart;
 use etendue::chart::design::{GridSize, SlantedEdges};
 use etendue::measure::{CompareRequest, PictureInput, Selection, SfrRequest, TruthInput, sfr};
+use etendue::{Error, ErrorCode};
 use serde_json::Value;
 
 pub(crate) fn sections(bench: &Bench) -> Result<Vec<Section>, Error> {
@@ -48,6 +48,6 @@ fn mean_of_edges(found: &Comparison) -> Result<Reached, Error> {
         Some((row["at"].as_f64()?, difference["value"].as_f64()?, difference["standard_uncertainty"].as_f64()?))
     };
     let worst = points.filter_map(pair).filter(|(at, ..)| *at <= 0.5).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    let (_, error, u) = worst.ok_or_else(|| Error::input("no response was compared"))?;
+    let (_, error, u) = worst.ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, "no response was compared"))?;
     Ok(Reached { quantity: String::new(), bound: bounds::RESPONSE, error: Some(error), e_n: Some(0.5 * error / u) })
 }

@@ -3,7 +3,7 @@
 use crate::comparison::Comparison;
 use etendue::measure::{CompareRequest, compare};
 use etendue::report::Report;
-use etendue::{Error, Existing, Message, Observer, write_file};
+use etendue::{Error, ErrorCode, Existing, Message, Observer, write_file};
 use serde_json::Value;
 use std::path::Path;
 
@@ -35,11 +35,13 @@ pub(crate) fn compared(request: &CompareRequest, plot: Option<&Path>) -> Result<
 
 /// A JSON file.
 pub(crate) fn json(file: &Path) -> Result<Value, Error> {
-    let text = std::fs::read_to_string(file).map_err(|cause| Error::input(format!("{}: {cause}", file.display())))?;
-    serde_json::from_str(&text).map_err(|cause| Error::input(format!("{}: {cause}", file.display())))
+    let text = std::fs::read_to_string(file)
+        .map_err(|cause| Error::coded(ErrorCode::MalformedFile, format!("{}: {cause}", file.display())))?;
+    serde_json::from_str(&text)
+        .map_err(|cause| Error::coded(ErrorCode::MalformedFile, format!("{}: {cause}", file.display())))
 }
 
 /// A number of a JSON file.
 pub(crate) fn number(value: &Value, what: &str) -> Result<f64, Error> {
-    value.as_f64().ok_or_else(|| Error::input(format!("{what} is not stated")))
+    value.as_f64().ok_or_else(|| Error::coded(ErrorCode::MalformedFile, format!("{what} is not stated")))
 }

@@ -19,9 +19,10 @@ mod subcommands;
 mod verbs;
 
 pub use catalogue::{Argument, Kind, Subcommand, catalogue};
+use clap::error::ErrorKind;
 use clap::{CommandFactory as _, FromArgMatches as _, Parser};
 pub use console::Console;
-use etendue::Error;
+use etendue::{Error, ErrorCode};
 use etendue_scene::limits;
 pub use machine::{pool, simd};
 pub use memory::stated_or_free as memory_limits;
@@ -89,10 +90,21 @@ fn parsed(
     Ok((arguments, spelling(&command, &matches)))
 }
 
+/// The code of what is wrong with the arguments.
+fn code_of(told: &clap::Error) -> ErrorCode {
+    match told.kind() {
+        ErrorKind::UnknownArgument | ErrorKind::InvalidSubcommand => ErrorCode::UnknownArgument,
+        ErrorKind::MissingRequiredArgument | ErrorKind::MissingSubcommand => ErrorCode::MissingArgument,
+        ErrorKind::ArgumentConflict => ErrorCode::Contradiction,
+        _ => ErrorCode::InvalidArgument,
+    }
+}
+
 /// Prints help, or what is wrong with the arguments, which are shown as all other text is.
 fn usage(told: &clap::Error) -> u8 {
     if told.use_stderr() {
-        output::print_message(&told.to_string());
+        let code = code_of(told);
+        output::print_message(&told.to_string().replacen("error: ", &format!("error[{code}]: "), 1));
         return u8::try_from(told.exit_code()).unwrap_or(2);
     }
     match told.print() {
@@ -108,7 +120,7 @@ fn usage(told: &clap::Error) -> u8 {
 #[must_use]
 pub fn refuse_closed_stdout() -> u8 {
     output::print_message(
-        "error: the standard output is closed, where results are printed; leave it open, or redirect it to a file or to /dev/null\n",
+        "error[unwritable-output]: the standard output is closed, where results are printed; leave it open, or redirect it to a file or to /dev/null\n",
     );
     2
 }
@@ -130,9 +142,9 @@ pub fn call(arguments: &[OsString], console: &dyn Console) -> Result<(), Error> 
     let program = OsString::from("etendue");
     let arguments = std::iter::once(&program).chain(arguments).cloned();
     let (arguments, spelling) = parsed(arguments, Spelling::parameters).map_err(|told| {
-        let told = told.to_string();
-        let words = told.split("\n\nUsage:").next().unwrap_or_default().trim_start_matches("error: ").trim_end();
-        Error::input(words.lines().map(str::trim).collect::<Vec<_>>().join(" "))
+        let text = told.to_string();
+        let words = text.split("\n\nUsage:").next().unwrap_or_default().trim_start_matches("error: ").trim_end();
+        Error::coded(code_of(&told), words.lines().map(str::trim).collect::<Vec<_>>().join(" "))
     })?;
     arguments.run(&SpelledConsole { console, spelling: &spelling }).map_err(|error| spelling.error(error))
 }

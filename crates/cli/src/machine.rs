@@ -1,7 +1,7 @@
 //! The machine's threads and instruction sets. They change how long a result takes, not the result.
 
 use crate::console::{Console, print_paths};
-use etendue::{Error, Simd};
+use etendue::{Error, ErrorCode, Simd};
 use std::path::PathBuf;
 
 /// The variable that chooses the accelerator's instruction set: `auto` (default) or `scalar`.
@@ -27,7 +27,9 @@ pub fn simd() -> Result<Simd, Error> {
     match std::env::var(SIMD_VARIABLE).as_deref() {
         Err(_) | Ok("" | "auto") => Ok(Simd::Auto),
         Ok("scalar") => Ok(Simd::Scalar),
-        Ok(other) => Err(Error::input(format!("{SIMD_VARIABLE}={other}: expected auto or scalar"))),
+        Ok(other) => {
+            Err(Error::coded(ErrorCode::InvalidArgument, format!("{SIMD_VARIABLE}={other}: expected auto or scalar")))
+        }
     }
 }
 

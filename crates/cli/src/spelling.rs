@@ -81,6 +81,8 @@ impl Spelling {
         };
         let fault = |fault: Fault| Fault {
             message: self.text(&fault.message).into_owned(),
+            problem: self.text(&fault.problem).into_owned(),
+            remedy: fault.remedy.map(|remedy| self.text(&remedy).into_owned()),
             field: fault.field.map(field),
             ..fault
         };

@@ -8,7 +8,7 @@ use crate::format::Writer;
 use crate::record::SampleRecord;
 use crate::records::{Records, record_name};
 use crate::set::Set;
-use etendue::{Error, Message, Observer};
+use etendue::{Error, ErrorCode, Message, Observer};
 use std::ops::Range;
 use std::path::Path;
 
@@ -26,10 +26,10 @@ impl DoneSamples<'_> {
         for sample in self.records.numbers().iter().filter(|sample| !samples.contains(sample)) {
             if let Err(why) = self.record(*sample) {
                 let path = self.root.join(record_name(*sample));
-                return Err(Error::input(format!(
-                    "{}: {why}; make sample {sample} anew, resuming in this folder",
-                    path.display()
-                )));
+                return Err(Error::coded(
+                    ErrorCode::OtherRun,
+                    format!("{}: {why}; make sample {sample} anew, resuming in this folder", path.display()),
+                ));
             }
         }
         Ok(())

@@ -4,7 +4,7 @@ use crate::draw::Split;
 use crate::mask;
 use crate::record::{PictureRecord, Pose, objects};
 use core::cell::OnceCell;
-use etendue::{CameraResults, Error, GroundTruth, WorldObject, camera_mount, pinhole_view};
+use etendue::{CameraResults, Error, ErrorCode, GroundTruth, WorldObject, camera_mount, pinhole_view};
 use etendue_core::quantity::Display;
 use etendue_core::{CameraPose, Plane};
 use glam::DQuat;
@@ -70,7 +70,10 @@ pub(crate) fn each(
         if (display.width(), display.height()) != (width_px, height_px) {
             let problem =
                 "its pictures are a region, or of binned or skipped pixels, and its ground truth is of all pixels";
-            return Err(Error::input(format!("camera {camera}: {problem}; take these keys out")));
+            return Err(Error::coded(
+                ErrorCode::UnsupportedOutput,
+                format!("camera {camera}: {problem}; take these keys out"),
+            ));
         }
         if !taken.raw.invalid.is_empty() {
             let count = taken.raw.invalid.len();
@@ -106,7 +109,10 @@ pub(crate) fn each(
 
 /// Of a camera without processing.
 pub(crate) fn no_picture(camera: &str) -> Error {
-    Error::input(format!("camera {camera}: it makes no picture; give it a sensor with electronics and [isp]"))
+    Error::coded(
+        ErrorCode::UnavailableOutput,
+        format!("camera {camera}: it makes no picture; give it a sensor with electronics and [isp]"),
+    )
 }
 
 fn pose_record(pose: &CameraPose) -> Pose {

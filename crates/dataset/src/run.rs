@@ -10,7 +10,9 @@ use crate::record::SampleRecord;
 use crate::records::{Records, record_name};
 use crate::request::DatasetRequest;
 use crate::set::Set;
-use etendue::{Error, Existing, Job, JobRequest, Message, Observer, OutputFolder, RenderOptions, open_variations};
+use etendue::{
+    Error, ErrorCode, Existing, Job, JobRequest, Message, Observer, OutputFolder, RenderOptions, open_variations,
+};
 use etendue_io::{hash, read_regular, sidecar};
 use etendue_scene::limits::DESCRIPTION;
 use serde_json::Value;
@@ -103,8 +105,8 @@ fn kept(root: &Path, made: usize) -> String {
 
 fn text_hash(request: &DatasetRequest) -> Result<Option<String>, Error> {
     let Some(file) = &request.variations else { return Ok(None) };
-    let bytes =
-        read_regular(file, &DESCRIPTION).map_err(|cause| Error::input(format!("{}: {cause}", file.display())))?;
+    let bytes = read_regular(file, &DESCRIPTION)
+        .map_err(|cause| Error::coded(ErrorCode::UnreadableFile, format!("{}: {cause}", file.display())))?;
     Ok(Some(hash::hex(&hash::of_bytes(&bytes))))
 }
 
@@ -114,7 +116,7 @@ fn check_folder(set: &Set, root: &Path, existing: Existing) -> Result<(), Error>
     if !path.exists() {
         return Ok(());
     }
-    let refuse = |problem: &str| Err(Error::input(format!("{}: {problem}", path.display())));
+    let refuse = |problem: &str| Err(Error::coded(ErrorCode::OtherRun, format!("{}: {problem}", path.display())));
     if existing == Existing::Refuse {
         return refuse("a data set is here already; go on with it by `resume`, or give another folder");
     }

@@ -2,7 +2,7 @@
 
 use crate::picture::no_picture;
 use crate::request::DatasetRequest;
-use etendue::{Error, Job, pinhole_view};
+use etendue::{Error, ErrorCode, Job, pinhole_view};
 use etendue_scene::Placed;
 use etendue_scene::record::variations::{SetFormat, Variations};
 use serde_json::{Value, json};
@@ -104,7 +104,10 @@ impl Set {
             return Ok(());
         }
         let problem = "its scene has other [classes] than that of the job as it stands";
-        Err(Error::input(format!("sample {sample}: {problem}; give all scenes that are varied the same classes")))
+        Err(Error::coded(
+            ErrorCode::Contradiction,
+            format!("sample {sample}: {problem}; give all scenes that are varied the same classes"),
+        ))
     }
 }
 
@@ -142,13 +145,16 @@ fn check_class_names(variations: &Variations, classes: &[(String, u32)]) -> Resu
     let known = || classes.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
     if let Some((_, kind)) = variations.kitti_types.iter().find(|(_, kind)| kind.value.contains(char::is_whitespace)) {
         let problem = "a type of KITTI is one word, the first column of its labels; leave out blanks";
-        return Err(Error::input(format!("{}: \"{}\": {problem}", kind.place, kind.value.escape_debug())));
+        return Err(Error::coded(
+            ErrorCode::UnsupportedOutput,
+            format!("{}: \"{}\": {problem}", kind.place, kind.value.escape_debug()),
+        ));
     }
     let told = |name: &Placed<String>| {
         format!("{}: the scene has no class \"{}\"; give one of its [classes]: {}", name.place, name.value, known())
     };
     let faults: Vec<String> = unknown.map(told).collect();
-    if faults.is_empty() { Ok(()) } else { Err(Error::inputs(faults)) }
+    if faults.is_empty() { Ok(()) } else { Err(Error::all_coded(ErrorCode::UnknownName, faults)) }
 }
 
 /// Longest name of a camera in an archive, whose names have 100 characters.
@@ -160,7 +166,8 @@ fn check_cameras(job: &Job, formats: &[SetFormat]) -> Result<(), Error> {
     let names: Vec<&str> = job.plan().cameras.iter().map(|camera| camera.name.as_str()).collect();
     for camera in &job.plan().cameras {
         let refuse = |format: SetFormat, why: &str| {
-            Err(Error::argument("formats", format!("`formats` {}: camera {}: {why}", name(format), camera.name)))
+            Err(Error::argument("formats", format!("`formats` {}: camera {}: {why}", name(format), camera.name))
+                .with_code(ErrorCode::UnsupportedOutput))
         };
         let Some(development) = &camera.body.development else { return Err(no_picture(&camera.name)) };
         if let Some(format) = formats.iter().find(|format| needs_png.contains(format))

@@ -40,7 +40,7 @@
 pub use etendue_core::observer::{FramePlace, ImageTile, Message, Observer, Progress, Unit, Unobserved};
 pub use etendue_import::{ImportRequest, import};
 pub use etendue_io::escape::{escaped, terminal_json, terminal_text};
-pub use etendue_io::failure::{Error, Fault};
+pub use etendue_io::failure::{Error, ErrorCode, ExampleContext, Fault};
 pub use etendue_io::inspect::{Shown, inspect, inspect_showing};
 pub use etendue_io::paths::relative_path;
 pub use etendue_io::{CacheUse, Existing, FileDigest, OutputFolder, TextureMemory, is_decoding};

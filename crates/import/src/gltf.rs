@@ -5,7 +5,7 @@ use super::moving::{Moving, add_moving, part_of, to_world};
 use super::naming::{Names, path_between};
 use super::without::{even_sky, whole_view};
 use super::written::{ImportedCamera, View, Written, pose_of, size_of, written};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::mesh::{
     GltfCamera, GltfLight, GltfLightKind, GltfMotion, GltfProjection, GltfStage, read_gltf_motion, read_gltf_stage,
     read_mesh,
@@ -32,7 +32,7 @@ pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
         names.take("still", "still");
     }
     let moving = add_moving(&mut scene, &motion, file, folder, &mut names, &mut files, &mut report)
-        .map_err(|told| Error::input(format!("{}: {told}", file.display())))?;
+        .map_err(|told| Error::coded(ErrorCode::MalformedFile, format!("{}: {told}", file.display())))?;
     match (mesh.is_some(), still, motion.movers.is_empty()) {
         (false, ..) => report.push("it has no meshes".to_owned()),
         (true, false, _) => report.push("all its meshes move".to_owned()),

@@ -18,7 +18,7 @@ mod written;
 
 use clap::Args;
 use etendue_core::observer::{Message, Observer};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::{Existing, OutputFolder};
 use std::path::{Path, PathBuf};
 use written::Written;
@@ -57,7 +57,8 @@ pub fn import(
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     // The folder may be made by this: paths between files need it.
-    let from = std::path::absolute(folder).map_err(|cause| Error::input(format!("{}: {cause}", folder.display())))?;
+    let from = std::path::absolute(folder)
+        .map_err(|cause| Error::coded(ErrorCode::UnreadableFile, format!("{}: {cause}", folder.display())))?;
     let Written { files, report } = read(request, &from)?;
     let mut folder = OutputFolder::open_beside(folder, existing).map_err(Error::input)?;
     folder.claim(files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
@@ -82,25 +83,34 @@ fn read(request: &ImportRequest, folder: &Path) -> Result<Written, Error> {
         Some("usd" | "usda" | "usdc" | "usdz") => return Err(without_usd(file)),
         _ => {
             let shown = file.display();
-            return Err(Error::input(format!("{shown}: not a scene that is imported; expected a file of {KINDS}")));
+            return Err(Error::coded(
+                ErrorCode::UnsupportedFile,
+                format!("{shown}: not a scene that is imported; expected a file of {KINDS}"),
+            ));
         }
     };
     match parameters.first() {
         None => reader(file, folder),
-        Some((name, _)) => Err(Error::input(format!(
-            "{}: a value is given to the parameter \"{name}\", and only scenes of Mitsuba (.xml) have parameters: leave it out",
-            file.display()
-        ))),
+        Some((name, _)) => Err(Error::coded(
+            ErrorCode::NoEffect,
+            format!(
+                "{}: a value is given to the parameter \"{name}\", and only scenes of Mitsuba (.xml) have parameters: leave it out",
+                file.display()
+            ),
+        )),
     }
 }
 
 /// What is said of a scene whose reader is not built in.
 #[cfg(any(test, not(feature = "usd")))]
 fn without_usd(file: &Path) -> Error {
-    Error::input(format!(
-        "{}: this program was built without the reader of Universal Scene Description; build it with it (cargo build --release --features usd), or convert the scene to glTF",
-        file.display()
-    ))
+    Error::coded(
+        ErrorCode::UnsupportedFile,
+        format!(
+            "{}: this program was built without the reader of Universal Scene Description; build it with it (cargo build --release --features usd), or convert the scene to glTF",
+            file.display()
+        ),
+    )
 }
 
 #[cfg(test)]

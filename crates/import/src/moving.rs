@@ -49,7 +49,7 @@ pub(super) fn add_moving(
     report: &mut Vec<String>,
 ) -> Result<Moving, String> {
     let shown = motion.movers.iter().filter(|mover| mover.has_mesh).count();
-    motion.parts.check_size(if motion.movers.is_empty() { 0 } else { shown + 1 })?;
+    motion.parts.check_size(if motion.movers.is_empty() { 0 } else { shown + 1 }).map_err(|problem| problem.words)?;
     let mut moving = Moving { frames: Vec::new() };
     for (number, mover) in motion.movers.iter().enumerate() {
         let name = names.take(&mover.name, "mover");

@@ -51,14 +51,18 @@ pub fn complete_assets(
             break;
         }
         // Of what is outside, nothing is looked at.
-        let (requests, outside): (Vec<_>, Vec<_>) = requests.into_iter().partition(|r| sandbox.check(&r.path).is_ok());
-        for request in outside {
-            let told = sandbox.check(&request.path).err().unwrap_or_default();
-            errors.push(Error::new(&request.path, told).named_by(&request.place));
-            tried.push(request);
+        let mut inside = Vec::new();
+        for request in requests {
+            match sandbox.check(&request.path) {
+                Ok(()) => inside.push(request),
+                Err(problem) => {
+                    errors.push(Error::new(&request.path, problem).named_by(&request.place));
+                    tried.push(request);
+                }
+            }
         }
         // Which textures are large is known once all are: meshes name more of them.
-        let (textures, others): (Vec<_>, Vec<_>) = requests.into_iter().partition(|r| r.kind == AssetKind::Texture);
+        let (textures, others): (Vec<_>, Vec<_>) = inside.into_iter().partition(|r| r.kind == AssetKind::Texture);
         let now = if others.is_empty() { textures } else { others };
         let large = large_pictures(&mut assets, &now, memory);
         for (request, large) in now.into_iter().zip(large) {

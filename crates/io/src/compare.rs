@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use crate::Error;
 use crate::exr::{ExrFile, Samples, read_exr};
 use crate::picture::read_picture;
+use crate::{Error, ErrorCode};
 use etendue_scene::asset::ImagePixels;
 
 /// The channels of two files of one size.
@@ -77,7 +77,11 @@ pub fn read_pair(a: &Path, b: &Path) -> Result<Pair, Error> {
     match (is_exr(a), is_exr(b)) {
         (true, true) => of_exr(b, &read_exr(a)?, &read_exr(b)?),
         (false, false) => of_pictures(a, b),
-        _ => Err(Error::new(b, format!("cannot be compared with {}: give two EXR files or two pictures", a.display()))),
+        _ => Err(Error::coded(
+            ErrorCode::NotComparable,
+            b,
+            format!("cannot be compared with {}: give two EXR files or two pictures", a.display()),
+        )),
     }
 }
 
@@ -100,7 +104,7 @@ fn check_stated(path: &Path, a: &ExrFile, b: &ExrFile) -> Result<(), Error> {
             let what = format!(
                 "states the {fact} \"{of_b}\", the other \"{of_a}\", whose channels cannot be compared; compare results of one kind"
             );
-            return Err(Error::new(path, what));
+            return Err(Error::coded(ErrorCode::NotComparable, path, what));
         }
     }
     Ok(())
@@ -128,7 +132,7 @@ fn check_channels(path: &Path, of_a: &[&str], of_b: &[&str]) -> Result<(), Error
             )
         }
     };
-    Err(Error::new(path, what))
+    Err(Error::coded(ErrorCode::NotComparable, path, what))
 }
 
 /// The names that are not among the others.
@@ -170,7 +174,13 @@ fn channel(path: &Path, a: &ExrFile, b: &ExrFile, name: &str) -> Result<Channel,
             let variance = both(&format!("{VARIANCE}{name}")).map(|(a, b)| (a.to_floats(), b.to_floats()));
             Content::Number { a: x.to_floats(), b: y.to_floats(), variance }
         }
-        _ => return Err(Error::new(path, format!("channel {name} is of another type than in the other file"))),
+        _ => {
+            return Err(Error::coded(
+                ErrorCode::NotComparable,
+                path,
+                format!("channel {name} is of another type than in the other file"),
+            ));
+        }
     };
     Ok(Channel { name: name.to_owned(), content })
 }
@@ -180,7 +190,7 @@ fn check_size(path: &Path, a: [usize; 2], b: [usize; 2]) -> Result<(), Error> {
         return Ok(());
     }
     let what = format!("is {} × {} pixels, the other {} × {}; compare pictures of one size", b[0], b[1], a[0], a[1]);
-    Err(Error::new(path, what))
+    Err(Error::coded(ErrorCode::NotComparable, path, what))
 }
 
 fn of_pictures(a: &Path, b: &Path) -> Result<Pair, Error> {
@@ -189,7 +199,7 @@ fn of_pictures(a: &Path, b: &Path) -> Result<Pair, Error> {
     check_size(b, [width, height], [y.width as usize, y.height as usize])?;
     if kind(&x.pixels) != kind(&y.pixels) {
         let what = format!("holds {}, the other {}; compare pictures of one kind", kind(&y.pixels), kind(&x.pixels));
-        return Err(Error::new(b, what));
+        return Err(Error::coded(ErrorCode::NotComparable, b, what));
     }
     let (of_a, of_b) = (channels_of(&x.pixels), channels_of(&y.pixels));
     let names = if of_a.len() == 1 { &["grey"][..] } else { &["R", "G", "B", "A"] };

@@ -1,12 +1,14 @@
 //! What can be wrong with a file.
 
-use etendue_scene::Place;
+use etendue_scene::{ErrorCode, Place, Problem};
 use std::fmt;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// One fault of one file: where, what is wrong, what was expected and what to do, in one sentence.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct Error {
+    code: ErrorCode,
     file: PathBuf,
     line: Option<usize>,
     what: String,
@@ -18,22 +20,41 @@ pub struct Error {
 }
 
 impl Error {
-    /// A fault of the whole file.
+    /// A fault of the whole file; words alone are about its content ([`ErrorCode::MalformedFile`]).
     #[must_use]
-    pub fn new(file: &Path, what: impl Into<String>) -> Self {
-        Self { file: file.to_path_buf(), line: None, what: what.into(), named_at: None, place: None, is_path: false }
+    pub fn new(file: &Path, what: impl Into<Problem>) -> Self {
+        let Problem { code, words } = what.into();
+        Self { code, file: file.to_path_buf(), line: None, what: words, named_at: None, place: None, is_path: false }
+    }
+
+    /// A fault of the whole file, with its code.
+    #[must_use]
+    pub fn coded(code: ErrorCode, file: &Path, what: impl Into<String>) -> Self {
+        Self::new(file, Problem::new(code, what))
     }
 
     /// A fault in line `line`, counted from 1.
     #[must_use]
-    pub fn at(file: &Path, line: usize, what: impl Into<String>) -> Self {
+    pub fn at(file: &Path, line: usize, what: impl Into<Problem>) -> Self {
         Self { line: Some(line), ..Self::new(file, what) }
     }
 
     /// Returns an error of a path that cannot be used.
     #[must_use]
     pub fn missing(file: &Path, what: impl Into<String>) -> Self {
-        Self { is_path: true, ..Self::new(file, what) }
+        Self { is_path: true, ..Self::coded(ErrorCode::MissingFile, file, what) }
+    }
+
+    /// The same fault with another code.
+    #[must_use]
+    pub fn with_code(self, code: ErrorCode) -> Self {
+        Self { code, ..self }
+    }
+
+    /// The kind of the fault.
+    #[must_use]
+    pub fn code(&self) -> ErrorCode {
+        self.code
     }
 
     /// The same fault with the place of the reference that led to the file.
@@ -94,5 +115,14 @@ impl fmt::Display for Error {
             Some(place) => write!(f, " (named at {place})"),
             None => Ok(()),
         }
+    }
+}
+
+/// The code of an error of the system about a file that is read.
+pub(crate) fn code_of(cause: &std::io::Error) -> ErrorCode {
+    match cause.kind() {
+        ErrorKind::NotFound => ErrorCode::MissingFile,
+        ErrorKind::FileTooLarge => ErrorCode::TooLarge,
+        _ => ErrorCode::UnreadableFile,
     }
 }

@@ -1,5 +1,7 @@
 //! Errors between a file and its results: of inputs, each with its place, and of the run.
 
+use crate::error::code_of;
+pub use etendue_scene::{ErrorCode, ExampleContext, Problem};
 use std::fmt::{self, Display};
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -25,6 +27,15 @@ impl Error {
         Self::Input(vec![Fault::argument(field, message)])
     }
 
+    /// Another code for all faults.
+    #[must_use]
+    pub fn with_code(self, code: ErrorCode) -> Self {
+        match self {
+            Self::Input(faults) => Self::Input(faults.into_iter().map(|fault| Fault { code, ..fault }).collect()),
+            run => run,
+        }
+    }
+
     /// The same faults as those of an argument.
     #[must_use]
     pub fn with_field(self, field: &str) -> Self {
@@ -33,6 +44,16 @@ impl Error {
             Self::Input(faults) => Self::Input(faults.into_iter().map(of_field).collect()),
             run => run,
         }
+    }
+
+    /// One unusable input: its kind, and a message that says where it is.
+    pub fn coded(code: ErrorCode, message: impl Into<String>) -> Self {
+        Self::Input(vec![Fault::new(code, message)])
+    }
+
+    /// Several unusable inputs of one kind.
+    pub fn all_coded<M: Into<String>>(code: ErrorCode, messages: impl IntoIterator<Item = M>) -> Self {
+        Self::Input(messages.into_iter().map(|message| Fault::new(code, message)).collect())
     }
 
     /// Several unusable inputs.
@@ -55,7 +76,7 @@ impl Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Input(errors) => {
-                errors.iter().take(MAX_SHOWN).try_for_each(|error| writeln!(f, "error: {error}"))?;
+                errors.iter().take(MAX_SHOWN).try_for_each(|error| writeln!(f, "error[{}]: {error}", error.code))?;
                 match errors.len() {
                     0 | 1 => Ok(()),
                     n if n > MAX_SHOWN => {
@@ -72,8 +93,14 @@ impl Display for Error {
 /// One fault of an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
+    /// Its kind, which `explain` explains.
+    pub code: ErrorCode,
     /// Where it is, what is wrong, what was expected and what to do, in one sentence.
     pub message: String,
+    /// What is wrong, without the place; the message where they are not apart.
+    pub problem: String,
+    /// What to do; `None` where the message says it in its own words, or the code alone.
+    pub remedy: Option<String>,
     /// The file at fault; `None` where it is an argument's, or not known.
     pub file: Option<PathBuf>,
     /// The line of the file, from 1; `None` where it is of the whole file or of an override, or is not known.
@@ -89,14 +116,16 @@ pub struct Fault {
 impl Fault {
     /// A fault that only its message places.
     #[must_use]
-    pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), file: None, line: None, column: None, key: None, field: None }
+    pub fn new(code: ErrorCode, message: impl Into<String>) -> Self {
+        let message = message.into();
+        let problem = message.clone();
+        Self { code, message, problem, remedy: None, file: None, line: None, column: None, key: None, field: None }
     }
 
     /// A fault of an argument. Messages name arguments by their fields in backticks, `` `time_s` ``; a front end spells them as its users write them.
     #[must_use]
     pub fn argument(field: &str, message: impl Into<String>) -> Self {
-        Self { field: Some(field.to_owned()), ..Self::new(message) }
+        Self { field: Some(field.to_owned()), ..Self::new(ErrorCode::InvalidArgument, message) }
     }
 }
 
@@ -107,16 +136,17 @@ impl fmt::Display for Fault {
 }
 
 /// The same at a key of a description.
-fn at(message: String, place: &etendue_scene::Place) -> Fault {
+fn at(code: ErrorCode, message: String, place: &etendue_scene::Place) -> Fault {
     let (line, column) = place.line_column().unzip();
     let file = Some(place.stating_file().to_path_buf()).filter(|_| place.is_stated());
     let key = Some(place.key().into_owned()).filter(|key| !key.is_empty());
-    Fault { file, line, column, key, ..Fault::new(message) }
+    Fault { file, line, column, key, ..Fault::new(code, message) }
 }
 
 impl From<&etendue_scene::Fault> for Fault {
     fn from(fault: &etendue_scene::Fault) -> Self {
-        at(fault.to_string(), &fault.place)
+        let remedy = Some(fault.remedy.clone()).filter(|remedy| !remedy.is_empty());
+        Self { problem: fault.problem.clone(), remedy, ..at(fault.code, fault.to_string(), &fault.place) }
     }
 }
 
@@ -129,34 +159,31 @@ impl From<etendue_scene::Fault> for Fault {
 /// A path at fault is where it is named; what is wrong in a file is there, with the key that names it.
 impl From<crate::Error> for Fault {
     fn from(error: crate::Error) -> Self {
-        let named = error.place().map(|place| at(error.to_string(), place));
+        let named = error.place().map(|place| at(error.code(), error.to_string(), place));
+        let problem = error.what().to_owned();
         match named {
-            Some(named) if error.is_of_path() => named,
+            Some(named) if error.is_of_path() => Self { problem, ..named },
             named => Self {
                 file: Some(error.file().to_path_buf()),
                 line: error.line().and_then(|line| u32::try_from(line).ok()),
                 key: named.and_then(|named| named.key),
-                ..Self::new(error.to_string())
+                problem,
+                ..Self::new(error.code(), error.to_string())
             },
         }
     }
 }
 
-impl From<String> for Fault {
-    fn from(message: String) -> Self {
-        Self::new(message)
-    }
-}
-
-impl From<&str> for Fault {
-    fn from(message: &str) -> Self {
-        Self::new(message)
-    }
-}
-
+/// A file that the caller reads.
 impl From<std::io::Error> for Fault {
     fn from(error: std::io::Error) -> Self {
-        Self::new(error.to_string())
+        Self::new(code_of(&error), error.to_string())
+    }
+}
+
+impl From<Problem> for Fault {
+    fn from(problem: Problem) -> Self {
+        Self::new(problem.code, problem.words)
     }
 }
 
@@ -169,7 +196,8 @@ pub fn check_whole<N: PartialOrd + Display>(field: &str, value: N, range: RangeI
         return Ok(());
     }
     let (low, high) = (range.start(), range.end());
-    Err(Error::argument(field, format!("`{field}`: expected a whole number from {low} to {high}, not {value}")))
+    let message = format!("`{field}`: expected a whole number from {low} to {high}, not {value}");
+    Err(Error::argument(field, message).with_code(ErrorCode::OutOfRange))
 }
 
 /// Refuses an argument that is a number out of its range, or not finite.
@@ -181,7 +209,8 @@ pub fn check_number(field: &str, value: f64, range: RangeInclusive<f64>, unit: &
         return Ok(());
     }
     let (low, high) = (range.start(), range.end());
-    Err(Error::argument(field, format!("`{field}`: expected {low} to {high} {unit}, not {value}")))
+    let message = format!("`{field}`: expected {low} to {high} {unit}, not {value}");
+    Err(Error::argument(field, message).with_code(ErrorCode::OutOfRange))
 }
 
 #[cfg(test)]
@@ -190,12 +219,17 @@ mod tests {
 
     #[test]
     fn of_many_errors_the_first_are_shown_and_the_number_of_all() {
-        let shown = |count: usize| Error::inputs((0..count).map(|i| format!("fault {i}"))).to_string();
-        assert_eq!(shown(1), "error: fault 0\n");
-        assert!(shown(50).ends_with("error: fault 49\n50 errors; nothing was written\n"));
+        let shown = |count: usize| {
+            Error::all_coded(ErrorCode::MalformedFile, (0..count).map(|i| format!("fault {i}"))).to_string()
+        };
+        assert_eq!(shown(1), "error[malformed-file]: fault 0\n");
+        assert!(shown(50).ends_with("error[malformed-file]: fault 49\n50 errors; nothing was written\n"));
         let many = shown(1234);
         assert_eq!(many.lines().count(), 51);
-        assert!(many.ends_with("error: fault 49\nand 1184 more; 1234 errors in all; nothing was written\n"), "{many}");
+        assert!(
+            many.ends_with("error[malformed-file]: fault 49\nand 1184 more; 1234 errors in all; nothing was written\n"),
+            "{many}"
+        );
     }
 
     #[test]
@@ -204,15 +238,19 @@ mod tests {
             panic!()
         };
         assert_eq!((faults[0].field.as_deref(), faults[0].key.as_deref()), (Some("time_s"), None));
-        assert_eq!(Error::input("job.toml: `time_s`").with_field("spp"), Error::argument("spp", "job.toml: `time_s`"));
-        assert_eq!(Fault::new("`corners`: expected four of them").field, None);
+        let plain = Error::coded(ErrorCode::InvalidArgument, "job.toml: `time_s`");
+        assert_eq!(plain.with_field("spp"), Error::argument("spp", "job.toml: `time_s`"));
+        assert_eq!(Fault::new(ErrorCode::WrongCount, "`corners`: expected four of them").field, None);
     }
 
     #[test]
     fn numbers_out_of_their_range_are_refused_by_their_field() {
         assert_eq!(check_whole("rings", 4, 4..=1000), Ok(()));
         let message = check_whole("rings", 3, 4..=1000).map_err(|error| error.to_string());
-        assert_eq!(message, Err("error: `rings`: expected a whole number from 4 to 1000, not 3\n".to_owned()));
+        assert_eq!(
+            message,
+            Err("error[out-of-range]: `rings`: expected a whole number from 4 to 1000, not 3\n".to_owned())
+        );
         assert!(check_number("wavelength_nm", f64::NAN, 300.0..=1100.0, "nm").is_err());
         assert!(check_number("photons", f64::INFINITY, 0.0..=f64::MAX, "photons").is_err());
     }

@@ -9,9 +9,9 @@ use std::fs::{File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use crate::Error;
 use crate::made_folders::Missed;
 use crate::run_mark;
+use crate::{Error, ErrorCode};
 
 /// A locked folder; free again when it is dropped.
 #[derive(Debug)]
@@ -46,7 +46,9 @@ impl FolderLock {
         };
         match lock(&opened) {
             Ok(()) => held(Some(opened)),
-            Err(TryLockError::WouldBlock) => Err(Error::new(here(folder), taken(root)).into()),
+            Err(TryLockError::WouldBlock) => {
+                Err(Error::coded(ErrorCode::FolderInUse, here(folder), taken(root)).into())
+            }
             Err(TryLockError::Error(_)) => held(None),
         }
     }

@@ -76,6 +76,7 @@ pub mod y4m;
 
 pub use assets::{complete_assets, load_assets};
 pub use error::Error;
+pub use etendue_scene::{ErrorCode, Problem};
 pub use file_digest::FileDigest;
 pub use guard::is_decoding;
 pub use output::{Existing, OutputFolder};

@@ -6,7 +6,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::Error;
+use crate::{Error, ErrorCode};
 
 /// Why a folder could not be had.
 #[derive(Debug)]
@@ -21,13 +21,13 @@ impl Missed {
     /// A fault of the system over a path.
     pub(crate) fn of(path: &Path, told: &str, cause: &io::Error) -> Self {
         let is_gone = cause.kind() == io::ErrorKind::NotFound;
-        Self { error: Error::new(path, format!("{told}: {cause}")), is_gone }
+        Self { error: Error::coded(ErrorCode::UnwritableOutput, path, format!("{told}: {cause}")), is_gone }
     }
 
     /// A folder that has its name no more.
     pub(crate) fn gone(path: &Path) -> Self {
         let told = "this output folder is removed again and again while it is made; choose another one";
-        Self { error: Error::new(path, told), is_gone: true }
+        Self { error: Error::coded(ErrorCode::UnwritableOutput, path, told), is_gone: true }
     }
 }
 
@@ -77,5 +77,9 @@ impl MadeFolders {
 
 /// The error of what is in the place of a folder and is none.
 pub(crate) fn no_folder(path: &Path) -> Error {
-    Error::new(path, "expected a folder for the results, but this is a file; choose another name")
+    Error::coded(
+        ErrorCode::UnwritableOutput,
+        path,
+        "expected a folder for the results, but this is a file; choose another name",
+    )
 }

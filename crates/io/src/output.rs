@@ -18,12 +18,12 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-use crate::Error;
 use crate::file_digest::FileDigest;
 use crate::folder_lock::FolderLock;
 use crate::made_folders::{MadeFolders, Missed};
 use crate::run_mark::RunMark;
 use crate::within;
+use crate::{Error, ErrorCode};
 
 /// How often a folder is made that another run removes at that moment, as nothing is in it.
 const TRIES: usize = 100;
@@ -174,12 +174,18 @@ impl OutputFolder {
         let target = self.resolve(name)?;
         self.check_free(&target)?;
         if self.pending.iter().any(|p| p.name == target) {
-            return Err(Error::new(&target, "written twice in one run; every result needs its own name"));
+            return Err(Error::coded(
+                ErrorCode::Duplicate,
+                &target,
+                "written twice in one run; every result needs its own name",
+            ));
         }
         if let Some(parent) = target.parent() {
             self.made.make(parent).map_err(|missed| missed.error)?;
         }
-        let unwritten = |cause: io::Error| Error::new(&target, format!("cannot be written: {cause}"));
+        let unwritten = |cause: io::Error| {
+            Error::coded(ErrorCode::UnwritableOutput, &target, format!("cannot be written: {cause}"))
+        };
         let mark = self.mark.as_mut().expect("a folder is marked until it is dropped");
         let temporary = mark.temporary_of(&target).map_err(unwritten)?;
         self.pending.push(Pending { temporary: temporary.clone(), name: target.clone() });
@@ -201,7 +207,9 @@ impl OutputFolder {
             (parts.join("/"), &file.temporary)
         });
         let digest = |(name, temporary): (String, &PathBuf)| {
-            let unread = |cause: io::Error| Error::new(temporary, format!("cannot be read back: {cause}"));
+            let unread = |cause: io::Error| {
+                Error::coded(ErrorCode::UnreadableFile, temporary, format!("cannot be read back: {cause}"))
+            };
             Ok((name, FileDigest::new(temporary).map_err(unread)?))
         };
         named.filter(|(name, _)| wanted(name)).map(digest).collect()
@@ -225,7 +233,11 @@ impl OutputFolder {
                     0 => String::new(),
                     n => format!(" (the {n} files before it have theirs, and are whole)"),
                 };
-                Error::new(&file.name, format!("cannot take its final name: {cause}{kept}"))
+                Error::coded(
+                    ErrorCode::UnwritableOutput,
+                    &file.name,
+                    format!("cannot take its final name: {cause}{kept}"),
+                )
             })?;
             names.push(self.pending.remove(0).name);
         }
@@ -237,7 +249,11 @@ impl OutputFolder {
         let relative = Path::new(name);
         let plain = relative.components().all(|part| matches!(part, Component::Normal(_)));
         if name.is_empty() || !plain {
-            return Err(Error::new(relative, "not a name inside the output folder; expected a plain relative path"));
+            return Err(Error::coded(
+                ErrorCode::UnwritableOutput,
+                relative,
+                "not a name inside the output folder; expected a plain relative path",
+            ));
         }
         Ok(self.root.join(relative))
     }
@@ -248,16 +264,20 @@ impl OutputFolder {
         let there = match fs::symlink_metadata(target) {
             Ok(there) => there,
             Err(cause) if cause.kind() == io::ErrorKind::NotFound => return Ok(()),
-            Err(cause) => return Err(Error::new(target, format!("cannot be written: {cause}"))),
+            Err(cause) => {
+                return Err(Error::coded(ErrorCode::UnwritableOutput, target, format!("cannot be written: {cause}")));
+            }
         };
         if there.is_dir() {
-            return Err(Error::new(
+            return Err(Error::coded(
+                ErrorCode::UnwritableOutput,
                 target,
                 "a folder of this name is in the way of a result; remove it or choose another output folder",
             ));
         }
         if self.existing == Existing::Refuse {
-            return Err(Error::new(
+            return Err(Error::coded(
+                ErrorCode::OutputExists,
                 target,
                 "already there; choose another output folder, or allow it with `overwrite`",
             ));

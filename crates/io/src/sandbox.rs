@@ -5,7 +5,8 @@
 //!
 //! As every file of a job is asked for here, this is also where its files are known.
 
-use crate::failure::Fault;
+use crate::error::code_of;
+use crate::failure::{ErrorCode, Fault, Problem};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -30,12 +31,14 @@ impl Sandbox {
     /// Where a folder is not there, in words.
     pub fn about(job: &Path, further: &[PathBuf]) -> Result<Self, Fault> {
         let folder = job.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let own = folder.canonicalize().map_err(|cause| Fault::new(format!("{}: {cause}", job.display())))?;
+        let own = folder
+            .canonicalize()
+            .map_err(|cause| Fault::new(code_of(&cause), format!("{}: {cause}", job.display())))?;
         let allowed = further.iter().map(|folder| {
             let found = folder.canonicalize().ok().filter(|folder| folder.is_dir());
             found.ok_or_else(|| {
                 let message = format!("`allow_outside` {}: there is no such folder", folder.display());
-                Fault::argument("allow_outside", message)
+                Fault { code: ErrorCode::MissingFile, ..Fault::argument("allow_outside", message) }
             })
         });
         let folders = std::iter::once(Ok(own)).chain(allowed).collect::<Result<_, _>>()?;
@@ -61,12 +64,13 @@ impl Sandbox {
     ///
     /// # Errors
     /// Where its path leads out, in words.
-    pub fn check(&self, path: &Path) -> Result<(), String> {
+    pub fn check(&self, path: &Path) -> Result<(), Problem> {
         if self.admits(path) {
             self.note(path);
             return Ok(());
         }
-        Err("this path leads out of the job's folder, to which `sandboxed` keeps it; put the file there, or allow its folder with `allow_outside`".to_owned())
+        let words = "this path leads out of the job's folder, to which `sandboxed` keeps it; put the file there, or allow its folder with `allow_outside`";
+        Err(Problem::new(ErrorCode::OutsideFolder, words))
     }
 }
 

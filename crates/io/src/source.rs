@@ -7,7 +7,8 @@ use std::path::Path;
 
 use etendue_scene::limits::{self, DESCRIPTION, Limit};
 
-use crate::{Error, failure};
+use crate::error::code_of;
+use crate::{Error, ErrorCode, Problem, failure};
 
 /// The bytes of `file`; `what` names in words what it should be ("mesh", "texture").
 pub fn read_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
@@ -23,7 +24,7 @@ pub fn read_description_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error>
 pub(crate) fn read_expected_bytes(file: &Path, what: &str, most: u64) -> Result<Vec<u8>, Error> {
     let check = |bytes: u64| match bytes <= most {
         true => Ok(()),
-        false => Err(format!("the file has {bytes} bytes, where at most {most} are expected; render it again")),
+        false => Err(format!("the file has {bytes} bytes, where at most {most} are expected; render it again").into()),
     };
     explained(file, what, read_checked(file, most, check))
 }
@@ -35,13 +36,19 @@ fn read_bytes_within(file: &Path, what: &str, limit: &Limit) -> Result<Vec<u8>, 
 fn explained(file: &Path, what: &str, read: std::io::Result<Vec<u8>>) -> Result<Vec<u8>, Error> {
     let bytes = read.map_err(|cause| match cause.kind() {
         ErrorKind::NotFound => Error::missing(file, format!("no such {what} file; check the path")),
-        ErrorKind::IsADirectory => Error::missing(file, "this is a folder; name a file in it"),
-        ErrorKind::InvalidInput | ErrorKind::FileTooLarge => Error::new(file, cause.to_string()),
-        ErrorKind::PermissionDenied => Error::new(file, format!("this {what} file may not be read: permission denied")),
-        _ => Error::new(file, format!("this {what} file cannot be read: {cause}")),
+        ErrorKind::IsADirectory => {
+            Error::missing(file, "this is a folder; name a file in it").with_code(ErrorCode::UnreadableFile)
+        }
+        ErrorKind::InvalidInput | ErrorKind::FileTooLarge => Error::coded(code_of(&cause), file, cause.to_string()),
+        ErrorKind::PermissionDenied => Error::coded(
+            ErrorCode::UnreadableFile,
+            file,
+            format!("this {what} file may not be read: permission denied"),
+        ),
+        _ => Error::coded(ErrorCode::UnreadableFile, file, format!("this {what} file cannot be read: {cause}")),
     })?;
     if bytes.is_empty() {
-        return Err(Error::new(file, format!("this {what} file is empty")));
+        return Err(Error::coded(ErrorCode::Empty, file, format!("this {what} file is empty")));
     }
     Ok(bytes)
 }
@@ -56,14 +63,14 @@ pub fn read_regular(file: &Path, limit: &Limit) -> std::io::Result<Vec<u8>> {
     read_checked(file, limit.most_bytes(), |bytes| limit.check_size(bytes))
 }
 
-fn read_checked(file: &Path, most: u64, check_size: impl Fn(u64) -> Result<(), String>) -> std::io::Result<Vec<u8>> {
+fn read_checked(file: &Path, most: u64, check_size: impl Fn(u64) -> Result<(), Problem>) -> std::io::Result<Vec<u8>> {
     let metadata = std::fs::metadata(file)?;
     let kind = metadata.file_type();
     if !kind.is_file() && !kind.is_dir() {
         let told = format!("this is {}, not a file on a disk; save what it gives as a file and name that", word(kind));
         return Err(std::io::Error::new(ErrorKind::InvalidInput, told));
     }
-    let too_large = |told| std::io::Error::new(ErrorKind::FileTooLarge, told);
+    let too_large = |told: Problem| std::io::Error::new(ErrorKind::FileTooLarge, told.words);
     check_size(metadata.len()).map_err(too_large)?;
     // A file of /proc has no size, and one may grow.
     let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
@@ -151,13 +158,14 @@ mod tests {
 ///
 /// # Errors
 /// There is no such file, it is a folder, it is longer than a description may be, or it is not UTF-8.
-pub fn read_text(path: &Path) -> Result<String, String> {
-    let bytes = read_regular(path, &DESCRIPTION).map_err(|error| match error.kind() {
+pub fn read_text(path: &Path) -> Result<String, Problem> {
+    let words = |error: &std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
         std::io::ErrorKind::IsADirectory => "it is a folder; name a file in it".to_owned(),
         _ => error.to_string(),
-    })?;
-    String::from_utf8(bytes).map_err(|_| "it is no text (UTF-8)".to_owned())
+    };
+    let bytes = read_regular(path, &DESCRIPTION).map_err(|error| Problem::new(code_of(&error), words(&error)))?;
+    String::from_utf8(bytes).map_err(|_| "it is no text (UTF-8)".into())
 }
 
 /// Reads a description that the caller names; the error begins with its path.
@@ -165,5 +173,5 @@ pub fn read_text(path: &Path) -> Result<String, String> {
 /// # Errors
 /// As [`read_text`].
 pub fn text_of(path: &Path) -> Result<String, failure::Error> {
-    read_text(path).map_err(|why| failure::Error::input(format!("{}: {why}", path.display())))
+    read_text(path).map_err(|why| failure::Error::input(why.within(path.display())))
 }

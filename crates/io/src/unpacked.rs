@@ -7,7 +7,7 @@ use std::path::Path;
 
 use etendue_scene::limits::PICTURE;
 
-use crate::Error;
+use crate::{Error, ErrorCode};
 
 /// How many times its own size any file may unpack to.
 const TIMES_PACKED: u128 = 8;
@@ -29,7 +29,7 @@ pub(crate) fn check_bytes(file: &Path, bytes: u128, packed: usize) -> Result<(),
         mebibytes(most),
         PICTURE.remedy_bytes(bytes)
     );
-    Err(Error::new(file, told))
+    Err(Error::coded(ErrorCode::TooLarge, file, told))
 }
 
 /// Bytes that a file of `packed` bytes may unpack to.
@@ -44,7 +44,11 @@ pub(crate) fn check_within(file: &Path, samples: u128, most: u128) -> Result<(),
         return Ok(());
     }
     let (found, expected) = (mebibytes(bytes), mebibytes(most));
-    Err(Error::new(file, format!("unpacks to {found} MiB, where {expected} MiB are expected; render it again")))
+    Err(Error::coded(
+        ErrorCode::TooLarge,
+        file,
+        format!("unpacks to {found} MiB, where {expected} MiB are expected; render it again"),
+    ))
 }
 
 fn in_bytes(samples: u128) -> u128 {

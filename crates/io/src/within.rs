@@ -7,8 +7,8 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use crate::Error;
 use crate::made_folders::no_folder;
+use crate::{Error, ErrorCode};
 
 /// Refuses a file, or a link to elsewhere, in the place of a folder between `root` and `target`.
 pub(crate) fn check_folders(root: &Path, target: &Path) -> Result<(), Error> {
@@ -19,7 +19,8 @@ pub(crate) fn check_folders(root: &Path, target: &Path) -> Result<(), Error> {
 /// The same of one folder, which need not be there.
 pub(crate) fn check_folder(folder: &Path) -> Result<(), Error> {
     if folder.is_symlink() {
-        return Err(Error::new(
+        return Err(Error::coded(
+            ErrorCode::UnwritableOutput,
             folder,
             "a symbolic link is in the place of a folder of results, which stay in the output folder; remove it, or choose another output folder",
         ));
@@ -35,7 +36,7 @@ pub(crate) fn remove_file(root: &Path, target: &Path) -> Result<(), Error> {
     check_folders(root, target)?;
     match fs::remove_file(target) {
         Err(cause) if cause.kind() != ErrorKind::NotFound => {
-            Err(Error::new(target, format!("cannot be removed: {cause}")))
+            Err(Error::coded(ErrorCode::UnwritableOutput, target, format!("cannot be removed: {cause}")))
         }
         _ => Ok(()),
     }
@@ -45,7 +46,9 @@ pub(crate) fn remove_file(root: &Path, target: &Path) -> Result<(), Error> {
 pub(crate) fn files_in(root: &Path, folder: &Path) -> Result<Vec<PathBuf>, Error> {
     check_folders(root, folder)?;
     check_folder(folder)?;
-    let failed = |cause: io::Error| Error::new(folder, format!("this folder cannot be read: {cause}"));
+    let failed = |cause: io::Error| {
+        Error::coded(ErrorCode::UnreadableFile, folder, format!("this folder cannot be read: {cause}"))
+    };
     let entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(Vec::new()),

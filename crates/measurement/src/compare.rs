@@ -5,7 +5,7 @@
 
 use crate::compare_pictures;
 use etendue_io::compare::{Channel, Content, Origin, Pair, read_pair};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_stats::ErrorSummary;
 use etendue_stats::family::sidak_level;
 use etendue_stats::planes::{EstimatedPlane, PlaneTest, Verdict, compare as compare_planes};
@@ -88,15 +88,18 @@ fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<ChannelComparis
         }
         Content::Number { a, b, variance } => {
             let unequal = a.iter().zip(b).filter(|(a, b)| a.to_bits() != b.to_bits()).count();
-            let test = match variance {
-                None => None,
-                Some((of_a, of_b)) => {
-                    let a = estimated(a, of_a, pair.origin.0);
-                    let b = estimated(b, of_b, pair.origin.1);
-                    let test = compare_planes(&a, &b, level);
-                    Some(test.map_err(|error| Error::input(format!("channel {name}: {error}")))?)
-                }
-            };
+            let test =
+                match variance {
+                    None => None,
+                    Some((of_a, of_b)) => {
+                        let a = estimated(a, of_a, pair.origin.0);
+                        let b = estimated(b, of_b, pair.origin.1);
+                        let test = compare_planes(&a, &b, level);
+                        Some(test.map_err(|error| {
+                            Error::coded(ErrorCode::NotComparable, format!("channel {name}: {error}"))
+                        })?)
+                    }
+                };
             let alike = pair.origin.0.alike.max(pair.origin.1.alike);
             let errors = ErrorSummary::of(a, b).map(|errors| errors.shared_by(alike));
             // No errors at all: no sample is finite in both.

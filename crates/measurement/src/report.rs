@@ -2,7 +2,7 @@
 
 use crate::plot::{Plot, svg};
 use etendue_core::maths::f64::log10;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::Stated;
 pub use etendue_metrology::Estimate;
 use serde_json::{Map, Value, json};
@@ -190,7 +190,9 @@ impl Report {
     /// Where the measurement has no curve to draw.
     pub fn svg(&self) -> Result<String, Error> {
         if self.plots.is_empty() {
-            return Err(Error::argument("plot", "`plot`: this measurement has no curve to draw"));
+            return Err(
+                Error::argument("plot", "`plot`: this measurement has no curve to draw").with_code(ErrorCode::NoEffect)
+            );
         }
         Ok(svg(&self.plots))
     }

@@ -1,6 +1,6 @@
 //! Errors as exceptions: `etendue.InputError` for unusable input, `etendue.RunError` for a run that did not succeed.
 
-use etendue::{Error, Fault, terminal_text};
+use etendue::{Error, ErrorCode, Fault, terminal_text};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 
@@ -23,18 +23,22 @@ fn made<'py>(
     make(py.import("etendue._errors")?.getattr(class)?)
 }
 
-type Told = (String, Option<String>, Option<u32>, Option<u32>, Option<String>);
+type Told = (String, Option<String>, Option<u32>, Option<u32>, Option<String>, &'static str, String, Option<String>);
 
 /// What `_errors.Fault` is made of.
 fn told(faults: Vec<Fault>) -> Vec<Told> {
     let one = |fault: Fault| {
         let file = fault.file.map(|file| file.to_string_lossy().into_owned());
-        (terminal_text(&fault.message).into_owned(), file, fault.line, fault.column, fault.field.or(fault.key))
+        let (message, problem) =
+            (terminal_text(&fault.message).into_owned(), terminal_text(&fault.problem).into_owned());
+        let remedy = fault.remedy.map(|remedy| terminal_text(&remedy).into_owned());
+        let key = fault.field.or(fault.key);
+        (message, file, fault.line, fault.column, key, fault.code.word(), problem, remedy)
     };
     faults.into_iter().map(one).collect()
 }
 
 /// Unusable input that only Python could give.
 pub(crate) fn refused(py: Python<'_>, why: impl Into<String>) -> PyErr {
-    exception(py, Error::input(why.into()))
+    exception(py, Error::coded(ErrorCode::InvalidArgument, why))
 }

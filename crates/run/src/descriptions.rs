@@ -4,7 +4,7 @@ use crate::job_request::JobRequest;
 use crate::memory::MemoryFiles;
 use etendue_core::Accelerator;
 use etendue_core::observer::{Message, Observer};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::paths::camera_stem;
 use etendue_io::source::read_text;
 use etendue_io::{Existing, OutputFolder};
@@ -36,7 +36,9 @@ impl JobRequest {
         let description = Description::load(&self.job, &read, &self.overrides());
         let description = description.map_err(|faults| Error::inputs(faults.list()))?;
         let entry = description.cameras.iter().find(|entry| entry.name.value == camera);
-        let entry = entry.ok_or_else(|| Error::input(format!("{}: no camera {camera}", self.job.display())))?;
+        let entry = entry.ok_or_else(|| {
+            Error::coded(ErrorCode::UnknownName, format!("{}: no camera {camera}", self.job.display()))
+        })?;
         let accelerator = entry.render.accelerator.as_ref().map(|key| key.value).unwrap_or_default();
         let cameras = description.cameras.len();
         Ok(StatedRender { cameras, keys: stated_render_keys(&self.job, camera, &read), accelerator })

@@ -8,7 +8,7 @@ use clap::Args;
 use etendue_arguments::seed;
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::paths::camera_stem;
 use etendue_io::photograph::{FilterTile, Photograph, RawFacts, RawFrame, read_photograph};
 use etendue_io::{Existing, OutputFolder};
@@ -56,7 +56,10 @@ pub fn develop(request: &DevelopRequest, folder: &Path, existing: Existing) -> R
     let body = open_camera(&request.camera, &request.set)?;
     let camera = Camera::of(&body).ok_or_else(|| {
         let file = request.camera.display();
-        Error::input(format!("{file}: the camera has no [isp], so nothing says how a picture is made: add it"))
+        Error::coded(
+            ErrorCode::MissingKey,
+            format!("{file}: the camera has no [isp], so nothing says how a picture is made: add it"),
+        )
     })?;
     let name = camera_stem(&request.camera);
     let mut folder = OutputFolder::open_part(folder, &name, existing).map_err(Error::input)?;
@@ -82,19 +85,19 @@ impl<'a> Camera<'a> {
 fn all(camera: &Camera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
     let (mut frames, mut files, mut correlated_block_px) = (Vec::new(), Map::new(), 1);
     for (number, file) in request.raws.iter().enumerate() {
-        let mut stored =
-            read_raw(file, request.levels, number as u32, camera.body, camera.sensor).map_err(Error::input)?;
+        let mut stored = read_raw(file, request.levels, number as u32, camera.body, camera.sensor)
+            .map_err(|words| Error::coded(ErrorCode::UnsuitableFile, words))?;
         correlated_block_px = correlated_block_px.max(stored.correlated_block_px);
         stored.address.seed = request.seed.unwrap_or(stored.address.seed);
         let name = Files::picture(stored.address.frame, camera.development.format);
         if files.contains_key(&name) {
             let told =
                 format!("{}: another raw is frame {}, too: develop them apart", file.display(), stored.address.frame);
-            return Err(Error::input(told));
+            return Err(Error::coded(ErrorCode::Duplicate, told));
         }
         writer.claim(&name)?;
         let picture = developed(camera.development, &stored.raw, stored.address)
-            .map_err(|error| Error::input(format!("{}: {error}", file.display())))?;
+            .map_err(|error| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", file.display())))?;
         writer.write(&name, encoded(&picture.display, camera.development))?;
         frames.push(frame(file, &stored, &picture));
         files.insert(name, Files::picture_entry(camera.development));

@@ -10,7 +10,7 @@ use etendue_core::observer::{Message, Observer};
 use etendue_core::quantity::{Length, Radiance, Variance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_io::exr::{SpectralImage, read_spectral};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::paths::camera_stem;
 use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters, OpticsError, PupilProjection};
@@ -91,10 +91,13 @@ fn check_shutter(
     let Some(stored_s) = stored.exposure_s() else { return Ok(()) };
     let (radiance, camera) = (request.radiance.display(), request.camera.display());
     if !body.exposure.is_global() {
-        return Err(Error::input(format!(
-            "{radiance} through {camera}: its light depends on time and is the mean over one exposure of {stored_s} s, and the camera reads its rows \
+        return Err(Error::coded(
+            ErrorCode::NotModelled,
+            format!(
+                "{radiance} through {camera}: its light depends on time and is the mean over one exposure of {stored_s} s, and the camera reads its rows \
              in turn; give it a \"global\" shutter, or render the job through the lens"
-        )));
+            ),
+        ));
     }
     let exposure = &body.exposure;
     if exposure.exposure_s != stored_s || exposure.distinct_captures().len() > 1 {
@@ -129,7 +132,7 @@ fn write(
     let at_pupil = stored::Stored { projection, radiance, distance: distance.as_ref() };
     let refuse = |error: OpticsError| {
         let (radiance, camera) = (request.radiance.display(), request.camera.display());
-        Error::input(format!("{radiance} through {camera}: {error}{}", margin(body)))
+        Error::coded(ErrorCode::UnsuitableFile, format!("{radiance} through {camera}: {error}{}", margin(body)))
     };
     let depth_of_field = depth_of_field(body, stored, request, observer)?;
     warn_of_margin(body, stored, &depth_of_field, observer).map_err(refuse)?;
@@ -180,17 +183,21 @@ fn depth_of_field(
     let file = request.radiance.display();
     match request.depth_of_field {
         Some(DepthOfField::None) => Ok(DepthOfField::None),
-        Some(_) if stored.distance.is_none() => Err(Error::input(format!(
-            "{file}: it has no distances (channel distance.Z), which depth of field needs: render it anew, or give \
+        Some(_) if stored.distance.is_none() => Err(Error::coded(
+            ErrorCode::UnsuitableFile,
+            format!(
+                "{file}: it has no distances (channel distance.Z), which depth of field needs: render it anew, or give \
              `depth_of_field` none"
-        ))),
+            ),
+        )),
         Some(DepthOfField::Physical) if !blurs => Err(Error::argument(
             "depth_of_field",
             format!(
                 "`depth_of_field` physical has no effect: to the lens of {} everything is sharp",
                 request.camera.display()
             ),
-        )),
+        )
+        .with_code(ErrorCode::NoEffect)),
         Some(asked) => Ok(asked),
         None if blurs && stored.distance.is_some() => Ok(DepthOfField::Physical),
         None => {
@@ -267,7 +274,7 @@ impl StoredRadiance {
     /// # Errors
     /// Where the file is no radiance that etendue rendered at the pupil.
     pub(crate) fn open(path: &Path) -> Result<Self, Error> {
-        let refuse = |why: &str| Error::input(format!("{}: {why}", path.display()));
+        let refuse = |why: &str| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {why}", path.display()));
         let file = read_spectral(path).map_err(Error::input)?;
         let SpectralImage::Radiance(image) = file.image else {
             return Err(refuse("this is irradiance behind a lens; expected radiance, rendered with route = \"pupil\""));

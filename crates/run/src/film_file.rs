@@ -13,7 +13,7 @@ use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Quantity};
 use etendue_io::Provenance;
 use etendue_io::exr::{ExrFile, ExrImage, Layer, Samples, layers_image, read_exr_within};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
@@ -155,7 +155,7 @@ impl FilmOrigin<'_> {
 /// # Errors
 /// Where it cannot be read, is of another origin, is not complete, or has numbers that are not finite.
 pub(crate) fn read(path: &Path, origin: &FilmOrigin<'_>, remedy: &str) -> Result<(Film, Provenance), Error> {
-    let refused = |why: &str| Error::input(format!("{}: {why}; {remedy}", path.display()));
+    let refused = |why: &str| Error::coded(ErrorCode::OtherRun, format!("{}: {why}; {remedy}", path.display()));
     let camera = origin.camera;
     let (width, height) = camera.film_size();
     // Most of a shard's film is black, and packs well.
@@ -255,10 +255,13 @@ pub(crate) fn check_state(folder: &OutputFolder, existing: Existing) -> Result<(
     if existing != Existing::Refuse || !holds_state(folder.path()) {
         return Ok(());
     }
-    Err(Error::input(format!(
-        "{}: a run that was interrupted left its state here; go on with `resume`, or begin anew with `overwrite`",
-        folder.path().join(STATE_FOLDER).display()
-    )))
+    Err(Error::coded(
+        ErrorCode::OtherRun,
+        format!(
+            "{}: a run that was interrupted left its state here; go on with `resume`, or begin anew with `overwrite`",
+            folder.path().join(STATE_FOLDER).display()
+        ),
+    ))
 }
 
 /// The film that an interrupted run left in an output folder, and its passes; `None` where there is none.
@@ -280,7 +283,10 @@ pub(crate) fn read_state(folder: &Path, origin: &FilmOrigin<'_>) -> Result<Optio
         (Some(passes), Some(replicates), Some(elapsed_s)) if !passes.list().is_empty() => {
             Ok(Some((film, StoredPasses { passes, replicates, elapsed_s })))
         }
-        _ => Err(Error::input(format!("{}: its header states no passes that were done; {remedy}", path.display()))),
+        _ => Err(Error::coded(
+            ErrorCode::OtherRun,
+            format!("{}: its header states no passes that were done; {remedy}", path.display()),
+        )),
     }
 }
 

@@ -7,7 +7,7 @@ use crate::results::writer::ResultWriter;
 use clap::{ArgMatches, Args, Command, FromArgMatches};
 use etendue_arguments::{seed, whole};
 use etendue_core::observer::{Message, Observer};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::failure::{check_number, check_whole};
 use etendue_io::paths::camera_stem;
 use etendue_io::{Existing, OutputFolder, Provenance};
@@ -199,8 +199,9 @@ pub fn flat(
     let mut writer = ResultWriter { prefix: name, folder: &mut folder };
     match request.source {
         FlatSource::PhotonTransfer { levels, stack } => {
-            let series = flat::photon_transfer(task.sensor, request.wavelength_nm, levels, stack)
-                .map_err(|error| Error::input(format!("{}: {error}", request.camera.display())))?;
+            let series = flat::photon_transfer(task.sensor, request.wavelength_nm, levels, stack).map_err(|error| {
+                Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", request.camera.display()))
+            })?;
             let frames = series.stacks.iter().flat_map(|stack| stack.frames.clone()).map(|n| task.file(n));
             let mut files = frames.chain([DESCRIPTOR.to_owned(), Files::SIDECAR.to_owned()]);
             files.try_for_each(|file| writer.claim(&file))?;
@@ -211,8 +212,9 @@ pub fn flat(
             task.single(light, &format!("`irradiance_w_m2` {w_m2:e}"), &mut writer)?;
         }
         FlatSource::Photons { per_pixel } => {
-            let light = FlatLight::of_photons(task.sensor, request.wavelength_nm, per_pixel)
-                .map_err(|error| Error::argument("photons", format!("`photons` {per_pixel}: {error}")))?;
+            let light = FlatLight::of_photons(task.sensor, request.wavelength_nm, per_pixel).map_err(|error| {
+                Error::argument("photons", format!("`photons` {per_pixel}: {error}")).with_code(ErrorCode::OutOfRange)
+            })?;
             task.single(light, &format!("`photons` {per_pixel:e}"), &mut writer)?;
         }
     }
@@ -221,7 +223,12 @@ pub fn flat(
 
 fn body(request: &FlatRequest) -> Result<CameraBody, Error> {
     let body = open_camera(&request.camera, &request.set)?;
-    let lack = || Error::input(format!("{}: the sensor has no electronics: add them", request.camera.display()));
+    let lack = || {
+        Error::coded(
+            ErrorCode::MissingKey,
+            format!("{}: the sensor has no electronics: add them", request.camera.display()),
+        )
+    };
     flat::bare(&body).ok_or_else(lack)
 }
 
@@ -263,7 +270,7 @@ impl Task<'_> {
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
         if let Some(most) = electrons.samples().iter().find(|e| **e > MAX_E) {
             let why = format!("makes {most:.1e} electrons a pixel, and at most {MAX_E:.0e} can be counted: give less");
-            return Err(Error::input(format!("{given}: {why}")));
+            return Err(Error::coded(ErrorCode::OutOfRange, format!("{given}: {why}")));
         }
         let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());
         let wanted = Wanted {

@@ -4,7 +4,7 @@ use crate::memory_limits::{FilmMemory, MemoryLimits};
 use clap::Args;
 use etendue_arguments::{frames, word};
 use etendue_core::{Integrator, Quality, Word as _};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::{CacheUse, Sandbox, TextureMemory};
 use etendue_pipeline::{Choices, Plan, Refinement};
 use etendue_scene::Overrides;
@@ -159,7 +159,8 @@ impl JobRequest {
             return Err(Error::argument(
                 "texture_memory_mb",
                 "`texture_memory_mb` 0: textures need some memory; give 1 MB or more",
-            ));
+            )
+            .with_code(ErrorCode::OutOfRange));
         }
         let Some(time_s) = self.time_s else { return Ok(()) };
         if !(time_s.is_finite() && time_s >= MIN_TIME_S) {
@@ -168,14 +169,16 @@ impl JobRequest {
                 format!(
                     "`time_s` {time_s}: a time of {MIN_TIME_S} s or more is kept; give `time_s` {MIN_TIME_S} or samples with `spp`"
                 ),
-            ));
+            )
+            .with_code(ErrorCode::OutOfRange));
         }
         match (self.spp, self.noise) {
             (None, None) => Ok(()),
             _ => Err(Error::argument(
                 "time_s",
                 "`time_s` decides the samples, and `spp` or `noise` would, too; give one of them",
-            )),
+            )
+            .with_code(ErrorCode::Contradiction)),
         }
     }
 
@@ -225,7 +228,8 @@ impl JobRequest {
                     self.job.display(),
                     known.join(", ")
                 ),
-            ));
+            )
+            .with_code(ErrorCode::UnknownName));
         }
         let right = plan.camera(name).and_then(|camera| camera.products.annotations.disparity).map(|d| d.right);
         if let Some(right) = plan.cameras.iter().find(|camera| Some(camera.index) == right) {
@@ -235,7 +239,7 @@ impl JobRequest {
                     "`camera` {name}: its disparity_to names camera {}, which is then not in the run; render both, or leave the key out with `set`",
                     right.name
                 ),
-            ));
+            ).with_code(ErrorCode::Contradiction));
         }
         plan.cameras.retain(|camera| camera.name == *name);
         Ok(plan)

@@ -21,8 +21,8 @@ use crate::result_files::write_file;
 use clap::Args;
 use etendue_arguments::{seed, whole};
 use etendue_core::observer::Observer;
-use etendue_io::failure::Error;
 use etendue_io::failure::check_whole;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::read_text;
 use etendue_io::{Existing, load_assets};
 use etendue_pipeline::compile_camera;
@@ -125,13 +125,17 @@ pub fn laboratory(
 }
 
 fn lacks(request: &LaboratoryRequest) -> Error {
-    Error::input(format!("{}: the sensor has no electronics: add them", request.camera.display()))
+    Error::coded(
+        ErrorCode::MissingKey,
+        format!("{}: the sensor has no electronics: add them", request.camera.display()),
+    )
 }
 
 /// The camera with the changes, one specimen of it, and a constant exposure. Its files are named from the root of the file system.
 fn declared(request: &LaboratoryRequest) -> Result<Camera, Error> {
     let file = request.camera.canonicalize();
-    let file = file.map_err(|cause| Error::input(format!("{}: {cause}", request.camera.display())))?;
+    let file = file
+        .map_err(|cause| Error::coded(ErrorCode::UnreadableFile, format!("{}: {cause}", request.camera.display())))?;
     let camera = load_camera(&file, &read_text, &Overrides::new(&request.set));
     let mut camera = camera.map_err(|faults| Error::inputs(faults.list()))?;
     let electronics = camera.sensor.electronics.as_mut().ok_or_else(|| lacks(request))?;
@@ -209,7 +213,7 @@ impl Bench<'_> {
         let longest_s = parameters.exposure.exposure_s.min(LITTLE_E / parameters.charge.dark.mean_e_s().max(1e-9));
         let scale = longest_s / parameters.exposure.exposure_s;
         let told = |error: etendue_pipeline::flat::FlatError| {
-            Error::input(format!("{}: {error}", self.request.camera.display()))
+            Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", self.request.camera.display()))
         };
         let series = photon_transfer(sensor, WAVELENGTH_NM, self.request.levels, self.request.stack).map_err(told)?;
         let light = FlatLight { irradiance_w_m2: series.light.irradiance_w_m2 / scale, ..series.light };

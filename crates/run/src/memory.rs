@@ -1,7 +1,7 @@
 //! Files that a program makes in memory: scenes from arrays, cameras in code.
 
 use etendue_io::Sandbox;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode, Problem};
 use etendue_io::hash::of_bytes;
 use etendue_io::source::read_text;
 use etendue_scene::asset::{Assets, MeshAsset, MeshFrameAsset, MeshFramePart, SlotMaterial};
@@ -47,7 +47,7 @@ impl MemoryFiles {
     /// vertex.
     pub fn add_mesh(&mut self, path: impl Into<PathBuf>, mesh: &Triangles<'_>) -> Result<(), Error> {
         let path = path.into();
-        check(mesh).map_err(|why| Error::input(format!("{}: {why}", path.display())))?;
+        check(mesh).map_err(|why| Error::coded(ErrorCode::UnreadableFile, format!("{}: {why}", path.display())))?;
         let asset = MeshAsset {
             origin: [0.0; 3],
             positions: mesh.positions.to_vec(),
@@ -68,7 +68,7 @@ impl MemoryFiles {
     }
 
     /// The text of a file, from memory or from the disk.
-    pub(crate) fn read(&self, path: &Path, sandbox: &Sandbox) -> Result<String, String> {
+    pub(crate) fn read(&self, path: &Path, sandbox: &Sandbox) -> Result<String, Problem> {
         match self.texts.get(path) {
             Some(text) => Ok(text.clone()),
             None => sandbox.check(path).and_then(|()| read_text(path)),

@@ -1,7 +1,7 @@
 //! The memory that a run may take: what is free, as the caller states it, what films may take of it, and the comparison with what a run needs.
 
 use etendue_io::ScratchFolder;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::{CameraPlan, FilmLimit};
 use etendue_pipeline::report::RunMemory;
@@ -81,14 +81,17 @@ pub(crate) fn check(plan: &Plan, memory: &RunMemory, limits: &MemoryLimits) -> R
         return Ok(());
     }
     let camera = memory.largest().and_then(|(name, _)| plan.camera(name));
-    Err(Error::input(format!(
-        "the run needs {:.0} MB of memory beside the program, and {:.0} MB are free {} ({}); {}",
-        memory.beyond_program() / 1e6,
-        free as f64 / 1e6,
-        limit.words(),
-        memory.parts(),
-        camera.map_or_else(|| "free memory or give the run more".to_owned(), remedies),
-    )))
+    Err(Error::coded(
+        ErrorCode::NotEnoughMemory,
+        format!(
+            "the run needs {:.0} MB of memory beside the program, and {:.0} MB are free {} ({}); {}",
+            memory.beyond_program() / 1e6,
+            free as f64 / 1e6,
+            limit.words(),
+            memory.parts(),
+            camera.map_or_else(|| "free memory or give the run more".to_owned(), remedies),
+        ),
+    ))
 }
 
 /// Returns the keys that reduce the memory of a camera.
@@ -116,7 +119,9 @@ fn remedies(camera: &CameraPlan) -> String {
 /// Checks that the folder for scratch files can be written.
 fn check_folder(plan: &Plan) -> Result<(), Error> {
     let store = plan.cameras.iter().find_map(|camera| plan.scratch(camera));
-    store.map_or(Ok(()), |store| store.room(0).map(|_| ()).map_err(Error::input))
+    store.map_or(Ok(()), |store| {
+        store.room(0).map(|_| ()).map_err(|words| Error::coded(ErrorCode::UnwritableOutput, words))
+    })
 }
 
 /// Checks that the system has memory for the film of each camera.

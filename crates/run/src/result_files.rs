@@ -4,7 +4,7 @@
 use crate::results::{FileEntries, PRODUCT_FILES};
 use etendue_core::RawFormat;
 use etendue_core::quantity::{DigitalNumber, Quantity};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::plan::{
     CameraBody, CameraPlan, Development, PictureFormat, Products, TimeDependence, raw_extension,
@@ -209,7 +209,9 @@ impl Files {
 /// Where it cannot be written, or is there and must not be replaced.
 pub fn write_file(path: &Path, bytes: &[u8], existing: Existing) -> Result<(), Error> {
     let name = path.file_name().and_then(|name| name.to_str());
-    let name = name.ok_or_else(|| Error::input(format!("{}: expected the name of a file", path.display())))?;
+    let name = name.ok_or_else(|| {
+        Error::coded(ErrorCode::InvalidArgument, format!("{}: expected the name of a file", path.display()))
+    })?;
     let parent = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut folder = OutputFolder::open_beside(parent, existing).map_err(Error::input)?;
     folder.write(name, bytes).map_err(Error::input)?;

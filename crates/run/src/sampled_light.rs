@@ -5,7 +5,7 @@ use crate::run::films::{check_finite, check_textures};
 use crate::shard::ShardSpec;
 use etendue_core::observer::Observer;
 use etendue_core::random::Pixel;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, Route};
 use etendue_pipeline::render::{FilmKeeping, Request, Shot, light};
@@ -133,7 +133,9 @@ impl Job {
     /// # Errors
     /// The job has no such camera.
     pub fn camera_plan(&self, name: &str) -> Result<&CameraPlan, Error> {
-        self.plan().camera(name).ok_or_else(|| Error::input(format!("the job has no camera {name}")))
+        self.plan()
+            .camera(name)
+            .ok_or_else(|| Error::coded(ErrorCode::UnknownName, format!("the job has no camera {name}")))
     }
 }
 

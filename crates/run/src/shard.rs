@@ -12,7 +12,7 @@ use crate::run::films::shots_of;
 use crate::run::store::{InterruptionNote, NoStore, RunFolder, RunStore, StoredLight};
 use etendue_arguments::MAX_FRAMES;
 use etendue_core::observer::Observer;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::read_text;
 use etendue_io::{Existing, OutputFolder, sidecar};
 use etendue_pipeline::Plan;
@@ -49,7 +49,12 @@ impl FromStr for ShardSpec {
 
 impl ShardSpec {
     pub(crate) fn shard(self) -> Result<Shard, Error> {
-        let told = || Error::input(format!("shard {}/{}: expected an index below the count", self.index, self.count));
+        let told = || {
+            Error::coded(
+                ErrorCode::OutOfRange,
+                format!("shard {}/{}: expected an index below the count", self.index, self.count),
+            )
+        };
         Shard::new(self.index, self.count).ok_or_else(told)
     }
 }
@@ -99,7 +104,8 @@ impl Job {
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
         if self.request().progressive || self.request().time_s.is_some() {
-            return Err(Error::input(
+            return Err(Error::coded(
+                ErrorCode::Contradiction,
                 "a shard is rendered in the passes of its job: give them by the key render.passes in the place of `progressive` or `time_s`",
             ));
         }
@@ -141,7 +147,8 @@ impl Job {
             return Err(Error::argument(
                 "films",
                 format!("`films` {unknown}: no film of these frames; there are {some}{more}"),
-            ));
+            )
+            .with_code(ErrorCode::UnknownName));
         }
         names.retain(|name| asked.films.is_empty() || asked.films.contains(name));
         Ok(names)
@@ -193,9 +200,10 @@ impl Manifest {
     /// Reads the manifest of a shard's folder.
     fn read(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(MANIFEST);
-        let explain =
-            |why: String| Error::input(format!("{}: {why}; give folders made by render `shard`", path.display()));
-        let text = read_text(&path).map_err(explain)?;
+        let explain = |why: String| {
+            Error::coded(ErrorCode::OtherRun, format!("{}: {why}; give folders made by render `shard`", path.display()))
+        };
+        let text = read_text(&path).map_err(|problem| explain(problem.words))?;
         let manifest: Self = serde_json::from_str(&text)
             .map_err(|error| explain(format!("this is no shard manifest of this version ({error})")))?;
         match manifest.fault() {
@@ -227,10 +235,13 @@ impl Manifest {
         let there = Self::read(folder)?;
         match there.index == self.index && there.is_of_run(self) {
             true => Ok(true),
-            false => Err(Error::input(format!(
-                "{}: films of another run or shard are here; choose another output folder, or render the whole shard",
-                path.display()
-            ))),
+            false => Err(Error::coded(
+                ErrorCode::OtherRun,
+                format!(
+                    "{}: films of another run or shard are here; choose another output folder, or render the whole shard",
+                    path.display()
+                ),
+            )),
         }
     }
 
@@ -244,7 +255,7 @@ impl Manifest {
     fn encoded(&self) -> Result<Vec<u8>, Error> {
         sidecar::encode(self).map_err(|error| {
             let job = self.request.job.display();
-            Error::input(format!(
+            Error::coded(ErrorCode::InvalidArgument, format!(
                 "{job}: the manifest of a shard is text: {error}; expected paths in UTF-8: rename the folder or file"
             ))
         })
@@ -288,7 +299,7 @@ struct ShardFolder<'a> {
 
 impl ShardFolder<'_> {
     fn refused(&self, why: &str) -> Error {
-        Error::input(format!("{}: {why}", self.path.display()))
+        Error::coded(ErrorCode::OtherRun, format!("{}: {why}", self.path.display()))
     }
 
     /// Reads the shard's part of a film.
@@ -319,7 +330,7 @@ impl<'a> MergedShards<'a> {
         let mut shards: Vec<ShardFolder<'_>> = folders.iter().map(read).collect::<Result<_, Error>>()?;
         shards.sort_by_key(|shard| shard.manifest.index);
         let (Some(first), Some(last)) = (shards.first(), shards.last()) else {
-            return Err(Error::input("no shards: give the folders of all"));
+            return Err(Error::coded(ErrorCode::MissingArgument, "no shards: give the folders of all"));
         };
         if let Some(other) = shards.iter().find(|shard| !shard.manifest.is_of_run(&first.manifest)) {
             return Err(other.refused("it is a shard of another run; give the shards of one run"));
@@ -362,9 +373,10 @@ fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Error> {
         return Ok(());
     }
     let job = manifest.request.job.display();
-    Err(Error::input(format!(
-        "{job} or a file that it names has changed since the shards were rendered; render them again"
-    )))
+    Err(Error::coded(
+        ErrorCode::OtherRun,
+        format!("{job} or a file that it names has changed since the shards were rendered; render them again"),
+    ))
 }
 
 #[cfg(test)]

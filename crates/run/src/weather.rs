@@ -6,7 +6,7 @@ use clap::Args;
 use etendue_core::quantity::Variance;
 use etendue_core::{CameraPose, Plane, SpectralCube, TimeInterval};
 use etendue_io::exr::{EncodeError, Lengths, encode_plane, encode_radiance, encode_spectral};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::read_text;
 use etendue_io::{Existing, OutputFolder, load_assets};
 use etendue_pipeline::compile_weather;
@@ -64,12 +64,15 @@ fn expose(weather: &Weather, stored: &mut StoredRadiance, request: &WeatherReque
     let Some(falling) = &weather.falling else { return Ok(()) };
     let exposure_s = falling.exposure_s;
     if let Some(stored_s) = stored.exposure_s().filter(|stored_s| *stored_s != exposure_s) {
-        return Err(Error::input(format!(
-            "{}: \"exposure_s\" is {exposure_s} s, but the light of {} is the mean over {stored_s} s; give {stored_s}, or an image of light that \
+        return Err(Error::coded(
+            ErrorCode::Contradiction,
+            format!(
+                "{}: \"exposure_s\" is {exposure_s} s, but the light of {} is the mean over {stored_s} s; give {stored_s}, or an image of light that \
              does not depend on time",
-            request.weather.display(),
-            request.radiance.display()
-        )));
+                request.weather.display(),
+                request.radiance.display()
+            ),
+        ));
     }
     stored.provenance.further.insert(metadata::EXPOSURE_S.to_owned(), exposure_s.to_string());
     Ok(())
@@ -82,7 +85,7 @@ fn open(file: &Path) -> Result<Weather, Error> {
 }
 
 fn seen(weather: &Weather, stored: &StoredRadiance, file: &Path) -> Result<Weathered, Error> {
-    let refuse = |why: &str| Error::input(format!("{}: {why}", file.display()));
+    let refuse = |why: &str| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {why}", file.display()));
     let pose = stored.provenance.camera_to_world.as_ref().map(CameraPose::from_rows).ok_or_else(|| {
         refuse("it does not say where its camera stood, which decides what lies before it; render it with a camera that stands still")
     })?;

@@ -29,7 +29,7 @@ mod schema;
 mod suggest;
 pub mod written;
 
-pub use fault::{Fault, Faults, stated};
+pub use fault::{ErrorCode, Example, ExampleContext, Explanation, Fault, Faults, Problem, stated};
 pub use load::named_files;
 pub use load::{
     CameraSetup, Description, ReadText, Trigger, Unused, edit, load_camera, load_datasheet, load_laboratory,

@@ -6,6 +6,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use crate::fault::{ErrorCode, Problem};
 use crate::suggest::nearest;
 
 /// A limit.
@@ -116,28 +117,29 @@ impl Limit {
     ///
     /// # Errors
     /// Where it is beyond.
-    pub fn check_unpacked(&self, bytes: u64) -> Result<(), String> {
+    pub fn check_unpacked(&self, bytes: u64) -> Result<(), Problem> {
         if bytes <= self.most_bytes() {
             return Ok(());
         }
         let (size, most, remedy) = (bytes.div_ceil(MIB), self.most(), self.remedy_bytes(bytes.into()));
-        Err(format!("the file unpacks to {size} MiB, where {most} MiB are allowed; make it smaller, {remedy}"))
+        let words = format!("the file unpacks to {size} MiB, where {most} MiB are allowed; make it smaller, {remedy}");
+        Err(Problem::new(ErrorCode::TooLarge, words))
     }
 
     /// Refuses a file whose size is beyond a limit in MiB: what is wrong, and what to do.
     ///
     /// # Errors
     /// Where it is beyond.
-    pub fn check_size(&self, bytes: u64) -> Result<(), String> {
+    pub fn check_size(&self, bytes: u64) -> Result<(), Problem> {
         if bytes <= self.most_bytes() {
             return Ok(());
         }
         let size = bytes.div_ceil(MIB);
-        Err(format!(
-            "the file has {size} MiB, and files of its kind are read up to {} MiB; make it smaller, {}",
-            self.most(),
-            self.remedy_bytes(bytes.into())
-        ))
+        let (most, remedy) = (self.most(), self.remedy_bytes(bytes.into()));
+        let words = format!(
+            "the file has {size} MiB, and files of its kind are read up to {most} MiB; make it smaller, {remedy}"
+        );
+        Err(Problem::new(ErrorCode::TooLarge, words))
     }
 }
 
@@ -175,7 +177,7 @@ mod tests {
     fn a_message_says_how_far_to_raise() {
         assert!(DESCRIPTION.check_size(16 << 20).is_ok());
         let told = DESCRIPTION.check_size((16 << 20) + 1).expect_err("a byte more");
-        assert!(told.ends_with("has 17 MiB, and files of its kind are read up to 16 MiB; make it smaller, or raise the limit: `limit` description-mib=17"), "{told}");
+        assert!(told.words.ends_with("has 17 MiB, and files of its kind are read up to 16 MiB; make it smaller, or raise the limit: `limit` description-mib=17"), "{told}");
         assert_eq!([16, 40, 64].map(|most| BASES.next(most)), [32, 64, u64::MAX]);
         assert_eq!(BASES.remedy(65), "no limit can be raised beyond 64");
     }

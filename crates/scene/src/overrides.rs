@@ -10,7 +10,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::document::{Entry, Node, Table, Value, join, parse_override};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Place;
 use crate::suggest::nearest;
 
@@ -171,7 +171,12 @@ fn sensor_of_entry(entry: &mut Node) -> Option<&mut Node> {
 
 fn note_no_pair(document: &Node, text: &Text, faults: &mut Faults) {
     let place = text.place(document.place.file(), "");
-    faults.add(&place, "this is no key=value", "give a dotted key, \"=\" and a value: render.spp=16");
+    faults.add(
+        ErrorCode::InvalidChange,
+        &place,
+        "this is no key=value",
+        "give a dotted key, \"=\" and a value: render.spp=16",
+    );
 }
 
 /// The value that takes a key out.
@@ -183,7 +188,7 @@ const DEEPEST: usize = 80;
 fn note_too_deep(document: &Node, text: &Text, parts: usize, faults: &mut Faults) {
     let place = text.place(document.place.file(), "");
     let problem = format!("this key has {parts} parts, and no description is deeper than {DEEPEST}");
-    faults.add(&place, problem, "correct the key: render.spp=16");
+    faults.add(ErrorCode::InvalidChange, &place, problem, "correct the key: render.spp=16");
 }
 
 /// One `key=value`.
@@ -249,7 +254,12 @@ impl<'t> Change<'t> {
         let hint = nearest(last, &names).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
         let within = if parent.is_empty() { String::new() } else { format!(" in \"{parent}\"") };
         let problem = format!("there is no \"{last}\"{within} that could be taken out");
-        faults.add(&place, problem, format!("{hint}correct the key, or leave the change out"));
+        faults.add(
+            ErrorCode::InvalidChange,
+            &place,
+            problem,
+            format!("{hint}correct the key, or leave the change out"),
+        );
     }
 
     /// The entry `part` of `node`; a table that is not there yet is made.
@@ -261,7 +271,12 @@ impl<'t> Change<'t> {
             Value::List(list) => entry_of_list(list, part, &place, faults),
             Value::Unreadable => None,
             _ => {
-                faults.add(&place, format!("\"{parent}\" is not a table and has no key \"{part}\""), "correct the key");
+                faults.add(
+                    ErrorCode::InvalidChange,
+                    &place,
+                    format!("\"{parent}\" is not a table and has no key \"{part}\""),
+                    "correct the key",
+                );
                 None
             }
         }
@@ -284,7 +299,12 @@ impl<'t> Change<'t> {
                 }
             }
             Value::Unreadable => {}
-            _ => faults.add(&place, format!("there is no table that could hold \"{last}\""), "correct the key"),
+            _ => faults.add(
+                ErrorCode::InvalidChange,
+                &place,
+                format!("there is no table that could hold \"{last}\""),
+                "correct the key",
+            ),
         }
     }
 }
@@ -328,5 +348,5 @@ fn note_no_entry(list: &[Node], part: &str, place: &Place, faults: &mut Faults) 
         0 => "the list is empty; remove the override".to_owned(),
         n => format!("{hint}give a number from 0 to {}{entries}", n - 1),
     };
-    faults.add(place, format!("no entry is called \"{part}\""), remedy);
+    faults.add(ErrorCode::UnknownName, place, format!("no entry is called \"{part}\""), remedy);
 }

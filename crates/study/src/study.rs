@@ -13,8 +13,8 @@ use crate::trial::Trial;
 use crate::way::{EXACT_BOUNCES, WayToRender};
 use clap::Args;
 use etendue::{
-    Accelerator, Error, Existing, Integrator, Job, JobRequest, LightSignal, Observer, PathSettings, Progress,
-    RenderOptions, Simd, Unit, Word as _,
+    Accelerator, Error, ErrorCode, Existing, Integrator, Job, JobRequest, LightSignal, Observer, PathSettings,
+    Progress, RenderOptions, Simd, Unit, Word as _,
 };
 use etendue_core::LightSampling;
 use etendue_core::maths::f64::hypot;
@@ -94,7 +94,7 @@ pub fn study(request: &Request, scratch: &Path, clock: &dyn Clock, observer: &dy
     if scratch.exists() {
         let problem =
             "is there already, and a study writes a frame there and removes it; move it away, or give another folder";
-        return Err(Error::input(format!("{}: {problem}", scratch.display())));
+        return Err(Error::coded(ErrorCode::OutputExists, format!("{}: {problem}", scratch.display())));
     }
     let from_s = clock.seconds();
     let job = request.job.clone().open()?;

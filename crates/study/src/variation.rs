@@ -6,7 +6,7 @@ use crate::edge::EdgeChart;
 use crate::frame_render::{FrameRenderer, MORE};
 use crate::study::Request;
 use crate::way::{SAMPLE_KEYS, is_of};
-use etendue::{Error, Job, JobRequest, Observer, Progress, Unit};
+use etendue::{Error, ErrorCode, Job, JobRequest, Observer, Progress, Unit};
 use serde::Serialize;
 use std::fmt::Write as _;
 
@@ -73,7 +73,7 @@ pub fn variations(
 fn varied_request(own: &JobRequest, set: &[String], camera: &str) -> Result<JobRequest, Error> {
     if let Some(change) = set.iter().find(|change| is_of(change, camera, &SAMPLE_KEYS)) {
         let problem = "samples are chosen by `time_s` here; without `vary` a study tells what more or fewer come to";
-        return Err(Error::argument("vary", format!("`vary` {change}: {problem}")));
+        return Err(Error::argument("vary", format!("`vary` {change}: {problem}")).with_code(ErrorCode::InvalidChange));
     }
     let mut request = own.clone();
     request.set.extend(set.iter().cloned());

@@ -1,6 +1,6 @@
 //! The files of a result: of each folder, and of each frame where their names have its number.
 
-use etendue::Error;
+use etendue::{Error, ErrorCode};
 use std::ffi::OsStr;
 use std::fs;
 use std::ops::Range;
@@ -45,7 +45,7 @@ const ORDER: [&str; 10] = [
 /// # Errors
 /// Where it is no folder, cannot be read, or has no file or too many.
 pub(crate) fn find(folder: &Path, frames: Option<&Range<u32>>) -> Result<Vec<FoundFile>, Error> {
-    let refuse = |why: String| Error::input(format!("{}: {why}", folder.display()));
+    let refuse = |why: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {why}", folder.display()));
     if !folder.is_dir() {
         let what = if folder.exists() { "no folder" } else { "not there" };
         return Err(refuse(format!("{what}; expected the folder of a result, as etendue render -o names it")));
@@ -76,7 +76,8 @@ pub(crate) fn find(folder: &Path, frames: Option<&Range<u32>>) -> Result<Vec<Fou
 }
 
 fn search(folder: &Path, place: &str, depth: usize, files: &mut Vec<FoundFile>) -> Result<(), Error> {
-    let unreadable = |cause| Error::input(format!("{}: cannot be read: {cause}", folder.display()));
+    let unreadable =
+        |cause| Error::coded(ErrorCode::UnreadableFile, format!("{}: cannot be read: {cause}", folder.display()));
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let entry = entry.map_err(unreadable)?;
         let (path, kind) = (entry.path(), entry.file_type().map_err(unreadable)?);

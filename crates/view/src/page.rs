@@ -2,7 +2,7 @@
 
 use crate::html::in_script;
 use etendue::page::{PAGE_GENERATOR, html_page};
-use etendue::{Error, Existing, OutputFolder, write_file};
+use etendue::{Error, ErrorCode, Existing, OutputFolder, write_file};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::fs;
@@ -37,10 +37,10 @@ impl Page {
     pub(crate) fn open(path: &Path, existing: Existing) -> Result<Self, Error> {
         if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html")) {
             if existing == Existing::Refuse && path.symlink_metadata().is_ok() {
-                return Err(Error::input(format!(
-                    "{}: already there; choose another name, or allow it with `overwrite`",
-                    path.display()
-                )));
+                return Err(Error::coded(
+                    ErrorCode::OutputExists,
+                    format!("{}: already there; choose another name, or allow it with `overwrite`", path.display()),
+                ));
             }
             return Ok(Self::File(path.to_path_buf(), existing, String::new()));
         }

@@ -8,7 +8,7 @@ use crate::pairs::{FilePair, paired};
 use crate::read::{self, FileLayers, SideCar};
 use crate::request::ViewRequest;
 use crate::{bin, pack};
-use etendue::{Error, Existing, Message, Observer, Progress, Unit};
+use etendue::{Error, ErrorCode, Existing, Message, Observer, Progress, Unit};
 use etendue_io::inspect::{ChannelReport, VIRIDIS, flow_wheel};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -27,7 +27,7 @@ pub fn view(
     observer: &dyn Observer,
 ) -> Result<PathBuf, Error> {
     if request.max_mb == 0 {
-        return Err(Error::argument("max_mb", "`max_mb` 0: expected 1 or more"));
+        return Err(Error::argument("max_mb", "`max_mb` 0: expected 1 or more").with_code(ErrorCode::OutOfRange));
     }
     let frames = request.frames.as_ref();
     let first = find(&request.folder, frames)?;
@@ -36,10 +36,13 @@ pub fn view(
     let pairs = paired(first, second.unwrap_or_default());
     if has_two && !pairs.iter().any(|pair| pair.files.iter().all(Option::is_some)) {
         let beside = request.beside.as_deref().unwrap_or(Path::new("")).display();
-        return Err(Error::input(format!(
-            "{beside}: no file has the camera, frame and name of one in {}; give results of the same cameras and frames",
-            request.folder.display()
-        )));
+        return Err(Error::coded(
+            ErrorCode::NotComparable,
+            format!(
+                "{beside}: no file has the camera, frame and name of one in {}; give results of the same cameras and frames",
+                request.folder.display()
+            ),
+        ));
     }
     let own = request.folder.join("view");
     let (path, existing) = match page {
@@ -214,12 +217,15 @@ fn same_sizes((a, of_a): (&FoundFile, &[Layer]), (b, of_b): (&FoundFile, &[Layer
         let Some(other) = of_a.iter().find(|other| other.name == layer.name) else { continue };
         if other.size != layer.size {
             let ([w, h], [of_w, of_h]) = (<[usize; 2]>::from(layer.size), <[usize; 2]>::from(other.size));
-            return Err(Error::input(format!(
-                "{}: {} is {w} × {h} pixels, that of {} {of_w} × {of_h}; give results of one size",
-                b.path.display(),
-                layer.name,
-                a.path.display()
-            )));
+            return Err(Error::coded(
+                ErrorCode::NotComparable,
+                format!(
+                    "{}: {} is {w} × {h} pixels, that of {} {of_w} × {of_h}; give results of one size",
+                    b.path.display(),
+                    layer.name,
+                    a.path.display()
+                ),
+            ));
         }
     }
     Ok(())

@@ -4,7 +4,7 @@ use super::seeds::{repository, stored, write};
 use super::target::{TREE, Target, told};
 use etendue::{Existing, JobRequest, TextureMemory, Unobserved};
 use etendue_scene::limits::DESCRIPTION;
-use etendue_scene::{Description, Overrides, load_camera, load_datasheet, load_variations, load_weather};
+use etendue_scene::{Description, Overrides, Problem, load_camera, load_datasheet, load_variations, load_weather};
 use std::path::Path;
 
 /// What TOML is made of, and words of our format that lead to other files or forms.
@@ -40,9 +40,9 @@ const WORDS: &[&str] = &[
 
 const CONSTANT: u64 = 16 << 20;
 
-fn text(file: &Path) -> Result<String, String> {
+fn text(file: &Path) -> Result<String, Problem> {
     String::from_utf8(etendue_io::read_regular(file, &DESCRIPTION).map_err(|error| error.to_string())?)
-        .map_err(|error| error.to_string())
+        .map_err(|error| error.to_string().into())
 }
 
 fn job(file: &Path) -> String {

@@ -8,8 +8,8 @@ fn scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the generator lies in scenes/").to_owned()
 }
 
-fn read(file: &Path) -> Result<String, String> {
-    std::fs::read_to_string(file).map_err(|error| error.to_string())
+fn read(file: &Path) -> Result<String, etendue_scene::Problem> {
+    std::fs::read_to_string(file).map_err(|error| error.to_string().into())
 }
 
 #[test]

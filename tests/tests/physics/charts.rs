@@ -57,7 +57,7 @@ struct View {
 
 fn view(name: &str, index: usize) -> View {
     let job: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("oracles/figures/charts/{name}.toml"));
-    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
+    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string().into());
     let mut overrides = Overrides::default();
     overrides.push_render("`spp` 16", "spp", "16");
     let job = Description::load(&job, &read, &overrides).unwrap_or_else(|faults| panic!("{faults}"));

@@ -250,7 +250,7 @@ struct Bench {
 impl Bench {
     fn of(name: &str) -> Self {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("oracles/figures/emva/{name}.toml"));
-        let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
+        let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string().into());
         let camera = load_camera(&file, &read, &Overrides::default()).expect("a camera");
         let assets = load_assets(&named_files::of_camera(&camera)).expect("its files");
         let body = flat::bare(&compile_camera(&camera, &assets).expect("it compiles")).expect("electronics");

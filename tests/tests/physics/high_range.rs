@@ -14,7 +14,7 @@ use std::path::Path;
 /// The plan of a job that ships and needs no files but descriptions.
 fn shipped(job: &str) -> Plan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(job);
-    let read = |file: &Path| std::fs::read_to_string(file).map_err(|error| error.to_string());
+    let read = |file: &Path| std::fs::read_to_string(file).map_err(|error| error.to_string().into());
     let description =
         Description::load(&path, &read, &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
     compile(&description, &Assets::default(), &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"))

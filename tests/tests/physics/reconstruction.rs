@@ -25,7 +25,7 @@ fn figures() -> Value {
 
 fn room() -> Plan {
     let job: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("oracles/figures/reconstruction/room.toml");
-    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
+    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string().into());
     let job = Description::load(&job, &read, &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
     let assets = load_assets(&job.assets()).unwrap_or_else(|faults| panic!("{faults:?}"));
     compile(&job, &assets, &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"))

@@ -12,7 +12,7 @@ mod declared;
 mod seed;
 
 use coverage::{Rows, introduction, table};
-use etendue::{Error, Existing, write_file};
+use etendue::{Error, ErrorCode, Existing, write_file};
 use seed::Seed;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -46,12 +46,17 @@ fn run(arguments: &[String]) -> Result<Vec<String>, Error> {
     std::env::set_current_dir(root).map_err(Error::run)?;
     let (resume, arguments): (Vec<&String>, Vec<&String>) = arguments.iter().partition(|a| *a == RESUME);
     let seeds = match arguments.first() {
-        Some(count) => count.parse().map_err(|_| Error::input(format!("{count}: expected a number of seeds")))?,
+        Some(count) => count
+            .parse()
+            .map_err(|_| Error::coded(ErrorCode::InvalidArgument, format!("{count}: expected a number of seeds")))?,
         None => SEEDS,
     };
     let named = arguments.get(1..).unwrap_or_default();
     if let Some(unknown) = named.iter().find(|name| CAMERAS.iter().all(|(own, _)| own != *name)) {
-        return Err(Error::input(format!("{unknown}: expected a reference camera: ccd-mono, ccd-bayer or web")));
+        return Err(Error::coded(
+            ErrorCode::InvalidArgument,
+            format!("{unknown}: expected a reference camera: ccd-mono, ccd-bayer or web"),
+        ));
     }
     let wanted = |name: &str| named.is_empty() || named.iter().any(|own| *own == name);
     let folder = PathBuf::from(std::env::var_os("BENCH").unwrap_or_else(|| "target/laboratory".into()));

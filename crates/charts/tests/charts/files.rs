@@ -76,7 +76,7 @@ fn descriptions_parse() {
         let read = |path: &Path| {
             let name = path.file_name().and_then(|name| name.to_str()).ok_or("a name")?;
             let base = (name == "base.toml").then_some(CAMERA);
-            base.or_else(|| text(&files, name)).map(str::to_owned).ok_or_else(|| "there is no such file".to_owned())
+            base.or_else(|| text(&files, name)).map(str::to_owned).ok_or_else(|| "there is no such file".into())
         };
         let description = Description::load(Path::new("job.toml"), &read, &Overrides::default());
         let description = description.unwrap_or_else(|faults| panic!("{}: {faults}", chart.name()));

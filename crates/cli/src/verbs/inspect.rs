@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use clap::Args;
-use etendue::{Error, Existing, Shown, inspect_showing, write_file};
+use etendue::{Error, ErrorCode, Existing, Shown, inspect_showing, write_file};
 use etendue_arguments::png;
 use std::path::{Path, PathBuf};
 
@@ -33,7 +33,10 @@ impl Inspect {
                 return Err(Error::argument("png", message));
             }
             let Some(preview) = &report.preview else {
-                return Err(Error::input(format!("{}: no picture can be made of it", self.file.display())));
+                return Err(Error::coded(
+                    ErrorCode::UnsuitableFile,
+                    format!("{}: no picture can be made of it", self.file.display()),
+                ));
             };
             let bytes = preview.to_png().map_err(|error| Error::Run(error.to_string()))?;
             write_file(path, &bytes, Existing::Replace)?;

@@ -7,6 +7,7 @@ mod compare;
 mod dataset;
 mod datasheet;
 mod develop;
+mod explain;
 mod expose;
 mod flat;
 mod import;
@@ -69,4 +70,6 @@ subcommands! {
     Laboratory(laboratory::Laboratory),
     /// Print the JSON Schema of a file kind, for editors
     Schema(schema::Schema),
+    /// Explain the code of an error: its cause, an example and what to do
+    Explain(explain::Explain),
 }

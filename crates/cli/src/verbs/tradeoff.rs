@@ -5,7 +5,7 @@ use crate::args::job::JobArgs;
 use crate::console::{Console, print_paths};
 use crate::machine;
 use clap::Args;
-use etendue::{Error, Existing, Observer, OutputFolder};
+use etendue::{Error, ErrorCode, Existing, Observer, OutputFolder};
 use etendue_arguments::whole;
 use etendue_study::{
     Clock, Dropped, Request, Varied, ablation, ablation_table, job_file, pictures, plot, study, table, variation_table,
@@ -103,7 +103,8 @@ impl Tradeoff {
             return Err(Error::argument(
                 "mtf50",
                 "`mtf50` tells what changes do to the contrast transfer: give it with `ablate` or `vary`",
-            ));
+            )
+            .with_code(ErrorCode::NoEffect));
         }
         self.refuse_to_replace()?;
         let mut output = OutputFolder::open(folder, existing).map_err(Error::input)?;
@@ -143,11 +144,11 @@ impl Tradeoff {
         for path in names.map(|name| folder.join(name)).filter(|path| path.exists()) {
             if existing == Existing::Refuse {
                 let problem = "is there already; give another folder, or `overwrite`";
-                return Err(Error::input(format!("{}: {problem}", path.display())));
+                return Err(Error::coded(ErrorCode::OutputExists, format!("{}: {problem}", path.display())));
             }
             if path.canonicalize().ok() == self.job.request.job.canonicalize().ok() {
                 let problem = "is the job that is studied, and would be replaced; give another folder";
-                return Err(Error::input(format!("{}: {problem}", path.display())));
+                return Err(Error::coded(ErrorCode::OutputExists, format!("{}: {problem}", path.display())));
             }
         }
         Ok(())

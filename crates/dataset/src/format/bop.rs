@@ -16,7 +16,7 @@ use crate::picture::Picture;
 use crate::record::{ObjectRecord, PictureRecord, SampleRecord};
 use crate::records::Records;
 use crate::set::Set;
-use etendue::{Error, OutputFolder};
+use etendue::{Error, ErrorCode, OutputFolder};
 use etendue_core::Plane;
 use etendue_core::quantity::Length;
 use etendue_io::png::{encode_depth16, encode_grey8, stored_depth};
@@ -163,7 +163,7 @@ fn another_model(record: &SampleRecord, object: &ObjectRecord, known: &str) -> E
          poses and not scales and objects, or make the set in another folder without the format",
             object.id, object.name, record.sample
         ),
-    )
+    ).with_code(ErrorCode::UnsupportedOutput)
 }
 
 impl Bop {

@@ -9,7 +9,7 @@ use crate::picture::Picture;
 use crate::record::PictureRecord;
 use crate::records::Records;
 use crate::set::Set;
-use etendue::{Error, GroundTruth, OutputFolder};
+use etendue::{Error, ErrorCode, GroundTruth, OutputFolder};
 use etendue_io::png::{encode_grey8, encode_grey16};
 use std::collections::BTreeMap;
 
@@ -77,14 +77,15 @@ impl Cityscapes {
         for (_, label) in stated {
             if label_of(&label.value).is_none() {
                 let problem = format!("Cityscapes has no label \"{}\"; give one of {}", label.value, NAMES.join(", "));
-                return Err(Error::input(format!("{}: {problem}", label.place)));
+                return Err(Error::coded(ErrorCode::UnsupportedOutput, format!("{}: {problem}", label.place)));
             }
         }
         let mut cities: Vec<String> = set.cameras.iter().map(|camera| city(camera)).collect();
         cities.sort_unstable();
         if let Some(pair) = cities.windows(2).find(|pair| pair[0] == pair[1]) {
             let problem = "two cameras would be one city: \"_\" in a name is \"-\" here; rename one";
-            return Err(Error::argument("formats", format!("`formats` cityscapes: {}: {problem}", pair[0])));
+            return Err(Error::argument("formats", format!("`formats` cityscapes: {}: {problem}", pair[0]))
+                .with_code(ErrorCode::UnsupportedOutput));
         }
         let label = |name: &str| {
             let stated = stated.iter().find(|(class, _)| class.value == name).map(|(_, label)| label.value.as_str());

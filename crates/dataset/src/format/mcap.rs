@@ -17,7 +17,7 @@ use crate::picture::Picture;
 use crate::record::SampleRecord;
 use crate::records::Records;
 use crate::set::{Set, topic_name};
-use etendue::{Error, OutputFolder};
+use etendue::{Error, ErrorCode, OutputFolder};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
@@ -44,7 +44,10 @@ impl Writer for Mcap {
         let time_ns = u64::try_from(time.nanoseconds()).ok().filter(|_| time.whole_s() <= LAST_S);
         let Some(time_ns) = time_ns else {
             let problem = format!("an image of camera {} has the time {time} s", record.camera);
-            return Err(Error::input(format!("{problem}; MCAP with ROS messages holds times from 0 to {LAST_S} s")));
+            return Err(Error::coded(
+                ErrorCode::UnsupportedOutput,
+                format!("{problem}; MCAP with ROS messages holds times from 0 to {LAST_S} s"),
+            ));
         };
         let at = ros::At { time_ns, frame: record.camera.as_str() };
         let matrix = record.camera_matrix_px.expect("checked for all cameras of the format");

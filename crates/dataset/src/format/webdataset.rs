@@ -10,7 +10,7 @@ use crate::record::SampleRecord;
 use crate::records::Records;
 use crate::set::Set;
 use crate::tar;
-use etendue::{Error, FileDigest, OutputFolder};
+use etendue::{Error, ErrorCode, FileDigest, OutputFolder};
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Length};
 use etendue_io::png::encode_grey16;
@@ -106,7 +106,7 @@ impl Writer for WebDataset {
                 samples.end,
                 end - 1
             ),
-        ))
+        ).with_code(ErrorCode::OtherRun))
     }
 
     /// A part is a piece of the shard that has taken its place.

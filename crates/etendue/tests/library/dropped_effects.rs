@@ -31,7 +31,7 @@ fn jobs() -> Vec<PathBuf> {
 /// The plan of a job under changes; the assets that it needs are added to those that are known.
 fn plan(job: &Path, set: &[String], assets: &mut Assets) -> Result<Plan, String> {
     let told = |errors: Vec<String>| errors.join("\n");
-    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
+    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string().into());
     let description = Description::load(job, &read, &Overrides::new(set)).map_err(|faults| faults.to_string())?;
     let complete =
         complete_assets(std::mem::take(assets), &description.assets(), &TextureMemory::default(), &Sandbox::NONE);

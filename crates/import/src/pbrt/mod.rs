@@ -21,7 +21,7 @@ mod texture;
 use super::written::Written;
 use crate::syntax::pbrt::read_pbrt;
 use etendue_io::Sandbox;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use interpreter::Interpreter;
 use std::path::Path;
 
@@ -29,5 +29,7 @@ pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
     let mut interpreter = Interpreter::new(file, folder);
     read_pbrt(file, &Sandbox::NONE, &mut |directive, place| interpreter.take(directive, place))
         .map_err(Error::input)?;
-    interpreter.finish(file).map_err(|told| Error::input(format!("{}: {told}", file.display())))
+    interpreter
+        .finish(file)
+        .map_err(|told| Error::coded(ErrorCode::MalformedFile, format!("{}: {told}", file.display())))
 }

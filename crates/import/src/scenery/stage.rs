@@ -76,7 +76,7 @@ impl Scenery {
         if self.scene.objects.len() > MAX_OBJECTS {
             return Err(format!("the scene has more than {MAX_OBJECTS} objects with all instances; instance less"));
         }
-        limits::MESH.check_unpacked(self.bytes)
+        limits::MESH.check_unpacked(self.bytes).map_err(|problem| problem.words)
     }
 
     /// The path, as the written scene names it, of a file that the scene file names.

@@ -32,12 +32,12 @@ mod wrap;
 use super::written::Written;
 use crate::syntax::usd::read_usd;
 use etendue_io::Sandbox;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use importer::Importer;
 use std::path::Path;
 
 pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
     let stage = read_usd(file, &Sandbox::NONE).map_err(Error::input)?;
     let made = Importer::new(file, folder, &stage).finish(file);
-    made.map_err(|told| Error::input(format!("{}: {told}", file.display())))
+    made.map_err(|told| Error::coded(ErrorCode::MalformedFile, format!("{}: {told}", file.display())))
 }

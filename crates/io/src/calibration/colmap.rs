@@ -11,7 +11,7 @@ use etendue_projection::plane::DistortionTerms;
 use etendue_projection::{Calibration, CameraMatrix, Model};
 
 use super::opencv::wrong;
-use super::{Fault, Found, Read, of_camera};
+use super::{ErrorCode, Fault, Found, Read, of_camera};
 
 /// Models with one focal length and with two, each with its number of parameters.
 const ONE_FOCAL: [(&str, usize); 7] = [
@@ -62,12 +62,11 @@ fn chosen<'a, 'b>(cameras: &'b [Line<'a>], camera: Option<&str>) -> Read<&'b Lin
     let names = cameras.iter().map(|c| c.id).collect::<Vec<_>>().join(", ");
     match (cameras, camera) {
         ([], _) => Err(Fault::at(0, "holds no camera; expected a line CAMERA_ID MODEL WIDTH HEIGHT PARAMS…")),
-        (all, Some(asked)) => all
-            .iter()
-            .find(|c| c.id == asked)
-            .ok_or_else(|| Fault::at(0, format!("holds no camera \"{asked}\"; it holds {names}"))),
+        (all, Some(asked)) => all.iter().find(|c| c.id == asked).ok_or_else(|| {
+            Fault::coded(ErrorCode::UnknownName, 0, format!("holds no camera \"{asked}\"; it holds {names}"))
+        }),
         ([one], None) => Ok(one),
-        _ => Err(Fault::at(0, format!("holds the cameras {names}; choose one by its id"))),
+        _ => Err(Fault::coded(ErrorCode::UnknownName, 0, format!("holds the cameras {names}; choose one by its id"))),
     }
 }
 
@@ -89,7 +88,11 @@ impl<'a> Line<'a> {
         let all = ONE_FOCAL.iter().chain(&TWO_FOCALS).chain([&PANORAMA]);
         let Some((_, count)) = all.clone().find(|(name, _)| *name == self.model) else {
             let known = all.map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
-            return Err(Fault::at(self.number, format!("the model {} is none of {known}", self.model)));
+            return Err(Fault::coded(
+                ErrorCode::UnsupportedFile,
+                self.number,
+                format!("the model {} is none of {known}", self.model),
+            ));
         };
         if self.parameters.len() != *count {
             let what = format!("found {} parameters; {} has {count}", self.parameters.len(), self.model);

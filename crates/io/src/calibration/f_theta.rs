@@ -23,7 +23,7 @@ use etendue_projection::{Calibration, CameraMatrix, Model};
 
 use super::opencv::wrong;
 use super::yaml::{self, Node};
-use super::{Fault, Found, Read, of_camera, passed_over};
+use super::{ErrorCode, Fault, Found, Read, of_camera, passed_over};
 
 const DRIVE_WORKS: [&str; 11] = [
     "Model",
@@ -65,7 +65,11 @@ fn sensor<'a>(rig: &'a Node, camera: Option<&str>) -> Read<(String, &'a Node)> {
         (_, []) => return Err(Fault::at(rig.line, "holds no f-theta camera (properties with Model = \"ftheta\")")),
         (None, [only]) => Some(only),
         (None, _) => {
-            return Err(Fault::at(rig.line, format!("holds the f-theta cameras {names}; choose one by its name")));
+            return Err(Fault::coded(
+                ErrorCode::UnknownName,
+                rig.line,
+                format!("holds the f-theta cameras {names}; choose one by its name"),
+            ));
         }
         (Some(asked), _) => cameras.iter().find(|(name, _)| *name == asked),
     };
@@ -92,7 +96,7 @@ struct Numbers {
 fn drive_works(node: &Node) -> Read<Found> {
     let model = node.key("Model")?;
     if !is_f_theta(node) {
-        return Err(Fault::at(model.line, "expected the model \"ftheta\""));
+        return Err(Fault::coded(ErrorCode::UnsupportedFile, model.line, "expected the model \"ftheta\""));
     }
     let or_zero = |key: &str| node.find(key).map_or(Ok(0.0), Node::number);
     let (sense, polynomial) = match node.find("polynomial") {
@@ -115,7 +119,11 @@ fn ncore(node: &Node) -> Read<Found> {
     if let Some(external) = node.find("external_distortion_parameters")
         && external.text().ok().is_none_or(|text| !matches!(text, "" | "null"))
     {
-        return Err(Fault::at(external.line, "a distortion by a wind-screen, which is not read; expected null"));
+        return Err(Fault::coded(
+            ErrorCode::UnsupportedFile,
+            external.line,
+            "a distortion by a wind-screen, which is not read; expected null",
+        ));
     }
     let [width, height] = node.key("resolution")?.items().unwrap_or_default() else {
         return Err(Fault::at(node.key("resolution")?.line, "expected [width, height]"));
@@ -141,7 +149,11 @@ fn sense(node: &Node) -> Read<FThetaSense> {
         "angle-to-pixeldistance" | "ANGLE_TO_PIXELDIST" => Ok(FThetaSense::AngleToRadius),
         other => {
             let known = "pixeldistance-to-angle, angle-to-pixeldistance, PIXELDIST_TO_ANGLE, ANGLE_TO_PIXELDIST";
-            Err(Fault::at(node.line, format!("the polynomial's type {other} is none of {known}")))
+            Err(Fault::coded(
+                ErrorCode::UnsupportedFile,
+                node.line,
+                format!("the polynomial's type {other} is none of {known}"),
+            ))
         }
     }
 }

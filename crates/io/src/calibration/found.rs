@@ -1,5 +1,6 @@
 //! What a reader of one format answers: a camera, or why the text holds none.
 
+use crate::ErrorCode;
 use crate::tree::{Fault, Read};
 use etendue_projection::{Calibration, CalibrationError};
 
@@ -17,9 +18,11 @@ impl Found {
             Some(asked) if asked != self.name && self.name.is_empty() => {
                 Err(Fault::at(0, format!("holds one camera without a name; do not ask for \"{asked}\"")))
             }
-            Some(asked) if asked != self.name => {
-                Err(Fault::at(0, format!("holds no camera \"{asked}\"; it holds \"{}\"", self.name)))
-            }
+            Some(asked) if asked != self.name => Err(Fault::coded(
+                ErrorCode::UnknownName,
+                0,
+                format!("holds no camera \"{asked}\"; it holds \"{}\"", self.name),
+            )),
             _ => Ok((self.name, self.calibration, self.notes)),
         }
     }

@@ -12,7 +12,7 @@ use etendue_projection::{Calibration, CameraMatrix, Model};
 
 use super::opencv::{fisheye, unified, wrong};
 use super::yaml::{self, Node, list};
-use super::{Fault, Found, Read, of_camera, passed_over};
+use super::{ErrorCode, Fault, Found, Read, of_camera, passed_over};
 
 const KNOWN: [&str; 5] = ["camera_model", "intrinsics", "distortion_model", "distortion_coeffs", "resolution"];
 
@@ -34,13 +34,21 @@ pub(super) fn read(text: &str, camera: Option<&str>) -> Read<Found> {
 fn chosen<'a>(root: &'a Node, camera: Option<&str>) -> Read<(&'a str, &'a Node)> {
     let names = root.keys();
     match (root.entries(), camera) {
-        (entries, Some(asked)) => entries
-            .iter()
-            .find(|(name, _)| name == asked)
-            .map(|(name, node)| (name.as_str(), node))
-            .ok_or_else(|| Fault::at(0, format!("holds no camera \"{asked}\"; it holds {}", list(&names)))),
+        (entries, Some(asked)) => {
+            entries.iter().find(|(name, _)| name == asked).map(|(name, node)| (name.as_str(), node)).ok_or_else(|| {
+                Fault::coded(
+                    ErrorCode::UnknownName,
+                    0,
+                    format!("holds no camera \"{asked}\"; it holds {}", list(&names)),
+                )
+            })
+        }
         ([(name, node)], None) => Ok((name, node)),
-        _ => Err(Fault::at(0, format!("holds the cameras {}; choose one by its name", list(&names)))),
+        _ => Err(Fault::coded(
+            ErrorCode::UnknownName,
+            0,
+            format!("holds the cameras {}; choose one by its name", list(&names)),
+        )),
     }
 }
 
@@ -66,7 +74,11 @@ fn model(node: &Node) -> Read<(Model, [f64; 4])> {
             let model = DoubleSphere::new(xi, alpha).map_err(wrong(intrinsics.line))?;
             Ok((Model::DoubleSphere(model), rest))
         }
-        other => Err(Fault::at(camera.line, format!("the camera model {other} is none of pinhole, omni, eucm, ds"))),
+        other => Err(Fault::coded(
+            ErrorCode::UnsupportedFile,
+            camera.line,
+            format!("the camera model {other} is none of pinhole, omni, eucm, ds"),
+        )),
     }
 }
 
@@ -110,13 +122,19 @@ fn no_distortion(node: &Node) -> Read<()> {
         return Err(unknown(name, found, "this camera model goes with none"));
     }
     match node.find("distortion_coeffs") {
-        Some(list) if !list.numbers()?.is_empty() => {
-            Err(Fault::at(list.line, "coefficients of the distortion model none; expected []"))
-        }
+        Some(list) if !list.numbers()?.is_empty() => Err(Fault::coded(
+            ErrorCode::UnsupportedFile,
+            list.line,
+            "coefficients of the distortion model none; expected []",
+        )),
         _ => Ok(()),
     }
 }
 
 fn unknown(name: &Node, found: &str, known: &str) -> Fault {
-    Fault::at(name.line, format!("the distortion model {found} is not known here: {known}"))
+    Fault::coded(
+        ErrorCode::UnsupportedFile,
+        name.line,
+        format!("the distortion model {found} is not known here: {known}"),
+    )
 }

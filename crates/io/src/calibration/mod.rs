@@ -23,10 +23,10 @@ mod ocam;
 mod opencv;
 mod ros;
 
-use crate::Error;
 use crate::hash::{self, ContentHash};
 use crate::source::{decode_text, read_description_bytes};
 use crate::tree::{self as yaml, Fault, Read, passed_over};
+use crate::{Error, ErrorCode};
 use etendue_projection::Calibration;
 use found::{Found, of_camera};
 use std::path::Path;

@@ -12,7 +12,7 @@ use etendue_projection::model::Perspective;
 use etendue_projection::{Calibration, Model};
 
 use super::yaml::{self, Node};
-use super::{Fault, Found, Read, matrix, of_camera, opencv, passed_over};
+use super::{ErrorCode, Fault, Found, Read, matrix, of_camera, opencv, passed_over};
 
 const KNOWN: [&str; 6] =
     ["image_width", "image_height", "camera_name", "camera_matrix", "distortion_model", "distortion_coefficients"];
@@ -23,7 +23,11 @@ pub(super) fn read(text: &str) -> Read<Found> {
     let node = root.key("camera_matrix")?;
     let camera_matrix = matrix::camera(node)?;
     if camera_matrix.skew != 0.0 {
-        return Err(Fault::at(node.line, "expected a camera matrix without skew, as camera_info defines it"));
+        return Err(Fault::coded(
+            ErrorCode::UnsupportedFile,
+            node.line,
+            "expected a camera matrix without skew, as camera_info defines it",
+        ));
     }
     let model = model(root.key("distortion_model")?, root.key("distortion_coefficients")?)?;
     let calibration = Calibration::new(model, camera_matrix, size_px).map_err(of_camera(node.line))?;
@@ -39,7 +43,11 @@ fn model(name: &Node, coefficients: &Node) -> Read<Model> {
         "equidistant" => return opencv::fisheye(coefficients.line, &k),
         other => {
             let known = "plumb_bob, rational_polynomial, equidistant";
-            return Err(Fault::at(name.line, format!("the distortion model {other} is none of {known}")));
+            return Err(Fault::coded(
+                ErrorCode::UnsupportedFile,
+                name.line,
+                format!("the distortion model {other} is none of {known}"),
+            ));
         }
     };
     if !counts.contains(&k.len()) {

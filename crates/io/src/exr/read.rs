@@ -13,7 +13,7 @@ use super::colour_space;
 use crate::guard::guarded;
 use crate::source::{read_bytes, read_expected_bytes};
 use crate::unpacked;
-use crate::{Error, Provenance};
+use crate::{Error, ErrorCode, Provenance};
 
 /// Samples of a channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,7 +111,8 @@ impl ExrFile {
         if self.attributes.get(colour_space::ENVMAP).is_none_or(|projection| projection != colour_space::CUBE) {
             return Ok(());
         }
-        Err(Error::new(
+        Err(Error::coded(
+            ErrorCode::UnsupportedFile,
             file,
             "a cube map (its attribute \"envmap\" says so), whose six faces are not read; store it as a panorama of latitude and longitude \
              (OpenEXR's exrenvmap -latlong does so)",
@@ -243,7 +244,8 @@ fn add_layer(
         (read.width, read.height) = (width, height);
     } else if (read.width, read.height) != (width, height) {
         let sizes = format!("{}x{} and {width}x{height}", read.width, read.height);
-        return Err(Error::new(
+        return Err(Error::coded(
+            ErrorCode::UnsupportedFile,
             file,
             format!("parts of different sizes ({sizes}); store each part as a file of its own"),
         ));
@@ -256,7 +258,8 @@ fn add_layer(
     for channel in layer.channel_data.list {
         let name = format!("{}{}", part.as_deref().unwrap_or_default(), channel.name);
         if channel.sample_data.len() != width * height {
-            return Err(Error::new(
+            return Err(Error::coded(
+                ErrorCode::UnsupportedFile,
                 file,
                 format!("channel `{name}` is subsampled; store all channels at full resolution"),
             ));

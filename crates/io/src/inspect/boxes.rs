@@ -2,8 +2,8 @@
 
 use super::object_box::ObjectBox;
 use super::{FileReport, Preview, drawing};
-use crate::Error;
 use crate::source::read_description_bytes;
+use crate::{Error, ErrorCode};
 use serde::Deserialize;
 use std::path::Path;
 
@@ -35,7 +35,11 @@ pub fn read_boxes(file: &Path) -> Result<Boxes, Error> {
 pub(super) fn draw(report: &mut FileReport, boxes: &Path) -> Result<(), Error> {
     let found = read_boxes(boxes)?;
     let Some(preview) = &mut report.preview else {
-        return Err(Error::new(&report.file, "there is no picture on which boxes could be drawn; give a picture"));
+        return Err(Error::coded(
+            ErrorCode::UnsuitableFile,
+            &report.file,
+            "there is no picture on which boxes could be drawn; give a picture",
+        ));
     };
     let Preview { width, height, .. } = *preview;
     if (width, height) != (found.width_px, found.height_px) {

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::statistics::ChannelReport;
 use super::{FileReport, Preview, layer};
-use crate::Error;
 use crate::exr::{ExrFile, Samples, SpectralImage, decode_exr, linear_srgb, parse_channel_name, spectral_of};
+use crate::{Error, ErrorCode};
 
 /// The report, with a picture of the layer that is asked for.
 pub(super) fn report(file: &Path, bytes: &[u8], shown: Option<&str>) -> Result<FileReport, Error> {
@@ -25,7 +25,11 @@ pub(super) fn report(file: &Path, bytes: &[u8], shown: Option<&str>) -> Result<F
 }
 
 fn no_layer(file: &Path, exr: &ExrFile, name: &str) -> Error {
-    Error::new(file, format!("there is no layer \"{name}\"; give one of {}", layer::names(exr).join(", ")))
+    Error::coded(
+        ErrorCode::UnknownName,
+        file,
+        format!("there is no layer \"{name}\"; give one of {}", layer::names(exr).join(", ")),
+    )
 }
 
 fn kind(exr: &ExrFile) -> &'static str {

@@ -17,11 +17,11 @@ mod statistics;
 mod text;
 mod tiff;
 
-use crate::Error;
 use crate::correspondence::{is_flo, is_kitti_flow};
 use crate::photograph::{is_pfm, is_tiff};
 use crate::picture::EXR_MAGIC;
 use crate::source::{read_bytes, read_description_bytes};
+use crate::{Error, ErrorCode};
 use std::path::{Path, PathBuf};
 
 pub use boxes::{Boxes, read_boxes};
@@ -72,7 +72,8 @@ fn report(file: &Path, layer: Option<&str>) -> Result<FileReport, Error> {
         return exr::report(file, &bytes, layer);
     }
     if let Some(layer) = layer {
-        return Err(Error::new(
+        return Err(Error::coded(
+            ErrorCode::UnsupportedFile,
             file,
             format!("no EXR, which alone has layers such as \"{layer}\"; leave the layer out"),
         ));
@@ -83,9 +84,11 @@ fn report(file: &Path, layer: Option<&str>) -> Result<FileReport, Error> {
         Some("json") => text::sidecar(file, &bytes),
         Some("ies" | "ldt") => lamp::report(file),
         Some("csv") => text::table(file, &bytes),
-        Some("toml") => {
-            Err(Error::new(file, "a description, neither result nor asset; `etendue plan` says what a job describes"))
-        }
+        Some("toml") => Err(Error::coded(
+            ErrorCode::UnsupportedFile,
+            file,
+            "a description, neither result nor asset; `etendue plan` says what a job describes",
+        )),
         _ if is_flo(&bytes) => flow::middlebury(file, &bytes),
         _ if is_kitti_flow(&bytes) => flow::kitti(file, &bytes),
         _ if is_pfm(&bytes) => flow::float_map(file, &bytes),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::Error;
+use crate::{Error, ErrorCode, Problem};
 
 /// In what fields are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,12 +69,12 @@ impl<'a> Listing<'a> {
         }
         let head = tables.first().map(|table| table.above.clone());
         let head = head.ok_or_else(|| {
-            Error::new(file, "holds no row of numbers (decimal points, at least two in a row); expected a table that Zemax exported as text")
+            Error::coded(ErrorCode::Empty, file, "holds no row of numbers (decimal points, at least two in a row); expected a table that Zemax exported as text")
         })?;
         Ok(Self { file, head, tables })
     }
 
-    pub(super) fn fault(&self, line: usize, what: impl Into<String>) -> Error {
+    pub(super) fn fault(&self, line: usize, what: impl Into<Problem>) -> Error {
         if line == 0 { Error::new(self.file, what) } else { Error::at(self.file, line, what) }
     }
 

@@ -111,7 +111,7 @@ fn numbers(statement: &Statement<'_>, count: usize, high: f64) -> Result<String,
         _ => format!("a number from 0 to {high}"),
     };
     let told = |what: &str| format!("`{} {}`: {what}; expected {expected}", statement.keyword(), statement.rest());
-    let values = statement.numbers().map_err(|what| told(&what))?;
+    let values = statement.numbers().map_err(|what| told(&what.words))?;
     if values.len() != count && values.len() != 1 {
         return Err(told(&format!("{} numbers", values.len())));
     }

@@ -10,7 +10,7 @@ use std::path::Path;
 use super::statement::{Statement, statements};
 use super::tobj_input::TobjInput;
 use super::vertex::check_range;
-use crate::Error;
+use crate::{Error, ErrorCode, Problem};
 use etendue_scene::limits::CORNERS;
 
 /// What a corner names, in order.
@@ -48,7 +48,8 @@ pub(super) fn scan(file: &Path, text: &str) -> Result<Obj, Error> {
         return Err(Error::at(file, *line, out_of_range(KINDS[*kind], *index, obj.counts[*kind])));
     }
     if obj.corners == 0 {
-        return Err(Error::new(
+        return Err(Error::coded(
+            ErrorCode::Empty,
             file,
             "this mesh has no faces; the file may be truncated, or hold only lines or points",
         ));
@@ -75,7 +76,7 @@ impl Obj {
         Ok(models.into_iter().map(|model| model.mesh).collect())
     }
 
-    fn take(&mut self, statement: &Statement<'_>) -> Result<(), String> {
+    fn take(&mut self, statement: &Statement<'_>) -> Result<(), Problem> {
         let (line, rest) = (statement.line, statement.rest());
         match statement.keyword() {
             "v" => self.vertex(statement)?,
@@ -92,7 +93,7 @@ impl Obj {
         Ok(())
     }
 
-    fn vertex(&mut self, statement: &Statement<'_>) -> Result<(), String> {
+    fn vertex(&mut self, statement: &Statement<'_>) -> Result<(), Problem> {
         let numbers = statement.numbers()?;
         check_range(&numbers)?;
         match numbers[..] {
@@ -101,7 +102,8 @@ impl Obj {
             [_, _, _, w] => {
                 return Err(format!(
                     "vertex with the weight {w}; expected three coordinates, weights belong to curves"
-                ));
+                )
+                .into());
             }
             [x, y, z, _, _, _] => {
                 self.pass_over("v with a colour", statement.line);
@@ -113,10 +115,10 @@ impl Obj {
     }
 
     /// Texture coordinates or a normal: given to tobj as `parts` if its numbers are finite. Too few are left to tobj.
-    fn coordinates(&mut self, kind: usize, statement: &Statement<'_>, parts: &[&str]) -> Result<(), String> {
+    fn coordinates(&mut self, kind: usize, statement: &Statement<'_>, parts: &[&str]) -> Result<(), Problem> {
         let found = statement.numbers()?.len();
         if found > 3 {
-            return Err(format!("`{}` has {found} numbers, expected at most 3", statement.keyword()));
+            return Err(format!("`{}` has {found} numbers, expected at most 3", statement.keyword()).into());
         }
         self.feed(kind, statement.line, parts);
         Ok(())
@@ -128,7 +130,7 @@ impl Obj {
         self.input.push_parts(line, parts);
     }
 
-    fn face(&mut self, statement: &Statement<'_>) -> Result<(), String> {
+    fn face(&mut self, statement: &Statement<'_>) -> Result<(), Problem> {
         let (mut corners, mut form, mut is_even) = (0_usize, [false; 3], true);
         for word in statement.words() {
             let own = self.corner(word, statement.line)?;
@@ -142,12 +144,15 @@ impl Obj {
             return Err(format!(
                 "corners of no form or of several in `f {}`; expected all as v, v/vt, v//vn or v/vt/vn",
                 statement.rest()
-            ));
+            )
+            .into());
         }
         let sum = u32::try_from(corners).ok().and_then(|n| self.corners.checked_add(n));
         let most = CORNERS.most();
         self.corners = sum.filter(|sum| u64::from(*sum) <= most).ok_or_else(|| {
-            format!("more than {most} corners of faces; split the mesh, {}", CORNERS.remedy(CORNERS.next(most)))
+            let remedy = CORNERS.remedy(CORNERS.next(most));
+            let words = format!("more than {most} corners of faces; split the mesh, {remedy}");
+            Problem::new(ErrorCode::TooLarge, words)
         })?;
         if self.materials.is_empty() {
             self.use_material("", None)?;
@@ -177,12 +182,12 @@ impl Obj {
         Ok(form)
     }
 
-    fn use_material(&mut self, name: &str, line: Option<usize>) -> Result<(), String> {
+    fn use_material(&mut self, name: &str, line: Option<usize>) -> Result<(), Problem> {
         if self.known.insert(name.to_owned()) {
             self.materials.push(name.to_owned());
         }
         if self.materials.len() > 1 << 16 {
-            return Err("more than 65 536 materials in one mesh; split the mesh".to_owned());
+            return Err("more than 65 536 materials in one mesh; split the mesh".into());
         }
         if let Some(line) = line {
             self.input.push_parts(line, &["usemtl", name]);
@@ -199,8 +204,8 @@ fn out_of_range(name: &str, stated: isize, count: usize) -> String {
     format!("face names {name} {stated}, but there are {count}; the file is damaged or truncated")
 }
 
-fn wrong_count(keyword: &str, expected: &str, found: usize) -> String {
-    format!("`{keyword}` has {found}, expected {expected}; the line may be cut off")
+fn wrong_count(keyword: &str, expected: &str, found: usize) -> Problem {
+    format!("`{keyword}` has {found}, expected {expected}; the line may be cut off").into()
 }
 
 #[cfg(test)]

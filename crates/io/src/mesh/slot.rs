@@ -60,7 +60,9 @@ fn library_paths(file: &Path, obj: &Obj, sandbox: &Sandbox) -> Result<(Vec<PathB
         let whole = beside(file, rest);
         let several: Vec<PathBuf> = rest.split_whitespace().map(|name| beside(file, name)).collect();
         for path in several.iter().chain([&whole]) {
-            sandbox.check(path).map_err(|told| Error::at(file, *line, format!("`mtllib {rest}`: {told}")))?;
+            sandbox
+                .check(path)
+                .map_err(|problem| Error::at(file, *line, problem.within(format_args!("`mtllib {rest}`"))))?;
         }
         let one = whole.exists() || !several.iter().any(|path| path.exists());
         let named = if one && !several.is_empty() { vec![whole] } else { several };

@@ -2,6 +2,7 @@
 //!
 //! Blanks are those of Unicode, as tobj has them.
 
+use crate::Problem;
 use std::borrow::Cow;
 
 /// One statement: a line without its comment and outer blanks, never empty.
@@ -36,15 +37,15 @@ impl<'a> Statement<'a> {
     }
 
     /// The words as numbers; the fault in words where one is none.
-    pub(super) fn numbers(&self) -> Result<Vec<f64>, String> {
+    pub(super) fn numbers(&self) -> Result<Vec<f64>, Problem> {
         self.words().map(number).collect()
     }
 }
 
 /// A finite number.
-pub(super) fn number(word: &str) -> Result<f64, String> {
+pub(super) fn number(word: &str) -> Result<f64, Problem> {
     let value: f64 = word.parse().map_err(|_| format!("`{word}` is not a number"))?;
-    if value.is_finite() { Ok(value) } else { Err(format!("`{word}` is not finite; expected a finite number")) }
+    if value.is_finite() { Ok(value) } else { Err(format!("`{word}` is not finite; expected a finite number").into()) }
 }
 
 /// The statements of `text`: comments and empty lines left out, lines that end in a backslash joined.
@@ -118,8 +119,8 @@ mod tests {
     #[test]
     fn numbers_are_finite() {
         assert_eq!(number("-1.5e-3"), Ok(-1.5e-3));
-        assert_eq!(number("nan"), Err("`nan` is not finite; expected a finite number".to_owned()));
-        assert_eq!(number("1e999"), Err("`1e999` is not finite; expected a finite number".to_owned()));
-        assert_eq!(number("1,5"), Err("`1,5` is not a number".to_owned()));
+        assert_eq!(number("nan"), Err("`nan` is not finite; expected a finite number".into()));
+        assert_eq!(number("1e999"), Err("`1e999` is not finite; expected a finite number".into()));
+        assert_eq!(number("1,5"), Err("`1,5` is not a number".into()));
     }
 }

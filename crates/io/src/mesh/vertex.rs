@@ -1,5 +1,8 @@
 //! Numbers of vertices: unit normals, and what positions are stored relative to.
 
+use crate::{ErrorCode, Problem};
+use etendue_scene::limits::CORNERS;
+
 /// A unit vector in 32 bits; z for a face without area, which no ray meets.
 pub(super) fn unit(v: [f64; 3]) -> [f32; 3] {
     let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
@@ -9,6 +12,17 @@ pub(super) fn unit(v: [f64; 3]) -> [f32; 3] {
     let scaled = v.map(|c| c / largest);
     let length = scaled.iter().map(|c| c * c).sum::<f64>().sqrt();
     scaled.map(|c| (c / length) as f32)
+}
+
+/// Refuses more corners of faces than are read.
+pub(super) fn check_corners(corners: u64) -> Result<(), Problem> {
+    let most = CORNERS.most().min(u64::from(u32::MAX));
+    if corners <= most {
+        return Ok(());
+    }
+    let remedy = CORNERS.remedy(corners);
+    let words = format!("its faces have {corners} corners, at most {most} are read; make it smaller, {remedy}");
+    Err(Problem::new(ErrorCode::TooLarge, words))
 }
 
 /// Refuses coordinates that 32 bits cannot hold.

@@ -5,17 +5,18 @@ use std::path::Path;
 use image::DynamicImage;
 
 use super::{Photograph, Stated, channel_names, guess, separated};
-use crate::Error;
 use crate::picture::{Kept, decode_raster};
 use crate::png_chunks;
+use crate::{Error, ErrorCode};
 
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let (_, picture) = decode_raster(file, bytes, super::KINDS, Kept::Floats)?;
     let (width, height, colour) = (picture.width() as usize, picture.height() as usize, picture.color());
     let (samples, full_scale) = samples(&picture);
     let channels = usize::from(colour.channel_count());
-    let names =
-        channel_names(channels).ok_or_else(|| Error::new(file, format!("{channels} channels; expected 1 to 4")))?;
+    let names = channel_names(channels).ok_or_else(|| {
+        Error::coded(ErrorCode::UnsupportedFile, file, format!("{channels} channels; expected 1 to 4"))
+    })?;
     let stated = stated(bytes, guess(full_scale, colour.has_color()));
     Ok(Photograph {
         width,

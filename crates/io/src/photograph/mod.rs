@@ -22,10 +22,10 @@ mod side_car;
 mod tiff;
 mod timing;
 
-use crate::Error;
 use crate::exr::decode_exr;
 use crate::picture::EXR_MAGIC;
 use crate::source::read_bytes;
+use crate::{Error, ErrorCode};
 use channels::{channel_names, guess, of_floats, separated};
 use std::path::Path;
 
@@ -72,7 +72,11 @@ pub fn decode_photograph(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
         grid::decode(file, bytes)?
     };
     if photograph.width == 0 || photograph.height == 0 || photograph.channels.is_empty() {
-        return Err(Error::new(file, "a picture without pixels; expected at least one pixel of one channel"));
+        return Err(Error::coded(
+            ErrorCode::Empty,
+            file,
+            "a picture without pixels; expected at least one pixel of one channel",
+        ));
     }
     Ok(photograph)
 }

@@ -11,7 +11,7 @@ use ::tiff::tags::Tag;
 
 use super::{Photograph, channel_names, guess, separated};
 use crate::guard::guarded;
-use crate::{Error, unpacked};
+use crate::{Error, ErrorCode, unpacked};
 
 /// Whether the bytes begin as a TIFF, of either byte order, plain or big.
 pub(crate) fn is_tiff(bytes: &[u8]) -> bool {
@@ -38,21 +38,34 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let colour = decoder.colortype().map_err(damaged)?;
     let grey = matches!(colour, ColorType::Gray(_) | ColorType::GrayA(_));
     if !(grey || matches!(colour, ColorType::RGB(_) | ColorType::RGBA(_))) {
-        return Err(Error::new(file, format!("a TIFF of {colour:?}; expected grey or RGB: convert it")));
+        return Err(Error::coded(
+            ErrorCode::UnsupportedFile,
+            file,
+            format!("a TIFF of {colour:?}; expected grey or RGB: convert it"),
+        ));
     }
     let count = usize::from(colour.num_samples());
     const SEPARATE: u16 = 2;
     let planes = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(damaged)?;
     if count > 1 && planes == Some(SEPARATE) {
-        return Err(Error::new(file, "a TIFF of separate planes; store the samples of a pixel side by side"));
+        return Err(Error::coded(
+            ErrorCode::UnsupportedFile,
+            file,
+            "a TIFF of separate planes; store the samples of a pixel side by side",
+        ));
     }
     let samples = u128::from(width) * u128::from(height) * count as u128;
     unpacked::check(file, samples, bytes.len())?;
     if decoder.more_images() {
-        return Err(Error::new(file, "a TIFF of several pictures; store each as a file of its own"));
+        return Err(Error::coded(
+            ErrorCode::UnsupportedFile,
+            file,
+            "a TIFF of several pictures; store each as a file of its own",
+        ));
     }
     let (samples, full_scale) = numbers(file, decoder.read_image().map_err(damaged)?)?;
-    let names = channel_names(count).ok_or_else(|| Error::new(file, format!("{count} channels; expected 1 to 4")))?;
+    let names = channel_names(count)
+        .ok_or_else(|| Error::coded(ErrorCode::UnsupportedFile, file, format!("{count} channels; expected 1 to 4")))?;
     Ok(Photograph {
         width: width as usize,
         height: height as usize,
@@ -116,7 +129,8 @@ fn numbers(file: &Path, samples: DecodingResult) -> Result<(Vec<f32>, Option<f64
         DecodingResult::F32(v) => (v, None),
         DecodingResult::F64(v) => (v.into_iter().map(|n| n as f32).collect(), None),
         _ => {
-            return Err(Error::new(
+            return Err(Error::coded(
+                ErrorCode::UnsupportedFile,
                 file,
                 "a TIFF of signed or 64-bit numbers; expected unsigned ones of up to 32 bits, or floats",
             ));

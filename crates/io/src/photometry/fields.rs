@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::Error;
+use crate::{Error, Problem};
 
 /// The numbers of a text from some line on.
 pub(super) struct Fields<'a> {
@@ -34,7 +34,7 @@ impl<'a> Fields<'a> {
     }
 
     /// A fault at the number that was taken last.
-    pub(super) fn fault(&self, what: impl Into<String>) -> Error {
+    pub(super) fn fault(&self, what: impl Into<Problem>) -> Error {
         Error::at(self.file, self.line, what)
     }
 

@@ -23,7 +23,7 @@ use std::path::Path;
 use etendue_scene::asset::PhotometryAsset;
 
 use crate::source::{name_notes, read_description_bytes};
-use crate::{Error, Sandbox, hash};
+use crate::{Error, ErrorCode, Sandbox, hash};
 
 /// Reads a measured lamp; the kind of file is told by its name.
 ///
@@ -41,7 +41,13 @@ pub(crate) fn read_photometry_in(file: &Path, sandbox: &Sandbox) -> Result<Photo
     let (mut asset, further) = match extension.to_str() {
         Some("ies") => ies::read(file, &text, sandbox)?,
         Some("ldt") => (ldt::read(file, &text)?, None),
-        _ => return Err(Error::new(file, "expected a measured lamp by the name of .ies (LM-63) or .ldt (EULUMDAT)")),
+        _ => {
+            return Err(Error::coded(
+                ErrorCode::UnsupportedFile,
+                file,
+                "expected a measured lamp by the name of .ies (LM-63) or .ldt (EULUMDAT)",
+            ));
+        }
     };
     asset.hash = match further {
         Some(tilt) => hash::of_parts([&bytes[..], &tilt[..]]),

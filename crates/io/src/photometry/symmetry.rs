@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::Error;
+use crate::{Error, ErrorCode};
 
 /// A plane: its horizontal angle, degrees, and its intensities.
 pub(super) type Plane = (f64, Vec<f64>);
@@ -37,7 +37,7 @@ pub(super) fn full_turn(file: &Path, planes: Vec<Plane>, symmetry: Symmetry) -> 
             .into_iter()
             .next()
             .map(|(_, plane)| vec![(0.0, plane.clone()), (360.0, plane)])
-            .ok_or_else(|| Error::new(file, "holds no plane; expected one at least"));
+            .ok_or_else(|| Error::coded(ErrorCode::Empty, file, "holds no plane; expected one at least"));
     }
     let mut all = planes;
     if matches!(symmetry, Symmetry::AboutC90 | Symmetry::Quadrants) {

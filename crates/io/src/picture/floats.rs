@@ -4,8 +4,8 @@ use std::path::Path;
 
 use etendue_scene::asset::{ColourMatrix, ImagePixels};
 
-use crate::Error;
 use crate::exr::{ExrChannel, ExrFile};
+use crate::{Error, ErrorCode};
 
 /// Width, height, pixels, and what makes their colours those of Rec. 709.
 pub(super) type Picture = (u32, u32, ImagePixels, Option<ColourMatrix>);
@@ -45,7 +45,8 @@ fn joined(colours: impl Iterator<Item = [f32; 3]>, opacity: Option<Vec<f32>>) ->
 }
 
 fn size(file: &Path, pixels: usize) -> Result<u32, Error> {
-    u32::try_from(pixels).map_err(|_| Error::new(file, format!("a side of {pixels} pixels is too long")))
+    u32::try_from(pixels)
+        .map_err(|_| Error::coded(ErrorCode::TooLarge, file, format!("a side of {pixels} pixels is too long")))
 }
 
 /// Refuses the first pixel that is not finite.

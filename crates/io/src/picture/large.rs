@@ -14,7 +14,7 @@ use super::raster::stored_format;
 use super::{EXR_MAGIC, Kept, decode_picture};
 use crate::guard::guarded;
 use crate::source::read_bytes;
-use crate::{Error, hash, unpacked};
+use crate::{Error, ErrorCode, hash, unpacked};
 
 /// Pixels that are handed over at a time, about.
 const STRIP_PIXELS: usize = 1 << 17;
@@ -97,7 +97,12 @@ impl PixelRows for PictureFile {
     fn read(&self, take: TakeRows<'_>) -> Result<(), String> {
         let bytes = read_bytes(&self.path, "picture").map_err(|error| error.to_string())?;
         if hash::of_bytes(&bytes) != self.hash {
-            return Err(Error::new(&self.path, "the file was changed while it was read; run again").to_string());
+            return Err(Error::coded(
+                ErrorCode::OtherRun,
+                &self.path,
+                "the file was changed while it was read; run again",
+            )
+            .to_string());
         }
         if let Some(rows) = guarded(&self.path, || Ok(PngRows::new(&bytes, self.size.0, self.size.1))).ok().flatten() {
             match rows.read(&self.path, take) {

@@ -8,7 +8,7 @@ use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, Imag
 
 use super::floats::Picture;
 use crate::guard::guarded;
-use crate::{Error, unpacked};
+use crate::{Error, ErrorCode, unpacked};
 
 /// Decodes `bytes` by their first bytes.
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Picture, Error> {
@@ -25,7 +25,8 @@ pub(crate) fn decode_raster(
 ) -> Result<(ImageFormat, DynamicImage), Error> {
     let known = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr];
     let format = image::guess_format(bytes).ok().filter(|format| known.contains(format));
-    let unknown = || Error::new(file, format!("not a picture of a known kind; expected {kinds}"));
+    let unknown =
+        || Error::coded(ErrorCode::UnsupportedFile, file, format!("not a picture of a known kind; expected {kinds}"));
     let format = format.ok_or_else(unknown)?;
     if format == ImageFormat::Jpeg && !jpeg_is_whole(bytes) {
         return Err(Error::new(file, "this JPEG has no end marker: it is truncated; make or fetch it again"));

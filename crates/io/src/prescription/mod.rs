@@ -22,7 +22,7 @@ use std::path::Path;
 use etendue_scene::asset::PrescriptionAsset;
 
 use crate::source::{decode_lens_text, read_description_bytes};
-use crate::{Error, hash};
+use crate::{Error, ErrorCode, hash};
 
 /// Reads a prescription; the kind of file is told by its name.
 ///
@@ -35,7 +35,13 @@ pub fn read_prescription(file: &Path) -> Result<PrescriptionAsset, Error> {
     let mut asset = match extension.to_str() {
         Some("zmx") => zmx::read(file, &text)?,
         Some("seq") => seq::read(file, &text)?,
-        _ => return Err(Error::new(file, "expected a lens by the name of .zmx (Zemax) or .seq (CODE V)")),
+        _ => {
+            return Err(Error::coded(
+                ErrorCode::UnsupportedFile,
+                file,
+                "expected a lens by the name of .zmx (Zemax) or .seq (CODE V)",
+            ));
+        }
     };
     asset.hash = hash::of_bytes(&bytes);
     Ok(asset)

@@ -19,7 +19,7 @@ use super::build::{Primary, Raw, RawSurface, by_number, named, successor};
 use super::opening::Opening;
 use super::private::PrivateGlasses;
 use super::text::Words;
-use crate::Error;
+use crate::{Error, ErrorCode};
 
 /// Commands that change the lens in a way that is not modelled.
 const REFUSED: &[&str] = &[
@@ -124,7 +124,9 @@ impl Reader {
             "S" | "SO" | "SI" => self.surface(&name, w)?,
             _ if name.strip_prefix('S').is_some_and(is_count) => self.surface(&name, w)?,
             _ if REFUSED.contains(&name.as_str()) => {
-                return Err(w.fault(format!("{name} is not modelled; only centred surfaces of revolution are")));
+                return Err(w
+                    .fault(format!("{name} is not modelled; only centred surfaces of revolution are"))
+                    .with_code(ErrorCode::UnsupportedFile));
             }
             _ if self.edit(&name, w)? || PASSED_OVER.contains(&name.as_str()) => {}
             _ => self.unknown.push((name, w.line)),
@@ -183,10 +185,9 @@ impl Reader {
             )));
         }
         if name == "S" && self.current + 1 < count {
-            return Err(w.fault(format!(
-                "S after S{}: inserting surfaces is not read; write them in their order",
-                self.current
-            )));
+            return Err(w
+                .fault(format!("S after S{}: inserting surfaces is not read; write them in their order", self.current))
+                .with_code(ErrorCode::UnsupportedFile));
         }
         let Some(radii) = self.radii else {
             return Err(w.fault("surfaces before RDM: say whether they give radii (RDM) or curvatures (RDM N)"));
@@ -215,7 +216,11 @@ impl Reader {
         let plain = name.trim_start_matches(['\'', '"']);
         match name.to_ascii_uppercase().as_str() {
             "" | "AIR" => return Ok(GlassAsset::Air),
-            "REFL" => return Err(w.fault("a mirror; only refracting lenses are modelled")),
+            "REFL" => {
+                return Err(w
+                    .fault("a mirror; only refracting lenses are modelled")
+                    .with_code(ErrorCode::UnsupportedFile));
+            }
             _ => {}
         }
         if let Some(glass) = self.glasses.find(plain).or_else(|| named(plain)).or_else(|| by_number(plain)) {
@@ -225,7 +230,7 @@ impl Reader {
             return Err(w.fault(format!(
                 "no glass is called `{plain}`; give a name of the Schott or Ohara catalogue, a number as 517642, or its indices in a private \
                  catalogue (PRV) before the surfaces"
-            )));
+            )).with_code(ErrorCode::UnknownName));
         };
         let note = format!("line {}: no catalogue here has {plain}: its successor {today} is taken", w.line);
         self.raw.notes.push(note);
@@ -238,7 +243,9 @@ fn unit(w: &Words<'_>) -> Result<f64, Error> {
         "M" | "MM" => Ok(1.0),
         "C" | "CM" => Ok(10.0),
         "I" | "IN" => Ok(25.4),
-        other => Err(w.fault(format!("DIM is `{other}`; expected M (mm), C (cm) or I (inches)"))),
+        other => Err(w
+            .fault(format!("DIM is `{other}`; expected M (mm), C (cm) or I (inches)"))
+            .with_code(ErrorCode::UnsupportedFile)),
     }
 }
 

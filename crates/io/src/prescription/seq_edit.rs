@@ -8,7 +8,7 @@ use core::ops::RangeInclusive;
 use super::build::RawSurface;
 use super::seq::{Reader, is_count, thickness};
 use super::text::Words;
-use crate::Error;
+use crate::{Error, ErrorCode};
 
 /// The surfaces that a command is about, and the place of its first value.
 struct Target {
@@ -53,7 +53,9 @@ impl Reader {
     fn target(&self, name: &str, w: &Words<'_>) -> Result<Target, Error> {
         let zoom = |word: &str| word.strip_prefix(['Z', 'z']).is_some_and(is_count);
         if zoom(w.word(1)) || zoom(w.word(2)) {
-            return Err(w.fault(format!("{name} of a zoom position: zooms are not modelled")));
+            return Err(w
+                .fault(format!("{name} of a zoom position: zooms are not modelled"))
+                .with_code(ErrorCode::UnsupportedFile));
         }
         // A glass may have a name like that of a surface.
         let lone_glass = name == "GLA" && w.words.len() == 2;
@@ -127,7 +129,11 @@ fn property(surface: &mut RawSurface, name: &str, w: &Words<'_>, value: usize) -
         "CIR" => match w.word(value).to_ascii_uppercase().as_str() {
             // The glass's edge is no clear aperture.
             "EDG" | "HOL" => {}
-            "OBS" => return Err(w.fault("an obscuration is not modelled; only round, open apertures are")),
+            "OBS" => {
+                return Err(w
+                    .fault("an obscuration is not modelled; only round, open apertures are")
+                    .with_code(ErrorCode::UnsupportedFile));
+            }
             _ => (surface.semi_aperture, surface.rim) = (Some(w.number(value)?), true),
         },
         _ => {

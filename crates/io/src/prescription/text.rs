@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::Error;
+use crate::{Error, Problem};
 
 /// A line's command: where it stands, and its words.
 pub(super) struct Words<'a> {
@@ -12,7 +12,7 @@ pub(super) struct Words<'a> {
 }
 
 impl Words<'_> {
-    pub(super) fn fault(&self, what: impl Into<String>) -> Error {
+    pub(super) fn fault(&self, what: impl Into<Problem>) -> Error {
         Error::at(self.file, self.line, what)
     }
 

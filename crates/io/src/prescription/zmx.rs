@@ -15,7 +15,7 @@ use super::build::{Primary, Raw, RawSurface};
 use super::opening::Opening;
 use super::text::Words;
 use super::zmx_glass::Glasses;
-use crate::Error;
+use crate::{Error, ErrorCode};
 
 pub(super) fn read(file: &Path, text: &str) -> Result<PrescriptionAsset, Error> {
     let mut reader = Reader::default();
@@ -50,7 +50,9 @@ const SURFACE_KEYWORDS: [&str; 26] = [
 impl Reader {
     fn command(&mut self, w: &Words<'_>) -> Result<(), Error> {
         match w.word(0) {
-            "MODE" if w.word(1) != "SEQ" => Err(w.fault("a non-sequential lens; expected MODE SEQ")),
+            "MODE" if w.word(1) != "SEQ" => {
+                Err(w.fault("a non-sequential lens; expected MODE SEQ").with_code(ErrorCode::UnsupportedFile))
+            }
             "NAME" => {
                 self.raw.title = w.words[1..].join(" ");
                 Ok(())
@@ -108,7 +110,11 @@ impl Reader {
             "CM" => 10.0,
             "IN" => 25.4,
             "METER" => 1e3,
-            other => return Err(w.fault(format!("UNIT is `{other}`; expected MM, CM, IN or METER"))),
+            other => {
+                return Err(w
+                    .fault(format!("UNIT is `{other}`; expected MM, CM, IN or METER"))
+                    .with_code(ErrorCode::UnsupportedFile));
+            }
         };
         self.raw.unit_mm = Some(unit);
         Ok(())
@@ -146,7 +152,9 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
     match w.word(0) {
         "TYPE" if !["STANDARD", "EVENASPH"].contains(&w.word(1)) => {
             let kind = w.word(1);
-            return Err(w.fault(format!("a surface of type {kind}; only STANDARD and EVENASPH are modelled")));
+            return Err(w
+                .fault(format!("a surface of type {kind}; only STANDARD and EVENASPH are modelled"))
+                .with_code(ErrorCode::UnsupportedFile));
         }
         "TYPE" => surface.aspheric = w.word(1) == "EVENASPH",
         "CURV" => surface.curvature = w.number(1)?,
@@ -155,7 +163,11 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
         "PARM" if surface.aspheric => coefficient(surface, w)?,
         "DISZ" => surface.thickness = if w.word(1) == "INFINITY" { f64::INFINITY } else { w.number(1)? },
         // A clear aperture overrides the diameter that the program keeps for drawing.
-        "CLAP" if w.number(1)? != 0.0 => return Err(w.fault("an obscuration; only round, open apertures are modelled")),
+        "CLAP" if w.number(1)? != 0.0 => {
+            return Err(w
+                .fault("an obscuration; only round, open apertures are modelled")
+                .with_code(ErrorCode::UnsupportedFile));
+        }
         "CLAP" => (surface.semi_aperture, surface.rim) = (Some(w.number(2)?), true),
         // A floating aperture clips at the diameter.
         "FLAP" => surface.rim = true,
@@ -163,7 +175,9 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
         "STOP" => surface.stop = true,
         "OBDC" if w.numbers(1)?.iter().all(|shift| *shift == 0.0) => {}
         aperture @ ("SQAP" | "ELAP" | "OBSC" | "SQOB" | "ELOB" | "UDAD" | "OBDC") => {
-            return Err(w.fault(format!("an aperture {aperture}; only round, centred apertures are modelled")));
+            return Err(w
+                .fault(format!("an aperture {aperture}; only round, centred apertures are modelled"))
+                .with_code(ErrorCode::UnsupportedFile));
         }
         _ => {}
     }
@@ -192,7 +206,9 @@ fn coefficient(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
 fn opening(w: &Words<'_>) -> Result<Option<Opening>, Error> {
     match (w.word(0), w.word(2)) {
         ("ENPD", _) => Opening::pupil(w).map(Some),
-        ("FNUM", "1") => Err(w.fault("a working f-number; give the image-space f-number (FNUM with 0), ENPD or FLOA")),
+        ("FNUM", "1") => Err(w
+            .fault("a working f-number; give the image-space f-number (FNUM with 0), ENPD or FLOA")
+            .with_code(ErrorCode::UnsupportedFile)),
         ("FNUM", _) => Opening::f_number(w).map(Some),
         ("OBNA", "1") => Opening::object_angle(w).map(Some),
         ("OBNA", _) => Opening::object_cone(w).map(Some),

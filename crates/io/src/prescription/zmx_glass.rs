@@ -10,7 +10,7 @@ use etendue_scene::asset::GlassAsset;
 
 use super::build::{RawSurface, by_number, named, successor};
 use super::text::Words;
-use crate::Error;
+use crate::{Error, ErrorCode};
 
 /// What Zemax writes where the numbers of a glass stand in a catalogue.
 const CATALOGUE_NUMBERS: [f64; 2] = [1.5, 40.0];
@@ -37,14 +37,16 @@ impl Glasses {
         surfaces: &[RawSurface],
     ) -> Result<(GlassAsset, Option<String>), Error> {
         if w.word(1) == "MIRROR" {
-            return Err(w.fault("a mirror; only refracting lenses are modelled"));
+            return Err(w.fault("a mirror; only refracting lenses are modelled").with_code(ErrorCode::UnsupportedFile));
         }
         match w.word(2) {
             "1" => Ok((GlassAsset::Abbe { index: w.number(4)?, abbe: w.number(5)? }, None)),
             "2" => {
                 let from = surfaces.get(w.number(3)? as usize);
-                let from =
-                    from.ok_or_else(|| w.fault("the glass is picked up from a surface that is not given before"))?;
+                let from = from.ok_or_else(|| {
+                    w.fault("the glass is picked up from a surface that is not given before")
+                        .with_code(ErrorCode::UnsupportedFile)
+                })?;
                 Ok((from.glass.clone(), None))
             }
             _ => self.of_catalogue(w),
@@ -66,7 +68,7 @@ impl Glasses {
         let Some(numbers) = numbers else {
             return Err(w.fault(format!(
                 "no glass is called `{name}`; give a name of the Schott or Ohara catalogue, or n_d and V_d on its line (GLAS {name} 1 0 n_d V_d)"
-            )));
+            )).with_code(ErrorCode::UnknownName));
         };
         self.check_same(w, numbers)?;
         let [index, abbe] = numbers;

@@ -2,6 +2,7 @@
 
 use etendue_scene::asset::{PassAsset, TermAsset, TransferAsset};
 
+use crate::ErrorCode;
 use crate::tree::{Fault, Node, Read, passed_over};
 
 /// The highest power that is read, and the most terms of a polynomial.
@@ -30,10 +31,14 @@ pub(super) fn read(node: &Node, output_offset_mm: f64, with_dz: bool) -> Read<(T
         let text = name.text()?;
         let Some(which) = OUTPUTS.iter().position(|names| names.contains(&text)) else {
             let known = OUTPUTS.concat().join(", ");
-            return Err(Fault::at(name.line, format!("the output \"{text}\" is none of {known}")));
+            return Err(Fault::coded(
+                ErrorCode::UnsupportedFile,
+                name.line,
+                format!("the output \"{text}\" is none of {known}"),
+            ));
         };
         if found[which].replace(terms(item)?).is_some() {
-            return Err(Fault::at(name.line, format!("the output \"{text}\" is there twice")));
+            return Err(Fault::coded(ErrorCode::Duplicate, name.line, format!("the output \"{text}\" is there twice")));
         }
     }
     let [x, y, z, dx, dy, dz] = found;
@@ -62,7 +67,11 @@ fn terms(item: &Node) -> Read<Vec<TermAsset>> {
         return Err(Fault::at(item.line, told));
     }
     if counts[0] > MAX_TERMS {
-        return Err(Fault::at(item.line, format!("found {} terms; at most {MAX_TERMS} are read", counts[0])));
+        return Err(Fault::coded(
+            ErrorCode::UnsupportedFile,
+            item.line,
+            format!("found {} terms; at most {MAX_TERMS} are read", counts[0]),
+        ));
     }
     let term = |(i, coefficient): (usize, f64)| TermAsset { coefficient, powers: [0, 1, 2].map(|k| powers[k][i]) };
     Ok(coefficients.into_iter().enumerate().map(term).collect())
@@ -88,9 +97,11 @@ fn pass(node: &Node) -> Read<(f64, PassAsset)> {
     match method.text()? {
         "minimalellipse" => Ok((plane_mm, ellipses(pass)?)),
         "circles" => Ok((plane_mm, circles(pass.key("radii")?, pass.key("sensitivities")?)?)),
-        other => {
-            Err(Fault::at(method.line, format!("the method \"{other}\" is none of \"minimalellipse\", \"circles\"")))
-        }
+        other => Err(Fault::coded(
+            ErrorCode::UnsupportedFile,
+            method.line,
+            format!("the method \"{other}\" is none of \"minimalellipse\", \"circles\""),
+        )),
     }
 }
 

@@ -22,7 +22,7 @@ use etendue_scene::asset::RayTransferAsset;
 
 use crate::source::{decode_text, read_description_bytes};
 use crate::tree::{self, Fault, Node, Read, passed_over};
-use crate::{Error, hash};
+use crate::{Error, ErrorCode, hash};
 
 const KEYS: [&str; 8] = [
     "name",
@@ -66,11 +66,12 @@ fn read(text: &str) -> Read<RayTransferAsset> {
         return Err(Fault::at(polynomials.line, told));
     }
     if transfers.is_empty() {
-        return Err(Fault::at(polynomials.line, "holds no wavelength; expected one at least"));
+        return Err(Fault::coded(ErrorCode::Empty, polynomials.line, "holds no wavelength; expected one at least"));
     }
     transfers.sort_by(|a, b| a.0.wavelength_nm.total_cmp(&b.0.wavelength_nm));
     if let Some(pair) = transfers.windows(2).find(|pair| pair[0].0.wavelength_nm == pair[1].0.wavelength_nm) {
-        return Err(Fault::at(
+        return Err(Fault::coded(
+            ErrorCode::Duplicate,
             polynomials.line,
             format!("the wavelength {} nm is there twice", pair[0].0.wavelength_nm),
         ));

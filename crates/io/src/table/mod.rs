@@ -20,7 +20,7 @@ use std::path::Path;
 use etendue_scene::asset::{ComplexIndexAsset, NumbersAsset, RetroTableAsset};
 
 use crate::source::{decode_text, read_bytes};
-use crate::{Error, hash};
+use crate::{Error, ErrorCode, hash};
 
 /// Reads a table of n and k.
 ///
@@ -37,7 +37,11 @@ pub fn read_complex_index(file: &Path) -> Result<ComplexIndexAsset, Error> {
         points.push(point);
     }
     if points.is_empty() {
-        return Err(Error::new(file, "holds no row; expected three columns: wavelength in nm, n, k"));
+        return Err(Error::coded(
+            ErrorCode::Empty,
+            file,
+            "holds no row; expected three columns: wavelength in nm, n, k",
+        ));
     }
     Ok(ComplexIndexAsset { points, hash: hash::of_bytes(&bytes) })
 }
@@ -77,7 +81,8 @@ pub fn read_retro_table(file: &Path) -> Result<RetroTableAsset, Error> {
         add_row(&mut table, &row).map_err(|what| Error::at(file, row.line, what))?;
     }
     if table.observation_deg.is_empty() {
-        return Err(Error::new(
+        return Err(Error::coded(
+            ErrorCode::Empty,
             file,
             "holds no observation angle; expected one row at least behind the entrance angles",
         ));
@@ -133,7 +138,11 @@ pub fn read_numbers(file: &Path) -> Result<NumbersAsset, Error> {
         table.columns = values.len();
         table.values.extend(values);
     }
-    if table.values.is_empty() { Err(Error::new(file, "holds no row; expected rows of numbers")) } else { Ok(table) }
+    if table.values.is_empty() {
+        Err(Error::coded(ErrorCode::Empty, file, "holds no row; expected rows of numbers"))
+    } else {
+        Ok(table)
+    }
 }
 
 /// A row that holds something.

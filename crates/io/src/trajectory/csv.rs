@@ -3,12 +3,14 @@
 use std::path::Path;
 
 use super::columns::{Columns, Read, is_known};
-use crate::Error;
 use crate::table::{number, rows};
+use crate::{Error, ErrorCode};
 
 pub(super) fn read(file: &Path, text: &str) -> Result<Read, Error> {
     let mut rows = rows(text);
-    let head = rows.next().ok_or_else(|| Error::new(file, "holds no row; expected a line of column names first"))?;
+    let head = rows
+        .next()
+        .ok_or_else(|| Error::coded(ErrorCode::Empty, file, "holds no row; expected a line of column names first"))?;
     let columns = Columns::of(&head.cells).map_err(|what| Error::at(file, head.line, what))?;
     let unread = head.cells.iter().filter(|name| !is_known(name)).map(|name| (*name).to_owned()).collect();
     let read = rows.map(|row| {

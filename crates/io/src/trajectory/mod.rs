@@ -23,7 +23,7 @@ use std::path::Path;
 use etendue_scene::asset::TrajectoryAsset;
 
 use crate::source::{decode_text, read_bytes, read_description_bytes};
-use crate::{Error, hash};
+use crate::{Error, ErrorCode, hash};
 
 /// Reads a trajectory.
 ///
@@ -35,7 +35,7 @@ pub fn read_trajectory(file: &Path) -> Result<TrajectoryAsset, Error> {
     let text = decode_text(file, &bytes)?;
     let (rows, unread) = if is_json { json::read(file, text) } else { csv::read(file, text) }?;
     if rows.is_empty() {
-        return Err(Error::new(file, "holds no place; expected one at least, with a time"));
+        return Err(Error::coded(ErrorCode::Empty, file, "holds no place; expected one at least, with a time"));
     }
     for pair in rows.windows(2) {
         let [(before_line, before), (line, row)] = [pair[0], pair[1]];

@@ -1,6 +1,6 @@
 //! What is wrong in a text of keys and values.
 
-use crate::Error;
+use crate::{Error, ErrorCode, Problem};
 use std::path::Path;
 
 /// What is wrong, and in which line (from 1; 0 for the whole file).
@@ -8,17 +8,24 @@ use std::path::Path;
 pub(crate) struct Fault {
     pub(crate) line: usize,
     pub(crate) what: String,
+    code: ErrorCode,
 }
 
 pub(crate) type Read<T> = Result<T, Fault>;
 
 impl Fault {
-    pub(crate) fn at(line: usize, what: impl Into<String>) -> Self {
-        Self { line, what: what.into() }
+    pub(crate) fn at(line: usize, what: impl Into<Problem>) -> Self {
+        let Problem { code, words } = what.into();
+        Self { line, what: words, code }
+    }
+
+    pub(crate) fn coded(code: ErrorCode, line: usize, what: impl Into<String>) -> Self {
+        Self::at(line, Problem::new(code, what))
     }
 
     pub(crate) fn of(self, file: &Path) -> Error {
-        if self.line == 0 { Error::new(file, self.what) } else { Error::at(file, self.line, self.what) }
+        let what = Problem::new(self.code, self.what);
+        if self.line == 0 { Error::new(file, what) } else { Error::at(file, self.line, what) }
     }
 }
 

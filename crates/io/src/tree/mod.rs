@@ -8,6 +8,7 @@ mod fault;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
+use crate::ErrorCode;
 use saphyr_parser::{Event, Parser, ScalarStyle, Span, StrInput};
 
 pub(crate) use fault::{Fault, Read, passed_over};
@@ -36,7 +37,11 @@ const MOST_VALUES: usize = 1 << 21;
 pub(crate) fn parse(text: &str) -> Read<Node> {
     let values = text.bytes().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
     if values > MOST_VALUES {
-        return Err(Fault::at(0, format!("holds {values} commas and brackets; at most {MOST_VALUES} are read")));
+        return Err(Fault::coded(
+            ErrorCode::UnsupportedFile,
+            0,
+            format!("holds {values} commas and brackets; at most {MOST_VALUES} are read"),
+        ));
     }
     let header = if text.starts_with("%YAML") { text.find('\n').unwrap_or(text.len()) } else { 0 };
     let text = as_document(&text[header..]);
@@ -44,7 +49,9 @@ pub(crate) fn parse(text: &str) -> Read<Node> {
     loop {
         match events.next()? {
             (Event::StreamStart | Event::DocumentStart(_), _) => {}
-            (Event::StreamEnd, _) => return Err(Fault::at(0, "holds nothing; expected keys with values")),
+            (Event::StreamEnd, _) => {
+                return Err(Fault::coded(ErrorCode::Empty, 0, "holds nothing; expected keys with values"));
+            }
             (event, span) => {
                 let root = events.node(event, span, 0)?;
                 return match root.value {
@@ -90,7 +97,13 @@ impl<'a> Events<'a> {
             Event::Scalar(text, style, ..) => Value::Scalar(plain(&text, style)),
             Event::SequenceStart(..) => Value::List(self.list(depth)?),
             Event::MappingStart(..) => Value::Map(self.map(depth)?),
-            Event::Alias(_) => return Err(Fault::at(line, "aliases (*name) are not read: write the value itself")),
+            Event::Alias(_) => {
+                return Err(Fault::coded(
+                    ErrorCode::UnsupportedFile,
+                    line,
+                    "aliases (*name) are not read: write the value itself",
+                ));
+            }
             _ => return Err(Fault::at(line, "expected a value")),
         };
         Ok(Node { line, value })
@@ -116,7 +129,7 @@ impl<'a> Events<'a> {
                 (_, span) => return Err(Fault::at(span.start.line(), "expected a key")),
             };
             if !known.insert(key.clone()) {
-                return Err(Fault::at(line, format!("the key {key} is there twice")));
+                return Err(Fault::coded(ErrorCode::Duplicate, line, format!("the key {key} is there twice")));
             }
             let (event, span) = self.next()?;
             entries.push((key, self.node(event, span, depth + 1)?));

@@ -53,7 +53,7 @@ const PLAIN_OBJ: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 
 fn description(folder: &Path) -> Description {
     let job = folder.join("job.toml");
     fs::write(&job, JOB).expect("write");
-    let read = |path: &Path| fs::read_to_string(path).map_err(|e| e.to_string());
+    let read = |path: &Path| fs::read_to_string(path).map_err(|e| e.to_string().into());
     Description::load(&job, &read, &Overrides::default()).unwrap_or_else(|e| panic!("{e}"))
 }
 

@@ -1,7 +1,7 @@
 //! The file over which a new camera file is laid, and whether the two together are a camera.
 
 use super::camera::Found;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::read_text;
 use etendue_scene::record::Camera;
 use etendue_scene::{Overrides, load_camera};
@@ -45,7 +45,7 @@ pub(super) fn refuse_what_is_measured(file: &Path, base: &Camera, found: &Found)
             )
         })
         .collect();
-    if told.is_empty() { Ok(()) } else { Err(Error::inputs(told)) }
+    if told.is_empty() { Ok(()) } else { Err(Error::all_coded(ErrorCode::Contradiction, told)) }
 }
 
 /// Refuses numbers that are no camera.
@@ -56,6 +56,6 @@ pub(super) fn check(file: &Path, text: &str) -> Result<(), Error> {
     let read = |path: &Path| if path == file { Ok(text.to_owned()) } else { read_text(path) };
     load_camera(file, &read, &Overrides::default()).map(drop).map_err(|faults| {
         let told = faults.list().iter().map(|fault| format!("what was measured is no camera: {fault}"));
-        Error::inputs(told.collect::<Vec<_>>())
+        Error::all_coded(ErrorCode::NotMeasurable, told)
     })
 }

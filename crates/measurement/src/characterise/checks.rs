@@ -2,7 +2,7 @@
 
 use super::kind::Kind;
 use super::shot::Shot;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use std::collections::BTreeMap;
 
 /// A frame of even light with more saturated pixels tells nothing but where saturation lies.
@@ -12,7 +12,7 @@ const TOLD: usize = 5;
 
 pub(super) fn check(shots: &[Shot]) -> Result<(), Error> {
     let faults = [mixed(shots), copies(shots), saturated(shots)].concat();
-    if faults.is_empty() { Ok(()) } else { Err(Error::inputs(faults)) }
+    if faults.is_empty() { Ok(()) } else { Err(Error::all_coded(ErrorCode::NotMeasurable, faults)) }
 }
 
 /// The first few, and how many there are more.

@@ -9,7 +9,7 @@ use super::shot::Shot;
 use crate::measure::colour::{Seen, measured};
 use crate::measure::{ColourRequest, PictureInput, Selection, SignalLevels, TruthInput};
 use crate::report::Estimate;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::colour::{ColourProcessing, colour_processing, white_balance};
 use etendue_metrology::patch_statistics::patch_statistics;
 use etendue_spectra::colour::D65_WHITE;
@@ -75,10 +75,10 @@ fn processing(seen: &Seen, white: &[Estimate; 3]) -> Result<ColourProcessing, Er
     if light.iter().zip(daylight).any(|(a, b)| (a - b).abs() > OTHER_LIGHT) {
         let told =
             "the ColorChecker is lit by another light than daylight D65, for which its colours in sRGB are stated";
-        return Err(Error::input(told));
+        return Err(Error::coded(ErrorCode::NotMeasurable, told));
     }
     let found = colour_processing(&seen.patches, white, seen.black, seen.full_scale, seen.shared_px);
-    found.map_err(|fault| Error::input(fault.to_string()))
+    found.map_err(|fault| Error::coded(ErrorCode::NotMeasurable, fault.to_string()))
 }
 
 fn levels(laboratory: &Laboratory, electronics: Option<&Electronics>, shot: &Shot) -> SignalLevels {
@@ -96,10 +96,11 @@ fn selection(laboratory: &Laboratory, shot: &Shot) -> Selection {
 fn white(laboratory: &Laboratory, electronics: Option<&Electronics>, shot: &Shot) -> Result<[Estimate; 3], Error> {
     if !shot.is_raw() {
         let told = "is a developed picture, whose white balance is its development's: give the raw";
-        return Err(Error::input(format!("{}: {told}", shot.name())));
+        return Err(Error::coded(ErrorCode::NotMeasurable, format!("{}: {told}", shot.name())));
     }
     let colours = selection(laboratory, shot).colours(&shot.file)?;
-    let colours = colours.ok_or_else(|| Error::input(format!("{}: not in colour", shot.name())))?;
+    let colours =
+        colours.ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, format!("{}: not in colour", shot.name())))?;
     let black = levels(laboratory, electronics, shot).black(&colours[1]);
     let [width, height] = shot.size_px.map(|n| n as f64);
     let [half_width, half_height] = [0.5 * MIDDLE * width, 0.5 * MIDDLE * height];
@@ -120,7 +121,8 @@ fn patches(
     let corners: Vec<DVec2> = corners.into_iter().flatten().map(|corner| corner.value.into()).collect();
     let truth = laboratory.truth(Kind::Checker).filter(|_| corners.is_empty());
     if corners.is_empty() && truth.is_none() {
-        return Err(Error::input(
+        return Err(Error::coded(
+            ErrorCode::NotStated,
             "nothing states where the ColorChecker lies: [checker] corners_px of laboratory.toml, or a truth.json beside the picture",
         ));
     }

@@ -9,7 +9,7 @@ use crate::measure::ptc::{self, Found, Group, PtcRequest};
 use crate::report::Estimate;
 use etendue_core::observer::Observer;
 use etendue_io::emva_descriptor::DescribedLevel;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::patch_statistics::patch_statistics;
 use etendue_metrology::photon_transfer::{
     DarkStack, FEWEST, Figures, Nonuniformity, Outliers, Pattern, dead_pixels, hot_pixels, nonuniformity,
@@ -56,8 +56,10 @@ pub(super) fn measure(
         .and_then(|dark| Ok([dark, levels(&flat, photons_per_s.unwrap_or(ANY_LIGHT_PER_S))?].concat()));
     let made = made.and_then(|levels| ptc::groups(&selection, &levels, observer));
     let Some(groups) = findings.attempt(WHAT, made)? else { return Ok(None) };
-    let Some(found) =
-        findings.attempt(WHAT, ptc::of_groups(&groups).map_err(|error| Error::input(error.to_string())))?
+    let Some(found) = findings.attempt(
+        WHAT,
+        ptc::of_groups(&groups).map_err(|error| Error::coded(ErrorCode::NotMeasurable, error.to_string())),
+    )?
     else {
         return Ok(None);
     };
@@ -105,7 +107,7 @@ fn levels(shots: &[&Shot], photons_per_s: f64) -> Result<Vec<DescribedLevel>, Er
     let mut levels: Vec<DescribedLevel> = Vec::new();
     for shot in shots {
         let exposure_s = shot.exposure_s.ok_or_else(|| {
-            Error::input(format!(
+            Error::coded(ErrorCode::NotStated, format!(
                 "{}: nothing states its exposure time: neither EXIF data, nor a side-car, nor exposures_s in laboratory.toml",
                 shot.name()
             ))
@@ -119,11 +121,14 @@ fn levels(shots: &[&Shot], photons_per_s: f64) -> Result<Vec<DescribedLevel>, Er
         }
     }
     if let Some(single) = levels.iter().find(|level| level.files.len() < 2) {
-        return Err(Error::input(format!(
-            "{}: the only frame of {} s in its folder: noise needs two frames or more of an exposure time",
-            single.files[0].display(),
-            single.exposure_s
-        )));
+        return Err(Error::coded(
+            ErrorCode::TooFew,
+            format!(
+                "{}: the only frame of {} s in its folder: noise needs two frames or more of an exposure time",
+                single.files[0].display(),
+                single.exposure_s
+            ),
+        ));
     }
     levels.sort_by(|a, b| a.exposure_s.total_cmp(&b.exposure_s));
     Ok(levels)
@@ -147,7 +152,9 @@ fn patterns(found: &Found, hot: &Option<Outliers>, dead: &Option<Outliers>) -> R
     let places: Vec<[usize; 2]> =
         [hot, dead].into_iter().flatten().flat_map(|outliers| outliers.places.clone()).collect();
     let [dark, bright] = [&fixed.dark, &fixed.bright].map(|stack| Pattern::of(&stack.replacing(&places)));
-    let refused = |fault: etendue_metrology::photon_transfer::TransferError| Error::input(fault.to_string());
+    let refused = |fault: etendue_metrology::photon_transfer::TransferError| {
+        Error::coded(ErrorCode::NotMeasurable, fault.to_string())
+    };
     let gain = found.figures.gain_dn_per_e;
     nonuniformity(&dark.map_err(refused)?, &bright.map_err(refused)?, gain, &found.data).map(Some).map_err(refused)
 }
@@ -177,10 +184,13 @@ fn efficiency(selection: &Selection, flat: &[&Shot], found: &Found) -> Result<Ve
     }
     let usable = flat.iter().filter(|shot| shot.saturated == 0.0);
     let brightest = usable.max_by(|a, b| a.exposure_s.unwrap_or(0.0).total_cmp(&b.exposure_s.unwrap_or(0.0)));
-    let brightest = brightest.ok_or_else(|| Error::input("every frame in flat/ has saturated pixels"))?;
+    let brightest =
+        brightest.ok_or_else(|| Error::coded(ErrorCode::NotMeasurable, "every frame in flat/ has saturated pixels"))?;
     let all = Selection { channel: None, ..selection.clone() };
     let colours = all.colours(&brightest.file)?;
-    let colours = colours.ok_or_else(|| Error::input(format!("{}: no red, green and blue", brightest.name())))?;
+    let colours = colours.ok_or_else(|| {
+        Error::coded(ErrorCode::NotMeasurable, format!("{}: no red, green and blue", brightest.name()))
+    })?;
     let black = found.figures.dark_level_dn.value;
     let [red, green, blue] = colours.each_ref().map(|c| {
         let mean = patch_statistics(&c.image, c.shared_px).mean;

@@ -5,7 +5,7 @@ use super::shot::Shot;
 use super::{checks, identity};
 use crate::measure::pictures::Pictures;
 use etendue_core::observer::Observer;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode, Fault};
 use etendue_io::source::read_text;
 use etendue_scene::load_laboratory;
 use etendue_scene::record;
@@ -35,7 +35,10 @@ impl Laboratory {
     /// Reads all pictures and checks that they are of one camera, and usable.
     pub(super) fn open(root: &Path, observer: &dyn Observer) -> Result<Self, Error> {
         if !root.is_dir() {
-            return Err(Error::input(format!("{}: there is no such folder of pictures", root.display())));
+            return Err(Error::coded(
+                ErrorCode::MissingFile,
+                format!("{}: there is no such folder of pictures", root.display()),
+            ));
         }
         let file = root.join(FILE);
         let stated = match file.is_file() {
@@ -101,7 +104,8 @@ fn check_stated(root: &Path, file: &Path, stated: &record::Laboratory) -> Result
             file.display()
         )
     };
-    let mut faults: Vec<String> = lost.map(|(folder, _)| told(&folder.value)).collect();
+    let mut faults: Vec<Fault> =
+        lost.map(|(folder, _)| Fault::new(ErrorCode::MissingFile, told(&folder.value))).collect();
     let tables = [
         (stated.flat.is_some(), Kind::Flat),
         (stated.chart.is_some(), Kind::Chart),
@@ -110,12 +114,11 @@ fn check_stated(root: &Path, file: &Path, stated: &record::Laboratory) -> Result
     ];
     for (_, kind) in tables.into_iter().filter(|(given, kind)| *given && !root.join(kind.folder()).is_dir()) {
         let name = kind.folder();
-        faults.push(format!(
-            "{}: [{name}] has no effect without a folder {name}/; add it, or remove the table",
-            file.display()
-        ));
+        let message =
+            format!("{}: [{name}] has no effect without a folder {name}/; add it, or remove the table", file.display());
+        faults.push(Fault::new(ErrorCode::NoEffect, message));
     }
-    if faults.is_empty() { Ok(()) } else { Err(Error::inputs(faults)) }
+    if faults.is_empty() { Ok(()) } else { Err(Error::Input(faults)) }
 }
 
 /// All pictures with their kinds, in the order of their names.
@@ -136,13 +139,14 @@ fn files(root: &Path) -> Result<Vec<(Kind, PathBuf)>, Error> {
             "{}: no pictures to characterise a camera by; expected folders of these names with pictures in them: {names}",
             root.display()
         );
-        return Err(Error::input(told));
+        return Err(Error::coded(ErrorCode::Empty, told));
     }
     Ok(found)
 }
 
 fn gather(folder: &Path, deeper: usize, found: &mut Vec<PathBuf>) -> Result<(), Error> {
-    let failed = |cause: std::io::Error| Error::input(format!("{}: {cause}", folder.display()));
+    let failed =
+        |cause: std::io::Error| Error::coded(ErrorCode::UnreadableFile, format!("{}: {cause}", folder.display()));
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
         let ending = path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase);

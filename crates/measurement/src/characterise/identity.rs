@@ -1,7 +1,7 @@
 //! What is known of the camera by its pictures and by what is stated of them.
 
 use super::shot::Shot;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_scene::record;
 
 /// The stand-in for the pitch of pixels, µm, where nothing states it.
@@ -32,10 +32,13 @@ impl Camera {
         let of_exif = of_exif.filter(|(columns, tile)| *columns == 2 && tile.len() == 4).map(|(_, tile)| tile);
         let of_side_car = shots.iter().find_map(|shot| shot.raw.as_ref().map(|raw| &raw.filters.channels));
         if let (Some(said), Some(channels)) = (&said, of_side_car) {
-            return Err(Error::input(format!(
-                "laboratory.toml: cfa = \"{said}\" has no effect: side-cars state the filters {}; remove it",
-                channels.join(", ")
-            )));
+            return Err(Error::coded(
+                ErrorCode::NoEffect,
+                format!(
+                    "laboratory.toml: cfa = \"{said}\" has no effect: side-cars state the filters {}; remove it",
+                    channels.join(", ")
+                ),
+            ));
         }
         let told_cfa = said.or(of_exif);
         let letters = |channels: &Vec<String>| match channels.len() {

@@ -24,7 +24,7 @@ use camera::{CameraFile, Found, camera_file};
 use clap::Args;
 use etendue_arguments::toml;
 use etendue_core::observer::{Message, Observer};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::paths::relative_path;
 use etendue_io::{Existing, OutputFolder};
 use folder::Laboratory;
@@ -89,7 +89,8 @@ pub fn characterise(request: &CharacteriseRequest, observer: &dyn Observer) -> R
     found.exposure_s = lens.iter().find_map(|kind| laboratory.shots(*kind).first()?.exposure_s);
     if findings.parameters.is_empty() {
         let why: Vec<String> = findings.unknown.iter().map(|u| format!("{}: {}", u.what, u.why)).collect();
-        return Err(Error::inputs(
+        return Err(Error::all_coded(
+            ErrorCode::NotMeasurable,
             [vec![format!("{}: nothing of the camera can be found", request.folder.display())], why].concat(),
         ));
     }
@@ -210,9 +211,12 @@ impl Characterisation {
 
 /// A base as the camera file names it.
 fn named_from(folder: &Path, base: &Path) -> Result<String, Error> {
-    let whole = |path: &Path| path.canonicalize().map_err(|error| Error::input(format!("{}: {error}", path.display())));
+    let whole = |path: &Path| {
+        path.canonicalize()
+            .map_err(|error| Error::coded(ErrorCode::UnwritableOutput, format!("{}: {error}", path.display())))
+    };
     let path = relative_path(&whole(folder)?, &whole(base)?);
-    path.to_str()
-        .map(str::to_owned)
-        .ok_or_else(|| Error::input(format!("{}: give a path that is text", base.display())))
+    path.to_str().map(str::to_owned).ok_or_else(|| {
+        Error::coded(ErrorCode::InvalidArgument, format!("{}: give a path that is text", base.display()))
+    })
 }

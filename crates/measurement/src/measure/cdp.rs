@@ -8,7 +8,7 @@ use crate::report::{Cell, Report, Table};
 use clap::Args;
 use etendue_arguments::region;
 use etendue_charts::design::{ContrastPatches, OecfSteps};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::contrast::{ContrastPair, ContrastSettings, measure_contrast};
 use std::path::PathBuf;
 
@@ -127,7 +127,8 @@ fn pairs(request: &CdpRequest, readings: &Readings) -> Result<Vec<Pair>, Error> 
         return Err(Error::argument(
             "darker",
             "`darker`, `brighter` and `contrast`: expected each of them once a pair",
-        ));
+        )
+        .with_code(ErrorCode::WrongCount));
     }
     let pair = |((darker, brighter), contrast): ((&[usize; 4], &[usize; 4]), &f64)| Pair {
         darker: *darker,

@@ -10,8 +10,8 @@ use super::truth::{Truth, TruthInput};
 use clap::Args;
 use etendue_arguments::{Word, choice, grid, region, size, tile};
 use etendue_core::observer::Observer;
-use etendue_io::failure::Error;
 use etendue_io::failure::Fault;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::{Photograph, Stated};
 use etendue_metrology::calibrate::MIN_VIEWS;
 use etendue_metrology::target::{Grid, Sought, Target, TargetError, find};
@@ -206,7 +206,7 @@ pub(crate) fn all(
         pictures.step();
         match seen {
             Ok(view) => match views.iter().find_map(|other| contradiction(other, &view)) {
-                Some(fault) => faults.push(Fault::new(fault)),
+                Some(fault) => faults.push(Fault::new(ErrorCode::NotMeasurable, fault)),
                 None => views.push(view),
             },
             Err(Unseen::Chart(file, error)) => without.push((file, error)),
@@ -215,7 +215,9 @@ pub(crate) fn all(
         }
     }
     if views.len() < MIN_VIEWS {
-        faults.extend(too_few(&without, views.len()).into_iter().map(Fault::new));
+        faults.extend(
+            too_few(&without, views.len()).into_iter().map(|words| Fault::new(ErrorCode::NotMeasurable, words)),
+        );
     }
     if faults.is_empty() { Ok((views, without)) } else { Err(Error::Input(faults)) }
 }

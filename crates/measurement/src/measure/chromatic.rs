@@ -4,7 +4,7 @@ use super::chart_points::ChartInput;
 use crate::plot::{Axis, Colour, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use clap::Args;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::chromatic::{Displacement, Ring, displacements, rings, shift};
 use glam::DVec2;
@@ -38,12 +38,16 @@ pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
         return Err(Error::argument(
             "channel",
             "`channel`: lateral colour is measured in red, green and blue; leave it out",
-        ));
+        )
+        .with_code(ErrorCode::NoEffect));
     }
     let photograph = request.chart.encoding.photograph(file)?;
     let selection = request.chart.selection(None);
     if let Some(missing) = ["R", "G", "B"].iter().find(|name| !selection.has(&photograph, name)) {
-        return Err(Error::input(format!("{}: no channel {missing}; expected a picture in colour", file.display())));
+        return Err(Error::coded(
+            ErrorCode::UnknownName,
+            format!("{}: no channel {missing}; expected a picture in colour", file.display()),
+        ));
     }
     let seen = |name: &str| request.chart.seen_in(file, &photograph, Some(name));
     let [red, green, blue] = [seen("R")?, seen("G")?, seen("B")?];
@@ -52,13 +56,17 @@ pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
         [("red", displacements(&green.grid, &red.grid, size)), ("blue", displacements(&green.grid, &blue.grid, size))];
     if let Some((name, _)) = found.iter().find(|(_, list)| list.is_empty()) {
         let file = file.display();
-        return Err(Error::input(format!(
-            "{file}: the chart's points in {name} belong to none in green: are these colours of one picture?"
-        )));
+        return Err(Error::coded(
+            ErrorCode::NotMeasurable,
+            format!("{file}: the chart's points in {name} belong to none in green: are these colours of one picture?"),
+        ));
     }
     if found.iter().flat_map(|(_, list)| list).all(|point| point.by == DVec2::ZERO) {
         let file = file.display();
-        return Err(Error::input(format!("{file}: red, green and blue are the same: expected a picture in colour")));
+        return Err(Error::coded(
+            ErrorCode::NotMeasurable,
+            format!("{file}: red, green and blue are the same: expected a picture in colour"),
+        ));
     }
     let mut report = report(&found);
     report.table_if(request.chart.points, every_point(&found));

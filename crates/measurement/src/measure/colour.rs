@@ -9,7 +9,7 @@ use crate::report::{Cell, Report, Table};
 use clap::Args;
 use etendue_arguments::place;
 use etendue_charts::design::ColorChecker;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
 use etendue_spectra::chart::colorchecker;
@@ -109,10 +109,11 @@ fn told(truth: &Truth, picture: &Path, colours: &[Readings; 3]) -> Result<Vec<Co
 
 fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Error> {
     if !(request.patch > 0.0 && request.patch <= 1.0) {
-        return Err(Error::argument("patch", "`patch`: expected a share above 0 and at most 1"));
+        return Err(Error::argument("patch", "`patch`: expected a share above 0 and at most 1")
+            .with_code(ErrorCode::OutOfRange));
     }
     let [a, b, c, d] = request.corners[..] else {
-        return Err(Error::argument("corners", "`corners`: expected four of them"));
+        return Err(Error::argument("corners", "`corners`: expected four of them").with_code(ErrorCode::WrongCount));
     };
     let (columns, rows) = ((CHART.0 - 1) as f64, (CHART.1 - 1) as f64);
     // Bilinear between the corners: exact where the chart is parallel to the sensor, near it otherwise.
@@ -123,7 +124,9 @@ fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<V
     let half = 0.5 * request.patch * ((b - a).length() / columns).min((d - a).length() / rows);
     let patch = |(i, patch): (usize, &etendue_spectra::chart::Patch)| {
         let (low, high) = (middle(i) - half, middle(i) + half);
-        let beyond = || Error::argument("corners", "`corners`: a patch lies beyond the picture");
+        let beyond = || {
+            Error::argument("corners", "`corners`: a patch lies beyond the picture").with_code(ErrorCode::OutOfRange)
+        };
         let at = super::readings::pixels(low.into(), high.into(), colours[1].picture_px.0, colours[1].picture_px.1)
             .ok_or_else(beyond)?;
         let one = |c: usize| colours[c].part(at, "`corners`: a patch").map_err(|error| error.with_field("corners"));

@@ -6,7 +6,7 @@ use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use clap::Args;
 use etendue_core::observer::Observer;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::photon_transfer::temperature::{Growth, Law, fit};
 use etendue_stats::chi_square;
@@ -57,18 +57,27 @@ pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Re
         let (figures, stated) = measured(&PtcRequest::of(descriptor.clone(), &request.selection), observer)?;
         encodings.push(stated);
         let current = figures.dark_current_mean_e_per_s.ok_or_else(|| {
-            Error::input(format!("{}: expected dark levels of at least three exposure times", descriptor.display()))
+            Error::coded(
+                ErrorCode::TooFew,
+                format!("{}: expected dark levels of at least three exposure times", descriptor.display()),
+            )
         })?;
         Ok((*celsius, current))
     };
     let currents = request.series.iter().map(current).collect::<Result<Vec<_>, Error>>()?;
     let growths = Law::ALL
         .into_iter()
-        .map(|law| fit(law, &currents, request.reference_c).map_err(|error| Error::input(error.to_string())))
+        .map(|law| {
+            fit(law, &currents, request.reference_c)
+                .map_err(|error| Error::coded(ErrorCode::NotMeasurable, error.to_string()))
+        })
         .collect::<Result<Vec<_>, _>>()?;
     if let Some(pair) = copies(&currents) {
         let [a, b] = pair.map(|i| request.series[i].1.display());
-        return Err(Error::input(format!("{a} and {b} hold one measurement: give each temperature its own")));
+        return Err(Error::coded(
+            ErrorCode::NotComparable,
+            format!("{a} and {b} hold one measurement: give each temperature its own"),
+        ));
     }
     let mut report = report(&currents, &growths, request.reference_c);
     encodings.iter().for_each(|stated| report.encoding(stated));

@@ -4,8 +4,8 @@ use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use clap::Args;
 use etendue_arguments::in_range;
-use etendue_io::failure::Error;
 use etendue_io::failure::check_whole;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::{Photograph, read_photograph};
 use etendue_metrology::depth::{Alignment, DepthErrors, DepthSettings, measure_depth};
 use etendue_metrology::{Estimate, Image};
@@ -100,7 +100,8 @@ pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
     check_whole("edge_px", request.edge_px, EDGE_PX)?;
     for (field, unit) in [("estimate_unit_m", request.estimate_unit_m), ("truth_unit_m", request.truth_unit_m)] {
         if !(unit > 0.0 && unit.is_finite()) {
-            return Err(Error::argument(field, format!("`{field}`: expected a number above 0, not {unit}")));
+            return Err(Error::argument(field, format!("`{field}`: expected a number above 0, not {unit}"))
+                .with_code(ErrorCode::OutOfRange));
         }
     }
     let estimate = depth(&request.estimate, request.estimate_channel.as_deref(), request.estimate_unit_m)?;
@@ -118,8 +119,12 @@ pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
             DepthAlignment::Median => Alignment::Median,
         },
     };
-    let told =
-        |error| Error::input(format!("{} against {}: {error}", request.estimate.display(), request.truth.display()));
+    let told = |error| {
+        Error::coded(
+            ErrorCode::NotComparable,
+            format!("{} against {}: {error}", request.estimate.display(), request.truth.display()),
+        )
+    };
     let found = measure_depth(&estimate, &truth, &settings).map_err(told)?;
     let mut report =
         Report::new("depth", "depth against the truth, pixels at edges apart (± one standard uncertainty)");
@@ -220,6 +225,6 @@ fn chosen<'a>(file: &Path, photograph: &'a Photograph, channel: Option<&str>) ->
     };
     found.ok_or_else(|| {
         let names = photograph.names().join(", ");
-        Error::input(format!("{}: name the channel of the depth; it has {names}", file.display()))
+        Error::coded(ErrorCode::NotStated, format!("{}: name the channel of the depth; it has {names}", file.display()))
     })
 }

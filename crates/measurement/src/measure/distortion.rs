@@ -5,7 +5,7 @@ use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
 use clap::Args;
 use etendue_arguments::place;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::distortion::{Distortion, LineBow, LocalDistortion, RadialFit, distortion as fitted};
 use etendue_projection::Sense;
@@ -40,7 +40,7 @@ impl DistortionRequest {
 pub fn distortion(request: &DistortionRequest) -> Result<Report, Error> {
     let seen = request.chart.seen(&request.file)?;
     let centre = request.centre_px.map(DVec2::from);
-    let told = |error| Error::input(format!("{}: {error}", request.file.display()));
+    let told = |error| Error::coded(ErrorCode::NotMeasurable, format!("{}: {error}", request.file.display()));
     let found = fitted(&seen.grid, seen.size_px, centre).map_err(told)?;
     Ok(report(&seen, &found, request.chart.points))
 }

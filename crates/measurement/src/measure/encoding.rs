@@ -1,7 +1,7 @@
 //! From the numbers of a picture to light: as --encoding says, or the side-car, or the file.
 
 use clap::Args;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::{Channel, Encoding, Photograph, Stated, read_photograph};
 use etendue_io::table::read_numbers;
 use etendue_isp::ToneCurve;
@@ -44,7 +44,7 @@ fn table(file: &Path) -> Result<Encoding, Error> {
     if table.columns != 2 {
         let file = file.display();
         let told = format!("{file}: {} columns; expected two: light and number, or exposure and number", table.columns);
-        return Err(Error::input(told));
+        return Err(Error::coded(ErrorCode::UnsuitableFile, told));
     }
     let points: Vec<(f64, f64)> = table.rows().map(|row| (row[0], row[1])).collect();
     let of_light = points.first().is_some_and(|first| first.0 == 0.0);
@@ -75,7 +75,7 @@ impl EncodingChoice {
         if photograph.raw.is_some() && stated.encoding != Encoding::Linear {
             let (file, reason) = (file.display(), &photograph.stated.reason);
             let told = format!("{file}: raw numbers in proportion to light ({reason}): leave `encoding` out");
-            return Err(Error::input(told));
+            return Err(Error::coded(ErrorCode::NoEffect, told));
         }
         photograph.stated = stated;
         Ok(photograph)
@@ -94,9 +94,12 @@ impl EncodingChoice {
     pub(crate) fn raw(&self, file: &Path, mut photograph: Photograph) -> Result<Photograph, Error> {
         let file = file.display();
         if companding(&photograph).is_some() {
-            return Err(Error::input(format!(
-                "{file}: its numbers are companded, and their noise is no longer that of charge: give raws of all bits"
-            )));
+            return Err(Error::coded(
+                ErrorCode::UnsuitableFile,
+                format!(
+                    "{file}: its numbers are companded, and their noise is no longer that of charge: give raws of all bits"
+                ),
+            ));
         }
         let Stated { encoding, reason, guessed } = &photograph.stated;
         if *encoding != Encoding::Linear && !guessed {
@@ -106,7 +109,10 @@ impl EncodingChoice {
             } else {
                 "where they are linear all the same, say `encoding` linear"
             };
-            return Err(Error::input(format!("{what}, where numbers in proportion to charge are needed: {remedy}")));
+            return Err(Error::coded(
+                ErrorCode::UnsuitableFile,
+                format!("{what}, where numbers in proportion to charge are needed: {remedy}"),
+            ));
         }
         if photograph.raw.is_none() && self.chosen.is_none() {
             photograph.stated = Stated::new(Encoding::Linear, "raw numbers are measured as stored");
@@ -140,7 +146,9 @@ impl ToLight {
             return Ok(Self::Stored);
         }
         let full_scale = photograph.full_scale.unwrap_or(1.0);
-        let named = |error| Error::input(format!("{}: encoding by {reason}: {error}", file.display()));
+        let named = |error| {
+            Error::coded(ErrorCode::UnsuitableFile, format!("{}: encoding by {reason}: {error}", file.display()))
+        };
         Ok(Self::Curve(tone_curve(encoding, full_scale).map_err(named)?, full_scale))
     }
 

@@ -9,7 +9,7 @@ use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use clap::Args;
 use etendue_charts::design::{Backlit, FlatField, LedFlicker};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::flicker::{Flicker, FlickerTiming, RowBands, measure_flicker};
 use etendue_metrology::{Estimate, Image};
 use std::path::{Path, PathBuf};
@@ -85,7 +85,7 @@ fn read(request: &FlickerRequest) -> Result<(Sequence, Option<Truth>), Error> {
     let input = &request.input;
     let frames = request.frames.iter().map(|file| input.linear(file)).collect::<Result<Vec<_>, _>>()?;
     let Some((first, file)) = frames.first().zip(request.frames.first()) else {
-        return Err(Error::input("flicker is measured from one frame at least: give its file"));
+        return Err(Error::coded(ErrorCode::TooFew, "flicker is measured from one frame at least: give its file"));
     };
     for (frame, file) in frames.iter().zip(&request.frames) {
         frame.independent(file, 1)?;
@@ -221,11 +221,10 @@ fn lamps(sequence: &Sequence, truth: &Truth, request: &FlickerRequest, report: &
     }
     left_out.iter().for_each(|name| report.note(format!("left out: {name}: not whole in the picture, or too small")));
     if rows.is_empty() {
-        return Err(Error::input(format!(
-            "{}: no lamp of the chart could be measured: {}",
-            sequence.name,
-            report.notes().join("; ")
-        )));
+        return Err(Error::coded(
+            ErrorCode::NotMeasurable,
+            format!("{}: no lamp of the chart could be measured: {}", sequence.name, report.notes().join("; ")),
+        ));
     }
     report.table(Table {
         key: "lamps",

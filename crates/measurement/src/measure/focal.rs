@@ -5,7 +5,7 @@ use crate::report::Report;
 use clap::Args;
 use etendue_core::maths::f64::acos;
 use etendue_core::observer::Observer;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::Options;
 use etendue_projection::Calibration;
@@ -43,12 +43,13 @@ pub fn focal(request: &FocalRequest, observer: &dyn Observer) -> Result<Report, 
         return Err(Error::argument(
             "camera_keys",
             "`camera_keys`: a camera file needs the pixels' size: add `pixel_pitch_um`",
-        ));
+        )
+        .with_code(ErrorCode::NotStated));
     }
     if one && options.distance.is_none() {
         let told = "one picture alone does not tell the focal length from the distance: add `distance_mm`, or more pictures with the \
                     chart turned";
-        return Err(Error::input(told));
+        return Err(Error::coded(ErrorCode::NotStated, told));
     }
     let about_middle = one && options.principal_px.is_none();
     let found = match about_middle {

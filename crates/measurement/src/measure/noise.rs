@@ -9,7 +9,7 @@ use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use clap::Args;
 use etendue_charts::design::{Backlit, ContrastPatches, FlatField, OecfSteps};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::noise::{Noise, check_frame, measure_noise};
 use etendue_metrology::photon_transfer::Stack;
@@ -124,7 +124,8 @@ fn sought(truth: Option<&Truth>, file: &Path, readings: &Readings) -> Result<Vec
 const METHOD: &str = "noise of an even surface after ISO 15739 (± one standard uncertainty)";
 
 fn one(stack: &Stack, black: f64) -> Result<Report, Error> {
-    let noise = measure_noise(stack, black).map_err(|error| Error::input(error.to_string()))?;
+    let noise =
+        measure_noise(stack, black).map_err(|error| Error::coded(ErrorCode::NotMeasurable, error.to_string()))?;
     let mut report = Report::new("noise", METHOD);
     report.figure("signal", "signal less black", "", noise.signal);
     report.figure("total_noise", "total noise", "", noise.total);

@@ -8,7 +8,7 @@ use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use clap::Args;
 use etendue_charts::design::{Backlit, FlatField, OecfSteps};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::{Encoding, Stated};
 use etendue_metrology::oecf::response::{Response, ResponseSettings, camera_response};
 use etendue_metrology::oecf::{ExposurePoint, Oecf};
@@ -141,7 +141,10 @@ fn series(request: &OecfRequest) -> Result<Vec<(f64, Readings)>, Error> {
     if let Some(other) = series.iter().position(|(_, r)| size(r) != size(&series[0].1)) {
         let (a, b) = (size(&series[other].1), size(&series[0].1));
         let file = request.pictures[other].display();
-        return Err(Error::input(format!("{file}: {} × {} pixels, the first {} × {}", a.0, a.1, b.0, b.1)));
+        return Err(Error::coded(
+            ErrorCode::NotComparable,
+            format!("{file}: {} × {} pixels, the first {} × {}", a.0, a.1, b.0, b.1),
+        ));
     }
     copies(request, &series)?;
     Ok(series)
@@ -153,7 +156,10 @@ fn copies(request: &OecfRequest, series: &[(f64, Readings)]) -> Result<(), Error
     for (i, (_, a)) in series.iter().enumerate() {
         if let Some(j) = (0..i).find(|j| series[*j].1.image == a.image && noisy(&a.image)) {
             let (a, b) = (request.pictures[j].display(), request.pictures[i].display());
-            return Err(Error::input(format!("{a} and {b} are copies of one another: give one picture an exposure")));
+            return Err(Error::coded(
+                ErrorCode::NotComparable,
+                format!("{a} and {b} are copies of one another: give one picture an exposure"),
+            ));
         }
     }
     Ok(())
@@ -161,7 +167,9 @@ fn copies(request: &OecfRequest, series: &[(f64, Readings)]) -> Result<(), Error
 
 fn exposure_beside(file: &Path) -> Result<f64, Error> {
     let photograph = etendue_io::photograph::read_photograph(file).map_err(Error::input)?;
-    let lacks = || Error::input(format!("{}: its exposure is not known: give `exposures`", file.display()));
+    let lacks = || {
+        Error::coded(ErrorCode::NotStated, format!("{}: its exposure is not known: give `exposures`", file.display()))
+    };
     photograph.raw.map(|facts| facts.exposure_s).ok_or_else(lacks)
 }
 
@@ -178,7 +186,8 @@ fn shots(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
         return Err(Error::argument(
             "camera",
             "`camera`: has no effect on a series: each picture's folder names its camera",
-        ));
+        )
+        .with_code(ErrorCode::NoEffect));
     }
     let exposures = truth.exposures()?;
     let mut series = Vec::new();
@@ -236,14 +245,20 @@ fn steps(request: &OecfRequest, table: &Path) -> Result<Measured, Error> {
     let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim().starts_with('#'));
     let step = |(number, line): (u32, &str)| {
         let place = format!("{}: line {number}", table.display());
-        let expected = || Error::input(format!("{place}: expected x, y, width, height, luminance, not '{line}'"));
+        let expected = || {
+            Error::coded(
+                ErrorCode::MalformedFile,
+                format!("{place}: expected x, y, width, height, luminance, not '{line}'"),
+            )
+        };
         let words: Option<Vec<f64>> = line.split(',').map(|word| word.trim().parse().ok()).collect();
         let [x, y, width, height, luminance] = words.ok_or_else(expected)?[..] else { return Err(expected()) };
         let whole = [x, y, width, height];
         if whole.iter().any(|v| *v < 0.0 || v.fract() != 0.0) || width < 2.0 || height < 2.0 {
-            return Err(Error::input(format!(
-                "{place}: expected whole pixels, two or more wide and high, not '{line}'"
-            )));
+            return Err(Error::coded(
+                ErrorCode::MalformedFile,
+                format!("{place}: expected whole pixels, two or more wide and high, not '{line}'"),
+            ));
         }
         let surface = readings.part(whole.map(|v| v as usize), &place)?;
         Ok(point(luminance, &surface, &request.input.levels, &readings))
@@ -326,6 +341,7 @@ fn response(request: &OecfRequest) -> Result<Report, Error> {
     let full_scale = request.input.levels.full_scale(&series[0].1);
     let full_scale = full_scale.ok_or_else(|| {
         Error::argument("full_scale", "`full_scale`: a response needs the reading of a saturated pixel")
+            .with_code(ErrorCode::NotStated)
     })?;
     let settings = ResponseSettings {
         full_scale,

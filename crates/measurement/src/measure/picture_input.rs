@@ -3,8 +3,8 @@
 use super::readings::{Readings, Selection, SignalLevels};
 use super::truth::{Truth, TruthInput};
 use clap::Args;
-use etendue_io::failure::Error;
 use etendue_io::failure::Fault;
+use etendue_io::failure::{Error, ErrorCode};
 use std::fmt::Display;
 use std::path::Path;
 
@@ -35,7 +35,8 @@ impl PictureInput {
             Some(_) => Err(Error::argument(
                 "black",
                 "`black`: differences of readings alone count here, so that it changes nothing; leave it out",
-            )),
+            )
+            .with_code(ErrorCode::NoEffect)),
         }
     }
 
@@ -49,6 +50,6 @@ impl PictureInput {
 
 /// What is wrong with a picture.
 pub(crate) fn refused(picture: &Path, error: impl Display) -> Error {
-    let fault = Fault::new(format!("{}: {error}", picture.display()));
+    let fault = Fault::new(ErrorCode::NotMeasurable, format!("{}: {error}", picture.display()));
     Error::input(Fault { file: Some(picture.to_path_buf()), ..fault })
 }

@@ -4,7 +4,7 @@
 //! `x_px` and `y_px`, where it is seen, raster coordinates (pixel centres at + 0.5); `uncertainty_px`, the standard uncertainty of each of
 //! these, may be left out (0). Lines that begin with # and empty ones are skipped.
 
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::text_of;
 use etendue_metrology::target::{Grid, Node};
 use glam::DVec2;
@@ -24,7 +24,9 @@ pub(crate) fn is_list(file: &Path) -> bool {
 /// The points of a list.
 pub(crate) fn read(file: &Path) -> Result<Grid, Error> {
     let text = text_of(file)?;
-    let refused = |line: usize, what: String| Error::input(format!("{}:{}: {what}", file.display(), line + 1));
+    let refused = |line: usize, what: String| {
+        Error::coded(ErrorCode::MalformedFile, format!("{}:{}: {what}", file.display(), line + 1))
+    };
     let lines = text.lines().enumerate().map(|(i, line)| (i, line.trim_start_matches('\u{feff}').trim()));
     let mut lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
     let expected =

@@ -4,7 +4,7 @@ use super::balanced_mosaic::balanced_mosaic;
 use super::encoding::{EncodingChoice, ToLight};
 use clap::Args;
 use etendue_arguments::{region, tile};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::{FilterTile, Photograph, Stated};
 use etendue_metrology::Image;
 use etendue_spectra::colour::BT709;
@@ -79,10 +79,15 @@ impl Readings {
         let (columns, rows) = self.picture_px;
         if x.saturating_add(width) > columns || y.saturating_add(height) > rows {
             let told = format!("{name}: lies beyond the {columns} × {rows} pixels that are measured");
-            return Err(Error::input(told));
+            return Err(Error::coded(ErrorCode::OutOfRange, told));
         }
         let at = self.of_region(region);
-        let none = || Error::input(format!("{name}: {width} × {height} pixels hold none of this colour"));
+        let none = || {
+            Error::coded(
+                ErrorCode::NotMeasurable,
+                format!("{name}: {width} × {height} pixels hold none of this colour"),
+            )
+        };
         at.map(|[x, y, width, height]| self.image.part(x, y, width, height)).ok_or_else(none)
     }
 
@@ -139,12 +144,15 @@ impl Readings {
         if self.shared_px <= most {
             return Ok(());
         }
-        Err(Error::input(format!(
-            "{}: its errors are alike in blocks of up to {1} × {1} readings, as paths were shared (path_reuse_px), and this measurement takes \
+        Err(Error::coded(
+            ErrorCode::UnsuitableFile,
+            format!(
+                "{}: its errors are alike in blocks of up to {1} × {1} readings, as paths were shared (path_reuse_px), and this measurement takes \
              them as independent: render without sharing",
-            file.display(),
-            self.shared_px
-        )))
+                file.display(),
+                self.shared_px
+            ),
+        ))
     }
 
     /// Whether a side-car says that they are raw, in a word.
@@ -160,7 +168,10 @@ impl Selection {
         if self.channel.is_none() && photograph.channel("R").is_some() {
             let names = photograph.names().join(", ");
             let file = file.display();
-            return Err(Error::input(format!("{file}: say which of its channels to measure with `channel`: {names}")));
+            return Err(Error::coded(
+                ErrorCode::NotStated,
+                format!("{file}: say which of its channels to measure with `channel`: {names}"),
+            ));
         }
         self.of(file, &photograph)
     }
@@ -233,7 +244,7 @@ impl Selection {
                 "{}: a colour picture ({names}) where linear raw is needed: its channels are processed; give raw frames of one channel",
                 file.display()
             );
-            return Err(Error::input(error));
+            return Err(Error::coded(ErrorCode::UnsuitableFile, error));
         };
         let samples = only.samples.clone();
         let photograph = self.encoding.raw(file, photograph)?;
@@ -243,7 +254,7 @@ impl Selection {
                 "{}: `channel` {name}: nothing says which pixels are under which filter: give `cfa`, or leave it out",
                 file.display()
             );
-            return Err(Error::input(error));
+            return Err(Error::coded(ErrorCode::NotStated, error));
         }
         self.part(file, &photograph, samples, &ToLight::Stored, 0)
     }
@@ -283,7 +294,7 @@ impl Selection {
                     "{}: `cfa` {cfa} has no effect on a picture of the channels {names}: it is for raw mosaics; leave it out",
                     file.display()
                 );
-                Err(Error::input(error))
+                Err(Error::coded(ErrorCode::NoEffect, error))
             }
             _ => Ok(()),
         }
@@ -314,9 +325,10 @@ impl Selection {
         let Some(name) = &self.channel else {
             let file = file.display();
             let names = tile.channels.join(", ");
-            return Err(Error::input(format!(
-                "{file}: a raw mosaic of the colours {names}: say which one to measure with `channel`"
-            )));
+            return Err(Error::coded(
+                ErrorCode::NotStated,
+                format!("{file}: a raw mosaic of the colours {names}: say which one to measure with `channel`"),
+            ));
         };
         let at = (0..tile.channels.len()).filter(|i| is_colour(&tile.channels[*i], name)).nth(nth);
         let names: Vec<&str> = tile.channels.iter().map(String::as_str).collect();
@@ -350,9 +362,10 @@ fn cropped(file: &Path, image: Image, area: Option<[usize; 4]>) -> Result<Image,
     let (columns, rows) = (image.width(), image.height());
     if x.saturating_add(width) > columns || y.saturating_add(height) > rows {
         let (file, told) = (file.display(), format!("{x},{y},{width},{height}"));
-        return Err(Error::input(format!(
-            "{file}: the region {told} lies beyond the picture's {columns} × {rows} pixels"
-        )));
+        return Err(Error::coded(
+            ErrorCode::OutOfRange,
+            format!("{file}: the region {told} lies beyond the picture's {columns} × {rows} pixels"),
+        ));
     }
     Ok(image.part(x, y, width, height))
 }
@@ -366,11 +379,14 @@ fn luminance(file: &Path, photograph: &Photograph, light: &ToLight) -> Result<Ve
         return Ok(light.of_channel(only));
     }
     let Some(((r, g), b)) = linear("R").zip(linear("G")).zip(linear("B")) else {
-        return Err(Error::input(format!(
-            "{}: say which of its channels to measure with `channel`: {}",
-            file.display(),
-            photograph.names().join(", ")
-        )));
+        return Err(Error::coded(
+            ErrorCode::NotStated,
+            format!(
+                "{}: say which of its channels to measure with `channel`: {}",
+                file.display(),
+                photograph.names().join(", ")
+            ),
+        ));
     };
     let [red, green, blue] = BT709.map(|weight| weight as f32);
     // Where one of them is clipped, the luminance is too: it is told as full.
@@ -383,7 +399,10 @@ fn luminance(file: &Path, photograph: &Photograph, light: &ToLight) -> Result<Ve
 }
 
 fn no_channel(file: &Path, name: &str, names: &[&str]) -> Error {
-    Error::input(format!("{}: no channel '{name}'; it has {}", file.display(), names.join(", ")))
+    Error::coded(
+        ErrorCode::UnknownName,
+        format!("{}: no channel '{name}'; it has {}", file.display(), names.join(", ")),
+    )
 }
 
 /// What a picture's numbers mean, where the file does not say.

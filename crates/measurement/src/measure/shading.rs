@@ -7,8 +7,8 @@ use crate::report::{Cell, Report, Table};
 use clap::Args;
 use etendue_arguments::{in_range, point};
 use etendue_charts::design::{Backlit, FlatField};
-use etendue_io::failure::Error;
 use etendue_io::failure::check_whole;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::shading::{
     ColourShading, Shading, ShadingError, ShadingSettings, colour_shading, measure_shading,
@@ -132,6 +132,7 @@ impl VignettingRequest {
                 "camera_keys",
                 "`camera_keys`: expected `pixel_pitch_um` above 0, as a lens states its fall-off over millimetres",
             )
+            .with_code(ErrorCode::NotStated)
         };
         let pitch_um = self.pixel_pitch_um.filter(|p| *p > 0.0 && p.is_finite());
         if self.camera_keys { pitch_um.ok_or_else(needed).map(Some) } else { Ok(None) }

@@ -8,7 +8,7 @@ use crate::report::{Cell, Report, Table};
 use clap::Args;
 use etendue_arguments::point;
 use etendue_charts::design::{DeadLeaves, SiemensStar};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::Stated;
 use etendue_metrology::texture::leaves::{TexturePoint, measure_texture};
 use etendue_metrology::texture::star::{Star, StarPoint, measure_star};
@@ -84,7 +84,8 @@ const RIM_PX: f64 = 2.0;
 fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> {
     let levels = &request.input.levels;
     let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
-    let needed = || Error::input("expected `centre_px`, `cycles`, `inner_px` and `outer_px`, or `truth`");
+    let needed =
+        || Error::coded(ErrorCode::NotStated, "expected `centre_px`, `cycles`, `inner_px` and `outer_px`, or `truth`");
     // Among the readings, which lie some pixels apart.
     let step = readings.period.0 as f64;
     let star = |(x, y): (f64, f64), cycles, inner_px: f64, outer_px: f64| {

@@ -1,6 +1,6 @@
 //! What is said of light in media: how often it is scattered, and what is not done with it.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use crate::plan::CameraPlan;
 use crate::sizes::block::Blocks;
 use etendue_core::Integrator;
@@ -31,7 +31,12 @@ pub(super) fn layers(
         let Some(key) = setup.output.weather.as_ref().filter(|key| key.value) else { continue };
         if !has_media {
             let problem = "\"weather\" is asked for, but the scene has neither [[media]] nor [precipitation]";
-            context.fault(&key.place, problem, "add them to the scene, or remove the key");
+            context.fault(
+                ErrorCode::UnavailableOutput,
+                &key.place,
+                problem,
+                "add them to the scene, or remove the key",
+            );
         }
     }
     cameras.iter_mut().for_each(|camera| camera.products.cover = camera.products.weather && falls);

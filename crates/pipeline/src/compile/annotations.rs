@@ -1,6 +1,6 @@
 //! Flow, disparity and boxes: from what is asked for to what is delivered.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use crate::plan::{Annotations, CameraPlan, CorrespondenceFormat, DisparityProduct};
 use etendue_optics::Lens;
 use etendue_scene::Description;
@@ -50,7 +50,12 @@ fn check_frames(output: &Output, camera: &CameraPlan, context: &mut Context<'_>)
     ];
     for (name, place) in keys.into_iter().flatten() {
         let problem = format!("\"{name}\" looks at the frames before and after, and nothing says when they are");
-        context.fault(place, problem, "add [sequence] with \"frame_rate_hz\" to the job, or remove the key");
+        context.fault(
+            ErrorCode::UnavailableOutput,
+            place,
+            problem,
+            "add [sequence] with \"frame_rate_hz\" to the job, or remove the key",
+        );
     }
 }
 
@@ -63,7 +68,14 @@ fn disparity(
     let Some(key) = &output.disparity_to else {
         if let Some(format) = &output.disparity_format {
             let problem = "\"disparity_format\" has no effect without \"disparity_to\"";
-            context.idle("disparity_format", &format.place, None, problem, "name the right camera, or remove the key");
+            context.idle(
+                ErrorCode::NoEffect,
+                "disparity_format",
+                &format.place,
+                None,
+                problem,
+                "name the right camera, or remove the key",
+            );
         }
         return None;
     };
@@ -74,7 +86,12 @@ fn disparity(
             true => "add a second camera to the job, or remove the key".to_owned(),
             false => format!("give one of {}", others.join(", ")),
         };
-        context.fault(&key.place, format!("there is no other camera \"{}\"", key.value), remedy);
+        context.fault(
+            ErrorCode::UnknownName,
+            &key.place,
+            format!("there is no other camera \"{}\"", key.value),
+            remedy,
+        );
         return None;
     };
     if let Some(problem) = not_rectified(left, right) {
@@ -83,7 +100,7 @@ fn disparity(
              the camera), or remove the key",
             right.name
         );
-        context.fault(&key.place, problem, remedy);
+        context.fault(ErrorCode::UnavailableOutput, &key.place, problem, remedy);
         return None;
     }
     let format = output.disparity_format.as_ref().map_or(CorrespondenceFormat::Exr, |key| format(key.value));

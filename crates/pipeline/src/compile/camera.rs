@@ -1,6 +1,6 @@
 //! A camera wherever it stands (lens, effects, sensor, processing), and what is refused and remarked of a camera.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use super::effects::effects;
 use super::front::front;
 use super::lens::lens;
@@ -76,7 +76,7 @@ pub(super) fn check_video(output: &Output, camera: &CameraPlan, context: &mut Co
     let Some(key) = &output.video else { return };
     let mut refuse = |lack: String, remedy: &str| {
         let problem = format!("\"video\" is asked for, but {lack}");
-        context.fault(&key.place, problem, format!("{remedy}, or remove the key"));
+        context.fault(ErrorCode::UnavailableOutput, &key.place, problem, format!("{remedy}, or remove the key"));
     };
     if camera.body.development.is_none() {
         return refuse("the camera has no [isp], which makes pictures".to_owned(), "add it");

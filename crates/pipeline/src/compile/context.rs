@@ -1,8 +1,10 @@
 //! What every step of compiling shares: the assets, the faults found so far, and remarks for the plan.
 
+use super::coded_error::CodedError;
 use super::coverage::Coverage;
 use crate::plan::remark::{Remark, Weight};
 use etendue_core::{Epoch, ExactTime};
+pub(super) use etendue_scene::ErrorCode;
 use etendue_scene::asset::Assets;
 use etendue_scene::{Fault, Place, Placed, stated};
 use std::collections::BTreeSet;
@@ -44,14 +46,21 @@ impl<'a> Context<'a> {
     }
 
     /// Notes a fault at `place`.
-    pub(super) fn fault(&mut self, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
-        self.faults.push(Fault::new(place, problem, remedy));
+    pub(super) fn fault(
+        &mut self,
+        code: ErrorCode,
+        place: &Place,
+        problem: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
+        self.faults.push(Fault::new(code, place, problem, remedy));
     }
 
     /// Notes that `key`, which stands at `place`, has no effect for what stands at `cause`: a fault, but not where the
     /// command line says the cause and a file the key. What the command line says supersedes what it makes meaningless.
     pub(super) fn idle(
         &mut self,
+        code: ErrorCode,
         key: &str,
         place: &Place,
         cause: Option<&Place>,
@@ -62,7 +71,7 @@ impl<'a> Context<'a> {
             Some(by) if by.is_command_line() && !place.is_command_line() => {
                 self.notice(format!("{by} supersedes {}", stated(key, place)));
             }
-            _ => self.fault(place, problem, remedy),
+            _ => self.fault(code, place, problem, remedy),
         }
     }
 
@@ -74,8 +83,8 @@ impl<'a> Context<'a> {
     }
 
     /// The value, or `None` with its error noted as a fault at `place`; the errors of the models say what to do.
-    pub(super) fn accept<T, E: Display>(&mut self, place: &Place, result: Result<T, E>) -> Option<T> {
-        result.map_err(|error| self.fault(place, error.to_string(), "")).ok()
+    pub(super) fn accept<T, E: CodedError>(&mut self, place: &Place, result: Result<T, E>) -> Option<T> {
+        result.map_err(|error| self.fault(error.code(), place, error.to_string(), "")).ok()
     }
 
     /// The faults found, each once: a key of the job is looked at for every camera.

@@ -1,6 +1,6 @@
 //! Where things are over time: keys and trajectories to motions.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use etendue_core::track::{Key, RollingError};
 use etendue_core::{ExactTime, Motion, Track};
 use etendue_scene::Place;
@@ -28,7 +28,7 @@ pub(super) fn trajectory(course: Option<&Course>) -> Option<&Trajectory> {
 pub(super) fn along(trajectory: &Trajectory, course: Option<&Course>, context: &mut Context<'_>) -> Option<Motion> {
     let file = &trajectory.file;
     let Some(asset) = context.assets.trajectories.get(&file.value) else {
-        context.fault(&file.place, "the trajectory was not loaded", "give a readable file");
+        context.fault(ErrorCode::UnreadableFile, &file.place, "the trajectory was not loaded", "give a readable file");
         return None;
     };
     if !asset.unread.is_empty() {
@@ -52,6 +52,7 @@ pub(super) fn turning(hub: &Motion, rolls: &Rolls, context: &mut Context<'_>) ->
         Ok(turns) => Some(turns),
         Err(RollingError::Still) => {
             context.fault(
+                ErrorCode::NoEffect,
                 &rolls.place,
                 "\"rolls\" has no effect here, as nothing moves the wheel",
                 "give it keys, a trajectory or a frame that moves, or remove it",
@@ -59,7 +60,7 @@ pub(super) fn turning(hub: &Motion, rolls: &Rolls, context: &mut Context<'_>) ->
             None
         }
         Err(error @ RollingError::TooFar { .. }) => {
-            context.fault(&rolls.radius_m.place, error.to_string(), "");
+            context.fault(ErrorCode::OutOfRange, &rolls.radius_m.place, error.to_string(), "");
             None
         }
     }

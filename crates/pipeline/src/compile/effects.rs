@@ -1,6 +1,6 @@
 //! `[effects]`: from the record to the effects.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use super::picture::grey;
 use super::point_spread_files;
 use crate::plan::Route;
@@ -61,7 +61,7 @@ pub(super) fn check_spread_by(record: Option<&record::Effects>, route: &Route, c
         && asked.value == description::SpreadBy::Samples
     {
         let problem = "samples are displaced on the sensor, and on the route at the pupil none come there";
-        context.fault(&asked.place, problem, "remove the key, or render with route = \"lens\"");
+        context.fault(ErrorCode::NotModelled, &asked.place, problem, "remove the key, or render with route = \"lens\"");
     }
 }
 
@@ -73,7 +73,12 @@ fn ghosts(
 ) -> Option<GhostSettings> {
     if !matches!(lens, Lens::Prescription(_)) {
         let problem = format!("ghosts are light between the surfaces of a prescription; the lens is a {}", lens.kind());
-        context.fault(&asked.place, problem, "give a lens with type = \"prescription\", or remove the key");
+        context.fault(
+            ErrorCode::NotModelled,
+            &asked.place,
+            problem,
+            "give a lens with type = \"prescription\", or remove the key",
+        );
         return None;
     }
     let reflectance = record.sensor_reflectance.as_ref();

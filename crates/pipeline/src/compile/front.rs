@@ -1,6 +1,6 @@
 //! `[front]`: what stands in front of the lens.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use super::lens::coating;
 use super::material::{complex_index, share};
 use super::picture::grey;
@@ -79,7 +79,7 @@ fn shape(r: &Shape, context: &mut Context<'_>) -> Option<(MirrorShape, Option<f6
 
 fn mesh(r: &record::mirror::MeshFile, context: &mut Context<'_>) -> Option<MeshMirror> {
     let Some(asset) = context.assets.meshes.get(&r.file.value) else {
-        context.fault(&r.file.place, "the mesh was not loaded", "give a readable file");
+        context.fault(ErrorCode::UnreadableFile, &r.file.place, "the mesh was not loaded", "give a readable file");
         return None;
     };
     let scale = r.scale_mm.as_ref().map_or(1.0, |s| s.value);

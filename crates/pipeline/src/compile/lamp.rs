@@ -1,6 +1,6 @@
 //! Lamps: from records to the tracer's lamps.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use super::frames::Frames;
 use super::lamp_motion::lamp_motions;
 use super::modulation;
@@ -94,7 +94,12 @@ fn spot(lamp: &SpotLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Opti
 
 fn measured(lamp: &MeasuredLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Lamps> {
     let Some(asset) = context.assets.photometry.get(&lamp.file.value) else {
-        context.fault(&lamp.file.place, "the photometric file was not loaded", "give a readable file");
+        context.fault(
+            ErrorCode::UnreadableFile,
+            &lamp.file.place,
+            "the photometric file was not loaded",
+            "give a readable file",
+        );
         return None;
     };
     asset.report.iter().for_each(|line| context.remark(line));
@@ -105,7 +110,7 @@ fn measured(lamp: &MeasuredLamp, frames: &Frames<'_>, context: &mut Context<'_>)
     };
     if let (Some(mask), MainAxis::Downward) = (&lamp.mask, main) {
         let problem = "a mask shapes light along +x, and this lamp (photometry of type C) shines down";
-        context.fault(&mask.place, problem, "remove it, or give a file of type A or B");
+        context.fault(ErrorCode::UnsuitableFile, &mask.place, problem, "remove it, or give a file of type A or B");
         return None;
     }
     let floats = |values: &[f64]| values.iter().map(|v| *v as f32).collect::<Vec<_>>();
@@ -154,7 +159,12 @@ fn head_lamp(lamp: &HeadLamp, frames: &Frames<'_>, context: &mut Context<'_>) ->
 fn masked(profile: Profile, mask: Option<&Mask>, context: &mut Context<'_>) -> Option<Profile> {
     let Some(mask) = mask else { return Some(profile) };
     let Some(picture) = context.assets.images.get(&mask.file.value) else {
-        context.fault(&mask.file.place, "the picture was not loaded", "give a readable file");
+        context.fault(
+            ErrorCode::UnreadableFile,
+            &mask.file.place,
+            "the picture was not loaded",
+            "give a readable file",
+        );
         return None;
     };
     let (width, height) = (picture.width as usize, picture.height as usize);
@@ -200,7 +210,12 @@ fn of_candela(
         Some(MeasuredStrength::Scale(scale)) => scale.value,
         Some(MeasuredStrength::LuminousFlux(lm)) if profile.flux_sr() > 0.0 => lm.value / profile.flux_sr(),
         Some(MeasuredStrength::LuminousFlux(lm)) => {
-            context.fault(&lm.place, "the distribution is dark everywhere, so no scale gives it a flux", "remove it");
+            context.fault(
+                ErrorCode::UnsuitableFile,
+                &lm.place,
+                "the distribution is dark everywhere, so no scale gives it a flux",
+                "remove it",
+            );
             return None;
         }
     };

@@ -1,6 +1,6 @@
 //! Suns and the environment: from records to the tracer's lights.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use super::frames::Frames;
 use super::lamp::Lamps;
 use super::opening::OpenLamp;
@@ -76,14 +76,19 @@ fn uniform(emission: &record::Emission, context: &mut Context<'_>) -> Option<Spe
         let problem = format!(
             "the surroundings would have a radiance of {brightest:e} W·m⁻²·sr⁻¹·nm⁻¹, at most 1e30 can be traced"
         );
-        context.fault(emission.level.place(), problem, "give less light");
+        context.fault(ErrorCode::OutOfRange, emission.level.place(), problem, "give less light");
     }
     Some(radiance)
 }
 
 fn image(record: &EnvironmentImage, context: &mut Context<'_>) -> Option<ImageEnvironment> {
     let Some(picture) = context.assets.images.get(&record.file.value) else {
-        context.fault(&record.file.place, "the picture was not loaded", "give a readable file");
+        context.fault(
+            ErrorCode::UnreadableFile,
+            &record.file.place,
+            "the picture was not loaded",
+            "give a readable file",
+        );
         return None;
     };
     let (width, height) = (picture.width as usize, picture.height as usize);
@@ -104,7 +109,12 @@ fn light_only(mut texels: Vec<[f32; 3]>, record: &EnvironmentImage, context: &mu
         }
         (_, None) => {
             let problem = format!("{negative} texels of {file} have a component below 0, which no light has");
-            context.fault(&record.file.place, problem, "correct the picture, or say negative_texels = \"zero\"");
+            context.fault(
+                ErrorCode::UnsuitableFile,
+                &record.file.place,
+                problem,
+                "correct the picture, or say negative_texels = \"zero\"",
+            );
         }
     }
     texels.iter_mut().flatten().for_each(|v| *v = v.max(0.0));

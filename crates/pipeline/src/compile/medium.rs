@@ -1,6 +1,6 @@
 //! Media: from records to the tracer's.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use super::frames::Frames;
 use super::spectrum;
 use etendue_core::{Motion, maths};
@@ -74,7 +74,7 @@ pub(super) fn shape(record: Option<&MediumShape>, context: &mut Context<'_>) -> 
 /// The inside of a file's triangles.
 fn solid(record: &MediumMesh, context: &mut Context<'_>) -> Option<Solid> {
     let Some(asset) = context.assets.meshes.get(&record.file.value) else {
-        context.fault(&record.file.place, "the mesh was not loaded", "give a readable file");
+        context.fault(ErrorCode::UnreadableFile, &record.file.place, "the mesh was not loaded", "give a readable file");
         return None;
     };
     let unit_m = record.unit_m.as_ref().map_or(1.0, |unit| unit.value);

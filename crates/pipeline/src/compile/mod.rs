@@ -8,6 +8,7 @@ mod annotations;
 mod camera;
 mod camera_path;
 mod choices;
+mod coded_error;
 mod context;
 mod course;
 mod coverage;
@@ -57,7 +58,7 @@ use crate::plan::{
     CameraBody, CameraPasses, CameraPlan, LightOwner, Plan, SourceSpectra, TimeDependence, hash_with_passes,
 };
 use camera_path::{camera_path, mount};
-use context::Context;
+use context::{Context, ErrorCode};
 use etendue_core::{CameraPath, Epoch, TimeInterval};
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
@@ -179,7 +180,7 @@ fn camera_passes(setup: &CameraSetup, camera: &CameraPlan) -> CameraPasses {
 fn unread(description: &Description, context: &mut Context<'_>) {
     for request in context.assets.missing(&description.assets()) {
         let problem = format!("the file {} was not read", request.path.display());
-        context.fault(&request.place, problem, "read all files that the description names");
+        context.fault(ErrorCode::UnreadableFile, &request.place, problem, "read all files that the description names");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Strengths that change over time: from records to waveforms.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use etendue_core::random::number_of_name;
 use etendue_core::{ExactTime, Waveform};
 use etendue_scene::record::light::Modulation;
@@ -12,12 +12,17 @@ pub(super) fn waveform(record: &Modulation, context: &mut Context<'_>) -> Option
         None => Vec::new(),
         Some(file) => {
             let Some(asset) = context.assets.numbers.get(&file.value) else {
-                context.fault(&file.place, "the table was not loaded", "give a readable file");
+                context.fault(
+                    ErrorCode::UnreadableFile,
+                    &file.place,
+                    "the table was not loaded",
+                    "give a readable file",
+                );
                 return None;
             };
             if asset.columns != 2 {
                 let problem = format!("{} has rows of {} numbers", file.value.display(), asset.columns);
-                context.fault(&file.place, problem, "give two columns: time in s, level");
+                context.fault(ErrorCode::UnsuitableFile, &file.place, problem, "give two columns: time in s, level");
                 return None;
             }
             asset.rows().map(|row| (row[0], row[1])).collect()

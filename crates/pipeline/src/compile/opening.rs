@@ -1,6 +1,6 @@
 //! Luminous openings of lamps: from records to the tracer's, and into the world.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use super::material::MaterialTableBuilder;
 use crate::plan::Identity;
 use etendue_scene::Place;
@@ -60,6 +60,7 @@ fn of_file(asset: &PhotometryAsset, place: &Place, context: &mut Context<'_>) ->
     let body = match stated.shape {
         OpeningShape::Point => {
             context.fault(
+                ErrorCode::UnsuitableFile,
                 place,
                 "the photometric file states no luminous opening: its length, width and height are 0, a point",
                 "give another shape, or remove \"opening\"",

@@ -1,6 +1,6 @@
 //! Pictures of a file as numbers: grey as they stand in the file, and linear colours.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use etendue_scene::Placed;
 use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_spectra::colour;
@@ -11,7 +11,7 @@ use std::path::PathBuf;
 pub(super) fn grey(file: &Placed<PathBuf>, context: &mut Context<'_>) -> Option<(usize, Vec<f32>)> {
     let Some(image) = context.assets.images.get(&file.value) else {
         let problem = format!("the picture {} was not loaded", file.value.display());
-        context.fault(&file.place, problem, "give a readable file");
+        context.fault(ErrorCode::UnreadableFile, &file.place, problem, "give a readable file");
         return None;
     };
     Some((image.width as usize, numbers(image)))

@@ -3,7 +3,7 @@
 //! x and y of a file are those of its lens program, of the physical image seen against the light: y upwards. The samples' own axes have y
 //! downwards ([`etendue_optics::effects::spread_table`]).
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use etendue_core::maths::f64::{sin_cos, tan};
 use etendue_optics::Lens;
 use etendue_optics::effects::{FieldSpread, SpreadTable, SpreadTableParameters, TabledWavelength};
@@ -51,13 +51,19 @@ fn listed<'a, 'c: 'a>(
 ) -> Option<Listed<'a>> {
     let assets = context.assets;
     let Some(asset) = assets.point_spreads.get(&file.value) else {
-        context.fault(&file.place, "the point spread was not loaded", "give a readable file");
+        context.fault(
+            ErrorCode::UnreadableFile,
+            &file.place,
+            "the point spread was not loaded",
+            "give a readable file",
+        );
         return None;
     };
     asset.notes.iter().for_each(|note| context.remark_on(file.value.display(), note));
     let Some(place_mm) = place_mm(asset, lens) else {
         let problem = format!("the lens images nothing at the field {}, which the file states", field(asset.field));
         context.fault(
+            ErrorCode::UnsuitableFile,
             &file.place,
             problem,
             "give files of its field, or such as state their coordinates on the sensor",
@@ -108,6 +114,7 @@ fn wavelengths(listed: &[Listed<'_>], context: &mut Context<'_>) -> Option<Vec<T
         let nm = |one: &Listed<'_>| format!("{} to {} nm", one.asset.wavelengths_nm[0], one.asset.wavelengths_nm[1]);
         let problem = format!("{} is of {}, and {} of {}", name(other), nm(other), name(first), nm(first));
         context.fault(
+            ErrorCode::UnsuitableFile,
             &other.file.place,
             problem,
             "give files of one wavelength each, or polychromatic ones of the same range",
@@ -143,7 +150,12 @@ fn check_twice(grid: &[(f64, Vec<&Listed<'_>>)], context: &mut Context<'_>) -> O
     let Some(pair) = alike else { return Some(()) };
     let problem =
         format!("{} is at the distance from the axis of {}, and of its wavelength", name(pair[1]), name(pair[0]));
-    context.fault(&pair[1].file.place, problem, "remove one of them: the function turns with the place in the picture");
+    context.fault(
+        ErrorCode::Duplicate,
+        &pair[1].file.place,
+        problem,
+        "remove one of them: the function turns with the place in the picture",
+    );
     None
 }
 
@@ -153,7 +165,12 @@ fn check_complete(listed: &[Listed<'_>], grid: &[(f64, Vec<&Listed<'_>>)], conte
     for one in listed {
         if let Some((nm, _)) = grid.iter().find(|(_, fields)| !has(fields, one.asset.field)) {
             let problem = format!("no file is of {nm} nm at the field {} of {}", field(one.asset.field), name(one));
-            context.fault(&one.file.place, problem, "give a file of every field at every wavelength");
+            context.fault(
+                ErrorCode::UnsuitableFile,
+                &one.file.place,
+                problem,
+                "give a file of every field at every wavelength",
+            );
             return None;
         }
     }

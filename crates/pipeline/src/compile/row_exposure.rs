@@ -1,6 +1,6 @@
 //! When rows are exposed: from records to a camera's shutter.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use crate::plan::{CaptureTiming, RowExposure, RowSkipping};
 use etendue_core::{RowTiming, Shutter};
 use etendue_projection::Raster;
@@ -90,7 +90,7 @@ fn captures(
                 "the exposure would begin {} s after the first, and the one before it of the same photodiode ends {end} s after it",
                 start.value
             );
-            context.fault(&start.place, problem, "begin later, or leave \"start_s\" out");
+            context.fault(ErrorCode::ImpossibleTiming, &start.place, problem, "begin later, or leave \"start_s\" out");
         }
         let start_s = capture.start_s.as_ref().map_or(end, |start| start.value);
         ends.push((sensitivity, start_s + length_s(exposure_s * exposure_ratio)));
@@ -104,6 +104,6 @@ fn refuse_idle_starts(further: &[Capture], context: &mut Context<'_>) {
     let again = |capture: &&Capture| capture.dual_conversion_gain.as_ref().is_some_and(|d| d.value);
     for start in further.iter().filter(again).filter_map(|capture| capture.start_s.as_ref()) {
         let problem = "\"start_s\" has no effect on charge that is read again: it has been collected before";
-        context.fault(&start.place, problem, "remove it");
+        context.fault(ErrorCode::NoEffect, &start.place, problem, "remove it");
     }
 }

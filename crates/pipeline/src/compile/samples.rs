@@ -1,7 +1,7 @@
 //! Samples a pixel, and the replicates that tell their variance.
 
 use super::choices::{self, Choices, Refinement};
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use crate::plan::{AdaptiveSampling, MAX_PASSES, Pass, Passes};
 use etendue_core::Quality;
 use etendue_scene::record::samples::MAX_SPP as MAX_KEY_SPP;
@@ -35,7 +35,12 @@ pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<
     if let Some(threshold) = render.samples.threshold_in_force() {
         if choices.refinement == Refinement::Progressive {
             let problem = "\"noise_threshold\" decides the samples pixel by pixel, and `progressive` refines all pixels pass by pass";
-            context.fault(&threshold.place, problem, "give `spp`, or render without `progressive`");
+            context.fault(
+                ErrorCode::Contradiction,
+                &threshold.place,
+                problem,
+                "give `spp`, or render without `progressive`",
+            );
         }
         return adaptive(threshold, render, context);
     }
@@ -72,7 +77,7 @@ fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>
                 let problem = format!("{} samples cannot be shared evenly among {replicates} replicates", number.value);
                 let remedy =
                     "give each pass a multiple of the replicates, or less than their number: so many on average";
-                context.fault(&number.place, problem, remedy);
+                context.fault(ErrorCode::NotAMultiple, &number.place, problem, remedy);
             }
         }
     }
@@ -81,13 +86,19 @@ fn in_passes(numbers: &[Placed<f64>], render: &Render, context: &mut Context<'_>
     if numbers.len() > MAX_PASSES || passes.mean_spp() > most {
         let problem = format!("found {} passes of {} samples", numbers.len(), passes.mean_spp());
         context.fault(
+            ErrorCode::OutOfRange,
             &numbers[0].place,
             problem,
             format!("give at most {MAX_PASSES} passes of at most {most} samples together"),
         );
     } else if passes.list().len() == numbers.len() && passes.spp() == 0 {
         let problem = format!("no pass takes all pixels: each has fewer samples than the {replicates} replicates");
-        context.fault(&numbers[0].place, problem, "give one pass a multiple of the replicates");
+        context.fault(
+            ErrorCode::NotAMultiple,
+            &numbers[0].place,
+            problem,
+            "give one pass a multiple of the replicates",
+        );
     }
     Samples { spp: passes.spp().max(replicates), replicates, adaptive: None, passes: Some(passes) }
 }
@@ -103,7 +114,12 @@ fn adaptive(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
     for (key, given) in keys.into_iter().filter_map(|(key, given)| Some((key, given.as_ref()?))) {
         if given.value % replicates != 0 {
             let problem = format!("{} samples cannot be shared evenly among {replicates} replicates", given.value);
-            context.fault(&given.place, problem, format!("give a \"{key}\" that is a multiple of the replicates"));
+            context.fault(
+                ErrorCode::NotAMultiple,
+                &given.place,
+                problem,
+                format!("give a \"{key}\" that is a multiple of the replicates"),
+            );
         }
     }
     let said = |key: &Option<Placed<u64>>, default: u64| key.as_ref().map_or(default, |spp| spp.value);
@@ -111,7 +127,12 @@ fn adaptive(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
     let max = said(&render.samples.max_spp, MAX_SPP.max(min).next_multiple_of(replicates));
     if let Some(given) = render.samples.max_spp.as_ref().or(render.samples.min_spp.as_ref()).filter(|_| max < min) {
         let problem = format!("at most {max} samples are fewer than the {min} that every pixel gets");
-        context.fault(&given.place, problem, "give a larger \"max_spp\" or a smaller \"min_spp\"");
+        context.fault(
+            ErrorCode::WrongOrder,
+            &given.place,
+            problem,
+            "give a larger \"max_spp\" or a smaller \"min_spp\"",
+        );
     }
     let adaptive = AdaptiveSampling { threshold: threshold.value, min_spp: min as u32 };
     Samples { spp: max as u32, replicates: replicates as u32, adaptive: Some(adaptive), passes: None }
@@ -125,7 +146,7 @@ fn deciding(threshold: &Placed<f64>, render: &Render, context: &mut Context<'_>)
     }
     let problem = format!("\"noise_threshold\" needs replicates that decide of each other, and found {}", given.value);
     let remedy = format!("give {LEAST_DECIDING} or more, or none: {DECIDING_REPLICATES}");
-    context.idle("replicates", &given.place, Some(&threshold.place), problem, &remedy);
+    context.idle(ErrorCode::OutOfRange, "replicates", &given.place, Some(&threshold.place), problem, &remedy);
     DECIDING_REPLICATES
 }
 
@@ -145,7 +166,7 @@ fn even(render: &Render, choices: &Choices, context: &mut Context<'_>) -> (u32, 
             context.notice(format!("`quality` supersedes {}", stated("replicates", &replicates.place)));
         } else {
             let cause = render.samples.spp.as_ref().map(|spp| &spp.place);
-            context.idle("replicates", &replicates.place, cause, problem, remedy);
+            context.idle(ErrorCode::NotAMultiple, "replicates", &replicates.place, cause, problem, remedy);
         }
     }
     let most = [REPLICATES, 2, 1].into_iter().find(|r| u64::from(spp) % r == 0).unwrap_or(1);
@@ -170,6 +191,11 @@ pub(super) fn has_variance(output: &Output, replicates: u32, render: &Render, co
     }
     let place = render.samples.replicates.as_ref().map_or(&render.place, |r| &r.place);
     let remedy = "give \"replicates\" = 2 or more (16 for a golden image) and samples that are a multiple";
-    context.fault(place, "one replicate knows no variance, and variance is asked for", remedy);
+    context.fault(
+        ErrorCode::UnavailableOutput,
+        place,
+        "one replicate knows no variance, and variance is asked for",
+        remedy,
+    );
     true
 }

@@ -2,7 +2,7 @@
 
 use super::camera::remark_margin;
 use super::choices::{Choices, max_bounces};
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use super::samples::{Samples, has_variance, samples};
 use crate::plan::raw_colour::RawColour;
 use crate::plan::rectified::RectifiedCamera;
@@ -55,7 +55,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         };
         let problem = "\"depth_png_scale\" has no effect without depth_png = true";
         let cause = output.depth_png.as_ref().map(|key| &key.place);
-        context.idle("depth_png_scale", place, cause, problem, "add it, or remove the scale");
+        context.idle(ErrorCode::NoEffect, "depth_png_scale", place, cause, problem, "add it, or remove the scale");
     }
     let products = Products {
         radiance: said(&output.radiance, !electronics),
@@ -82,7 +82,12 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
     remark_depth(&products, body, context);
     let products = Products { undistorted: undistorted(output, &products, body, context), ..products };
     if products.is_empty() {
-        context.fault(&output.place, "the camera delivers nothing", "ask for at least one product in [output]");
+        context.fault(
+            ErrorCode::Empty,
+            &output.place,
+            "the camera delivers nothing",
+            "ask for at least one product in [output]",
+        );
     }
     products
 }
@@ -106,20 +111,32 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
         if let Some(scale) = scale {
             let problem = "\"undistorted_scale\" has no effect without undistorted = true";
             let cause = output.undistorted.as_ref().map(|key| &key.place);
-            context.idle("undistorted_scale", &scale.place, cause, problem, "add it, or remove the scale");
+            context.idle(
+                ErrorCode::NoEffect,
+                "undistorted_scale",
+                &scale.place,
+                cause,
+                problem,
+                "add it, or remove the scale",
+            );
         }
         return None;
     };
     if !(products.ground_truth || products.rays || products.picture) {
         let problem =
             "\"undistorted\" has no effect without \"ground_truth\", \"rays\" or \"picture\", of which it makes twins";
-        context.fault(&key.place, problem, "ask for one of them, or remove the key");
+        context.fault(ErrorCode::NoEffect, &key.place, problem, "ask for one of them, or remove the key");
     }
     let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
     if products.picture && layout.is_some_and(|l| !l.is_whole()) {
         let problem =
             "pictures of a region, of binned pixels or without some that are skipped have no undistorted twins";
-        context.fault(&key.place, problem, "remove the key, or \"roi_px\", \"binning\" and \"skipping\" of the sensor");
+        context.fault(
+            ErrorCode::NotModelled,
+            &key.place,
+            problem,
+            "remove the key, or \"roi_px\", \"binning\" and \"skipping\" of the sensor",
+        );
     }
     let scale = scale.as_ref().map_or(1.0, |scale| scale.value);
     context.accept(&key.place, RectifiedCamera::of(body, scale)).map(|_| scale)
@@ -132,11 +149,12 @@ fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> 
     if body.sensor.is_none() || output.raw.as_ref().is_some_and(|raw| !raw.value) {
         let cause = output.raw.as_ref().map(|raw| &raw.place);
         let problem = "\"raw_format\" has no effect without raw";
-        context.idle("raw_format", &key.place, cause, problem, "ask for \"raw\", or remove it");
+        context.idle(ErrorCode::NoEffect, "raw_format", &key.place, cause, problem, "ask for \"raw\", or remove it");
     }
     let format = key.value;
     if format == RawFormat::Png && usual != RawFormat::Png {
         context.fault(
+            ErrorCode::UnsupportedOutput,
             &key.place,
             "the digital numbers have more than 16 bits, which PNG does not hold",
             "give \"tiff\"",
@@ -147,11 +165,16 @@ fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> 
     {
         let names: Vec<&str> = sensor.parameters().channels.iter().map(|c| c.name.as_str()).collect();
         let problem = format!("a DNG holds one channel, or red, green and blue, and a sensor has {}", names.join(", "));
-        context.fault(&key.place, problem, "give \"png\" or \"tiff\"");
+        context.fault(ErrorCode::UnsupportedOutput, &key.place, problem, "give \"png\" or \"tiff\"");
     }
     if format == RawFormat::Dng && body.sensor.as_ref().is_some_and(|s| s.parameters().hdr.companding.is_some()) {
         let problem = "the numbers are companded, and raw readers would take a DNG's for linear";
-        context.fault(&key.place, problem, "give \"png\" or \"tiff\", or remove \"companding\"");
+        context.fault(
+            ErrorCode::UnsupportedOutput,
+            &key.place,
+            problem,
+            "give \"png\" or \"tiff\", or remove \"companding\"",
+        );
     }
     format
 }
@@ -162,6 +185,7 @@ fn need(key: &Option<Placed<bool>>, possible: bool, name: &str, lack: &str, reme
         && !possible
     {
         context.fault(
+            ErrorCode::UnavailableOutput,
             &key.place,
             format!("\"{name}\" is asked for, but {lack}"),
             format!("{remedy}, or remove the key"),
@@ -224,7 +248,7 @@ fn wavelengths(render: &Render, body: &CameraBody, route: &Route, context: &mut 
     if let Some(asked) = asked.filter(|n| n.value != 1) {
         let problem =
             format!("a path cannot carry {} wavelengths through a lens that treats each differently", asked.value);
-        context.fault(&asked.place, problem, "remove the key, or give 1");
+        context.fault(ErrorCode::NotModelled, &asked.place, problem, "remove the key, or give 1");
         return None;
     }
     Some(1)
@@ -287,7 +311,12 @@ fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut C
         return Some(());
     }
     let problem = format!("a film of {width} × {height} pixels takes {:.0} GB", bytes / 1e9);
-    context.fault(&body.place, problem, "make the picture smaller, the bands wider, or the field of view narrower");
+    context.fault(
+        ErrorCode::TooLarge,
+        &body.place,
+        problem,
+        "make the picture smaller, the bands wider, or the field of view narrower",
+    );
     None
 }
 
@@ -324,7 +353,12 @@ pub(super) fn depth_of_field(render: &Render, body: &CameraBody, context: &mut C
         None => Some(if blurs { DepthOfField::Physical } else { DepthOfField::None }),
         Some(render::DepthOfField::Fast(blend)) => {
             if blend.near_m.is_none() && blend.far_m.is_none() {
-                context.fault(&blend.place, "nothing is blurred by this", "add \"near_m\" or \"far_m\"");
+                context.fault(
+                    ErrorCode::NoEffect,
+                    &blend.place,
+                    "nothing is blurred by this",
+                    "add \"near_m\" or \"far_m\"",
+                );
                 return None;
             }
             context.accept(&blend.place, FastBlend::new(parameters(blend, body.scale))).map(DepthOfField::Fast)
@@ -391,13 +425,23 @@ fn accumulation(
         Some((Accumulate::Electrons, place)) => {
             if pupil || body.sensor.is_none() {
                 let problem = "\"electrons\" needs a sensor with electronics and route = \"lens\"";
-                context.fault(place, problem, "use \"auto\" or \"cube\"");
+                context.fault(ErrorCode::Contradiction, place, problem, "use \"auto\" or \"cube\"");
             } else if spectral {
                 let problem = "\"electrons\" keeps no spectrum, and radiance or irradiance is asked for";
-                context.fault(place, problem, "use \"auto\", which keeps both, or do not ask for them");
+                context.fault(
+                    ErrorCode::Contradiction,
+                    place,
+                    problem,
+                    "use \"auto\", which keeps both, or do not ask for them",
+                );
             } else if effects {
                 let problem = "\"electrons\" keeps no spectrum, and the camera's [effects] act on one";
-                context.fault(place, problem, "use \"auto\" or \"cube\", or remove [effects]");
+                context.fault(
+                    ErrorCode::Contradiction,
+                    place,
+                    problem,
+                    "use \"auto\" or \"cube\", or remove [effects]",
+                );
             }
             (false, true)
         }
@@ -432,7 +476,7 @@ fn bands(render: &Render, range: WavelengthRange, context: &mut Context<'_>) -> 
         let problem = format!(
             "{low_nm} to {high_nm} nm is not a whole number of bands of {width_nm} nm within {SHORTEST_NM} to {MAX_NM} nm"
         );
-        context.fault(place, problem, "change \"band_width_nm\" or \"wavelength_range_nm\"");
+        context.fault(ErrorCode::NotAMultiple, place, problem, "change \"band_width_nm\" or \"wavelength_range_nm\"");
     }
     bands
 }

@@ -1,6 +1,6 @@
 //! The clear sky and the sun by the model of Hosek and Wilkie.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use crate::plan::SkyFacts;
 use etendue_core::maths::f64::{sin, sin_cos};
 use etendue_scene::record::environment::{Sky, SunMoment};
@@ -43,7 +43,12 @@ pub(super) fn sky(record: &Sky, context: &mut Context<'_>) -> Option<MadeSky> {
         None => Spectrum::constant(0.0),
     };
     let Some(environment) = SkyEnvironment::new(&model, sunward.azimuth_rad, albedo, &on_ground) else {
-        context.fault(place, "the sky is black with the sun so low", "remove the sky, or give a higher sun");
+        context.fault(
+            ErrorCode::OutOfRange,
+            place,
+            "the sky is black with the sun so low",
+            "remove the sky, or give a higher sun",
+        );
         return None;
     };
     let facts = SkyFacts {

@@ -1,6 +1,6 @@
 //! Curves and colours of light: from records to spectra.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use core::f64::consts::FRAC_1_PI;
 use etendue_core::WavelengthRange;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
@@ -20,7 +20,7 @@ pub(super) fn curve(curve: &Curve, outside: Outside, context: &mut Context<'_>) 
 /// A tabulated spectrum.
 pub(super) fn from_file(file: &Placed<PathBuf>, outside: Outside, context: &mut Context<'_>) -> Option<Spectrum> {
     let Some(asset) = context.assets.spectra.get(&file.value) else {
-        context.fault(&file.place, "the spectrum was not loaded", "give a readable file");
+        context.fault(ErrorCode::UnreadableFile, &file.place, "the spectrum was not loaded", "give a readable file");
         return None;
     };
     if let (Some(first), Some(last)) = (asset.points.first(), asset.points.last()) {
@@ -47,7 +47,12 @@ pub(super) fn named_illuminant(name: &Placed<String>, context: &mut Context<'_>)
     let found = illuminant::named(&name.value).cloned();
     if found.is_none() {
         let problem = format!("there is no illuminant \"{}\"", name.value);
-        context.fault(&name.place, problem, format!("give one of solar, {}", illuminant::names().join(", ")));
+        context.fault(
+            ErrorCode::UnknownName,
+            &name.place,
+            problem,
+            format!("give one of solar, {}", illuminant::names().join(", ")),
+        );
     }
     found
 }
@@ -73,7 +78,7 @@ pub(super) fn bright(relative: &Spectrum, level: f64, place: &Place, context: &m
     let scaled = observer::with_luminance(relative, level);
     if scaled.is_none() {
         let problem = "the spectrum of this light has no visible part, so no scale gives it a luminance";
-        context.fault(place, problem, "state its strength in W (radiance or irradiance)");
+        context.fault(ErrorCode::Degenerate, place, problem, "state its strength in W (radiance or irradiance)");
     }
     scaled
 }

@@ -1,6 +1,6 @@
 //! When frames and rows are exposed: from records to a camera's timing.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use crate::plan::{CameraBody, CameraPlan, Jitter, Route, TimeDependence, Timing};
 use etendue_core::Epoch;
 use etendue_scene::record::{self, Electronics, Sequence};
@@ -69,14 +69,24 @@ pub(super) fn depend(
         if camera.time != TimeDependence::None && at_pupil && !camera.timing.exposure.is_global() {
             let problem = "rows that are read in turn see different moments, and route = \"pupil\" stores the light of one exposure for \
                            all of them";
-            context.fault(&camera.body.place, problem, "give a \"global\" shutter, or route = \"lens\"");
+            context.fault(
+                ErrorCode::NotModelled,
+                &camera.body.place,
+                problem,
+                "give a \"global\" shutter, or route = \"lens\"",
+            );
         }
         if camera.time == TimeDependence::Motion
             && camera.products.undistorted.is_some()
             && !camera.timing.exposure.is_global()
         {
             let problem = "rows that are read in turn see different moments, and a row of the undistorted twin is of several of them";
-            context.fault(&camera.body.place, problem, "give a \"global\" shutter, or remove \"undistorted\"");
+            context.fault(
+                ErrorCode::NotModelled,
+                &camera.body.place,
+                problem,
+                "give a \"global\" shutter, or remove \"undistorted\"",
+            );
         }
     }
 }
@@ -88,6 +98,7 @@ fn check_drops(camera: &CameraPlan, context: &mut Context<'_>) {
     if age_s > MAX_DROPS_AGE_S {
         let problem = format!("the drops begin {age_s:.0} s before frame 0; at most {MAX_DROPS_AGE_S} s are simulated");
         context.fault(
+            ErrorCode::ImpossibleTiming,
             &camera.body.place,
             problem,
             "set \"start_s\" of the drops to a time shortly before that of the sequence",
@@ -112,6 +123,7 @@ fn period_s(sequence: Option<&Sequence>, sensor: &record::Sensor, context: &mut 
             1.0 / rate.value
         );
         context.fault(
+            ErrorCode::Contradiction,
             &stated.place,
             problem,
             "make the two agree, or leave \"frame_period_s\" out where nothing needs it",
@@ -132,13 +144,19 @@ fn check(timing: &Timing, sensor: &record::Sensor, sequence: Option<&Sequence>, 
             "a row takes {exposed_s} s from the beginning of its first exposure to the end of its last, jitter included, and frames \
              follow each other every {period_s} s"
         );
-        context.fault(place(sensor, sequence), problem, "expose shorter, or take fewer frames a second");
+        context.fault(
+            ErrorCode::ImpossibleTiming,
+            place(sensor, sequence),
+            problem,
+            "expose shorter, or take fewer frames a second",
+        );
     } else if read_s > most_s {
         let problem = format!(
             "to read all rows takes {read_s} s, jitter included, and frames follow each other every {period_s} s"
         );
         let rows = sensor.shutter.as_ref().and_then(|shutter| shutter.row_time_us());
         context.fault(
+            ErrorCode::ImpossibleTiming,
             rows.map_or(&sensor.place, |time| &time.place),
             problem,
             "read rows faster, or take fewer frames a second",

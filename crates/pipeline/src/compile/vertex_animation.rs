@@ -4,7 +4,7 @@
 //! one pair of texture coordinates, and in every file one normal: exporters write equal normals once, and normals that are equal in one
 //! file need not be so in the next.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use etendue_core::Epoch;
 use etendue_scene::asset::{MeshAsset, MeshFrameAsset};
 use etendue_scene::record;
@@ -23,14 +23,24 @@ pub(super) fn mesh(
     let files: Vec<PathBuf> = record.frame_files().into_iter().map(|file| file.value).collect();
     let found: Vec<&MeshFrameAsset> = files.iter().filter_map(|file| context.assets.mesh_frames.get(file)).collect();
     if found.len() < files.len() {
-        context.fault(&record.files.place, "a file of the mesh was not loaded", "give readable OBJ files");
+        context.fault(
+            ErrorCode::UnreadableFile,
+            &record.files.place,
+            "a file of the mesh was not loaded",
+            "give readable OBJ files",
+        );
         return None;
     }
     let before = context.faults.len();
     for (file, frame) in files.iter().zip(&found).skip(1) {
         if let Some([own, first]) = frame.difference(found[0]) {
             let problem = format!("{} has {own}, and {} has {first}", file.display(), files[0].display());
-            context.fault(&record.files.place, problem, "export all files from one mesh, its faces unchanged");
+            context.fault(
+                ErrorCode::UnsuitableFile,
+                &record.files.place,
+                problem,
+                "export all files from one mesh, its faces unchanged",
+            );
         }
     }
     if context.faults.len() > before {

@@ -1,6 +1,6 @@
 //! Meshes, shapes and their instances: from records to the tracer's world.
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use super::frames::Frames;
 use super::material::{MaterialTableBuilder, has_picture};
 use super::object_motion::placements;
@@ -77,7 +77,12 @@ impl Assembly {
     fn add_mesh(&mut self, record: &record::Mesh, context: &mut Context<'_>) {
         let file = record.file();
         let Some(asset) = context.assets.meshes.get(&file.value) else {
-            context.fault(&file.place, "the mesh was not loaded", "give a readable OBJ file");
+            context.fault(
+                ErrorCode::UnreadableFile,
+                &file.place,
+                "the mesh was not loaded",
+                "give a readable OBJ file",
+            );
             return;
         };
         asset.report.iter().for_each(|line| context.remark(line));
@@ -153,11 +158,13 @@ impl Assembly {
                     instance.materials.iter_mut().filter(|m| **m == id).for_each(|m| *m = like);
                 }
                 None if !instance.to_world.keeps_areas() => context.fault(
+                    ErrorCode::NotModelled,
                     &object.place,
                     "a surface whose scale changes over time has no area from which its light's flux would follow",
                     "give its keys one scale, or give the light's luminance or radiance",
                 ),
                 None => context.fault(
+                    ErrorCode::NotModelled,
                     &object.place,
                     "a sphere that is stretched unevenly has no area from which its light's flux would follow",
                     "scale it evenly, or give the light's luminance or radiance",
@@ -181,7 +188,12 @@ impl Assembly {
         check_coordinates(record, asset, &materials, material_table, object, context);
         if record.animation().is_some() && materials.iter().any(|id| material_table.glows(*id)) {
             let problem = format!("the vertices of \"{name}\" move, and a surface that glows must keep its shape");
-            context.fault(&object.place, problem, "give it a material without emission, or a mesh of one \"file\"");
+            context.fault(
+                ErrorCode::NotModelled,
+                &object.place,
+                problem,
+                "give it a material without emission, or a mesh of one \"file\"",
+            );
             return None;
         }
         let to_object = DAffine3::from_mat3(record.to_object()) * DAffine3::from_translation(asset.origin.into());
@@ -239,7 +251,12 @@ fn delay_light(
     }
     if let (Some(delay), false) = (own, is_modulated) {
         let problem = "\"modulation_delay_s\" has no effect on an object whose light does not change";
-        context.fault(&delay.place, problem, "remove it, or add \"modulation\" to the emission of its material");
+        context.fault(
+            ErrorCode::NoEffect,
+            &delay.place,
+            problem,
+            "remove it, or add \"modulation\" to the emission of its material",
+        );
     }
 }
 
@@ -323,6 +340,7 @@ fn check_coordinates(
             file.value.display()
         );
         context.fault(
+            ErrorCode::UnsuitableFile,
             &object.place,
             problem,
             "export them with the mesh, or use a material without textures and multiplexed rows",
@@ -338,7 +356,7 @@ fn check_slot(slot: &etendue_scene::Placed<String>, mesh: &record::Mesh, asset: 
             true => "it names no materials: give \"material\" in place of \"materials\"".to_owned(),
             false => format!("give one of {}", known.join(", ")),
         };
-        context.fault(&slot.place, problem, remedy);
+        context.fault(ErrorCode::UnknownName, &slot.place, problem, remedy);
     }
 }
 

@@ -50,6 +50,9 @@ class Fault:
     line: int | None = None
     column: int | None = None
     key: str | None = None
+    code: str = "invalid-argument"
+    problem: str = ""
+    remedy: str | None = None
 
 class Error(Exception):
     """Why a call did not succeed. Nothing that was written under a final name is half-written."""
@@ -58,7 +61,9 @@ class InputError(Error, ValueError):
     """Unusable input (exit status 2 of the program): ``faults`` has all, the others are those of the first."""
 
     faults: list[Fault]
-    def __init__(self, faults: Iterable[tuple[str, str | None, int | None, int | None, str | None]]) -> None: ...
+    def __init__(self, faults: Iterable[tuple[Any, ...]]) -> None: ...
+    @property
+    def code(self) -> str: ...
     @property
     def file(self) -> str | None: ...
     @property

@@ -18,6 +18,12 @@ class Fault:
     line: int | None = None
     column: int | None = None
     key: str | None = None
+    #: The kind of the fault, which ``etendue.explain(code)`` explains.
+    code: str = "invalid-argument"
+    #: What is wrong, without the place.
+    problem: str = ""
+    #: What to do; None where the message says it in its own words.
+    remedy: str | None = None
 
 
 class Error(Exception):
@@ -25,16 +31,23 @@ class Error(Exception):
 
 
 class InputError(Error, ValueError):
-    """Unusable input (exit status 2 of the program): ``faults`` has all, ``file``, ``line``, ``column`` and ``key`` are those of the first."""
+    """Unusable input (exit status 2 of the program): ``faults`` has all, ``code``, ``file``, ``line``, ``column`` and ``key`` are those of the first."""
 
     def __init__(self, faults):
-        self.faults = [Fault(message, file, line, column, _python_name(key)) for message, file, line, column, key in faults]
+        self.faults = [
+            Fault(message, file, line, column, _python_name(key), *rest) for message, file, line, column, key, *rest in faults
+        ]
         more = len(self.faults) - _MAX_SHOWN
         shown = [fault.message for fault in self.faults[:_MAX_SHOWN]] + [f"and {more} more"] * (more > 0)
         super().__init__("\n".join(shown))
 
     def __reduce__(self):
-        return (type(self), ([(f.message, f.file, f.line, f.column, f.key) for f in self.faults],))
+        return (type(self), ([(f.message, f.file, f.line, f.column, f.key, f.code, f.problem, f.remedy) for f in self.faults],))
+
+    @property
+    def code(self):
+        """The kind of the fault, which ``etendue.explain(code)`` explains."""
+        return self.faults[0].code
 
     @property
     def file(self):

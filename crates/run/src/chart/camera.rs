@@ -1,7 +1,7 @@
 //! The camera that a chart is made for: a camera file, or a reference camera that is written beside the chart.
 
 use etendue_charts::CameraStation;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::load_assets;
 use etendue_io::paths::relative_path;
 use etendue_io::source::read_text;
@@ -76,11 +76,17 @@ impl ChartCamera {
         };
         let whole = |path: &Path| {
             let here = if path.as_os_str().is_empty() { Path::new(".") } else { path };
-            here.canonicalize().map_err(|error| Error::input(format!("{}: {error}", path.display())))
+            here.canonicalize()
+                .map_err(|error| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", path.display())))
         };
         let from_to = relative_path(&whole(folder)?, &whole(file)?);
         let text = from_to.to_str().filter(|text| !text.contains(['"', '\\']));
-        let told = || Error::input(format!("{}: give a path without quotes and backslashes", file.display()));
+        let told = || {
+            Error::coded(
+                ErrorCode::InvalidArgument,
+                format!("{}: give a path without quotes and backslashes", file.display()),
+            )
+        };
         text.map(str::to_owned).ok_or_else(told)
     }
 

@@ -3,7 +3,7 @@
 //! All cameras of a chart have the lens, sensor, effects, processing and external optics of one camera file, for which the chart is drawn: changes of these
 //! are applied before it is drawn. All others are written into `job.toml` and `scene.toml` afterwards.
 
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::read_text;
 use etendue_scene::{Description, Overrides, edit};
 use std::collections::BTreeMap;
@@ -86,7 +86,7 @@ impl<'c> Changes<'c> {
         }
         self.0.iter().find(is_exposure).map_or(Ok(()), |change| {
             let remedy = "the exposures of a series are set by the chart; give them with `exposures` or `levels`";
-            Err(Error::argument("set", format!("`set` {change}: {remedy}")))
+            Err(Error::argument("set", format!("`set` {change}: {remedy}")).with_code(ErrorCode::InvalidChange))
         })
     }
 
@@ -102,7 +102,7 @@ impl<'c> Changes<'c> {
                     format!(
                         "`set` {change}: the change cannot be written into the chart's files; give the whole list or table that contains the key, or change the camera file"
                     ),
-                ));
+                ).with_code(ErrorCode::InvalidChange));
             }
         }
         Ok(())

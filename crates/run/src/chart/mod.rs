@@ -14,8 +14,8 @@ use etendue_charts::{
 };
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
-use etendue_io::failure::Error;
 use etendue_io::failure::check_whole;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::Encoding;
 use etendue_io::png::{encode_display, encode_raw16};
 use etendue_io::{Existing, OutputFolder};
@@ -239,7 +239,7 @@ fn draw_chart(request: &ChartRequest, changes: &[String], folder: &Path) -> Resu
 pub fn chart_error(error: ChartError) -> Error {
     match error {
         ChartError::Option { option, .. } => Error::argument(option, error.to_string()),
-        ChartError::Camera(message) => Error::input(message),
+        ChartError::Camera(message) => Error::coded(ErrorCode::UnusableLens, message),
     }
 }
 

@@ -8,7 +8,7 @@ use crate::memory::MemoryFiles;
 use crate::result_files::write_file;
 use etendue_core::Integrator;
 use etendue_core::observer::Observer;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::{Existing, Sandbox};
 use etendue_scene::CameraSetup;
 use etendue_scene::record::paths::PathKeys;
@@ -91,7 +91,12 @@ impl ChartBeforeCamera {
         let start = if has_picture { "picture." } else { "raw." };
         let is_picture =
             |path: &&PathBuf| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(start));
-        let none = || Error::input(format!("camera {}: it makes no picture to measure", self.camera));
+        let none = || {
+            Error::coded(
+                ErrorCode::UnavailableOutput,
+                format!("camera {}: it makes no picture to measure", self.camera),
+            )
+        };
         written.iter().find(is_picture).cloned().ok_or_else(none)
     }
 }
@@ -104,13 +109,13 @@ fn load(file: &Path, sandbox: &Sandbox, overrides: &Overrides) -> Result<Descrip
 
 /// A camera of a job, with the names of its files from the root of the file system.
 fn setup(job: &JobRequest, camera: &str) -> Result<CameraSetup, Error> {
-    let told = |error| Error::input(format!("{}: {error}", job.job.display()));
+    let told = |error| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {error}", job.job.display()));
     // The folder alone: names are from that of a link, not from that of its target.
     let parent = job.job.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let file = parent.canonicalize().map_err(told)?.join(job.job.file_name().unwrap_or_default());
     let description = load(&file, &job.folders()?, &job.overrides())?;
     let setup = description.cameras.into_iter().find(|setup| setup.name.value == camera);
-    setup.ok_or_else(|| Error::input(format!("{}: no camera {camera}", job.job.display())))
+    setup.ok_or_else(|| Error::coded(ErrorCode::UnknownName, format!("{}: no camera {camera}", job.job.display())))
 }
 
 /// What changes the exposure from frame to frame follows the scene, of which the chart is none.

@@ -4,7 +4,7 @@ use super::metadata;
 use super::sequence::Sequence;
 use crate::result_files::Files;
 use etendue_core::observer::{Message, Observer};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::read_regular;
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_scene::limits::DESCRIPTION;
@@ -112,5 +112,5 @@ fn written(path: &Path, otherwise: &str) -> Result<Option<Value>, Error> {
 }
 
 fn refused(path: &Path, why: &str) -> Error {
-    Error::input(format!("{}: {why}", path.display()))
+    Error::coded(ErrorCode::OtherRun, format!("{}: {why}", path.display()))
 }

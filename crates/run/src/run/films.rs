@@ -4,7 +4,7 @@
 //! capture whose exposure differs.
 
 use crate::film_file::StoredPasses;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};
@@ -175,11 +175,14 @@ pub(super) fn tile_count(camera: &CameraPlan, shard: Shard) -> usize {
 pub(crate) fn check_frames(plan: &Plan, frames: &Range<u32>) -> Result<(), Error> {
     let needs = |camera: &&CameraPlan| camera.time != TimeDependence::None && camera.timing.period_s.is_none();
     match plan.cameras.iter().find(needs) {
-        Some(camera) if frames.end > 1 => Err(Error::input(format!(
-            "camera {}: its light depends on time, and nothing says when its frames after frame 0 are taken; add [sequence] with \
+        Some(camera) if frames.end > 1 => Err(Error::coded(
+            ErrorCode::MissingKey,
+            format!(
+                "camera {}: its light depends on time, and nothing says when its frames after frame 0 are taken; add [sequence] with \
              \"frame_rate_hz\" to the job, or render `frames` 0..1",
-            camera.name
-        ))),
+                camera.name
+            ),
+        )),
         _ => Ok(()),
     }
 }

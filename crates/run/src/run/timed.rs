@@ -8,7 +8,7 @@ use super::pace::{Pace, Rate};
 use crate::film_file::StoredPasses;
 use etendue_core::maths::integer::least_common_multiple;
 use etendue_core::observer::{Message, Observer};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::{MAX_PASSES, PARTS, Pass, PassAt, Passes};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -246,7 +246,10 @@ pub(super) struct Watch<'a> {
 impl<'a> Watch<'a> {
     fn new(observer: &'a dyn Observer) -> Result<Self, Error> {
         if observer.now_s().is_none() {
-            return Err(Error::input("a time is asked for, and the caller has no clock; give samples in its place"));
+            return Err(Error::coded(
+                ErrorCode::InvalidArgument,
+                "a time is asked for, and the caller has no clock; give samples in its place",
+            ));
         }
         Ok(Self {
             observer,

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use super::files::{FileKind, open};
 use super::read_text::ReadText;
 use crate::document::{Node, Table, Value};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::limits::BASES;
 use crate::place::Place;
 use crate::reader::{Rule as _, path};
@@ -32,7 +32,12 @@ pub(super) fn lay_over(
     let (base, removed) = (table.remove("base"), table.remove("remove"));
     let Some(base) = base else {
         if let Some(removed) = removed {
-            faults.add(&removed.place, "\"remove\" has no effect without \"base\"", "name the base, or remove it");
+            faults.add(
+                ErrorCode::NoEffect,
+                &removed.place,
+                "\"remove\" has no effect without \"base\"",
+                "name the base, or remove it",
+            );
         }
         return Some(tree);
     };
@@ -54,14 +59,24 @@ fn based_on(
     faults: &mut Faults,
 ) -> Option<Node> {
     if chain.iter().any(|above| above == file) {
-        faults.add(named, format!("\"{}\" is built on itself", file.display()), "name another base, or none");
+        faults.add(
+            ErrorCode::CircularReference,
+            named,
+            format!("\"{}\" is built on itself", file.display()),
+            "name another base, or none",
+        );
         return None;
     }
     // More are taken for a circle that the paths hide.
     let most = BASES.most();
     if chain.len() as u64 > most {
         let problem = format!("more than {most} files are built one on the other here, in a circle perhaps");
-        faults.add(named, problem, format!("build on fewer files, {}", BASES.remedy(BASES.next(most))));
+        faults.add(
+            ErrorCode::TooLarge,
+            named,
+            problem,
+            format!("build on fewer files, {}", BASES.remedy(BASES.next(most))),
+        );
         return None;
     }
     open(file, kind, read, named, chain, faults)
@@ -71,13 +86,23 @@ fn based_on(
 fn take_out(base: &mut Node, list: &Node, faults: &mut Faults) {
     if !matches!(list.value, Value::List(_)) {
         let problem = format!("found {}", list.describe());
-        faults.add(&list.place, problem, "give a list of dotted keys of the base: [\"lights.sun\"]");
+        faults.add(
+            ErrorCode::WrongType,
+            &list.place,
+            problem,
+            "give a list of dotted keys of the base: [\"lights.sun\"]",
+        );
     }
     for name in list.as_list() {
         let taken = name.as_text().is_some_and(|key| remove(base, &key.split('.').collect::<Vec<_>>()));
         if !taken {
             let problem = format!("the base has nothing called {}", name.describe());
-            faults.add(&name.place, problem, "give dotted keys of the base: \"environment\", \"lights.sun\"");
+            faults.add(
+                ErrorCode::UnknownName,
+                &name.place,
+                problem,
+                "give dotted keys of the base: \"environment\", \"lights.sun\"",
+            );
         }
     }
 }

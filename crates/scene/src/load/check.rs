@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::names;
 use super::usage::Use;
 use crate::document::Node;
-use crate::fault::{Faults, Named};
+use crate::fault::{ErrorCode, Faults, Named};
 use crate::place::Placed;
 use crate::suggest::nearest;
 
@@ -29,6 +29,7 @@ pub(super) fn references(document: &Node, faults: &mut Faults) -> Vec<Use> {
                 false => {
                     let what = named.word();
                     faults.add(
+                        ErrorCode::UnknownName,
                         &name.place,
                         format!("there is no {what} \"{}\"", name.value),
                         format!("define the {what}"),
@@ -51,7 +52,7 @@ fn note_unknown(what: &str, name: &Placed<String>, known: &[&str], faults: &mut 
         (_, Some(near)) => format!("did you mean \"{near}\"? Known: {}", listed(known)),
         (_, None) => format!("define the {what}, or use one that is known: {}", listed(known)),
     };
-    faults.add(&name.place, format!("there is no {what} \"{}\"", name.value), remedy);
+    faults.add(ErrorCode::UnknownName, &name.place, format!("there is no {what} \"{}\"", name.value), remedy);
 }
 
 /// The first names.

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use super::base;
 use super::read_text::ReadText;
 use crate::document::{Node, Value, parse};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::overrides::Overrides;
 use crate::place::Place;
 use crate::reader::{Record as _, Rule as _, path};
@@ -119,12 +119,12 @@ fn own_tree(file: &Path, read: &ReadText<'_>, named: &Place, faults: &mut Faults
     let text = match read(file) {
         Ok(text) => text,
         Err(why) => {
-            let (why, remedy) = match why.split_once("; ") {
+            let (words, remedy) = match why.words.split_once("; ") {
                 Some(known) => known,
-                None if named.file() == file => (why.as_str(), "correct the path"),
-                None => (why.as_str(), "correct the path, which is relative to the file that names it"),
+                None if named.file() == file => (why.words.as_str(), "correct the path"),
+                None => (why.words.as_str(), "correct the path, which is relative to the file that names it"),
             };
-            faults.add(named, format!("cannot read \"{}\": {why}", file.display()), remedy);
+            faults.add(why.code, named, format!("cannot read \"{}\": {words}", file.display()), remedy);
             return None;
         }
     };
@@ -148,17 +148,23 @@ fn note_other_kind(file: &Path, kind: FileKind, other: FileKind, named: &Place, 
         (FileKind::Job, FileKind::Scene | FileKind::Camera) => "give a job file that names it".to_owned(),
         _ => format!("give a {} file", kind.word()),
     };
-    faults.add(named, format!("{subject} is a {} file", other.word()), remedy);
+    faults.add(ErrorCode::WrongFileKind, named, format!("{subject} is a {} file", other.word()), remedy);
 }
 
 /// Every file says its format; this program reads format 1.
 fn check_format(tree: &mut Node, faults: &mut Faults) {
     let head = tree.place.clone();
     match tree.as_table_mut().and_then(|t| t.remove("format")) {
-        None => faults.add(&head, "the key \"format\" is missing", "add \"format = 1\" at the head of the file"),
+        None => faults.add(
+            ErrorCode::MissingKey,
+            &head,
+            "the key \"format\" is missing",
+            "add \"format = 1\" at the head of the file",
+        ),
         Some(entry) if !matches!(entry.node.value, Value::Whole(1)) => {
             let problem = format!("found format {}, and this program reads format 1", entry.node.describe());
             faults.add(
+                ErrorCode::UnknownFormat,
                 &entry.node.place,
                 problem,
                 "write the file in format 1, or use a program that reads this format",

@@ -1,7 +1,7 @@
 //! Names are unique among their kind.
 
 use crate::document::{Node, Table};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 
 /// The lists of a scene whose entries have names.
 const LISTS: [&str; 7] = ["meshes", "textures", "materials", "frames", "objects", "lights", "media"];
@@ -45,7 +45,7 @@ fn unique_numbers(scene: &Table, faults: &mut Faults) {
 
 fn note_twice(what: &str, node: &Node, first: &crate::Place, faults: &mut Faults) {
     let at = first.line_column().map_or(first.to_string(), |(line, _)| format!("line {line}"));
-    faults.add(&node.place, format!("{what} is taken by {at}"), "choose another");
+    faults.add(ErrorCode::Duplicate, &node.place, format!("{what} is taken by {at}"), "choose another");
 }
 
 /// The names in a list of the scene, whether or not the entries are right in all else.

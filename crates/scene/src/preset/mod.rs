@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use crate::document::{Entry, Node, Table, Value, parse};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Place;
 use crate::reader::word;
 
@@ -85,7 +85,12 @@ fn spell_out_material(material: &mut Table, faults: &mut Faults) {
     let Some(named) = material.remove("preset") else { return };
     if let Some(kind) = material.entries.iter().find(|e| e.key == "type") {
         let problem = format!("\"preset\" contradicts \"type\" ({})", kind.place);
-        faults.add(&named.place, problem, "keep the preset, whose type is its own, or the type");
+        faults.add(
+            ErrorCode::Contradiction,
+            &named.place,
+            problem,
+            "keep the preset, whose type is its own, or the type",
+        );
         return;
     }
     let found = word(&named.node, &names(), faults).and_then(|name| all().iter().find(|p| p.name == name));

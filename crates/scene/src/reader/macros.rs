@@ -326,7 +326,7 @@ pub(crate) use {as_table, constructor, field, keyed, record, variant, variants};
 use super::rule::Rule;
 use super::table::{Form, Key, Reader};
 use super::word::{one_of, quoted, word};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::written::Table;
 
 /// The forms, each with a key more.
@@ -383,10 +383,10 @@ pub(crate) fn only_key<'k>(reader: &mut Reader<'_>, keys: &[&'k str], faults: &m
         reader.take(key);
     }
     let place = given.last().and_then(|k| reader.given(k)).unwrap_or(reader.place());
-    let problem = match given.as_slice() {
-        [] => "a key is missing".to_owned(),
-        _ => format!("{} contradict each other", quoted(&given)),
+    let (code, problem) = match given.as_slice() {
+        [] => (ErrorCode::MissingKey, "a key is missing".to_owned()),
+        _ => (ErrorCode::Contradiction, format!("{} contradict each other", quoted(&given))),
     };
-    faults.add(place, problem, format!("give exactly one of {}", quoted(keys)));
+    faults.add(code, place, problem, format!("give exactly one of {}", quoted(keys)));
     None
 }

@@ -4,7 +4,7 @@ use serde_json::{Value as Json, json};
 
 use super::rule::{Kind, Rule};
 use crate::document::{Node, Value};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::written::{Item, Value as WrittenValue};
 use etendue_core::ExactTime;
@@ -117,7 +117,12 @@ impl Rule for Percentile {
             Some(share) => {
                 let percent = (share * 1e8).round() / 1e6;
                 let problem = format!("found {share}, which reads as a share; percentiles go from 0 to 100");
-                faults.add(&node.place, problem, format!("for that share give {percent}, else a percentile above 1"));
+                faults.add(
+                    ErrorCode::OutOfRange,
+                    &node.place,
+                    problem,
+                    format!("for that share give {percent}, else a percentile above 1"),
+                );
                 None
             }
             None => self.0.read(node, faults),

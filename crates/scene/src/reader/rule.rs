@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 
 use super::table::{Reader, Record, record_schema};
 use crate::document::{Node, Value};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::written::{Item, Table, Value as Said};
 
@@ -57,7 +57,11 @@ pub(crate) trait Rule {
             return None;
         }
         let expected = self.expected();
-        faults.add(&node.place, format!("found {}", node.describe()), format!("give {expected}"));
+        let code = match self.takes(Kind::of(node)) {
+            true => ErrorCode::OutOfRange,
+            false => ErrorCode::WrongType,
+        };
+        faults.add(code, &node.place, format!("found {}", node.describe()), format!("give {expected}"));
         None
     }
 }
@@ -159,7 +163,12 @@ impl<R: Rule> Rule for List<R> {
     }
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
         if Kind::of(node) == Kind::Table && self.rule.takes(Kind::Table) {
-            faults.add(&node.place, "found one table", "give a list of tables: double its brackets, [[ ]]");
+            faults.add(
+                ErrorCode::WrongType,
+                &node.place,
+                "found one table",
+                "give a list of tables: double its brackets, [[ ]]",
+            );
             return None;
         }
         if !self.takes(Kind::of(node)) || node.as_list().len() < self.least {
@@ -266,7 +275,12 @@ impl<T: Record> Rule for RecordRule<T> {
     }
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<T> {
         if node.as_list().iter().any(|entry| entry.as_table().is_some()) {
-            faults.add(&node.place, "found a list of tables", "give one table: in single brackets, [ ]");
+            faults.add(
+                ErrorCode::WrongType,
+                &node.place,
+                "found a list of tables",
+                "give one table: in single brackets, [ ]",
+            );
             return None;
         }
         let Some(table) = node.as_table() else { return self.refuse(node, faults) };

@@ -5,7 +5,7 @@ use serde_json::{Map, Value as Json, json};
 use super::rule::Rule;
 use super::word::quoted;
 use crate::document::{Node, Table};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Place;
 use crate::suggest::nearest;
 use crate::written::Table as Written;
@@ -294,13 +294,20 @@ impl<'t> Reader<'t> {
             let owners: Vec<_> = forms.iter().filter(|f| f.has(&entry.key)).filter_map(Form::mark).collect();
             if owners.is_empty() {
                 let (problem, remedy, meant) = stray(&entry.key, &forms, self.table);
-                faults.add(&entry.place, problem, remedy);
+                faults.add(ErrorCode::UnknownKey, &entry.place, problem, remedy);
                 meant.iter().for_each(|key| faults.take_back_missing(self.place, key));
                 continue;
             }
             let problem = format!("\"{}\" has no effect here, it belongs to {}", entry.key, owners.join(" or "));
             let told = owners.iter().filter_map(|mark| mark.split_once(" = ")).find_map(|(tag, _)| self.table.get(tag));
-            faults.add_idle(&entry.key, &entry.place, told.map(|node| &node.place), problem, "remove it");
+            faults.add_idle(
+                ErrorCode::NoEffect,
+                &entry.key,
+                &entry.place,
+                told.map(|node| &node.place),
+                problem,
+                "remove it",
+            );
         }
     }
 }

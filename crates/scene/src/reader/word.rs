@@ -8,7 +8,7 @@ use serde_json::{Value as Json, json};
 
 use super::rule::{Kind, Rule};
 use crate::document::{Node, Value};
-use crate::fault::{Faults, Named};
+use crate::fault::{ErrorCode, Faults, Named};
 use crate::place::Placed;
 use crate::suggest::nearest;
 use crate::written::{Item, Value as Said};
@@ -273,7 +273,8 @@ pub(crate) fn word<'n>(node: &'n Node, words: &[&str], faults: &mut Faults) -> O
     if matches!(node.value, Value::Unreadable) {
         return None;
     }
-    faults.add(&node.place, format!("found {}", node.describe()), remedy(found, words));
+    let code = if found.is_some() { ErrorCode::UnknownWord } else { ErrorCode::WrongType };
+    faults.add(code, &node.place, format!("found {}", node.describe()), remedy(found, words));
     None
 }
 

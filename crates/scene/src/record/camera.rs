@@ -5,7 +5,7 @@ use super::front::Front;
 use super::lens::Lens;
 use super::processing::Processing;
 use super::sensor::Sensor;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::reader::record;
 
 record! {
@@ -27,6 +27,7 @@ record! {
 fn check(camera: &Camera, faults: &mut Faults) {
     if let (Some(processing), None) = (&camera.isp, &camera.sensor.electronics) {
         faults.add(
+            ErrorCode::NoEffect,
             &processing.place,
             "a sensor without electronics makes no raw to process",
             "add \"exposure_s\", \"cfa\", … to the sensor, or remove \"isp\"",

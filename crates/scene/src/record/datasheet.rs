@@ -1,7 +1,7 @@
 //! A camera's EMVA 1288 data sheet, as printed: what `etendue datasheet` makes a camera file of.
 
 use super::sensor::cfa::Cfa;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed_by_name, list, number, record, text, variant, vector, whole};
 
@@ -114,7 +114,7 @@ impl DataSheet {
 fn check(sheet: &DataSheet, faults: &mut Faults) {
     let either_of = |given: bool, names: &str, faults: &mut Faults| {
         if !given {
-            faults.add(&sheet.place, format!("{names} are both missing"), "give one of them");
+            faults.add(ErrorCode::MissingKey, &sheet.place, format!("{names} are both missing"), "give one of them");
         }
     };
     let gain = sheet.gain_dn_per_e.is_some() || sheet.inverse_gain_e_per_dn.is_some();
@@ -127,7 +127,12 @@ fn check(sheet: &DataSheet, faults: &mut Faults) {
     ];
     for (key, given, needed) in pairs {
         if let (Some(key), false) = (key, given) {
-            faults.add(&key.place, format!("this has no effect without \"{needed}\""), "add it, or remove this");
+            faults.add(
+                ErrorCode::NoEffect,
+                &key.place,
+                format!("this has no effect without \"{needed}\""),
+                "add it, or remove this",
+            );
         }
     }
     check_curves(sheet, faults);
@@ -136,11 +141,16 @@ fn check(sheet: &DataSheet, faults: &mut Faults) {
 fn check_curves(sheet: &DataSheet, faults: &mut Faults) {
     for (_, points) in sheet.quantum_efficiency_percent.curves() {
         for point in points.iter().filter(|p| p.value[1] > 100.0) {
-            faults.add(&point.place, format!("an efficiency of {} %", point.value[1]), "give at most 100");
+            faults.add(
+                ErrorCode::OutOfRange,
+                &point.place,
+                format!("an efficiency of {} %", point.value[1]),
+                "give at most 100",
+            );
         }
         for pair in points.windows(2).filter(|pair| pair[0].value[0] >= pair[1].value[0]) {
             let problem = format!("{} nm comes after {} nm", pair[1].value[0], pair[0].value[0]);
-            faults.add(&pair[1].place, problem, "give wavelengths that rise");
+            faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give wavelengths that rise");
         }
     }
     let mut wanted = sheet.filters().tile().to_vec();
@@ -151,6 +161,7 @@ fn check_curves(sheet: &DataSheet, faults: &mut Faults) {
     if wanted != given {
         let problem = format!("quantum efficiencies of {} for the channels {}", given.join(", "), wanted.join(", "));
         faults.add(
+            ErrorCode::WrongCount,
             &sheet.place,
             problem,
             "give one list for each channel of \"cfa\", in a table by channel for colours",

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{
     Rule, RuleExt as _, choice, either, exactly, flag, keyed, list, number, path, record, whole, words,
@@ -100,19 +100,29 @@ fn check_modulation(table: &ModulationTable, faults: &mut Faults) {
         (ModulationSource::File(_), None) => {}
         (ModulationSource::File(_), Some(list)) => {
             let place = list.first().map_or(&table.place, |first| &first.place);
-            faults.add(place, "\"modulation\" has no effect here, it belongs to \"cycles_per_mm\"", "remove it");
+            faults.add(
+                ErrorCode::NoEffect,
+                place,
+                "\"modulation\" has no effect here, it belongs to \"cycles_per_mm\"",
+                "remove it",
+            );
         }
         (ModulationSource::Frequencies(_), None) => {
-            faults.add(&table.place, "the key \"modulation\" is missing", "add \"modulation\", one for each frequency");
+            faults.add(
+                ErrorCode::MissingKey,
+                &table.place,
+                "the key \"modulation\" is missing",
+                "add \"modulation\", one for each frequency",
+            );
         }
         (ModulationSource::Frequencies(frequencies), Some(list)) if frequencies.len() != list.len() => {
             let problem = format!("{} frequencies and {} modulations", frequencies.len(), list.len());
-            faults.add(&table.place, problem, "give as many of one as of the other");
+            faults.add(ErrorCode::WrongCount, &table.place, problem, "give as many of one as of the other");
         }
         (ModulationSource::Frequencies(frequencies), Some(_)) => {
             if let Some(pair) = frequencies.windows(2).find(|pair| pair[1].value <= pair[0].value) {
                 let problem = format!("{} does not lie beyond {}", pair[1].value, pair[0].value);
-                faults.add(&pair[1].place, problem, "give rising frequencies");
+                faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising frequencies");
             }
         }
     }
@@ -181,10 +191,17 @@ fn check_psf(psf: &Psf, faults: &mut Faults) {
             check_without_image(psf, faults);
             check_alone(psf, "files", faults);
         }
-        (Some(image), Some(_), _) => faults.add(&image.place, "\"image\" contradicts \"mtf\"", "remove one of them"),
+        (Some(image), Some(_), _) => {
+            faults.add(ErrorCode::Contradiction, &image.place, "\"image\" contradicts \"mtf\"", "remove one of them")
+        }
         (image, _, Some(file)) => {
             let other = if image.is_some() { "image" } else { "mtf" };
-            faults.add(&file.place, format!("\"files\" contradicts \"{other}\""), "remove one of them");
+            faults.add(
+                ErrorCode::Contradiction,
+                &file.place,
+                format!("\"files\" contradicts \"{other}\""),
+                "remove one of them",
+            );
         }
     }
 }
@@ -192,14 +209,19 @@ fn check_psf(psf: &Psf, faults: &mut Faults) {
 fn check_without_image(psf: &Psf, faults: &mut Faults) {
     let of_image = [(&psf.image_pitch_um, "image_pitch_um"), (&psf.image_wavelength_nm, "image_wavelength_nm")];
     for (key, name) in of_image.into_iter().filter_map(|(key, name)| Some((key.as_ref()?, name))) {
-        faults.add(&key.place, format!("\"{name}\" has no effect without \"image\""), "give \"image\", or remove it");
+        faults.add(
+            ErrorCode::NoEffect,
+            &key.place,
+            format!("\"{name}\" has no effect without \"image\""),
+            "give \"image\", or remove it",
+        );
     }
 }
 
 fn check_image(psf: &Psf, image: &Place, faults: &mut Faults) {
     if psf.image_pitch_um.is_none() {
         let problem = "\"image\" does not say how far its pixels are apart on the sensor";
-        faults.add(image, problem, "add \"image_pitch_um\"");
+        faults.add(ErrorCode::MissingKey, image, problem, "add \"image_pitch_um\"");
     }
     check_alone(psf, "image", faults);
 }
@@ -209,7 +231,7 @@ fn check_alone(psf: &Psf, whole: &str, faults: &mut Faults) {
     let shared = |name: &str| name == "patches" && whole == "files";
     for (place, name) in of_aperture(psf).filter(|(_, name)| !shared(name)) {
         let problem = format!("\"{name}\" contradicts \"{whole}\", which is the whole point-spread function");
-        faults.add(place, problem, "remove one of them");
+        faults.add(ErrorCode::Contradiction, place, problem, "remove one of them");
     }
 }
 
@@ -234,7 +256,12 @@ fn check_blades(psf: &Psf, faults: &mut Faults) {
     let of_blades = [(&psf.blade_curvature, "blade_curvature"), (&psf.rotation_deg, "rotation_deg")];
     for (key, name) in of_blades {
         if let (Some(key), None, None, true) = (key, &psf.blades, &psf.image, psf.files.is_empty()) {
-            faults.add(&key.place, format!("\"{name}\" has no effect on a circle"), "give \"blades\", or remove it");
+            faults.add(
+                ErrorCode::NoEffect,
+                &key.place,
+                format!("\"{name}\" has no effect on a circle"),
+                "give \"blades\", or remove it",
+            );
         }
     }
 }
@@ -242,10 +269,15 @@ fn check_blades(psf: &Psf, faults: &mut Faults) {
 fn check_term(term: &ZernikeTerm, faults: &mut Faults) {
     match (&term.size, &term.wavelength_nm) {
         (TermSize::Waves(_), None) => {
-            faults.add(&term.place, "\"rms_waves\" does not say of which wavelength", "add \"wavelength_nm\"");
+            faults.add(
+                ErrorCode::MissingKey,
+                &term.place,
+                "\"rms_waves\" does not say of which wavelength",
+                "add \"wavelength_nm\"",
+            );
         }
         (TermSize::Micrometres(_), Some(nm)) => {
-            faults.add(&nm.place, "\"wavelength_nm\" has no effect with \"rms_um\"", "remove it");
+            faults.add(ErrorCode::NoEffect, &nm.place, "\"wavelength_nm\" has no effect with \"rms_um\"", "remove it");
         }
         _ => {}
     }
@@ -269,11 +301,11 @@ record! {
 fn check(effects: &Effects, faults: &mut Faults) {
     if effects.psf.is_none() && effects.glare.is_none() && effects.ghosts.is_none() {
         let remedy = "add [effects.psf], [effects.glare] or ghosts = true, or remove the section";
-        faults.add(&effects.place, "[effects] describes no effect", remedy);
+        faults.add(ErrorCode::Empty, &effects.place, "[effects] describes no effect", remedy);
     }
     if let (Some(reflectance), false) = (&effects.sensor_reflectance, effects.ghosts.as_ref().is_some_and(|g| g.value))
     {
         let problem = "\"sensor_reflectance\" has no effect without ghosts = true";
-        faults.add(&reflectance.place, problem, "add it, or remove the reflectance");
+        faults.add(ErrorCode::NoEffect, &reflectance.place, problem, "add it, or remove the reflectance");
     }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::light::Emission;
 use super::moment::{Date, TimeOfDay, date, time_of_day};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{choice, flag, number, path, record, variants, words};
 
@@ -102,12 +102,12 @@ impl Sky {
 
 fn check_sky(sky: &Sky, faults: &mut Faults) {
     match (&sky.angles, &sky.moment) {
-        (Some(angles), Some(moment)) => faults.add(
+        (Some(angles), Some(moment)) => faults.add(ErrorCode::Contradiction,
             &moment.date.place,
             format!("\"date\" and \"sun_elevation_deg\" ({}) both say where the sun stands", angles.sun_elevation_deg.place),
             "keep the angles, or the date with its time and place",
         ),
-        (None, None) => faults.add(
+        (None, None) => faults.add(ErrorCode::MissingKey,
             &sky.place,
             "it is not said where the sun stands, which decides the sky",
             "add \"sun_elevation_deg\" and \"sun_azimuth_deg\", or \"date\", \"time_utc\", \"latitude_deg\" and \"longitude_deg\"",

@@ -8,7 +8,7 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::motion::{Course, Rolls, check_course, check_ways, trajectory_way};
 use super::transform::{yaw_pitch_roll, yaw_pitch_roll_quaternion};
-use crate::fault::{Faults, Named};
+use crate::fault::{ErrorCode, Faults, Named};
 use crate::place::{Place, Placed};
 use crate::reader::{list, name_of, number, record, text, time, vector};
 
@@ -118,6 +118,6 @@ fn note_circle(circle: &[usize], frames: &[Frame], faults: &mut Faults) {
             chain.extend(["…", name(place)]);
         }
         let problem = format!("the frame carries itself: {}", chain.join(" in "));
-        faults.add(&own.place, problem, "name another parent, or none");
+        faults.add(ErrorCode::CircularReference, &own.place, problem, "name another parent, or none");
     }
 }

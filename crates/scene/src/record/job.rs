@@ -9,7 +9,7 @@ use super::render::Render;
 use super::scene::Scene;
 use super::sequence::Sequence;
 use crate::document::Node;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{Form, Key, Kind, Reader, Record, Rule, file_name, list, number, path, record};
 use crate::written::{Item, Table};
@@ -64,6 +64,7 @@ impl Record for CameraSource {
             if let Some(place) = reader.given(key) {
                 reader.take(key);
                 faults.add(
+                    ErrorCode::Contradiction,
                     place,
                     format!("\"{key}\" contradicts \"file\""),
                     "keep the file, or the tables in its place",

@@ -1,6 +1,6 @@
 //! A laboratory file: what is known of the pictures of a laboratory folder and does not stand in them.
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{choice, exactly, keyed_by_name, list, number, record, text, vector, whole, words};
 
@@ -84,14 +84,24 @@ fn is_tile(text: &str) -> bool {
 
 fn check(laboratory: &Laboratory, faults: &mut Faults) {
     if let Some(cfa) = laboratory.cfa.as_ref().filter(|cfa| !is_tile(&cfa.value)) {
-        faults.add(&cfa.place, format!("\"{}\" is no tile of filters", cfa.value), "give four of R, G and B: \"RGGB\"");
+        faults.add(
+            ErrorCode::UnknownWord,
+            &cfa.place,
+            format!("\"{}\" is no tile of filters", cfa.value),
+            "give four of R, G and B: \"RGGB\"",
+        );
     }
     let whole = |numbers: &[f64]| numbers.iter().all(|n| n.fract() == 0.0);
     if let Some(grid) = laboratory.chart.as_ref().and_then(|chart| chart.grid.as_ref()).filter(|g| !whole(&g.value)) {
-        faults.add(&grid.place, format!("{:?} are no counts", grid.value), "give whole numbers");
+        faults.add(ErrorCode::WrongType, &grid.place, format!("{:?} are no counts", grid.value), "give whole numbers");
     }
     let regions = laboratory.edges.iter().flat_map(|edges| &edges.regions_px);
     for region in regions.filter(|region| !whole(&region.value)) {
-        faults.add(&region.place, format!("{:?} has a part of a pixel", region.value), "give whole numbers");
+        faults.add(
+            ErrorCode::WrongType,
+            &region.place,
+            format!("{:?} has a part of a pixel", region.value),
+            "give whole numbers",
+        );
     }
 }

@@ -4,7 +4,7 @@ use super::curve::{Curve, curve};
 use super::transform::Transform;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::{Covered, Values};
-use crate::fault::{Faults, Named};
+use crate::fault::{ErrorCode, Faults, Named};
 use crate::place::{Place, Placed};
 use crate::reader::{keyed, name_of, number, path, record, text, variants, vector, whole};
 use std::path::PathBuf;
@@ -189,6 +189,7 @@ pub(super) fn check_place(shape: Option<&MediumShape>, placed: Option<&Place>, f
     let endless = matches!(shape, None | Some(MediumShape::Everywhere(_)));
     if let (true, Some(place)) = (endless, placed) {
         faults.add(
+            ErrorCode::NoEffect,
             place,
             "the medium is everywhere, so that its place has no effect",
             "give a \"shape\" with bounds, or remove the key",
@@ -201,7 +202,12 @@ pub(super) fn check_gain(unevenness: Option<&Unevenness>, faults: &mut Faults) {
     let idle = unevenness
         .and_then(|u| u.gain.as_ref().filter(|_| u.octaves.as_ref().is_some_and(|octaves| octaves.value == 1)));
     if let Some(gain) = idle {
-        faults.add(&gain.place, "\"gain\" has no effect with one octave", "give more \"octaves\", or remove it");
+        faults.add(
+            ErrorCode::NoEffect,
+            &gain.place,
+            "\"gain\" has no effect with one octave",
+            "give more \"octaves\", or remove it",
+        );
     }
 }
 

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 
 use super::vertex_animation::VertexAnimation;
 use crate::asset::is_gltf;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{choice, keyed, number, path, record, text, words};
 
@@ -136,6 +136,7 @@ fn check(mesh: &Mesh, faults: &mut Faults) {
     let Some(forward) = &mesh.forward_axis else { return };
     if forward.vector().dot(mesh.up().vector()).abs() > 0.5 {
         faults.add(
+            ErrorCode::Degenerate,
             &forward.place,
             "\"forward_axis\" lies along \"up_axis\"",
             "give one of the four axes at right angles to it",
@@ -148,12 +149,14 @@ fn check_up(mesh: &Mesh, faults: &mut Faults) {
     let file = mesh.file();
     match (&mesh.up_axis, is_gltf(&file)) {
         (Some(up), true) if up.value != Axis::Y => faults.add(
+            ErrorCode::Contradiction,
             &up.place,
             "\"up_axis\" contradicts the file: +y points upwards in every glTF file",
             "remove it, and turn the object that shows the mesh",
         ),
         (None, false) => {
             faults.add(
+                ErrorCode::MissingKey,
                 &mesh.place,
                 "the key \"up_axis\" is missing",
                 "add it: \"x\", \"y\", \"z\", \"-x\", \"-y\" or \"-z\"",

@@ -7,7 +7,7 @@ use glam::{DMat3, DQuat, DVec3};
 use std::path::PathBuf;
 
 use crate::asset::TrajectoryRow;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{choice, number, path, record, time, words};
 
@@ -87,7 +87,12 @@ pub(super) fn check_ways(
     let said: Vec<(&str, Place)> = ways.into_iter().flatten().collect();
     if let [(first, _), (second, place), ..] = said.as_slice() {
         let problem = format!("{second} contradicts {first}: both say where {what} stands");
-        faults.add(place, problem, "keep one of the two; what moves can be a frame for what is placed in it");
+        faults.add(
+            ErrorCode::Contradiction,
+            place,
+            problem,
+            "keep one of the two; what moves can be a frame for what is placed in it",
+        );
     }
 }
 
@@ -109,6 +114,7 @@ pub(super) fn check_course<'a>(
     let Some(Course { interpolation: Some(interpolation), trajectory: None, .. }) = course else { return };
     if times.len() < 2 {
         faults.add(
+            ErrorCode::NoEffect,
             &interpolation.place,
             "\"interpolation\" has no effect here, nothing moves from key to key",
             "give two \"keys\" or more, or a \"trajectory\", or remove it",
@@ -119,10 +125,15 @@ pub(super) fn check_course<'a>(
 fn check_order(before: &Placed<ExactTime>, after: &Placed<ExactTime>, faults: &mut Faults) {
     let (before_s, after_s) = (before.value, after.value);
     if after_s == before_s {
-        faults.add(&after.place, format!("two keys are both at {after_s} s"), "give each key a time of its own");
+        faults.add(
+            ErrorCode::Duplicate,
+            &after.place,
+            format!("two keys are both at {after_s} s"),
+            "give each key a time of its own",
+        );
     } else if after_s < before_s {
         let problem = format!("the key at {after_s} s stands behind that at {before_s} s");
-        faults.add(&after.place, problem, "give the keys in the order of time");
+        faults.add(ErrorCode::WrongOrder, &after.place, problem, "give the keys in the order of time");
     }
 }
 

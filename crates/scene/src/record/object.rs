@@ -5,7 +5,7 @@ use etendue_core::ExactTime;
 use super::motion::{Course, Rolls, check_course, check_ways, trajectory_way};
 use super::shape::Shape;
 use super::transform::Transform;
-use crate::fault::{Faults, Named};
+use crate::fault::{ErrorCode, Faults, Named};
 use crate::place::Placed;
 use crate::reader::{keyed, keyed_by_name, list, name_of, number, record, text, time};
 
@@ -84,6 +84,7 @@ fn check_rolls(object: &Object, faults: &mut Faults) {
     let scales = object.keys.iter().filter_map(|key| key.transform.scale.as_ref());
     for scale in scales.filter(|_| object.rolls.is_some()) {
         faults.add(
+            ErrorCode::NotModelled,
             &scale.place,
             "\"scale\" in the keys of a wheel (\"rolls\")",
             "give the keys to a frame, and the scale to the object in it",
@@ -104,13 +105,28 @@ fn check_materials(object: &Object, faults: &mut Faults) {
     let slots = object.materials.first();
     match (&object.body, &object.material, slots) {
         (_, Some(_), Some((slot, _))) => {
-            faults.add(&slot.place, "\"materials\" contradicts \"material\"", "keep one of the two");
+            faults.add(
+                ErrorCode::Contradiction,
+                &slot.place,
+                "\"materials\" contradicts \"material\"",
+                "keep one of the two",
+            );
         }
         (Body::Shape(_), _, Some((slot, _))) => {
-            faults.add(&slot.place, "a shape has no materials by name", "give \"material\" in place of \"materials\"");
+            faults.add(
+                ErrorCode::NoEffect,
+                &slot.place,
+                "a shape has no materials by name",
+                "give \"material\" in place of \"materials\"",
+            );
         }
         (Body::Shape(_), None, None) => {
-            faults.add(&object.place, "a shape without a material", "add \"material\": the name of a material");
+            faults.add(
+                ErrorCode::MissingKey,
+                &object.place,
+                "a shape without a material",
+                "add \"material\": the name of a material",
+            );
         }
         _ => {}
     }

@@ -1,7 +1,7 @@
 //! The keys of `[render]` that only integrator = "path" needs.
 
 use super::Render;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{among, flag, record, whole};
 use etendue_core::Integrator;
@@ -70,7 +70,14 @@ impl PathKeys {
         };
         let problem =
             format!("\"{key}\" and \"{other}\" = {} exclude each other: paths that branch share no tails", cause.value);
-        faults.add_idle(key, &of.place, Some(&cause.place), problem, "give one of the two, or 1 for the other");
+        faults.add_idle(
+            ErrorCode::Contradiction,
+            key,
+            &of.place,
+            Some(&cause.place),
+            problem,
+            "give one of the two, or 1 for the other",
+        );
     }
 }
 
@@ -86,7 +93,14 @@ pub(crate) fn check_path_keys<'r>(cameras: impl Iterator<Item = &'r Render> + Cl
         let cause = render.integrator.as_ref().map(|integrator| &integrator.place);
         for (key, item) in render.paths.to_table().entries().filter(|(_, item)| !serves(&item.place)) {
             let problem = format!("\"{key}\" has no effect here, it belongs to integrator = \"path\"");
-            faults.add_idle(key, &item.place, cause, problem, "remove it, or change the integrator");
+            faults.add_idle(
+                ErrorCode::NoEffect,
+                key,
+                &item.place,
+                cause,
+                problem,
+                "remove it, or change the integrator",
+            );
         }
     }
 }

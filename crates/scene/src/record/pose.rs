@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 
 use super::motion::{Course, check_course, check_ways, trajectory_way};
 use super::transform::yaw_pitch_roll;
-use crate::fault::{Faults, Named};
+use crate::fault::{ErrorCode, Faults, Named};
 use crate::place::{Place, Placed};
 use crate::reader::{keyed, list, name_of, number, record, time, vector};
 
@@ -116,11 +116,17 @@ fn check(pose: &Pose, faults: &mut Faults) {
         (Some(position), Some(aim)) => check_aim(position, aim, pose.up.as_ref(), faults),
         _ if moves => {}
         (None, _) => faults.add(
+            ErrorCode::MissingKey,
             &pose.place,
             "the key \"position_m\" is missing",
             "add it: a list of 3, each a number in m; or \"keys\" or a \"trajectory\" for a camera that moves",
         ),
-        (_, None) => faults.add(&pose.place, "a key is missing", "give one of \"look_at_m\", \"rotation_deg\""),
+        (_, None) => faults.add(
+            ErrorCode::MissingKey,
+            &pose.place,
+            "a key is missing",
+            "give one of \"look_at_m\", \"rotation_deg\"",
+        ),
     }
     if let (Some(up), None) = (&pose.up, &pose.aim) {
         note_idle(up, faults);
@@ -135,6 +141,7 @@ fn check_aim(position: &Placed<[f64; 3]>, aim: &Aim, up: Option<&Placed<[f64; 3]
     match (aim, up) {
         (Aim::Rotation(_), Some(up)) => note_idle(up, faults),
         (Aim::LookAt(target), _) if of_aim(position, aim, up).is_none() => faults.add(
+            ErrorCode::Degenerate,
             &target.place,
             "the camera looks at its own position or along \"up\"",
             "move \"look_at_m\", or give \"up\" at an angle to the view",
@@ -144,7 +151,7 @@ fn check_aim(position: &Placed<[f64; 3]>, aim: &Aim, up: Option<&Placed<[f64; 3]
 }
 
 fn note_idle(up: &Placed<[f64; 3]>, faults: &mut Faults) {
-    faults.add(&up.place, "\"up\" has no effect here, it belongs to \"look_at_m\"", "remove it");
+    faults.add(ErrorCode::NoEffect, &up.place, "\"up\" has no effect here, it belongs to \"look_at_m\"", "remove it");
 }
 
 impl Aim {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::curve::spectrum_file;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::{AssetKind, Values};
-use crate::fault::{Faults, Named};
+use crate::fault::{ErrorCode, Faults, Named};
 use crate::place::{Place, Placed};
 use crate::reader::{Number, Rule, RuleExt as _, either, keyed, known, name_of, number, record, variant, vector};
 use etendue_spectra::reflectance;
@@ -175,6 +175,11 @@ impl ReflectanceTable {
 
 fn check(table: &ReflectanceTable, faults: &mut Faults) {
     if let (Some(scale), false) = (&table.scale, matches!(table.source, ReflectanceSource::Texture(_))) {
-        faults.add(&scale.place, "\"scale\" has no effect here, it belongs to \"texture\"", "remove it");
+        faults.add(
+            ErrorCode::NoEffect,
+            &scale.place,
+            "\"scale\" has no effect here, it belongs to \"texture\"",
+            "remove it",
+        );
     }
 }

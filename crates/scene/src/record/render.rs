@@ -1,6 +1,6 @@
 //! `[render]`: how the light is found. `None` everywhere means: the plan decides.
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{Record, Rule, among, choice, either, keyed, number, record, variant, vector, whole, words};
 use crate::record::paths::PathKeys;
@@ -100,7 +100,12 @@ fn check_blend(blend: &FastBlend, faults: &mut Faults) {
     for range in [&blend.near_m, &blend.far_m].into_iter().flatten() {
         if range[0] >= range[1] {
             let problem = format!("found {} m before {} m", range[0], range[1]);
-            faults.add(&range.place, problem, "give the shorter distance first and a longer one after it");
+            faults.add(
+                ErrorCode::WrongOrder,
+                &range.place,
+                problem,
+                "give the shorter distance first and a longer one after it",
+            );
         }
     }
 }
@@ -166,7 +171,12 @@ fn check(render: &Render, faults: &mut Faults) {
         && range[0] >= range[1]
     {
         let problem = format!("found {} to {}", range[0], range[1]);
-        faults.add(&range.place, problem, "give the shorter wavelength first and a longer one after it");
+        faults.add(
+            ErrorCode::WrongOrder,
+            &range.place,
+            problem,
+            "give the shorter wavelength first and a longer one after it",
+        );
     }
 }
 
@@ -188,7 +198,14 @@ pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
     for (key, place, remedy) in keys {
         if let Some(place) = place {
             let problem = format!("\"{key}\" has no effect here, it belongs to route = \"pupil\"");
-            faults.add_idle(key, place, render.route.as_ref().map(|route| &route.place), problem, remedy);
+            faults.add_idle(
+                ErrorCode::NoEffect,
+                key,
+                place,
+                render.route.as_ref().map(|route| &route.place),
+                problem,
+                remedy,
+            );
         }
     }
 }

@@ -3,7 +3,7 @@
 //! One of them counts. A camera's own choice stands in the place of the job's; what the command line says, in the place of what files say. Two
 //! in one record exclude each other.
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{list, number, record, whole};
 
@@ -131,7 +131,7 @@ impl SampleKeys {
         for (key, value) in keys.filter_map(|(key, value)| Some((key, value.as_ref()?))) {
             let problem = format!("\"{key}\" has no effect without \"noise_threshold\"");
             let cause = Choice::in_force(self).and_then(|choice| choice.place(self));
-            faults.add_idle(key, &value.place, cause, problem, "add it, or remove the key");
+            faults.add_idle(ErrorCode::NoEffect, key, &value.place, cause, problem, "add it, or remove the key");
         }
     }
 }
@@ -150,5 +150,12 @@ fn refuse(other: Choice, choice: Choice, keys: &SampleKeys, faults: &mut Faults)
             "\"spp\" and \"noise_threshold\" exclude each other: so many samples everywhere, or as many as a pixel needs"
         }
     };
-    faults.add_idle(other.key(), place, choice.place(keys), problem.into(), "remove one of them");
+    faults.add_idle(
+        ErrorCode::Contradiction,
+        other.key(),
+        place,
+        choice.place(keys),
+        problem.into(),
+        "remove one of them",
+    );
 }

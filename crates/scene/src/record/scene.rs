@@ -9,7 +9,7 @@ use super::mesh::Mesh;
 use super::object::Object;
 use super::precipitation::Precipitation;
 use super::texture::Texture;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{keyed_by_name, list, record, whole};
 
@@ -46,7 +46,7 @@ fn check(scene: &Scene, faults: &mut Faults) {
         && let Some((key, place)) = emission.level.flux()
     {
         let problem = format!("\"{key}\" is the flux of a surface, and the sky has no area");
-        faults.add(place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\"");
+        faults.add(ErrorCode::Contradiction, place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\"");
     }
 }
 
@@ -59,7 +59,12 @@ fn check_sun(scene: &Scene, faults: &mut Faults) {
     for light in &scene.lights {
         if let Light::Sun(sun) = light {
             let problem = format!("the sky brings a sun of its own ({}), this would be a second one", sky.place);
-            faults.add(&sun.place, problem, "remove this one, or say sun = false in the environment");
+            faults.add(
+                ErrorCode::Contradiction,
+                &sun.place,
+                problem,
+                "remove this one, or say sun = false in the environment",
+            );
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{choice, number, path, record, text, vector, words};
 
@@ -76,20 +76,25 @@ impl Texture {
 fn check(texture: &Texture, faults: &mut Faults) {
     if let (Mapping::Triplanar, Some(mapping), None) = (texture.mapping(), &texture.mapping, &texture.size_m) {
         let problem = "mapping = \"triplanar\" does not say how large the picture is on the surface";
-        faults.add(&mapping.place, problem, "add \"size_m\"");
+        faults.add(ErrorCode::MissingKey, &mapping.place, problem, "add \"size_m\"");
     }
     let of_sides = [("size_m", &texture.size_m), ("sharpness", &texture.sharpness)];
     for (key, given) in of_sides.into_iter().filter(|_| texture.mapping() == Mapping::Uv) {
         if let Some(given) = given {
             let problem = format!("\"{key}\" has no effect here, it belongs to mapping = \"triplanar\"");
-            faults.add(&given.place, problem, "remove it, or say the mapping");
+            faults.add(ErrorCode::NoEffect, &given.place, problem, "remove it, or say the mapping");
         }
     }
     let of_uv = [("uv_scale", &texture.uv_scale), ("uv_offset", &texture.uv_offset)];
     for (key, given) in of_uv.into_iter().filter(|_| texture.mapping() == Mapping::Triplanar) {
         if let Some(given) = given {
             let problem = format!("\"{key}\" has no effect here, it belongs to mapping = \"uv\"");
-            faults.add(&given.place, problem, "remove it; \"size_m\" says how large the picture is");
+            faults.add(
+                ErrorCode::NoEffect,
+                &given.place,
+                problem,
+                "remove it; \"size_m\" says how large the picture is",
+            );
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A variations file: what differs from sample to sample of a data set, and how its files are laid out.
 
 use super::render::MAX_SEED;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{
     RuleExt as _, any_value, choice, either, keyed_by_name, list, number, record, text, variants, whole, words,
@@ -166,13 +166,18 @@ record! {
 fn check(file: &Variations, faults: &mut Faults) {
     if file.vary.is_empty() && file.presets.is_empty() {
         let remedy = "add [[vary]] with a \"key\" and a \"type\" of distribution, or [[presets]]";
-        faults.add(&file.place, "this names no key that varies", remedy);
+        faults.add(ErrorCode::Empty, &file.place, "this names no key that varies", remedy);
     }
     let keys = file.vary.iter().flat_map(|entry| &entry.key);
     unique(keys, "is varied twice", "keep one of the two", faults);
     unique(file.presets.iter().map(|preset| &preset.name), "is the name of two presets", "rename one", faults);
     for key in file.vary.iter().flat_map(|entry| &entry.key).filter(|key| key.contains('=')) {
-        faults.add(&key.place, format!("found the change \"{}\"", key.value), "give the key alone");
+        faults.add(
+            ErrorCode::InvalidChange,
+            &key.place,
+            format!("found the change \"{}\"", key.value),
+            "give the key alone",
+        );
     }
 }
 
@@ -180,7 +185,7 @@ fn unique<'a>(names: impl Iterator<Item = &'a Placed<String>>, problem: &str, re
     let mut known = Vec::new();
     for name in names {
         if known.contains(&&name.value) {
-            faults.add(&name.place, format!("\"{}\" {problem}", name.value), remedy);
+            faults.add(ErrorCode::Duplicate, &name.place, format!("\"{}\" {problem}", name.value), remedy);
         }
         known.push(&name.value);
     }
@@ -197,16 +202,21 @@ fn check_log_uniform(range: &LogUniform, faults: &mut Faults) {
 fn check_range(min: &Placed<f64>, max: &Placed<f64>, faults: &mut Faults) {
     if min.value >= max.value {
         let problem = format!("\"max\" is {} and \"min\" is {}", max.value, min.value);
-        faults.add(&max.place, problem, "give a \"max\" above \"min\"");
+        faults.add(ErrorCode::WrongOrder, &max.place, problem, "give a \"max\" above \"min\"");
     } else if !(max.value - min.value).is_finite() {
-        faults.add(&max.place, "\"max\" less \"min\" is beyond what 64 bits hold", "give a shorter range");
+        faults.add(
+            ErrorCode::OutOfRange,
+            &max.place,
+            "\"max\" less \"min\" is beyond what 64 bits hold",
+            "give a shorter range",
+        );
     }
 }
 
 fn check_integer(range: &Integer, faults: &mut Faults) {
     if range.min.value > range.max.value {
         let problem = format!("\"max\" is {} and \"min\" is {}", range.max.value, range.min.value);
-        faults.add(&range.max.place, problem, "give a \"max\" of at least \"min\"");
+        faults.add(ErrorCode::WrongOrder, &range.max.place, problem, "give a \"max\" of at least \"min\"");
     }
 }
 
@@ -214,16 +224,26 @@ fn check_integer(range: &Integer, faults: &mut Faults) {
 fn check_normal(normal: &Normal, faults: &mut Faults) {
     let (mean, least) = (normal.mean.value, 0.1 * normal.standard_deviation.value);
     if let Some(min) = normal.min.as_ref().filter(|min| min.value > mean) {
-        faults.add(&min.place, format!("\"min\" is above the mean {mean}"), "give a \"min\" of at most the mean");
+        faults.add(
+            ErrorCode::WrongOrder,
+            &min.place,
+            format!("\"min\" is above the mean {mean}"),
+            "give a \"min\" of at most the mean",
+        );
     }
     if let Some(max) = normal.max.as_ref().filter(|max| max.value < mean) {
-        faults.add(&max.place, format!("\"max\" is below the mean {mean}"), "give a \"max\" of at least the mean");
+        faults.add(
+            ErrorCode::WrongOrder,
+            &max.place,
+            format!("\"max\" is below the mean {mean}"),
+            "give a \"max\" of at least the mean",
+        );
     }
     if let (Some(min), Some(max)) = (&normal.min, &normal.max)
         && max.value - min.value < least
     {
         let problem = format!("\"min\" and \"max\" are nearer than a tenth of the standard deviation, {least}");
-        faults.add(&max.place, problem, "give a wider range, or type = \"uniform\"");
+        faults.add(ErrorCode::OutOfRange, &max.place, problem, "give a wider range, or type = \"uniform\"");
     }
 }
 
@@ -234,7 +254,12 @@ fn check_choice(choice: &ChoiceOf, faults: &mut Faults) {
 fn check_preset(preset: &Preset, faults: &mut Faults) {
     check_weights(&preset.weights, preset.choices.len(), faults);
     for change in preset.choices.iter().flatten().filter(|change| !change.contains('=')) {
-        faults.add(&change.place, format!("\"{}\" is no change", change.value), "give KEY=VALUE");
+        faults.add(
+            ErrorCode::InvalidChange,
+            &change.place,
+            format!("\"{}\" is no change", change.value),
+            "give KEY=VALUE",
+        );
     }
 }
 
@@ -242,8 +267,13 @@ fn check_weights(weights: &[Placed<f64>], choices: usize, faults: &mut Faults) {
     let Some(first) = weights.first() else { return };
     if weights.len() != choices {
         let problem = format!("found {} weights of {choices} choices", weights.len());
-        faults.add(&first.place, problem, "give a weight for each choice");
+        faults.add(ErrorCode::WrongCount, &first.place, problem, "give a weight for each choice");
     } else if weights.iter().map(|weight| weight.value).sum::<f64>() <= 0.0 {
-        faults.add(&first.place, "all weights are 0, and nothing can be drawn", "give one of them a weight above 0");
+        faults.add(
+            ErrorCode::Degenerate,
+            &first.place,
+            "all weights are 0, and nothing can be drawn",
+            "give one of them a weight above 0",
+        );
     }
 }

@@ -4,7 +4,7 @@ use etendue_core::{Cycle, Epoch, ExactTime};
 
 use std::path::PathBuf;
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::numbered_files::{numbered, parts};
 use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, path, record, time, whole, words};
@@ -97,7 +97,12 @@ fn check(animation: &VertexAnimation, faults: &mut Faults) {
     let name = animation.files.value.file_name().unwrap_or_default().to_string_lossy();
     if parts(&name).is_none() {
         let problem = format!("\"{name}\" does not say once where the number of a file stands in its name");
-        faults.add(&animation.files.place, problem, "write %d for the number, or %03d for one of three digits");
+        faults.add(
+            ErrorCode::MissingKey,
+            &animation.files.place,
+            problem,
+            "write %d for the number, or %03d for one of three digits",
+        );
     }
     let FrameTimes::Times(times_s) = &animation.times else { return };
     check_times(animation, times_s, faults);
@@ -114,12 +119,12 @@ fn check_times(animation: &VertexAnimation, times_s: &[Placed<ExactTime>], fault
                 )
             }
         };
-        faults.add(&times_s[0].place, problem, format!("give {needed} times"));
+        faults.add(ErrorCode::WrongCount, &times_s[0].place, problem, format!("give {needed} times"));
     }
     let unsorted = times_s.windows(2).filter(|pair| pair[1].value <= pair[0].value);
     for pair in unsorted {
         let problem = format!("the time {} s stands behind {} s", pair[1].value, pair[0].value);
-        faults.add(&pair[1].place, problem, "give the files rising times");
+        faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give the files rising times");
     }
 }
 

@@ -6,7 +6,7 @@ use super::precipitation::Precipitation;
 use super::transform::Transform;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::Values;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{list, number, record, text, variants};
 
@@ -64,14 +64,21 @@ fn check_weather(weather: &Weather, faults: &mut Faults) {
     check_airlight(weather, faults);
     match (&weather.precipitation, &weather.exposure_s) {
         (None, None) if weather.fog.is_empty() => {
-            faults.add(&weather.place, "the file holds no weather", "give \"fog\" or \"precipitation\"");
+            faults.add(
+                ErrorCode::Empty,
+                &weather.place,
+                "the file holds no weather",
+                "give \"fog\" or \"precipitation\"",
+            );
         }
         (None, Some(exposure)) => faults.add(
+            ErrorCode::NoEffect,
             &exposure.place,
             "\"exposure_s\" has no effect without \"precipitation\"",
             "give \"precipitation\", or remove it",
         ),
         (Some(falls), None) => faults.add(
+            ErrorCode::MissingKey,
             falls.place(),
             "the image shows a moment, and streaks need an exposure",
             "give \"exposure_s\" beside \"airlight\": the exposure time of the camera that the image is for",
@@ -85,7 +92,7 @@ fn check_airlight(weather: &Weather, faults: &mut Faults) {
         && let Some((key, place)) = emission.level.flux()
     {
         let problem = format!("\"{key}\" is the flux of a surface, and the air has none");
-        faults.add(place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\"");
+        faults.add(ErrorCode::Contradiction, place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\"");
     }
 }
 

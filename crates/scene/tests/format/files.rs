@@ -90,8 +90,8 @@ impl Files {
         self.0.get(name).expect("the file").clone()
     }
 
-    pub(crate) fn read(&self, path: &Path) -> Result<String, String> {
-        self.0.get(path.to_str().expect("a name")).cloned().ok_or_else(|| "no such file".to_owned())
+    pub(crate) fn read(&self, path: &Path) -> Result<String, etendue_scene::Problem> {
+        self.0.get(path.to_str().expect("a name")).cloned().ok_or_else(|| "no such file".into())
     }
 }
 

@@ -30,7 +30,7 @@ fn shipped_jobs() -> Vec<(PathBuf, Description)> {
         folders.filter(|folder| folder.is_dir()).flat_map(|folder| std::fs::read_dir(folder).expect("a folder"));
     let files =
         files.map(|file| file.expect("a file").path()).filter(|file| file.extension().is_some_and(|e| e == "toml"));
-    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
+    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string().into());
     files
         .filter_map(|file| Some((file.clone(), Description::load(&file, &read, &Overrides::default()).ok()?)))
         .collect()

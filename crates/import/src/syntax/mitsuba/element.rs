@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use etendue_io::Error;
+use etendue_io::{Error, Problem};
 
 /// Where an element stands.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -62,7 +62,7 @@ impl MitsubaElement {
 
     /// A fault that stands here.
     #[must_use]
-    pub fn fault(&self, what: impl Into<String>) -> Error {
+    pub fn fault(&self, what: impl Into<Problem>) -> Error {
         Error::at(&self.place.file, self.place.line, what)
     }
 }

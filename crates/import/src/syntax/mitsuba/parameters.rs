@@ -62,7 +62,7 @@ impl Parameters {
                 value.is_used = true;
                 made.push_str(&value.text);
                 *bytes += value.text.len().max(1) as u64;
-                limits::DESCRIPTION.check_unpacked(*bytes)?;
+                limits::DESCRIPTION.check_unpacked(*bytes).map_err(|problem| problem.words)?;
             }
         }
         made.push_str(rest);

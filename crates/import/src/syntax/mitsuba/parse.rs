@@ -149,7 +149,8 @@ impl<'a> Reading<'a> {
                 return Err(element.fault("<path> within another element; expected it in the scene itself"));
             }
             "path" => {
-                let is_folder = |path: &Path| self.sandbox.check(path).map(|()| path.is_dir());
+                let is_folder =
+                    |path: &Path| self.sandbox.check(path).map(|()| path.is_dir()).map_err(|problem| problem.words);
                 let added = self.folders.add(&needed("value")?, &file.path, is_folder);
                 added.map_err(|told| element.fault(told))?;
             }

@@ -1,5 +1,6 @@
 //! Buffers, and what else a file names by URI.
 
+use crate::{ErrorCode, Problem};
 use std::path::{Path, PathBuf};
 
 use gltf::json::Root;
@@ -17,14 +18,14 @@ pub(super) struct Buffers {
 }
 
 impl Buffers {
-    pub(super) fn read(file: &Path, root: &Root, blob: Option<Vec<u8>>, sandbox: &Sandbox) -> Result<Self, String> {
+    pub(super) fn read(file: &Path, root: &Root, blob: Option<Vec<u8>>, sandbox: &Sandbox) -> Result<Self, Problem> {
         let (mut all, mut is_external, mut blob) = (Vec::new(), Vec::new(), blob);
         for (i, buffer) in root.buffers.iter().enumerate() {
             let (bytes, external) = match &buffer.uri {
                 None if i == 0 => {
                     (blob.take().ok_or("its buffer 0 has no \"uri\" and there is no binary chunk")?, false)
                 }
-                None => return Err(format!("its buffer {i} has no \"uri\"")),
+                None => return Err(format!("its buffer {i} has no \"uri\"").into()),
                 Some(uri) => linked(file, uri, &format!("buffer {i}"), sandbox)?,
             };
             let stated = buffer.byte_length.0;
@@ -32,7 +33,7 @@ impl Buffers {
                 let has = bytes.len();
                 return Err(format!(
                     "its buffer {i} has {has} bytes, where {stated} are stated: it is truncated; export or copy it again"
-                ));
+                ).into());
             }
             all.push(bytes);
             is_external.push(external);
@@ -41,7 +42,7 @@ impl Buffers {
     }
 
     /// The bytes of a view.
-    pub(super) fn view(&self, view: &View) -> Result<&[u8], String> {
+    pub(super) fn view(&self, view: &View) -> Result<&[u8], Problem> {
         let buffer = self.all.get(view.buffer.value()).ok_or("a view of a buffer that is not there")?;
         let start = view.byte_offset.unwrap_or_default().0;
         let range = start
@@ -53,6 +54,7 @@ impl Buffers {
                 view.buffer.value(),
                 buffer.len()
             )
+            .into()
         })
     }
 
@@ -63,33 +65,38 @@ impl Buffers {
 }
 
 /// The bytes of a URI, and whether it is a file. A file that is not where it is said to be is looked for by its last name beside the glTF file.
-pub(super) fn linked(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<(Vec<u8>, bool), String> {
+pub(super) fn linked(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<(Vec<u8>, bool), Problem> {
     if let Some(bytes) = data_uri(uri) {
-        return bytes.map(|bytes| (bytes, false)).map_err(|told| format!("its {what}: {told}"));
+        return bytes.map(|bytes| (bytes, false)).map_err(|told| format!("its {what}: {told}").into());
     }
     let path = find(file, uri, what, sandbox)?;
-    read_bytes(&path, what).map(|bytes| (bytes, true)).map_err(|error| format!("its {what}: {error}"))
+    read_bytes(&path, what)
+        .map(|bytes| (bytes, true))
+        .map_err(|error| Problem::new(error.code(), format!("its {what}: {error}")))
 }
 
-fn find(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<PathBuf, String> {
+fn find(file: &Path, uri: &str, what: &str, sandbox: &Sandbox) -> Result<PathBuf, Problem> {
     let name = unescaped(uri);
     if name.contains("://") {
-        return Err(format!("its {what} is on a network (`{uri}`), where nothing is read; save it beside the file"));
+        return Err(
+            format!("its {what} is on a network (`{uri}`), where nothing is read; save it beside the file").into()
+        );
     }
     let folder = file.parent().unwrap_or(Path::new(""));
     let stated = folder.join(&name);
     let beside = Path::new(&name).file_name().map(|name| folder.join(name));
     for path in [Some(&stated), beside.as_ref()].into_iter().flatten() {
-        sandbox.check(path).map_err(|told| format!("its {what} `{uri}`: {told}"))?;
+        sandbox.check(path).map_err(|problem| problem.within(format_args!("its {what} `{uri}`")))?;
         if path.exists() {
             return Ok(path.clone());
         }
     }
     let stated_path = stated.display();
-    Err(match beside.filter(|b| *b != stated) {
+    let words = match beside.filter(|b| *b != stated) {
         None => format!("its {what} is not there: no {stated_path}; put it there"),
         Some(beside) => {
             format!("its {what} is not there: neither {stated_path}, nor {}; put it there", beside.display())
         }
-    })
+    };
+    Err(Problem::new(ErrorCode::MissingFile, words))
 }

@@ -1,5 +1,6 @@
 //! From the bytes of a file to its checked JSON and its binary chunk.
 
+use crate::Problem;
 use etendue_scene::limits;
 use gltf::json::Root;
 use gltf::json::mesh::Semantic;
@@ -30,14 +31,14 @@ const KNOWN: &[&str] = &[
 ];
 
 /// The JSON, checked by the rules of the specification, and the binary chunk.
-pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), String> {
+pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), Problem> {
     let (json, blob) = if bytes.starts_with(MAGIC) { chunks(bytes)? } else { (bytes, None) };
-    limits::DESCRIPTION.check_size(json.len() as u64).map_err(|told| format!("its JSON: {told}"))?;
+    limits::DESCRIPTION.check_size(json.len() as u64).map_err(|problem| problem.within("its JSON"))?;
     check_objects(json)?;
     let mut root: Root =
         gltf::json::deserialize::from_slice(json).map_err(|cause| format!("no glTF: its JSON: {cause}"))?;
     if root.asset.version.split('.').next() != Some("2") {
-        return Err(format!("glTF of version {}; expected 2.0: export it again", root.asset.version));
+        return Err(format!("glTF of version {}; expected 2.0: export it again", root.asset.version).into());
     }
     let unknown: Vec<&str> =
         root.extensions_required.iter().map(String::as_str).filter(|e| !KNOWN.contains(e)).collect();
@@ -46,7 +47,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), String> {
             "it cannot be read without {}, which is not known here; export it without (known: {})",
             unknown.join(", "),
             KNOWN.join(", ")
-        ));
+        )
+        .into());
     }
     check_positions(&root)?;
     // The crate knows fewer of them.
@@ -56,41 +58,44 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Root, Option<Vec<u8>>), String> {
 }
 
 /// The JSON as it stands in the file.
-pub(super) fn json_of(bytes: &[u8]) -> Result<serde_json::Value, String> {
+pub(super) fn json_of(bytes: &[u8]) -> Result<serde_json::Value, Problem> {
     let (json, _) = if bytes.starts_with(MAGIC) { chunks(bytes)? } else { (bytes, None) };
-    serde_json::from_slice(json).map_err(|cause| format!("no glTF: its JSON: {cause}"))
+    serde_json::from_slice(json).map_err(|cause| format!("no glTF: its JSON: {cause}").into())
 }
 
 /// Refuses positions that are not there, which the crate's own check takes for granted.
-fn check_positions(root: &Root) -> Result<(), String> {
+fn check_positions(root: &Root) -> Result<(), Problem> {
     let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let positions = primitives.filter_map(|primitive| primitive.attributes.get(&Checked::Valid(Semantic::Positions)));
     match positions.map(|index| index.value()).find(|index| *index >= root.accessors.len()) {
-        Some(index) => Err(format!("its accessor {index} (POSITION) is not there; export it again")),
+        Some(index) => Err(format!("its accessor {index} (POSITION) is not there; export it again").into()),
         None => Ok(()),
     }
 }
 
 /// Refuses JSON whose objects would fill the memory: two brackets may stand for a material of many hundred bytes, in a list that grows.
-fn check_objects(json: &[u8]) -> Result<(), String> {
+fn check_objects(json: &[u8]) -> Result<(), Problem> {
     const OBJECT_BYTES: u64 = 1024;
     let objects = json.iter().filter(|byte| **byte == b'{').count() as u64;
-    limits::MESH.check_unpacked(objects * OBJECT_BYTES).map_err(|told| format!("its JSON of {objects} objects: {told}"))
+    limits::MESH
+        .check_unpacked(objects * OBJECT_BYTES)
+        .map_err(|problem| problem.within(format_args!("its JSON of {objects} objects")))
 }
 
 /// The chunks of a GLB file.
-fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
+fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
     let word = |at: usize| bytes.get(at..at + 4).map(|w| u32::from_le_bytes([w[0], w[1], w[2], w[3]]));
     let truncated = || "the file is truncated; export or copy it again".to_owned();
     let (version, length) = (word(4).ok_or_else(truncated)?, word(8).ok_or_else(truncated)? as usize);
     if version != 2 {
-        return Err(format!("GLB of version {version}; expected 2: export it again"));
+        return Err(format!("GLB of version {version}; expected 2: export it again").into());
     }
     if length > bytes.len() {
         return Err(format!(
             "the file has {} bytes, where its head says {length}: it is truncated; export or copy it again",
             bytes.len()
-        ));
+        )
+        .into());
     }
     let (mut json, mut blob, mut at) = (None, None, HEAD);
     while at + 8 <= length {

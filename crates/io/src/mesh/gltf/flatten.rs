@@ -1,5 +1,6 @@
 //! Primitives in their places to one mesh.
 
+use crate::Problem;
 use etendue_scene::asset::MeshAsset;
 use etendue_scene::limits;
 use glam::{DAffine3, DMat3, DVec3};
@@ -7,7 +8,7 @@ use gltf::json::Root;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 
-use super::super::vertex::{check_range, middle_of_far, relative, unit};
+use super::super::vertex::{check_corners, check_range, middle_of_far, relative, unit};
 use super::accessor::{finite, numbers};
 use super::buffers::Buffers;
 use super::material::UvLayout;
@@ -36,8 +37,8 @@ pub(super) fn flatten(
     root: &Root,
     buffers: &Buffers,
     placed: &[PlacedMesh],
-    mut slot_of: impl FnMut(Option<usize>) -> Result<(u16, UvLayout), String>,
-) -> Result<MeshAsset, String> {
+    mut slot_of: impl FnMut(Option<usize>) -> Result<(u16, UvLayout), Problem>,
+) -> Result<MeshAsset, Problem> {
     check_size(root, placed)?;
     let has = |semantic: Semantic| {
         let key = Checked::Valid(semantic);
@@ -80,7 +81,7 @@ fn is_surface(primitive: &Primitive) -> bool {
 }
 
 /// Refuses what nodes and primitives that share meshes and vertices would multiply beyond the limits.
-fn check_size(root: &Root, placed: &[PlacedMesh]) -> Result<(), String> {
+fn check_size(root: &Root, placed: &[PlacedMesh]) -> Result<(), Problem> {
     let count =
         |index: gltf::json::Index<gltf::json::Accessor>| root.accessors.get(index.value()).map_or(0, |a| a.count.0);
     let mut corners = vec![(0_u64, 0_u64); root.meshes.len()];
@@ -97,20 +98,13 @@ fn check_size(root: &Root, placed: &[PlacedMesh]) -> Result<(), String> {
         .iter()
         .filter_map(|p| corners.get(p.mesh))
         .fold((0_u64, 0_u64), |(a, b), (c, v)| (a.saturating_add(*c), b.saturating_add(*v)));
-    let most = limits::CORNERS.most().min(u64::from(u32::MAX));
-    if total.0 > most {
-        return Err(format!(
-            "its faces have {} corners, at most {most} are read; make it smaller, {}",
-            total.0,
-            limits::CORNERS.remedy(total.0)
-        ));
-    }
+    check_corners(total.0)?;
     let bytes = total.0.saturating_mul(CORNER_BYTES).saturating_add(total.1.saturating_mul(VERTEX_BYTES));
     limits::MESH.check_unpacked(bytes)
 }
 
 impl Parts {
-    fn read(root: &Root, buffers: &Buffers, primitive: &Primitive, layout: &UvLayout) -> Result<Self, String> {
+    fn read(root: &Root, buffers: &Buffers, primitive: &Primitive, layout: &UvLayout) -> Result<Self, Problem> {
         let of = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
         let positions = of(Semantic::Positions).ok_or("it has no positions")?;
         let positions = finite(numbers::<3>(root, buffers, positions, "POSITION")?, "position")?;
@@ -137,7 +131,7 @@ impl Parts {
         };
         let mut places: Vec<Option<u32>> = vec![None; positions.len()];
         for triangle in triangles(primitive, &corners) {
-            let mut vertex = |corner: u64| -> Result<u32, String> {
+            let mut vertex = |corner: u64| -> Result<u32, Problem> {
                 let source = usize::try_from(corner).ok().filter(|i| *i < positions.len());
                 let source = source
                     .ok_or_else(|| format!("index {corner} is out of range: it has {} vertices", positions.len()))?;
@@ -193,7 +187,7 @@ struct Builder {
 }
 
 impl Builder {
-    fn add(&mut self, parts: &Parts, place: &PlacedMesh, slot: u16) -> Result<(), String> {
+    fn add(&mut self, parts: &Parts, place: &PlacedMesh, slot: u16) -> Result<(), Problem> {
         let to_file = |vertex: usize| match (&place.joints, &parts.weights) {
             (Some(joints), Some(weights)) => weights.blend(parts.sources[vertex], joints),
             _ => Ok(place.to_file),
@@ -205,7 +199,7 @@ impl Builder {
             .map(|(to_file, p)| to_file.transform_point3(DVec3::from_array(*p)))
             .collect();
         if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
-            return Err(format!("vertex {vertex} has no finite place; correct the model"));
+            return Err(format!("vertex {vertex} has no finite place; correct the model").into());
         }
         for (vertex, position) in positions.iter().enumerate() {
             check_range(&position.to_array()).map_err(|told| format!("vertex {vertex}: {told}"))?;
@@ -255,16 +249,16 @@ impl Builder {
         Ok(())
     }
 
-    fn finish(self) -> Result<MeshAsset, String> {
+    fn finish(self) -> Result<MeshAsset, Problem> {
         let Self { mut mesh, positions, lines, bare_vertices, has_uvs, .. } = self;
         if mesh.triangles.is_empty() {
-            return Err("its scene shows no triangles; export the model with its meshes".to_owned());
+            return Err("its scene shows no triangles; export the model with its meshes".into());
         }
         mesh.origin = middle_of_far(|axis| positions.iter().map(move |p| p[axis]));
         let origin = mesh.origin;
         mesh.positions = positions.iter().map(|p| relative(*p, origin)).collect();
         if mesh.uvs.iter().flatten().any(|v| !v.is_finite()) {
-            return Err("a texture coordinate is no finite number; correct the model".to_owned());
+            return Err("a texture coordinate is no finite number; correct the model".into());
         }
         if lines > 0 {
             mesh.report.push(format!("{lines} primitives of points or lines are not used"));

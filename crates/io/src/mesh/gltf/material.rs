@@ -3,6 +3,7 @@
 //! α is the square of the roughness, as the specification says. What is no metal is Lambert's law under a coat of the stated index, or without one where
 //! the roughness is 1, which exporters write for matt surfaces. docs/gltf.md tells the whole mapping.
 
+use crate::Problem;
 use std::path::{Path, PathBuf};
 
 use etendue_scene::asset::{
@@ -41,7 +42,7 @@ pub(super) struct Found {
 
 impl Materials {
     /// The slot of a material, and how its pictures lie.
-    pub(super) fn slot_of(&mut self, root: &Root, number: Option<usize>) -> Result<(u16, UvLayout), String> {
+    pub(super) fn slot_of(&mut self, root: &Root, number: Option<usize>) -> Result<(u16, UvLayout), Problem> {
         let slot = self.numbers.iter().position(|n| *n == number).unwrap_or_else(|| {
             self.numbers.push(number);
             self.numbers.len() - 1
@@ -51,19 +52,25 @@ impl Materials {
         Ok((slot, first.map_or(UvLayout::PLAIN, |first| first.layout)))
     }
 
-    pub(super) fn read(&self, file: &Path, root: &Root, buffers: &Buffers, sandbox: &Sandbox) -> Result<Found, String> {
+    pub(super) fn read(
+        &self,
+        file: &Path,
+        root: &Root,
+        buffers: &Buffers,
+        sandbox: &Sandbox,
+    ) -> Result<Found, Problem> {
         let mut pictures = Pictures::new(file, root, buffers, sandbox);
         let (mut slots, mut report): (Vec<SlotMaterial>, Vec<String>) = (Vec::new(), Vec::new());
         let silent = Material::default();
         for number in &self.numbers {
             let material = number.and_then(|n| root.materials.get(n)).unwrap_or(&silent);
             let name = name_of(material, *number, &slots);
-            let told = |problem| format!("material \"{name}\": {problem}");
+            let subject = format!("material \"{name}\"");
             let mut reader = Reader { material, pictures: &mut pictures, notes: Vec::new() };
-            let layers = reader.layers().map_err(told)?;
+            let layers = reader.layers().map_err(|problem| problem.within(&subject))?;
             let notes = std::mem::take(&mut reader.notes);
-            report.push(told(layers.describe()));
-            report.extend(notes.into_iter().map(told));
+            report.push(format!("{subject}: {}", layers.describe()));
+            report.extend(notes.into_iter().map(|note| format!("{subject}: {note}")));
             slots.push(SlotMaterial { name, surface: Some(SlotSurface::Layers(Box::new(layers))) });
         }
         let Pictures { used, files, .. } = pictures;
@@ -108,7 +115,7 @@ struct Reader<'m, 'p, 'a> {
 }
 
 impl Reader<'_, '_, '_> {
-    fn layers(&mut self) -> Result<SlotLayers, String> {
+    fn layers(&mut self) -> Result<SlotLayers, Problem> {
         let (material, pbr) = (self.material, &self.material.pbr_metallic_roughness);
         let factor = pbr.base_color_factor.0.map(|v| f64::from(v).clamp(0.0, 1.0));
         let colour = [factor[0], factor[1], factor[2]];
@@ -144,7 +151,7 @@ impl Reader<'_, '_, '_> {
     }
 
     /// The metal (blue) or the roughness (green) of the metallic-roughness picture times its factor; α is the roughness's square.
-    fn of_channel(&mut self, channel: usize, factor: f64, squared: bool) -> Result<SlotNumber, String> {
+    fn of_channel(&mut self, channel: usize, factor: f64, squared: bool) -> Result<SlotNumber, Problem> {
         let factor = factor.clamp(0.0, 1.0);
         let rule = |v: f64| if squared { v * factor * (v * factor) } else { v * factor };
         let info = self.material.pbr_metallic_roughness.metallic_roughness_texture.as_ref();
@@ -161,7 +168,7 @@ impl Reader<'_, '_, '_> {
         channel: usize,
         what: &str,
         rule: impl Fn(f64) -> f64,
-    ) -> Result<SlotNumber, String> {
+    ) -> Result<SlotNumber, Problem> {
         let rule = |v: f32| rule(f64::from(v)) as f32;
         let picture = self
             .pictures
@@ -214,7 +221,7 @@ impl Reader<'_, '_, '_> {
         }
     }
 
-    fn transmission(&mut self) -> Result<Option<SlotTransmission>, String> {
+    fn transmission(&mut self) -> Result<Option<SlotTransmission>, Problem> {
         let Some(extensions) = &self.material.extensions else { return Ok(None) };
         let Some(transmission) = extensions.transmission.as_ref().filter(|t| t.transmission_factor.0 > 0.0) else {
             return Ok(None);
@@ -241,12 +248,12 @@ impl Reader<'_, '_, '_> {
         Ok(Some(SlotTransmission { share, index: self.index(), solid }))
     }
 
-    fn emission(&mut self) -> Result<Option<SlotEmission>, String> {
+    fn emission(&mut self) -> Result<Option<SlotEmission>, Problem> {
         let strength = self.material.extensions.as_ref().and_then(|e| e.emissive_strength.as_ref());
         let strength = strength.map_or(1.0, |s| f64::from(s.emissive_strength.0));
         let rgb_cd_m2 = self.material.emissive_factor.0.map(|v| f64::from(v).max(0.0) * strength);
         if !rgb_cd_m2.iter().all(|v| v.is_finite() && *v >= 0.0) {
-            return Err("its emission is no finite number of 0 or more; correct the model".to_owned());
+            return Err("its emission is no finite number of 0 or more; correct the model".into());
         }
         if rgb_cd_m2 == [0.0; 3] {
             return Ok(None);
@@ -258,7 +265,7 @@ impl Reader<'_, '_, '_> {
         Ok(Some(SlotEmission { rgb_cd_m2, picture, both_sides: self.material.double_sided }))
     }
 
-    fn opacity(&mut self, texture: Option<usize>, factor: f64) -> Result<Option<SlotNumber>, String> {
+    fn opacity(&mut self, texture: Option<usize>, factor: f64) -> Result<Option<SlotNumber>, Problem> {
         let cutoff = self.material.alpha_cutoff.map_or(USUAL_CUTOFF, |c| f64::from(c.0));
         let Checked::Valid(mode) = self.material.alpha_mode else { return Ok(None) };
         let rule = |v: f64| match mode {
@@ -280,7 +287,7 @@ impl Reader<'_, '_, '_> {
         Ok(Some(opacity).filter(|o| *o != SlotNumber::Number(1.0)))
     }
 
-    fn normals(&mut self) -> Result<Option<(etendue_scene::asset::SlotPicture, f64)>, String> {
+    fn normals(&mut self) -> Result<Option<(etendue_scene::asset::SlotPicture, f64)>, Problem> {
         const STRONGEST: f64 = 10.0;
         let Some(map) = &self.material.normal_texture else { return Ok(None) };
         let strength = f64::from(map.scale);

@@ -38,7 +38,7 @@ use etendue_scene::asset::MeshAsset;
 use self::buffers::Buffers;
 use self::material::Materials;
 use crate::source::{name_notes, read_bytes};
-use crate::{Error, Sandbox, hash};
+use crate::{Error, Problem, Sandbox, hash};
 
 /// Reads a glTF file with the buffers and pictures that it names, which must lie in `sandbox`.
 pub(super) fn read_gltf(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, Error> {
@@ -46,7 +46,7 @@ pub(super) fn read_gltf(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, Err
     read(file, &bytes, sandbox).map_err(|told| Error::new(file, told))
 }
 
-fn read(file: &Path, bytes: &[u8], sandbox: &Sandbox) -> Result<MeshAsset, String> {
+fn read(file: &Path, bytes: &[u8], sandbox: &Sandbox) -> Result<MeshAsset, Problem> {
     let (root, blob) = document::parse(bytes)?;
     let buffers = Buffers::read(file, &root, blob, sandbox)?;
     let placed = nodes::placed(&root, &buffers)?;

@@ -17,7 +17,7 @@ use super::nodes;
 use super::parts::GltfParts;
 use super::tracks::{self, GltfTrack};
 use crate::source::read_bytes;
-use crate::{Error, Sandbox};
+use crate::{Error, Problem, Sandbox};
 
 /// What the animations of a glTF file move, all of them together.
 #[derive(Clone, Debug)]
@@ -64,7 +64,7 @@ pub fn read_gltf_motion(file: &Path) -> Result<GltfMotion, Error> {
     read(file, &bytes).map_err(|told| Error::new(file, told))
 }
 
-fn read(file: &Path, bytes: &[u8]) -> Result<GltfMotion, String> {
+fn read(file: &Path, bytes: &[u8]) -> Result<GltfMotion, Problem> {
     let (root, blob) = document::parse(bytes)?;
     let (shown, to_file) = nodes::shown(&root)?;
     let mut notes = Vec::new();
@@ -144,16 +144,16 @@ fn held_by_skins(root: &Root, above: &[Option<usize>]) -> Vec<usize> {
     (0..is_held.len()).filter(|node| is_held[*node]).collect()
 }
 
-fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result<Vec<Tracks>, String> {
+fn all_tracks(root: &Root, buffers: &Buffers, notes: &mut Vec<String>) -> Result<Vec<Tracks>, Problem> {
     let mut tracks = vec![Tracks::default(); root.nodes.len()];
     let mut keys = 0;
     for (number, animation) in root.animations.iter().enumerate() {
-        let told = |what: String| format!("its animation {number}: {what}");
+        let told = |problem: Problem| problem.within(format_args!("its animation {number}"));
         for channel in &animation.channels {
             let sampler = animation.samplers.get(channel.sampler.value());
-            let sampler = sampler.ok_or_else(|| told("a channel names a sampler that is not there".to_owned()))?;
+            let sampler = sampler.ok_or_else(|| told("a channel names a sampler that is not there".into()))?;
             let node = tracks.get_mut(channel.target.node.value());
-            let node = node.ok_or_else(|| told("a channel names a node that is not there".to_owned()))?;
+            let node = node.ok_or_else(|| told("a channel names a node that is not there".into()))?;
             if !add(root, buffers, channel, sampler, node, &mut keys).map_err(told)? {
                 let what = called(root, channel.target.node.value());
                 let note = match channel.target.path {
@@ -177,9 +177,9 @@ fn add(
     sampler: &Sampler,
     node: &mut Tracks,
     keys: &mut u64,
-) -> Result<bool, String> {
+) -> Result<bool, Problem> {
     let Checked::Valid(interpolation) = sampler.interpolation else {
-        return Err("an interpolation that is not known".to_owned());
+        return Err("an interpolation that is not known".into());
     };
     let is_used = match channel.target.path {
         Checked::Valid(Property::Translation) => node.translation.is_none(),
@@ -217,7 +217,7 @@ struct Values<'a> {
     what: &'static str,
 }
 
-fn track<const N: usize>(times: Vec<f64>, of: Values<'_>, cubic: bool, steps: bool) -> Result<GltfTrack<N>, String> {
+fn track<const N: usize>(times: Vec<f64>, of: Values<'_>, cubic: bool, steps: bool) -> Result<GltfTrack<N>, Problem> {
     let values = finite(numbers::<N>(of.root, of.buffers, of.accessor, of.what)?, of.what)?;
     tracks::track(times, values, cubic, steps)
 }
@@ -230,7 +230,7 @@ fn mover(
     above: Option<usize>,
     to_file: &[DAffine3],
     tracks: Tracks,
-) -> Result<GltfMover, String> {
+) -> Result<GltfMover, Problem> {
     let node = &root.nodes[number];
     let above = above.map_or(DAffine3::IDENTITY, |above| to_file[above]);
     let to_parent = match parent {
@@ -240,9 +240,7 @@ fn mover(
             if movers[parent].scale.is_some()
                 || (scales.max_element() - scales.min_element()).abs() > 1e-6 * scales.max_element()
             {
-                return Err(
-                    "what it stands in changes its size, or is scaled unevenly; it stands still in it".to_owned()
-                );
+                return Err("what it stands in changes its size, or is scaled unevenly; it stands still in it".into());
             }
             to_file[movers[parent].node].inverse() * above
         }
@@ -250,11 +248,11 @@ fn mover(
     let to_parent = similarity(to_parent).ok_or("nodes above it are mirrored or scaled unevenly")?;
     let rest = rest(node)?;
     if rest.2.min_element() <= 0.0 {
-        return Err("it is mirrored, or has no size".to_owned());
+        return Err("it is mirrored, or has no size".into());
     }
     let Tracks { translation, rotation, scale } = tracks;
     if scale.as_ref().is_some_and(|track| track.values().any(|v| v.iter().any(|s| *s <= 0.0))) {
-        return Err("its scale passes through zero, or mirrors".to_owned());
+        return Err("its scale passes through zero, or mirrors".into());
     }
     let name = node.name.clone().unwrap_or_default();
     let to_file = to_file[number];
@@ -272,15 +270,15 @@ fn mover(
     })
 }
 
-fn rest(node: &Node) -> Result<(DVec3, DQuat, DVec3), String> {
+fn rest(node: &Node) -> Result<(DVec3, DQuat, DVec3), Problem> {
     if node.matrix.is_some() {
-        return Err("it has a matrix, which animations do not move".to_owned());
+        return Err("it has a matrix, which animations do not move".into());
     }
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let rotation = node.rotation.map_or([0.0, 0.0, 0.0, 1.0], |r| r.0.map(f64::from));
     let rotation = DQuat::from_array(rotation);
     if !rotation.is_finite() || rotation.length_squared() == 0.0 {
-        return Err("its rotation is none".to_owned());
+        return Err("its rotation is none".into());
     }
     Ok((node.translation.map_or(DVec3::ZERO, wide), rotation.normalize(), node.scale.map_or(DVec3::ONE, wide)))
 }

@@ -1,5 +1,6 @@
 //! The tree of nodes, and what of it the scene shows.
 
+use crate::Problem;
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf::json::Root;
 use gltf::json::scene::Node;
@@ -9,7 +10,7 @@ use super::placed::PlacedMesh;
 use super::skin;
 
 /// The meshes of the scene in the order of their nodes.
-pub(super) fn placed(root: &Root, buffers: &Buffers) -> Result<Vec<PlacedMesh>, String> {
+pub(super) fn placed(root: &Root, buffers: &Buffers) -> Result<Vec<PlacedMesh>, Problem> {
     let (shown, to_file) = shown(root)?;
     let mut placed = Vec::new();
     for number in shown {
@@ -26,7 +27,7 @@ pub(super) fn placed(root: &Root, buffers: &Buffers) -> Result<Vec<PlacedMesh>, 
 
 /// The nodes that the scene shows, in its order: those of the default scene, or of the first, or all where there is none; and of every node of the
 /// file the way from its axes to those of the file.
-pub(super) fn shown(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), String> {
+pub(super) fn shown(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem> {
     let (roots, to_file) = tree(root)?;
     let scene = root.scene.map_or(0, |scene| scene.value());
     let mut open: Vec<usize> = match root.scenes.get(scene) {
@@ -40,7 +41,7 @@ pub(super) fn shown(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), String> 
         let node =
             root.nodes.get(number).ok_or_else(|| format!("its scene names node {number}, which is not there"))?;
         if std::mem::replace(&mut seen[number], true) {
-            return Err(format!("its scene shows node {number} twice; export it again"));
+            return Err(format!("its scene shows node {number} twice; export it again").into());
         }
         open.extend(node.children.iter().flatten().rev().map(|child| child.value()));
         shown.push(number);
@@ -49,7 +50,7 @@ pub(super) fn shown(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), String> 
 }
 
 /// The nodes without parents, and for every node the way from its axes to those of the file.
-fn tree(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), String> {
+fn tree(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), Problem> {
     let mut parents: Vec<Option<usize>> = vec![None; root.nodes.len()];
     for (number, node) in root.nodes.iter().enumerate() {
         for child in node.children.iter().flatten() {
@@ -60,7 +61,8 @@ fn tree(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), String> {
                 return Err(format!(
                     "its node {} is a child of both node {other} and node {number}; export it again",
                     child.value()
-                ));
+                )
+                .into());
             }
         }
     }
@@ -80,7 +82,7 @@ fn tree(root: &Root) -> Result<(Vec<usize>, Vec<DAffine3>), String> {
     Ok((roots, all?))
 }
 
-fn local(number: usize, node: &Node) -> Result<DAffine3, String> {
+fn local(number: usize, node: &Node) -> Result<DAffine3, Problem> {
     let wide = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let local = match node.matrix {
         Some(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix.map(f64::from))),
@@ -95,6 +97,6 @@ fn local(number: usize, node: &Node) -> Result<DAffine3, String> {
     };
     match local.is_finite() {
         true => Ok(local),
-        false => Err(format!("the place of its node {number} is no finite number; correct the model")),
+        false => Err(format!("the place of its node {number} is no finite number; correct the model").into()),
     }
 }

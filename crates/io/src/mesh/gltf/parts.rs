@@ -1,5 +1,6 @@
 //! A glTF file without the nodes that move, and each of these by itself: the same file with another tree.
 
+use crate::Problem;
 use etendue_scene::limits;
 use serde_json::{Map, Value, json};
 
@@ -29,7 +30,7 @@ impl GltfParts {
         blob: Option<Vec<u8>>,
         movers: Vec<usize>,
         mover_of: Vec<Option<usize>>,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Problem> {
         let json = document::json_of(bytes)?;
         let (mut is_mover, mut is_child) = (vec![false; mover_of.len()], vec![false; mover_of.len()]);
         movers.iter().for_each(|node| is_mover[*node] = true);
@@ -47,7 +48,7 @@ impl GltfParts {
     ///
     /// # Errors
     /// Where they would.
-    pub fn check_size(&self, parts: usize) -> Result<(), String> {
+    pub fn check_size(&self, parts: usize) -> Result<(), Problem> {
         limits::MESH.check_unpacked(self.bytes.saturating_mul(parts as u64))
     }
 

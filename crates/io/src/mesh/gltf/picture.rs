@@ -1,5 +1,6 @@
 //! Pictures of a glTF file, and how they lie on surfaces.
 
+use crate::Problem;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -86,7 +87,7 @@ impl<'a> Pictures<'a> {
     }
 
     /// The picture of a texture as the file has it.
-    pub(super) fn image(&mut self, texture: usize) -> Result<&ImageAsset, String> {
+    pub(super) fn image(&mut self, texture: usize) -> Result<&ImageAsset, Problem> {
         let number = self.image_of(texture)?;
         if !self.images.contains_key(&number) {
             let image = self.read(number)?;
@@ -97,7 +98,7 @@ impl<'a> Pictures<'a> {
     }
 
     /// That picture for a material.
-    pub(super) fn as_it_is(&mut self, texture: usize, is_encoded: bool) -> Result<SlotPicture, String> {
+    pub(super) fn as_it_is(&mut self, texture: usize, is_encoded: bool) -> Result<SlotPicture, Problem> {
         let number = self.image_of(texture)?;
         let image = self.image(texture)?.clone();
         let name = PathBuf::from(format!("{}#image {number}", self.file.display()));
@@ -111,7 +112,7 @@ impl<'a> Pictures<'a> {
         what: &str,
         is_encoded: bool,
         make: impl FnOnce(&ImageAsset) -> ImageAsset,
-    ) -> Result<SlotPicture, String> {
+    ) -> Result<SlotPicture, Problem> {
         let number = self.image_of(texture)?;
         let name = PathBuf::from(format!("{}#image {number}, {what}", self.file.display()));
         let made = match self.used.get(&name) {
@@ -130,7 +131,7 @@ impl<'a> Pictures<'a> {
         image: ImageAsset,
         texture: usize,
         is_encoded: bool,
-    ) -> Result<SlotPicture, String> {
+    ) -> Result<SlotPicture, Problem> {
         if !self.used.contains_key(&name) {
             self.count(&image)?;
             self.used.insert(name.clone(), image);
@@ -138,20 +139,20 @@ impl<'a> Pictures<'a> {
         Ok(SlotPicture { file: name, is_encoded, wrap: self.wrap(texture) })
     }
 
-    fn image_of(&self, texture: usize) -> Result<usize, String> {
+    fn image_of(&self, texture: usize) -> Result<usize, Problem> {
         let found = self.root.textures.get(texture).ok_or_else(|| format!("its texture {texture} is not there"))?;
         Ok(found.source.value())
     }
 
     /// What all pictures take together is limited: materials may make many of one.
-    fn count(&mut self, image: &ImageAsset) -> Result<(), String> {
+    fn count(&mut self, image: &ImageAsset) -> Result<(), Problem> {
         const BYTES_PER_PIXEL: u64 = 16;
         self.unpacked =
             self.unpacked.saturating_add(u64::from(image.width) * u64::from(image.height) * BYTES_PER_PIXEL);
         limits::MESH.check_unpacked(self.unpacked)
     }
 
-    fn read(&mut self, number: usize) -> Result<ImageAsset, String> {
+    fn read(&mut self, number: usize) -> Result<ImageAsset, Problem> {
         let image = self.root.images.get(number).ok_or_else(|| format!("its image {number} is not there"))?;
         let what = format!("image {number}");
         let (bytes, is_file) = match (&image.uri, image.buffer_view) {
@@ -161,10 +162,10 @@ impl<'a> Pictures<'a> {
                     self.root.buffer_views.get(view.value()).ok_or_else(|| format!("its {what} names no view"))?;
                 (self.buffers.view(view).map_err(|told| format!("its {what} names {told}"))?.to_vec(), false)
             }
-            (None, None) => return Err(format!("its {what} has neither \"uri\" nor \"bufferView\"")),
+            (None, None) => return Err(format!("its {what} has neither \"uri\" nor \"bufferView\"").into()),
         };
         if bytes.is_empty() {
-            return Err(format!("its {what} is empty"));
+            return Err(format!("its {what} is empty").into());
         }
         let decoded = decode_picture(Path::new(&what), &bytes).map_err(|error| format!("its {error}"))?;
         if is_file {

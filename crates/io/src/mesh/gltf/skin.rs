@@ -1,5 +1,6 @@
 //! Skins as they stand at rest.
 
+use crate::Problem;
 use glam::{DAffine3, DMat4, DVec3};
 use gltf::json::mesh::{Primitive, Semantic};
 use gltf::json::validation::Checked;
@@ -14,7 +15,7 @@ pub(super) fn joints(
     buffers: &Buffers,
     skin: usize,
     to_file: &[DAffine3],
-) -> Result<Vec<DAffine3>, String> {
+) -> Result<Vec<DAffine3>, Problem> {
     let record = root.skins.get(skin).ok_or_else(|| format!("its skin {skin} is not there"))?;
     let bind: Vec<[f64; 16]> = match record.inverse_bind_matrices {
         None => vec![DMat4::IDENTITY.to_cols_array(); record.joints.len()],
@@ -25,7 +26,8 @@ pub(super) fn joints(
             "its skin {skin} has {} joints and {} inverse bind matrices",
             record.joints.len(),
             bind.len()
-        ));
+        )
+        .into());
     }
     let joint = |(joint, bind): (&Index<_>, &[f64; 16])| {
         let place =
@@ -42,7 +44,7 @@ pub(super) struct Weights {
 }
 
 impl Weights {
-    pub(super) fn read(root: &Root, buffers: &Buffers, primitive: &Primitive) -> Result<Option<Self>, String> {
+    pub(super) fn read(root: &Root, buffers: &Buffers, primitive: &Primitive) -> Result<Option<Self>, Problem> {
         let of = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
         let (Some(joints), Some(weights)) = (of(Semantic::Joints(0)), of(Semantic::Weights(0))) else {
             return Ok(None);
@@ -53,8 +55,9 @@ impl Weights {
     }
 
     /// From the bind pose to the file at a vertex: the joints' mean by their weights.
-    pub(super) fn blend(&self, vertex: usize, joints: &[DAffine3]) -> Result<DAffine3, String> {
-        let told = |problem: &str| format!("vertex {vertex} of a skinned mesh {problem}; export it again");
+    pub(super) fn blend(&self, vertex: usize, joints: &[DAffine3]) -> Result<DAffine3, Problem> {
+        let told =
+            |problem: &str| Problem::from(format!("vertex {vertex} of a skinned mesh {problem}; export it again"));
         let (numbers, weights) =
             self.joints.get(vertex).zip(self.weights.get(vertex)).ok_or_else(|| told("has no joints"))?;
         let sum: f64 = weights.iter().sum();

@@ -10,8 +10,8 @@ use gltf::json::extensions::scene::khr_lights_punctual::{Light, Type};
 use gltf::json::validation::Checked;
 
 use super::{document, nodes};
-use crate::Error;
 use crate::source::read_bytes;
+use crate::{Error, Problem};
 
 /// The lights and cameras of a glTF file, in its axes (+y up, +z forward; m).
 #[derive(Clone, Debug, Default)]
@@ -100,7 +100,7 @@ pub fn read_gltf_stage(file: &Path) -> Result<GltfStage, Error> {
     read(&bytes).map_err(|told| Error::new(file, told))
 }
 
-fn read(bytes: &[u8]) -> Result<GltfStage, String> {
+fn read(bytes: &[u8]) -> Result<GltfStage, Problem> {
     let (root, _) = document::parse(bytes)?;
     let (shown, to_file) = nodes::shown(&root)?;
     let mut stage = GltfStage { animations: root.animations.len(), ..GltfStage::default() };
@@ -124,29 +124,29 @@ fn light_of(
     node: usize,
     node_name: String,
     to_file: DAffine3,
-) -> Result<GltfLight, String> {
+) -> Result<GltfLight, Problem> {
     let lights = root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
     let light = lights
         .and_then(|l| l.lights.get(number))
         .ok_or_else(|| format!("a node has light {number}, which is not there; export it again"))?;
-    let wrong = |what: &str| format!("light {number}: {what}");
+    let wrong = |problem: Problem| problem.within(format_args!("light {number}"));
     let legal = |v: f64| v.is_finite() && v >= 0.0;
     let (colour, intensity) = (light.color.map(f64::from), f64::from(light.intensity));
     if !legal(intensity) || !colour.iter().all(|v| legal(*v)) {
-        return Err(wrong("its intensity and colour must be finite numbers from 0; correct the model"));
+        return Err(wrong("its intensity and colour must be finite numbers from 0; correct the model".into()));
     }
     Ok(GltfLight {
         name: light.name.clone().unwrap_or(node_name),
         node,
         to_file,
-        kind: kind_of(light).map_err(|what| wrong(&what))?,
+        kind: kind_of(light).map_err(wrong)?,
         colour,
         intensity,
         has_range: light.range.is_some(),
     })
 }
 
-fn kind_of(light: &Light) -> Result<GltfLightKind, String> {
+fn kind_of(light: &Light) -> Result<GltfLightKind, Problem> {
     match (&light.type_, &light.spot) {
         (Checked::Valid(Type::Directional), _) => Ok(GltfLightKind::Directional),
         (Checked::Valid(Type::Point), _) => Ok(GltfLightKind::Point),
@@ -156,10 +156,10 @@ fn kind_of(light: &Light) -> Result<GltfLightKind, String> {
             let most = std::f64::consts::FRAC_PI_2 + 1e-6;
             match inner_rad >= 0.0 && inner_rad < outer_rad && outer_rad <= most {
                 true => Ok(GltfLightKind::Spot { inner_rad, outer_rad }),
-                false => Err(format!("angles of {inner_rad} and {outer_rad}; expected 0 ≤ inner < outer ≤ π/2")),
+                false => Err(format!("angles of {inner_rad} and {outer_rad}; expected 0 ≤ inner < outer ≤ π/2").into()),
             }
         }
-        _ => Err("no type that is known; expected directional, point, or spot with its angles".to_owned()),
+        _ => Err("no type that is known; expected directional, point, or spot with its angles".into()),
     }
 }
 
@@ -169,7 +169,7 @@ fn camera_of(
     node: usize,
     node_name: String,
     to_file: DAffine3,
-) -> Result<GltfCamera, String> {
+) -> Result<GltfCamera, Problem> {
     let camera = root
         .cameras
         .get(number)
@@ -182,7 +182,7 @@ fn camera_of(
         (Some(p), _) => {
             let yfov_rad = above(p.yfov, "yfov")?;
             if yfov_rad >= 3.0 {
-                return Err(format!("camera {number}: yfov of {yfov_rad} rad; expected less than 3"));
+                return Err(format!("camera {number}: yfov of {yfov_rad} rad; expected less than 3").into());
             }
             let aspect = p.aspect_ratio.map(|a| above(a, "aspectRatio")).transpose()?;
             GltfProjection::Perspective { yfov_rad, aspect }
@@ -190,7 +190,7 @@ fn camera_of(
         (None, Some(o)) => {
             GltfProjection::Orthographic { half_m: [above(o.xmag.abs(), "xmag")?, above(o.ymag.abs(), "ymag")?] }
         }
-        (None, None) => return Err(format!("camera {number} has no projection; export it again")),
+        (None, None) => return Err(format!("camera {number} has no projection; export it again").into()),
     };
     Ok(GltfCamera { name: camera.name.clone().unwrap_or(node_name), node, to_file, projection })
 }

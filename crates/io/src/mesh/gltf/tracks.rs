@@ -1,5 +1,6 @@
 //! Values over time.
 
+use crate::Problem;
 use gltf::json::animation::Interpolation;
 
 /// Keys of a cubic curve from one of the file's to the next, where curves are said by keys between which lines are straight.
@@ -30,13 +31,13 @@ pub(super) fn track<const N: usize>(
     values: Vec<[f64; N]>,
     cubic: bool,
     steps: bool,
-) -> Result<GltfTrack<N>, String> {
+) -> Result<GltfTrack<N>, Problem> {
     let each = if cubic { 3 } else { 1 };
     if times.is_empty() || values.len() != each * times.len() {
-        return Err(format!("{} values for {} times; export it again", values.len(), times.len()));
+        return Err(format!("{} values for {} times; export it again", values.len(), times.len()).into());
     }
     if times.windows(2).any(|pair| pair[0] >= pair[1]) {
-        return Err("its times do not rise; export it again".to_owned());
+        return Err("its times do not rise; export it again".into());
     }
     let keys = match (cubic, steps) {
         (true, _) => GltfKeys::Cubic(values.as_chunks().0.to_vec()),
@@ -47,7 +48,7 @@ pub(super) fn track<const N: usize>(
 }
 
 /// The keys so far with those that a track of `times` makes: cubic curves and steps are said by more.
-pub(super) fn counted(before: u64, times: u64, interpolation: Interpolation) -> Result<u64, String> {
+pub(super) fn counted(before: u64, times: u64, interpolation: Interpolation) -> Result<u64, Problem> {
     let each = match interpolation {
         Interpolation::CubicSpline => GLTF_CUBIC_KEYS as u64,
         Interpolation::Step => 2,
@@ -57,15 +58,15 @@ pub(super) fn counted(before: u64, times: u64, interpolation: Interpolation) -> 
         keys if keys <= MAX_KEYS => Ok(keys),
         _ => Err(format!(
             "its tracks and those before it make more than {MAX_KEYS} keys, {GLTF_CUBIC_KEYS} for each of a cubic curve, 2 for each of steps; export fewer"
-        )),
+        ).into()),
     }
 }
 
 /// Refuses keys that are no rotation.
-pub(super) fn check_rotation(track: &GltfTrack<4>) -> Result<(), String> {
+pub(super) fn check_rotation(track: &GltfTrack<4>) -> Result<(), Problem> {
     let length = |q: [f64; 4]| q.iter().map(|v| v * v).sum::<f64>().sqrt();
     match track.values().position(|q| length(q) < GLTF_MIN_TURN) {
-        Some(key) => Err(format!("key {key} of its rotations is a quaternion without length; export it again")),
+        Some(key) => Err(format!("key {key} of its rotations is a quaternion without length; export it again").into()),
         None => Ok(()),
     }
 }
@@ -152,9 +153,9 @@ mod tests {
     fn keys_are_limited_and_rotations_have_length() {
         assert_eq!(counted(5, 10, Interpolation::CubicSpline), Ok(165));
         assert_eq!(counted(0, MAX_KEYS, Interpolation::Linear), Ok(MAX_KEYS));
-        assert!(counted(0, MAX_KEYS, Interpolation::Step).expect_err("too many").contains("1000000 keys"));
+        assert!(counted(0, MAX_KEYS, Interpolation::Step).expect_err("too many").words.contains("1000000 keys"));
         let rotation = |q: [f64; 4]| track(vec![0.0], vec![q], false, false).expect("a track");
         assert!(check_rotation(&rotation([0.0, 0.0, 0.0, 1.0])).is_ok());
-        assert!(check_rotation(&rotation([0.0; 4])).expect_err("none").contains("key 0"));
+        assert!(check_rotation(&rotation([0.0; 4])).expect_err("none").words.contains("key 0"));
     }
 }

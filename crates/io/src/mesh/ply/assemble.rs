@@ -1,10 +1,10 @@
 //! Elements to a mesh.
 
+use crate::Problem;
 use etendue_scene::asset::{MeshAsset, SlotMaterial};
-use etendue_scene::limits;
 
 use super::super::polygon::{newell, triangulate};
-use super::super::vertex::{middle_of_far, relative, unit};
+use super::super::vertex::{check_corners, middle_of_far, relative, unit};
 use super::faces::{Face, has_uvs, is_used, polygons, strips};
 use super::header::{Element, Header, shortened};
 use super::input::Input;
@@ -14,7 +14,7 @@ const COLOURS: [&str; 8] =
     ["red", "green", "blue", "alpha", "diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"];
 
 /// The mesh of all elements.
-pub(super) fn mesh(header: &Header, input: &mut Input<'_>) -> Result<MeshAsset, String> {
+pub(super) fn mesh(header: &Header, input: &mut Input<'_>) -> Result<MeshAsset, Problem> {
     let mut builder = Builder::default();
     for element in &header.elements {
         match &*element.name {
@@ -45,18 +45,18 @@ struct Builder {
 }
 
 impl Builder {
-    fn vertices(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), String> {
+    fn vertices(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), Problem> {
         let (vertices, unused) = Vertices::read(element, input)?;
         self.vertices = Some(vertices);
         self.unused.extend(unused);
         Ok(())
     }
 
-    fn known_vertices(&self) -> Result<&Vertices, String> {
-        self.vertices.as_ref().ok_or_else(|| "its faces stand before its vertices; export the mesh again".to_owned())
+    fn known_vertices(&self) -> Result<&Vertices, Problem> {
+        self.vertices.as_ref().ok_or_else(|| "its faces stand before its vertices; export the mesh again".into())
     }
 
-    fn faces(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), String> {
+    fn faces(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), Problem> {
         let count = self.known_vertices()?.positions.len();
         // Counted first, so that no list grows.
         let (mut triangles, mut corners) = (0, 0);
@@ -78,20 +78,12 @@ impl Builder {
         Ok(())
     }
 
-    fn count(&mut self, corners: usize) -> Result<(), String> {
+    fn count(&mut self, corners: usize) -> Result<(), Problem> {
         self.corners += corners as u64;
-        let most = limits::CORNERS.most().min(u64::from(u32::MAX));
-        if self.corners > most {
-            return Err(format!(
-                "its faces have {} corners, at most {most} are read; make it smaller, {}",
-                self.corners,
-                limits::CORNERS.remedy(self.corners)
-            ));
-        }
-        Ok(())
+        check_corners(self.corners)
     }
 
-    fn face(&mut self, face: &Face, own_uvs: bool) -> Result<(), String> {
+    fn face(&mut self, face: &Face, own_uvs: bool) -> Result<(), Problem> {
         let first = self.sources.len() as u32; // no more than corners, which are counted
         if own_uvs {
             self.sources.extend(&face.corners);
@@ -110,7 +102,7 @@ impl Builder {
         Ok(())
     }
 
-    fn strips(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), String> {
+    fn strips(&mut self, element: &Element, input: &mut Input<'_>) -> Result<(), Problem> {
         let count = self.known_vertices()?.positions.len();
         let mut triangles = 0;
         ahead(input, |ahead| {
@@ -128,15 +120,16 @@ impl Builder {
         })
     }
 
-    fn finish(self, header: &Header) -> Result<MeshAsset, String> {
+    fn finish(self, header: &Header) -> Result<MeshAsset, Problem> {
         let Self { vertices, mut mesh, sources, unused, unused_elements, has_strips, .. } = self;
         if mesh.triangles.is_empty() {
-            return Err("it has no faces (a cloud of points?); export it as a mesh".to_owned());
+            return Err("it has no faces (a cloud of points?); export it as a mesh".into());
         }
         let has_own = !sources.is_empty();
         if has_own && has_strips {
-            return Err("faces with texture coordinates of their own beside strips, which have none; export it again"
-                .to_owned());
+            return Err(
+                "faces with texture coordinates of their own beside strips, which have none; export it again".into()
+            );
         }
         let vertices = vertices.ok_or("no vertices")?;
         mesh.origin = middle_of_far(|axis| vertices.positions.iter().map(move |p| p[axis]));
@@ -161,7 +154,7 @@ impl Builder {
 }
 
 /// Reads without moving the input, but to a fault, whose line it then tells.
-fn ahead<'a>(input: &mut Input<'a>, read: impl FnOnce(&mut Input<'a>) -> Result<(), String>) -> Result<(), String> {
+fn ahead<'a>(input: &mut Input<'a>, read: impl FnOnce(&mut Input<'a>) -> Result<(), Problem>) -> Result<(), Problem> {
     let mut ahead = input.clone();
     read(&mut ahead).inspect_err(|_| *input = ahead)
 }

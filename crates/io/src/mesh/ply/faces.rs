@@ -3,6 +3,7 @@
 use super::super::vertex::check_range;
 use super::header::{Element, Property};
 use super::input::Input;
+use crate::Problem;
 
 /// The names of the list of a polygon's corners.
 const CORNER_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
@@ -34,8 +35,8 @@ pub(super) fn polygons(
     element: &Element,
     input: &mut Input<'_>,
     vertices: usize,
-    mut take: impl FnMut(&Face) -> Result<(), String>,
-) -> Result<(), String> {
+    mut take: impl FnMut(&Face) -> Result<(), Problem>,
+) -> Result<(), Problem> {
     check(element, input)?;
     let mut face = Face::default();
     for number in 0..element.count {
@@ -50,11 +51,11 @@ pub(super) fn polygons(
                 }
             }
             if face.corners.len() < 3 {
-                return Err(format!("{} corners; expected three or more", face.corners.len()));
+                return Err(format!("{} corners; expected three or more", face.corners.len()).into());
             }
             if !face.uvs.is_empty() && face.uvs.len() != face.corners.len() {
                 let (uvs, corners) = (face.uvs.len(), face.corners.len());
-                return Err(format!("texture coordinates of {uvs} corners, where it has {corners}"));
+                return Err(format!("texture coordinates of {uvs} corners, where it has {corners}").into());
             }
             take(&face)
         };
@@ -68,8 +69,8 @@ pub(super) fn strips(
     element: &Element,
     input: &mut Input<'_>,
     vertices: usize,
-    mut take: impl FnMut([u32; 3]) -> Result<(), String>,
-) -> Result<(), String> {
+    mut take: impl FnMut([u32; 3]) -> Result<(), Problem>,
+) -> Result<(), Problem> {
     check(element, input)?;
     for number in 0..element.count {
         let mut read = || {
@@ -95,18 +96,18 @@ pub(super) fn strips(
             }
             Ok(())
         };
-        read().map_err(|what: String| format!("strip {number}: {what}"))?;
+        read().map_err(|problem: Problem| problem.within(format_args!("strip {number}")))?;
     }
     Ok(())
 }
 
-fn check(element: &Element, input: &Input<'_>) -> Result<(), String> {
+fn check(element: &Element, input: &Input<'_>) -> Result<(), Problem> {
     input.check_rows(element)?;
     let lists = element.properties.iter().filter(|p| p.count.is_some() && CORNER_NAMES.contains(&&*p.name)).count();
     match lists {
         1 => Ok(()),
-        0 => Err(format!("its element `{}` has no list `vertex_indices`; export the mesh again", element.name)),
-        _ => Err(format!("its element `{}` has two lists of corners; export the mesh again", element.name)),
+        0 => Err(format!("its element `{}` has no list `vertex_indices`; export the mesh again", element.name).into()),
+        _ => Err(format!("its element `{}` has two lists of corners; export the mesh again", element.name).into()),
     }
 }
 
@@ -115,12 +116,13 @@ fn read_corners(
     input: &mut Input<'_>,
     vertices: usize,
     corners: &mut Vec<u32>,
-) -> Result<(), String> {
+) -> Result<(), Problem> {
     let length = input.list_length(property)?;
     if length > MAX_CORNERS {
         return Err(format!(
             "{length} corners; at most {MAX_CORNERS} are read: triangulate the mesh where it was modelled"
-        ));
+        )
+        .into());
     }
     corners.reserve(length);
     for _ in 0..length {
@@ -130,23 +132,24 @@ fn read_corners(
     Ok(())
 }
 
-fn corner(index: f64, vertices: usize, input: &Input<'_>) -> Result<u32, String> {
+fn corner(index: f64, vertices: usize, input: &Input<'_>) -> Result<u32, Problem> {
     if index >= 0.0 && index < vertices as f64 && index.fract() == 0.0 {
         return Ok(index as u32);
     }
     let hint = input.byte_order_hint();
     Err(format!(
         "index {index} is out of range: there are {vertices} vertices, counted from 0; the file is damaged{hint}"
-    ))
+    )
+    .into())
 }
 
-fn read_uvs(property: &Property, input: &mut Input<'_>, uvs: &mut Vec<[f32; 2]>) -> Result<(), String> {
+fn read_uvs(property: &Property, input: &mut Input<'_>, uvs: &mut Vec<[f32; 2]>) -> Result<(), Problem> {
     let length = input.list_length(property)?;
     if !length.is_multiple_of(2) {
-        return Err(format!("{length} texture coordinates; expected two a corner"));
+        return Err(format!("{length} texture coordinates; expected two a corner").into());
     }
     if length > 2 * MAX_CORNERS {
-        return Err(format!("texture coordinates of more than {MAX_CORNERS} corners"));
+        return Err(format!("texture coordinates of more than {MAX_CORNERS} corners").into());
     }
     uvs.reserve(length / 2);
     for _ in 0..length / 2 {

@@ -1,6 +1,7 @@
 //! Numbers one after another, from text or bytes.
 
 use super::header::{Element, Encoding, Header, Number, Property, shortened};
+use crate::Problem;
 
 /// Where reading is.
 #[derive(Clone, Debug)]
@@ -24,7 +25,7 @@ impl<'a> Input<'a> {
     }
 
     /// Refuses an element of more rows than the rest of the file can hold.
-    pub(super) fn check_rows(&self, element: &Element) -> Result<(), String> {
+    pub(super) fn check_rows(&self, element: &Element) -> Result<(), Problem> {
         let least = |p: &Property| match self.encoding {
             Encoding::Text => 2, // a digit and what parts it from the next
             _ => p.count.unwrap_or(p.number).bytes(),
@@ -38,12 +39,12 @@ impl<'a> Input<'a> {
                 "the head tells of {} elements `{}`, for which the file is too short: it is truncated, or its head is wrong; export or copy it again",
                 element.count,
                 shortened(&element.name)
-            )),
+            ).into()),
         }
     }
 
     /// The next number, finite.
-    pub(super) fn number(&mut self, number: Number) -> Result<f64, String> {
+    pub(super) fn number(&mut self, number: Number) -> Result<f64, Problem> {
         let value = match self.encoding {
             Encoding::Text => self.word_number(number)?,
             Encoding::Little => binary(number, self.take(number.bytes())?, |b| b),
@@ -56,13 +57,14 @@ impl<'a> Input<'a> {
             true => Ok(value),
             false => {
                 let hint = if self.encoding == Encoding::Text { "" } else { self.byte_order_hint() };
-                Err(format!("a number that is not finite (NaN or infinity): mend the mesh where it was modelled{hint}"))
+                Err(format!("a number that is not finite (NaN or infinity): mend the mesh where it was modelled{hint}")
+                    .into())
             }
         }
     }
 
     /// The length of the list that follows, which the rest of the file can hold.
-    pub(super) fn list_length(&mut self, property: &Property) -> Result<usize, String> {
+    pub(super) fn list_length(&mut self, property: &Property) -> Result<usize, Problem> {
         let Some(count) = property.count else { return Ok(1) };
         let length = self.number(count)?;
         let least = if self.encoding == Encoding::Text { 2 } else { property.number.bytes() };
@@ -74,11 +76,12 @@ impl<'a> Input<'a> {
             "a list `{}` of {length} numbers, for which the file is too short: it is truncated{}",
             shortened(&property.name),
             self.byte_order_hint()
-        ))
+        )
+        .into())
     }
 
     /// Passes over a property.
-    pub(super) fn skip(&mut self, property: &Property) -> Result<(), String> {
+    pub(super) fn skip(&mut self, property: &Property) -> Result<(), Problem> {
         let length = self.list_length(property)?;
         if self.encoding == Encoding::Text {
             return (0..length).try_for_each(|_| self.word().map(|_| ()));
@@ -87,7 +90,7 @@ impl<'a> Input<'a> {
     }
 
     /// Passes over an element.
-    pub(super) fn skip_element(&mut self, element: &Element) -> Result<(), String> {
+    pub(super) fn skip_element(&mut self, element: &Element) -> Result<(), Problem> {
         self.check_rows(element)?;
         let is_even = element.properties.iter().all(|p| p.count.is_none());
         if is_even && self.encoding != Encoding::Text {
@@ -110,7 +113,7 @@ impl<'a> Input<'a> {
     }
 
     /// Refuses numbers after the last element.
-    pub(super) fn end(&mut self) -> Result<(), String> {
+    pub(super) fn end(&mut self) -> Result<(), Problem> {
         let rest = &self.bytes[self.at..];
         let is_end = match self.encoding {
             Encoding::Text => rest.iter().all(u8::is_ascii_whitespace),
@@ -122,15 +125,16 @@ impl<'a> Input<'a> {
                 "{} bytes stand after the last element: the head does not tell of all of the file{}",
                 rest.len(),
                 self.byte_order_hint()
-            )),
+            )
+            .into()),
         }
     }
 
-    fn advance(&mut self, bytes: usize) -> Result<(), String> {
+    fn advance(&mut self, bytes: usize) -> Result<(), Problem> {
         self.take(bytes).map(|_| ())
     }
 
-    fn take(&mut self, bytes: usize) -> Result<&'a [u8], String> {
+    fn take(&mut self, bytes: usize) -> Result<&'a [u8], Problem> {
         let end = self.at.checked_add(bytes).filter(|end| *end <= self.bytes.len());
         let end =
             end.ok_or_else(|| format!("the file ends within its elements: it is truncated{}", self.byte_order_hint()))?;
@@ -139,17 +143,17 @@ impl<'a> Input<'a> {
         Ok(taken)
     }
 
-    fn word(&mut self) -> Result<&'a str, String> {
+    fn word(&mut self) -> Result<&'a str, Problem> {
         let rest = &self.bytes[self.at..];
         let start = rest.iter().position(|b| !b.is_ascii_whitespace()).unwrap_or(rest.len());
         self.line += self.line_ends(&rest[..start]);
         let length = rest[start..].iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len() - start);
         if length == 0 {
-            return Err("the file ends within its elements: it is truncated; export or copy it again".to_owned());
+            return Err("the file ends within its elements: it is truncated; export or copy it again".into());
         }
         self.at += start + length;
         std::str::from_utf8(&rest[start..start + length])
-            .map_err(|_| "bytes that are no text, where the head says `format ascii`; export it again".to_owned())
+            .map_err(|_| "bytes that are no text, where the head says `format ascii`; export it again".into())
     }
 
     /// How many lines end in `blanks`, before which a number stands.
@@ -158,11 +162,11 @@ impl<'a> Input<'a> {
         if feeds > 0 { feeds } else { blanks.iter().filter(|b| **b == b'\r').count() }
     }
 
-    fn word_number(&mut self, number: Number) -> Result<f64, String> {
+    fn word_number(&mut self, number: Number) -> Result<f64, Problem> {
         let word = self.word()?;
         let value: f64 = word.parse().map_err(|_| format!("`{}` is no number", shortened(word)))?;
         if number.is_whole() && value.fract() != 0.0 {
-            return Err(format!("`{}` where the head tells of a whole number", shortened(word)));
+            return Err(format!("`{}` where the head tells of a whole number", shortened(word)).into());
         }
         Ok(value)
     }

@@ -24,7 +24,7 @@ use etendue_scene::asset::MeshAsset;
 use self::header::Header;
 use self::input::Input;
 use crate::source::{name_notes, read_bytes};
-use crate::{Error, hash};
+use crate::{Error, Problem, hash};
 
 /// Whether a file is a PLY file by its ending.
 pub(crate) fn is_ply(file: &Path) -> bool {
@@ -34,13 +34,13 @@ pub(crate) fn is_ply(file: &Path) -> bool {
 /// Reads a PLY file.
 pub(super) fn read_ply(file: &Path) -> Result<MeshAsset, Error> {
     let bytes = read_bytes(file, "mesh")?;
-    let told = |(line, told): (Option<usize>, String)| match line {
-        Some(line) => Error::at(file, line, told),
-        None => Error::new(file, told),
+    let told = |line: Option<usize>, problem: Problem| match line {
+        Some(line) => Error::at(file, line, problem),
+        None => Error::new(file, problem),
     };
     let header = Header::read(&bytes).map_err(|(line, what)| Error::at(file, line, what))?;
     let mut input = Input::new(&header, &bytes);
-    let mut mesh = assemble::mesh(&header, &mut input).map_err(|what| told((input.line(), what)))?;
+    let mut mesh = assemble::mesh(&header, &mut input).map_err(|what| told(input.line(), what))?;
     mesh.hash = hash::of_bytes(&bytes);
     name_notes(file, &mut mesh.report);
     Ok(mesh)

@@ -3,6 +3,7 @@
 use super::super::vertex::{check_range, unit};
 use super::header::Element;
 use super::input::Input;
+use crate::Problem;
 
 /// Names of texture coordinates, as writers have them.
 const UV_NAMES: [[&str; 2]; 4] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
@@ -34,10 +35,10 @@ struct Uses {
 }
 
 impl Uses {
-    fn of(element: &Element) -> Result<Self, String> {
+    fn of(element: &Element) -> Result<Self, Problem> {
         let has = |name: &str| element.properties.iter().any(|p| p.name == name && p.count.is_none());
         if let Some(missing) = ["x", "y", "z"].into_iter().find(|name| !has(name)) {
-            return Err(format!("its element `vertex` has no property `{missing}`; export the mesh again"));
+            return Err(format!("its element `vertex` has no property `{missing}`; export the mesh again").into());
         }
         let has_normals = ["nx", "ny", "nz"].into_iter().all(has);
         let uv = UV_NAMES.into_iter().find(|pair| pair.iter().all(|name| has(name)));
@@ -56,10 +57,10 @@ impl Uses {
 
 impl Vertices {
     /// Reads the element; what of it is not used, by its names.
-    pub(super) fn read(element: &Element, input: &mut Input<'_>) -> Result<(Self, Vec<String>), String> {
+    pub(super) fn read(element: &Element, input: &mut Input<'_>) -> Result<(Self, Vec<String>), Problem> {
         input.check_rows(element)?;
         if element.count > u32::MAX as usize {
-            return Err(format!("{} vertices, where a mesh has at most {}", element.count, u32::MAX));
+            return Err(format!("{} vertices, where a mesh has at most {}", element.count, u32::MAX).into());
         }
         let uses = Uses::of(element)?;
         let of = |has: bool| if has { element.count } else { 0 };
@@ -75,7 +76,7 @@ impl Vertices {
         Ok((vertices, unused.map(|(p, _)| p.name.clone()).collect()))
     }
 
-    fn row(&mut self, element: &Element, uses: &Uses, input: &mut Input<'_>) -> Result<(), String> {
+    fn row(&mut self, element: &Element, uses: &Uses, input: &mut Input<'_>) -> Result<(), Problem> {
         let (mut position, mut normal, mut uv) = ([0.0; 3], [0.0_f64; 3], [0.0_f64; 2]);
         for (property, used) in element.properties.iter().zip(&uses.each) {
             match used {

@@ -2,7 +2,7 @@
 
 use super::curve::curves;
 use super::side::{Quantity, Side};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::text_of;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ use std::path::Path;
 pub(crate) fn measurement(file: &Path) -> Result<Side, Error> {
     let text = text_of(file)?;
     let what = "expected the JSON that etendue measure or calibrate prints with `json`, or a camera file (.toml)";
-    let no = |cause: &str| Error::input(format!("{}: {what}: {cause}", file.display()));
+    let no = |cause: &str| Error::coded(ErrorCode::MalformedFile, format!("{}: {what}: {cause}", file.display()));
     let report: Value = serde_json::from_str(&text).map_err(|cause| no(&cause.to_string()))?;
     let kind = report["measurement"].as_str().ok_or_else(|| no("\"measurement\" is missing"))?.to_owned();
     let figures = report["figures"].as_object().ok_or_else(|| no("\"figures\" is missing"))?;

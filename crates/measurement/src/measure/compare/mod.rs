@@ -20,7 +20,7 @@ use crate::report::{Cell, Report, Table};
 use clap::Args;
 use curve::{Curve, Gap, gaps, limit};
 use etendue_arguments::positive;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use light::Light;
 use mean::{Compared, means};
@@ -73,8 +73,8 @@ pub struct MeasurementComparison {
 pub fn compare(request: &CompareRequest) -> Result<MeasurementComparison, Error> {
     let light = Light { wavelength_nm: request.wavelength_nm, illuminant: request.illuminant.clone() };
     let [a, b] = sides(&request.a, &request.b, &light, &request.set)?;
-    let (names, told) = ([&request.a, &request.b].map(|f| f.display().to_string()), Error::input);
-    contradictions(&a, &b).map_err(told)?;
+    let names = [&request.a, &request.b].map(|f| f.display().to_string());
+    contradictions(&a, &b).map_err(|words| Error::coded(ErrorCode::NotComparable, words))?;
     let mut report =
         Report::new("compare", "two measurements side by side, E_n after ISO 13528 (± one standard uncertainty)");
     report.setting("a", names[0].clone());

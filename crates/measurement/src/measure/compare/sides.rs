@@ -4,7 +4,7 @@ use super::declared;
 use super::light::Light;
 use super::measurement::measurement;
 use super::side::Side;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_plan_report::open_camera;
 use std::path::Path;
 
@@ -16,11 +16,12 @@ fn is_camera(file: &Path) -> bool {
 pub(crate) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result<[Side; 2], Error> {
     let declaration = |file: &Path, measured: &Side| {
         let body = open_camera(file, set)?;
-        let said = |reason: String| Error::input(format!("{}: {reason}", file.display()));
+        let said = |reason: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {reason}", file.display()));
         declared::side(&body, measured, light).map_err(said)
     };
     match (is_camera(a), is_camera(b)) {
-        (true, true) => Err(Error::input(
+        (true, true) => Err(Error::coded(
+            ErrorCode::NotComparable,
             "measure compare: two camera files: at least one side must be a measurement (the output of `json`)",
         )),
         (true, false) => measurement(b).and_then(|b| Ok([declaration(a, &b)?, b])),

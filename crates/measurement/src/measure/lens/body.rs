@@ -2,8 +2,8 @@
 
 use super::request::LensRequest;
 use etendue_core::maths::f64::sin_cos;
-use etendue_io::failure::Error;
 use etendue_io::failure::Fault;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::load_assets;
 use etendue_io::prescription::read_prescription;
 use etendue_io::source::read_text;
@@ -31,7 +31,8 @@ pub(super) fn body(request: &LensRequest) -> Result<Told, Error> {
             Some(_) => Err(Error::argument(
                 "picture_radius_mm",
                 "`picture_radius_mm`: a camera file's sensor says how large the picture is",
-            )),
+            )
+            .with_code(ErrorCode::NoEffect)),
         };
     }
     let made = |radius_mm: f64| {
@@ -68,7 +69,7 @@ const MADE: &str = "measure.toml";
 /// Faults of a camera that nobody wrote: told of the lens, not of a line of text.
 fn without_place(failure: Error, lens: &str) -> Error {
     let told = |fault: Fault| match fault.message.strip_prefix(MADE).and_then(|rest| rest.splitn(4, ':').last()) {
-        Some(words) => Fault { file: Some(lens.into()), ..Fault::new(format!("{lens}:{words}")) },
+        Some(words) => Fault { file: Some(lens.into()), ..Fault::new(fault.code, format!("{lens}:{words}")) },
         None => fault,
     };
     match failure {

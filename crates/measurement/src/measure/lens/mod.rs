@@ -6,7 +6,7 @@ mod request;
 
 use crate::report::fixed;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::failure::{check_number, check_whole};
 use etendue_optics::lens::{FieldReport, ImageReport, LensReport, OtherBundle};
 use etendue_optics::{Lens, PRINCIPAL_NM, Prescribed};
@@ -43,7 +43,7 @@ pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
             format!(
                 "`wavelength_nm`: a lens that is no prescription ({kind}) has first-order figures of one wavelength alone; leave it out"
             ),
-        ));
+        ).with_code(ErrorCode::NoEffect));
     }
     Ok(LensMeasurement { body, remarks, fields: request.fields as usize, wavelength_nm })
 }

@@ -5,7 +5,7 @@ use crate::measure::clipping::Cut;
 use crate::measure::pictures::Pictures;
 use crate::measure::readings::Selection;
 use etendue_io::emva_descriptor::{DescribedLevel, EmvaDescriptor};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Image;
 use etendue_metrology::photon_transfer::{Figures, Level, Pattern, Stack, TransferData, TransferError, nonuniformity};
 use rayon::prelude::*;
@@ -22,13 +22,14 @@ pub(super) struct Reading<'a> {
 }
 
 pub(super) fn refused(error: TransferError) -> Error {
-    Error::input(error.to_string())
+    Error::coded(ErrorCode::NotMeasurable, error.to_string())
 }
 
 /// Adds pictures to a stack, which the first begins.
 fn add(stack: &mut Option<Stack>, images: &[(&Path, Image)]) -> Result<(), Error> {
     for (file, image) in images {
-        let named = |error: TransferError| Error::input(format!("{}: {error}", file.display()));
+        let named =
+            |error: TransferError| Error::coded(ErrorCode::MalformedFile, format!("{}: {error}", file.display()));
         let stack = stack.get_or_insert_with(|| Stack::new(image.width(), image.height()));
         stack.push(image).map_err(named)?;
     }
@@ -105,7 +106,10 @@ impl Reading<'_> {
         let whole = self.selection.region.is_none() && self.selection.channel.is_none();
         let (size, expected) = ((image.width(), image.height()), (self.descriptor.width, self.descriptor.height));
         if whole && size != expected {
-            return Err(Error::input(format!("{}: {}", file.display(), TransferError::Size { size, expected })));
+            return Err(Error::coded(
+                ErrorCode::NotComparable,
+                format!("{}: {}", file.display(), TransferError::Size { size, expected }),
+            ));
         }
         self.check_bits(file, &image)?;
         self.pictures.step();
@@ -133,11 +137,14 @@ impl Reading<'_> {
             ),
             None => "correct the bits of the line \"n\"".to_owned(),
         };
-        Err(Error::input(format!(
-            "{}: readings up to {greatest}, where the descriptor says {bits} bits, which end at {}; {advice}",
-            file.display(),
-            full
-        )))
+        Err(Error::coded(
+            ErrorCode::Contradiction,
+            format!(
+                "{}: readings up to {greatest}, where the descriptor says {bits} bits, which end at {}; {advice}",
+                file.display(),
+                full
+            ),
+        ))
     }
 
     fn fixed_patterns(
@@ -152,13 +159,17 @@ impl Reading<'_> {
             (Some(dark), Some(bright)) => (dark, bright),
             (None, None) => return Ok(None),
             _ => {
-                return Err(Error::input(
+                return Err(Error::coded(
+                    ErrorCode::WrongCount,
                     "stacks of more than two pictures: expected one with light and one without, of one exposure time",
                 ));
             }
         };
         if stacks.len() > 2 || dark.exposure_s != bright.exposure_s {
-            return Err(Error::input("stacks of more than two pictures: expected two, of one exposure time"));
+            return Err(Error::coded(
+                ErrorCode::WrongCount,
+                "stacks of more than two pictures: expected two, of one exposure time",
+            ));
         }
         let (dark, bright) = (self.stack(dark)?, self.stack(bright)?);
         let pattern = |stack| Pattern::of(stack).map_err(refused);

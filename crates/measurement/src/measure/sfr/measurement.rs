@@ -11,8 +11,8 @@ use crate::measure::truth::Truth;
 use crate::measure::truth::place::Sought;
 use crate::report::Report;
 use etendue_charts::design::{SlantedEdges, SlantedStar};
-use etendue_io::failure::Error;
 use etendue_io::failure::check_whole;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::sfr::{Sfr, SfrError, SfrSettings, measure_edge, measure_strip};
 use rayon::prelude::*;
 
@@ -71,7 +71,10 @@ pub(crate) fn responses(request: &SfrRequest) -> Result<(Report, Vec<Sfr>), Erro
 
 fn positive(field: &str, value: Option<f64>) -> Result<(), Error> {
     let wrong = value.filter(|v| !(*v > 0.0 && v.is_finite()));
-    wrong.map_or(Ok(()), |v| Err(Error::argument(field, format!("`{field}`: expected a number above 0, not {v}"))))
+    wrong.map_or(Ok(()), |v| {
+        Err(Error::argument(field, format!("`{field}`: expected a number above 0, not {v}"))
+            .with_code(ErrorCode::OutOfRange))
+    })
 }
 
 fn sought(request: &SfrRequest, truth: Option<&Truth>, readings: &Readings) -> Result<Vec<Sought>, Error> {

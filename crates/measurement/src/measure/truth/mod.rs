@@ -9,7 +9,7 @@ mod truth_file;
 use super::readings::{Readings, pixels};
 use clap::Args;
 use etendue_core::maths::f64::sin;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::sfr::Strip;
 use glam::DVec2;
 use place::{Patch, Sought, Spoke, Star, StarPlace, TrapPlace};
@@ -57,7 +57,7 @@ impl TruthInput {
 impl Truth {
     fn read(file: &Path, camera: Option<&str>, charts: &[&str]) -> Result<Self, Error> {
         let said = truth_file::read(file)?;
-        let refused = |what: String| Error::input(format!("{}: {what}", file.display()));
+        let refused = |what: String| Error::coded(ErrorCode::UnsuitableFile, format!("{}: {what}", file.display()));
         if !charts.contains(&said.chart.as_str()) {
             let wanted = charts.join(", ");
             return Err(refused(format!("the truth of the chart {}; this measurement takes {wanted}", said.chart)));
@@ -75,7 +75,7 @@ impl Truth {
     }
 
     fn refused(&self, what: impl std::fmt::Display) -> Error {
-        Error::input(format!("{}: {what}", self.file.display()))
+        Error::coded(ErrorCode::UnsuitableFile, format!("{}: {what}", self.file.display()))
     }
 
     fn seen(&self) -> &CameraSaid {
@@ -94,13 +94,16 @@ impl Truth {
             return Ok(());
         }
         let turned = if (height, width) == (columns, rows) { ", nor turned by 90°" } else { "" };
-        Err(Error::input(format!(
-            "{}: {width} × {height} pixels, where the camera '{}' of {} takes {columns} × {rows}: give its whole picture, neither \
+        Err(Error::coded(
+            ErrorCode::NotComparable,
+            format!(
+                "{}: {width} × {height} pixels, where the camera '{}' of {} takes {columns} × {rows}: give its whole picture, neither \
              cut nor scaled{turned}",
-            picture.display(),
-            camera.name,
-            self.file.display()
-        )))
+                picture.display(),
+                camera.name,
+                self.file.display()
+            ),
+        ))
     }
 
     /// XYZ of the light.
@@ -160,7 +163,10 @@ impl Truth {
     /// Refuses a picture that shows these patches mirrored or turned, or does not show them.
     pub(crate) fn shown(&self, picture: &Path, patches: &[Patch], readings: &Readings) -> Result<(), Error> {
         orientation::wrong(patches, readings).map_or(Ok(()), |what| {
-            Err(Error::input(format!("{}: {what} ({})", picture.display(), self.file.display())))
+            Err(Error::coded(
+                ErrorCode::NotMeasurable,
+                format!("{}: {what} ({})", picture.display(), self.file.display()),
+            ))
         })
     }
 

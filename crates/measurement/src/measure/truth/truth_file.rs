@@ -1,6 +1,6 @@
 //! The parts of a truth.json that measurements read.
 
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -83,7 +83,10 @@ impl Said {
 pub(crate) fn read(file: &Path) -> Result<Said, Error> {
     let text = etendue_io::source::text_of(file)?;
     let refused = |cause: serde_json::Error| {
-        Error::input(format!("{}: no truth of a chart ({cause}): draw the chart with this program", file.display()))
+        Error::coded(
+            ErrorCode::MalformedFile,
+            format!("{}: no truth of a chart ({cause}): draw the chart with this program", file.display()),
+        )
     };
     let said: Said = serde_json::from_str(&text).map_err(refused)?;
     Ok(said)

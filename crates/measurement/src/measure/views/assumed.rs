@@ -1,7 +1,7 @@
 //! What one picture does not tell and is assumed: its share of the uncertainty.
 
 use super::found::Found;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::calibrate::{Calibrated, Family, Options, Radial, Sightings, calibrate_as_stated};
 use glam::DVec2;
 
@@ -17,7 +17,8 @@ pub(crate) fn widen(found: &mut Found, sightings: &[Sightings], family: Family, 
     let values = |camera: &Calibrated| camera.parameters.iter().map(|p| p.estimate.value).collect::<Vec<f64>>();
     let here = values(&found.camera);
     let fitted = |family, options| {
-        calibrate_as_stated(sightings, size, family, options).map_err(|error| Error::input(error.to_string()))
+        calibrate_as_stated(sightings, size, family, options)
+            .map_err(|error| Error::coded(ErrorCode::NotMeasurable, error.to_string()))
     };
     let Some(principal) = options.principal_px else { return Ok(()) };
     let focal = |camera: &Calibrated| camera.estimate("fx_px");

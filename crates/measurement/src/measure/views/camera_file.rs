@@ -1,7 +1,7 @@
 //! What was found, as a camera file.
 
 use super::found::Found;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::stated_projection;
 use etendue_scene::record::lens::calibrated::View;
 use etendue_scene::record::{self, Camera, Lens, Sensor};
@@ -13,7 +13,8 @@ impl Found {
     /// # Errors
     /// Where the camera folds over inside its picture.
     pub(crate) fn camera_file(&self, verb: &str, pixel_pitch_um: f64, f_number: Option<f64>) -> Result<String, Error> {
-        let refused = |folds| Error::input(format!("no camera file of this, figures only: {folds}"));
+        let refused =
+            |folds| Error::coded(ErrorCode::UnusableLens, format!("no camera file of this, figures only: {folds}"));
         self.camera.calibration.check().map_err(refused)?;
         let [width, height] = self.camera.calibration.size_px().map(|n| n as u64);
         let view = View::Projection(Box::new(stated_projection(&self.camera.calibration)));

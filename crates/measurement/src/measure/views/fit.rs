@@ -6,7 +6,7 @@ use super::{advice, assumed};
 use crate::measure::chart_points::{Seen, WithoutChart, all};
 use etendue_core::maths::f64::ln;
 use etendue_core::observer::Observer;
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::calibrate::{CalibrateError, CameraModel, Options, Sightings, calibrate_rejecting_outliers};
 use glam::DVec2;
 use std::fmt::Display;
@@ -85,7 +85,10 @@ impl ViewsRequest {
         match (best, first_error) {
             (Some((_, model, found)), _) => Ok((self.advised(model, found, options)?, tried)),
             (None, Some(error)) => Err(error),
-            (None, None) => Err(Error::input("every camera model folds the picture over: add views that fill it")),
+            (None, None) => Err(Error::coded(
+                ErrorCode::NotMeasurable,
+                "every camera model folds the picture over: add views that fill it",
+            )),
         }
     }
 
@@ -100,7 +103,7 @@ impl ViewsRequest {
         let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
         let size = views[0].size_px;
         let spared = calibrate_rejecting_outliers(&sightings, size, model.family(), options);
-        let spared = spared.map_err(|error| Error::input(of_files(&error, views)))?;
+        let spared = spared.map_err(|error| Error::coded(ErrorCode::NotMeasurable, of_files(&error, views)))?;
         let left_out = |file: &Path, why: &dyn Display| format!("warning: {}: left out: {why}", file.display());
         let mut notes: Vec<String> = without.iter().map(|(file, why)| left_out(file, why)).collect();
         notes.extend(spared.left_out.iter().map(|(v, why)| left_out(&views[*v].file, why)));

@@ -4,7 +4,7 @@ use super::stated::StatedLength;
 use crate::measure::chart_points::ChartInput;
 use clap::Args;
 use etendue_arguments::{choice, not_negative, place, positive};
-use etendue_io::failure::Error;
+use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::{CameraModel, Options};
 use glam::DVec2;
@@ -66,8 +66,10 @@ impl ViewsRequest {
 impl ViewsRequest {
     /// As stated, or as the truth says.
     pub(super) fn pitch_mm(&self) -> Result<f64, Error> {
-        let told =
-            || Error::argument("pitch_mm", "`pitch_mm`: state the distance of neighbouring points, or give `truth`");
+        let told = || {
+            Error::argument("pitch_mm", "`pitch_mm`: state the distance of neighbouring points, or give `truth`")
+                .with_code(ErrorCode::NotStated)
+        };
         Ok(match self.pitch_mm {
             Some(pitch) => pitch,
             None => self.chart.told()?.ok_or_else(told)?.1.pitch_mm,

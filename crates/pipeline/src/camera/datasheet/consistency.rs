@@ -3,7 +3,7 @@
 use super::digits::Span;
 use etendue_core::maths::f64::pow;
 use etendue_scene::record::DataSheet;
-use etendue_scene::{Fault, Placed};
+use etendue_scene::{ErrorCode, Fault, Placed};
 use etendue_sensor::emva1288::{QUANTISATION_DN2, bit, db, threshold_e};
 
 /// What is wrong, and what is doubtful.
@@ -63,7 +63,12 @@ impl Found {
         if off.abs() <= LOOSE {
             self.warnings.push(format!("{}: {problem}", stated.place));
         } else {
-            self.faults.push(Fault::new(&stated.place, problem, "correct the figure that was misread"));
+            self.faults.push(Fault::new(
+                ErrorCode::Contradiction,
+                &stated.place,
+                problem,
+                "correct the figure that was misread",
+            ));
         }
     }
 }
@@ -124,7 +129,7 @@ fn photons(sheet: &DataSheet, capacity: Span, threshold: Span, found: &mut Found
     let Some(efficiency) = efficiency(sheet) else {
         let problem = "photons need the efficiency at their wavelength, and there are several or none";
         let remedy = "add \"measured_at_nm\", within one curve of \"quantum_efficiency_percent\"; or leave photons out";
-        found.faults.push(Fault::new(&first.place, problem, remedy));
+        found.faults.push(Fault::new(ErrorCode::MissingKey, &first.place, problem, remedy));
         return;
     };
     for (stated, electrons) in figures {
@@ -171,7 +176,12 @@ fn converter(sheet: &DataSheet, capacity_dn: Span, found: &mut Found) {
     if middle <= (1.0 + LOOSE) * largest {
         found.warnings.push(format!("{place}: {problem}"));
     } else {
-        found.faults.push(Fault::new(place, problem, "correct the capacity, the gain or the bits"));
+        found.faults.push(Fault::new(
+            ErrorCode::Contradiction,
+            place,
+            problem,
+            "correct the capacity, the gain or the bits",
+        ));
     }
 }
 

@@ -13,8 +13,8 @@ mod write;
 pub use consistency::LOOSE;
 use consistency::{Figures, largest_dn};
 
-use etendue_scene::Fault;
 use etendue_scene::record::DataSheet;
+use etendue_scene::{ErrorCode, Fault};
 use etendue_sensor::emva1288::{MIN_DARK_DN2, dark_noise_e};
 
 /// A camera file made of a data sheet.
@@ -59,7 +59,12 @@ fn noise(sheet: &DataSheet, gain_dn_e: f64) -> Result<f64, Fault> {
     let dn = sheet.temporal_dark_noise_dn.as_ref().expect("a record that was read has one");
     dark_noise_e(dn.value, gain_dn_e).ok_or_else(|| {
         let problem = format!("a dark noise of {} DN is less than rounding alone makes, 0.289 DN", dn.value);
-        Fault::new(&dn.place, problem, "give the figure in DN with quantisation, or \"temporal_dark_noise_e\"")
+        Fault::new(
+            ErrorCode::OutOfRange,
+            &dn.place,
+            problem,
+            "give the figure in DN with quantisation, or \"temporal_dark_noise_e\"",
+        )
     })
 }
 

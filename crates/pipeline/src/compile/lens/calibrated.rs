@@ -1,6 +1,6 @@
 //! A camera known by where its pixels look.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use super::super::scale::{divisor, full_raster};
 use super::projection;
 use crate::compile::stated::{focus_m, transmittance};
@@ -100,7 +100,12 @@ fn falloff(table: &RelativeIllumination, context: &mut Context<'_>) -> Option<Fa
 fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibration> {
     let assets = context.assets;
     let Some(asset) = assets.calibrations.get(&(file.file.value.clone(), file.camera_in_file())) else {
-        context.fault(&file.file.place, "the calibration was not loaded", "give a readable file");
+        context.fault(
+            ErrorCode::UnreadableFile,
+            &file.file.place,
+            "the calibration was not loaded",
+            "give a readable file",
+        );
         return None;
     };
     for note in &asset.report {
@@ -150,6 +155,6 @@ fn one_principal_point(record: &Calibrated, sensor: &Sensor, context: &mut Conte
     };
     let Some(by) = by else { return Some(()) };
     let problem = format!("the principal point is stated here and by the lens ({by})");
-    context.fault(&stated.place, problem, "remove one of them");
+    context.fault(ErrorCode::Contradiction, &stated.place, problem, "remove one of them");
     None
 }

@@ -1,6 +1,6 @@
 //! A lens by its surfaces.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use super::super::spectrum::from_file;
 use super::clear_apertures;
 use super::lens_file::of_file;
@@ -66,7 +66,7 @@ fn published<'a>(name: &Placed<String>, context: &mut Context<'a>) -> Option<Giv
     let Some(lens) = named(&name.value) else {
         let known: Vec<_> = LENSES.iter().map(|lens| lens.name).collect();
         let problem = format!("no published lens is called \"{}\"", name.value);
-        context.fault(&name.place, problem, format!("give one of {}", known.join(", ")));
+        context.fault(ErrorCode::UnknownName, &name.place, problem, format!("give one of {}", known.join(", ")));
         return None;
     };
     Some(Given { surfaces: lens.surfaces(), file: None })
@@ -99,7 +99,7 @@ fn apertures(
         }
         let place = list.first().map_or(place, |first| &first.place);
         let problem = format!("{} semi-apertures for the {count} surfaces of the file", list.len());
-        context.fault(place, problem, format!("give {count}"));
+        context.fault(ErrorCode::WrongCount, place, problem, format!("give {count}"));
         return None;
     }
     if asset.surfaces.iter().all(|s| s.semi_aperture_mm.is_some()) {
@@ -116,7 +116,7 @@ fn apertures(
             let names = names.join(", ");
             let problem = format!("the file gives no semi-aperture of its surfaces {names}, and {reason}");
             let remedy = format!("add them to the file (DIAM, CIR), or give \"semi_apertures_mm\", {count} numbers");
-            context.fault(place, problem, remedy);
+            context.fault(ErrorCode::UnsuitableFile, place, problem, remedy);
             None
         }
     }
@@ -255,7 +255,8 @@ fn focused(
 
 /// Notes why the surfaces are no lens where the cause stands.
 fn refuse(record: &record::Prescription, error: &PrescriptionError, context: &mut Context<'_>) {
-    let whole = |place: &Place, context: &mut Context<'_>| context.fault(place, error.to_string(), "");
+    let whole =
+        |place: &Place, context: &mut Context<'_>| context.fault(ErrorCode::UnusableLens, place, error.to_string(), "");
     match (error, &record.source) {
         (PrescriptionError::TooFast { .. }, _) if record.f_number.is_some() => {
             record.f_number.iter().for_each(|n| whole(&n.place, context));
@@ -275,7 +276,7 @@ fn refuse(record: &record::Prescription, error: &PrescriptionError, context: &mu
             let opening = asset.filter(|_| matches!(error, PrescriptionError::Cone { .. })).map(|a| a.opening_line);
             let at = at.or(opening);
             let line = at.map_or(String::new(), |line| format!(" (line {line} of {})", file.value.display()));
-            context.fault(&file.place, format!("{error}{line}"), "");
+            context.fault(ErrorCode::UnusableLens, &file.place, format!("{error}{line}"), "");
         }
         (_, Source::Published(name)) => whole(&name.place, context),
     }

@@ -1,6 +1,6 @@
 //! From a projection's numbers to a calibration.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use super::projection_models::{Scaling, model, scale};
 use etendue_core::maths::f64::tan;
 use etendue_projection::{Calibration, CameraMatrix, Model, Raster};
@@ -58,7 +58,12 @@ fn camera_matrix(record: &Matrix, model: &Model, raster: &Raster, context: &mut 
         Scale::FieldOfView(angle) => of_field(angle, model, raster, context)?,
     };
     if let (Some(fy), false) = (&record.fy_px, matches!(record.scale, Scale::Columns(_))) {
-        context.fault(&fy.place, "\"fy_px\" has no effect here, it belongs to \"fx_px\"", "remove it");
+        context.fault(
+            ErrorCode::NoEffect,
+            &fy.place,
+            "\"fy_px\" has no effect here, it belongs to \"fx_px\"",
+            "remove it",
+        );
         return None;
     }
     let fy = record.fy_px.as_ref().map_or(fx, |fy| fy.value);
@@ -80,7 +85,12 @@ fn of_field(angle: &Placed<f64>, model: &Model, raster: &Raster, context: &mut C
     if reach.is_none() {
         let edge = 2.0 * model.edge().angle_rad.to_degrees();
         let problem = format!("the projection does not reach {}°", angle.value);
-        context.fault(&angle.place, problem, format!("give less than {edge:.3}°, near which its picture has no end"));
+        context.fault(
+            ErrorCode::OutOfRange,
+            &angle.place,
+            problem,
+            format!("give less than {edge:.3}°, near which its picture has no end"),
+        );
     }
     Some(0.5 * raster.width() as f64 / reach?)
 }
@@ -101,7 +111,7 @@ pub(super) fn points(table: &Table, context: &mut Context<'_>) -> Option<Vec<(f6
     let stated = table.focal_length_mm.as_ref().map(|mm| mm.value);
     let Some(f) = stated.or(own) else {
         let problem = "does not say for which focal length its distortion is stated";
-        context.fault(&file.place, problem, "add \"focal_length_mm\"");
+        context.fault(ErrorCode::MissingKey, &file.place, problem, "add \"focal_length_mm\"");
         return None;
     };
     let ideal = |angle: f64| match beside {

@@ -1,6 +1,6 @@
 //! The table of materials, as the scene and its meshes name them.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use super::super::modulation;
 use super::compiler::MaterialCompiler;
 use super::picture::Pictures;
@@ -235,7 +235,7 @@ impl MaterialTableBuilder {
             Ok(material_table) => Some((material_table, names)),
             Err(error) => {
                 if let Some(place) = error.material().and_then(|i| places.get(i)) {
-                    context.fault(place, error.to_string(), "");
+                    context.fault(ErrorCode::OutOfRange, place, error.to_string(), "");
                 }
                 None
             }

@@ -1,6 +1,6 @@
 //! The compiler of materials: from records to the tracer's textures, numbers over a surface and normal maps.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use super::picture::Pictures;
 use super::texels::Reading;
 use etendue_scene::Placed;
@@ -74,7 +74,12 @@ impl MaterialCompiler<'_, '_> {
             _ => return Some(()),
         };
         let problem = format!("the texture \"{}\" holds {problem} (it is defined at {})", name.value, record.place);
-        self.context.fault(&name.place, problem, format!("say encoding = {remedy} if that is what the file holds"));
+        self.context.fault(
+            ErrorCode::UnsuitableFile,
+            &name.place,
+            problem,
+            format!("say encoding = {remedy} if that is what the file holds"),
+        );
         None
     }
 }

@@ -1,6 +1,6 @@
 //! Complex refractive indices of metals, by name or from a file.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use etendue_core::WavelengthRange;
 use etendue_scene::Placed;
 use etendue_scene::record::material::Metal;
@@ -21,7 +21,7 @@ pub(super) fn named(name: &Placed<String>, context: &mut Context<'_>) -> Option<
     let found = metal::named(&name.value).cloned();
     if found.is_none() {
         let remedy = format!("give one of {}", metal::names().join(", "));
-        context.fault(&name.place, format!("there is no metal \"{}\"", name.value), remedy);
+        context.fault(ErrorCode::UnknownName, &name.place, format!("there is no metal \"{}\"", name.value), remedy);
     }
     found
 }
@@ -29,7 +29,7 @@ pub(super) fn named(name: &Placed<String>, context: &mut Context<'_>) -> Option<
 /// A table of n and k.
 pub(super) fn from_table(file: &Placed<PathBuf>, context: &mut Context<'_>) -> Option<ComplexIndex> {
     let Some(asset) = context.assets.indices.get(&file.value) else {
-        context.fault(&file.place, "the table was not loaded", "give a readable file");
+        context.fault(ErrorCode::UnreadableFile, &file.place, "the table was not loaded", "give a readable file");
         return None;
     };
     if let (Some(first), Some(last)) = (asset.points.first(), asset.points.last()) {

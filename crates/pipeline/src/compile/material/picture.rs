@@ -1,10 +1,10 @@
 //! Pictures as textures, each made once for every way in which it is laid out.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use super::large_picture::{Refusal, TexelUse, held, tiled};
 use super::texels::Reading;
-use etendue_scene::Place;
 use etendue_scene::asset::{Assets, LargeImage, TexelStore};
+use etendue_scene::{Place, Problem};
 use etendue_tracer::textures::{ImageTexture, Sampling, TextureId, TileMemory};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -67,7 +67,12 @@ impl Pictures {
             return self.large(file, image, place, usage, store, context);
         }
         let Some(image) = images.get(file) else {
-            context.fault(place, format!("the picture {} was not loaded", file.display()), "give a readable file");
+            context.fault(
+                ErrorCode::UnreadableFile,
+                place,
+                format!("the picture {} was not loaded", file.display()),
+                "give a readable file",
+            );
             return None;
         };
         let Some(texels) = reading.texels(&image.pixels, image.to_rec_709) else {
@@ -100,12 +105,17 @@ impl Pictures {
                 texture
             }
         };
-        context.accept(place, texture)
+        context.accept(place, texture.map_err(|error| Problem::new(ErrorCode::UnsuitableFile, error)))
     }
 }
 
 fn no_opacity<T>(file: &Path, place: &Place, context: &mut Context<'_>) -> Option<T> {
     let problem = format!("the picture {} has no opacity to read", file.display());
-    context.fault(place, problem, "give a PNG or EXR with an alpha channel, or name another channel");
+    context.fault(
+        ErrorCode::UnsuitableFile,
+        place,
+        problem,
+        "give a PNG or EXR with an alpha channel, or name another channel",
+    );
     None
 }

@@ -2,12 +2,12 @@
 
 use super::compiler::MaterialCompiler;
 use super::share::share;
-use etendue_scene::Placed;
 use etendue_scene::asset::RetroTableAsset;
 use etendue_scene::record::Colour;
 use etendue_scene::record::material::{
     self as record, MarkingClass, MarkingDay, MarkingNight, SheetingClass, SheetingColour, SheetingTable,
 };
+use etendue_scene::{ErrorCode, Placed};
 use etendue_spectra::Spectrum;
 use etendue_tracer::materials::{DayTime, RetroTable, RoadMarking, Sheeting, SheetingPreset, Surface, marking_class};
 use std::path::PathBuf;
@@ -48,7 +48,12 @@ impl MaterialCompiler<'_, '_> {
 
     fn retro_table(&mut self, file: &Placed<PathBuf>) -> Option<RetroTable> {
         let Some(asset) = self.context.assets.retro_tables.get(&file.value) else {
-            self.context.fault(&file.place, "the table was not loaded", "give a readable file");
+            self.context.fault(
+                ErrorCode::UnreadableFile,
+                &file.place,
+                "the table was not loaded",
+                "give a readable file",
+            );
             return None;
         };
         let RetroTableAsset { observation_deg, entrance_deg, coefficients, .. } = asset;

@@ -1,6 +1,6 @@
 //! Shares of light over the wavelength, and what a surface emits.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use super::super::modulation;
 use super::super::spectrum::{emitted, from_file};
 use super::compiler::MaterialCompiler;
@@ -23,7 +23,12 @@ pub(in super::super) fn share(colour: &Colour, context: &mut Context<'_>) -> Opt
             let found = reflectance::named(&name.value).cloned();
             if found.is_none() {
                 let remedy = format!("give one of {}", reflectance::names().join(", "));
-                context.fault(&name.place, format!("there is no reflectance \"{}\"", name.value), remedy);
+                context.fault(
+                    ErrorCode::UnknownName,
+                    &name.place,
+                    format!("there is no reflectance \"{}\"", name.value),
+                    remedy,
+                );
             }
             found
         }

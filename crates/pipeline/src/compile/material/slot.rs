@@ -1,6 +1,6 @@
 //! Materials that a mesh's own file brings.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use super::picture::Pictures;
 use etendue_scene::Place;
 use etendue_scene::asset::{SlotMaterial, SlotReflectance, SlotSurface};
@@ -22,7 +22,7 @@ pub(super) fn surface(
             true => "name one of the scene's: material = …".to_owned(),
             false => format!("name one of the scene's: material = …, or materials = {{ \"{}\" = … }}", slot.name),
         };
-        context.fault(place, problem, remedy);
+        context.fault(ErrorCode::UnsuitableFile, place, problem, remedy);
         return None;
     };
     let (SlotSurface::Diffuse { reflectance } | SlotSurface::Coated { reflectance, .. }) = surface else { return None };

@@ -1,6 +1,6 @@
 //! Channels, white balance, demosaic and colour matrix.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use super::super::spectrum::named_illuminant;
 use etendue_isp::{
     Colour, ColourMatrix, Demosaic, Filter, Mosaic, NOISE_OF_OTHER_CHANNELS, WhiteBalance, fit_colour_matrix,
@@ -39,7 +39,12 @@ fn filters(record: &record::Processing, sensor: &Sensor, context: &mut Context<'
     let channels = &sensor.parameters().channels;
     if let Some(strange) = channels.iter().find(|channel| filter(&channel.name).is_none()) {
         let problem = format!("the sensor's channel \"{}\" has no place in a picture", strange.name);
-        context.fault(&record.place, problem, "remove \"isp\", or name a filter array of known colours");
+        context.fault(
+            ErrorCode::NotModelled,
+            &record.place,
+            problem,
+            "remove \"isp\", or name a filter array of known colours",
+        );
         return None;
     }
     Some(channels.iter().filter_map(|channel| filter(&channel.name)).collect())
@@ -76,7 +81,7 @@ pub(super) fn colour(
 fn refuse_colour(record: &record::Processing, context: &mut Context<'_>) {
     if record.white_balance.is_some() || record.colour_matrix.is_some() {
         let problem = "\"white_balance\" and \"colour_matrix\" have no effect on a monochrome sensor";
-        context.fault(&record.place, problem, "remove them");
+        context.fault(ErrorCode::NoEffect, &record.place, problem, "remove them");
     }
 }
 
@@ -89,12 +94,22 @@ pub(super) fn demosaic(
     let bayer = matches!(mosaic, Mosaic::Tile(tile) if tile.is_bayer());
     match (named.value, mosaic) {
         (_, Mosaic::Mono) => {
-            context.fault(&named.place, "\"demosaic\" has no effect on a monochrome sensor", "remove it");
+            context.fault(
+                ErrorCode::NoEffect,
+                &named.place,
+                "\"demosaic\" has no effect on a monochrome sensor",
+                "remove it",
+            );
             None
         }
         (description::Demosaic::Bilinear, _) => Some(Demosaic::Bilinear),
         _ if !bayer => {
-            context.fault(&named.place, "this demosaic is made for Bayer filter arrays", "give \"bilinear\"");
+            context.fault(
+                ErrorCode::NotModelled,
+                &named.place,
+                "this demosaic is made for Bayer filter arrays",
+                "give \"bilinear\"",
+            );
             None
         }
         (description::Demosaic::Malvar, _) => Some(Demosaic::MalvarHeCutler),
@@ -127,7 +142,7 @@ fn factors(factors: &[Placed<f64>], channels: usize, context: &mut Context<'_>) 
     let values: Vec<f64> = factors.iter().map(|f| f.value).collect();
     if values.iter().any(|f| *f < 1.0) {
         let problem = format!("a factor of {values:?} is below 1 and would tint saturated pixels");
-        context.fault(place, problem, "divide all of them by the smallest");
+        context.fault(ErrorCode::OutOfRange, place, problem, "divide all of them by the smallest");
         return None;
     }
     Some(WhiteBalance::Gains(values))
@@ -140,7 +155,7 @@ fn check_count(name: &str, found: usize, channels: usize, place: &Place, context
     }
     let problem = format!("{name} has {found} numbers, and the sensor {channels} channels");
     let order = "one a channel, in the order red, green, blue, clear, infrared, cyan, magenta, yellow";
-    context.fault(place, problem, format!("give {order}"));
+    context.fault(ErrorCode::WrongCount, place, problem, format!("give {order}"));
     None
 }
 
@@ -155,7 +170,12 @@ fn colour_matrix(
         None => {
             let problem =
                 "the sensor's channels are not red, green and blue, and no \"colour_matrix\" says what they are";
-            context.fault(&record.place, problem, "add one, for example colour_matrix = { fit = \"D65\" }");
+            context.fault(
+                ErrorCode::MissingKey,
+                &record.place,
+                problem,
+                "add one, for example colour_matrix = { fit = \"D65\" }",
+            );
             None
         }
         Some(description::ColourMatrix::Rows(rows)) => {

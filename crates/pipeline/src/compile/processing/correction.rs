@@ -1,6 +1,6 @@
 //! Black level, defects and shading.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use etendue_isp::{BlackLevel, Defects, Shading};
 use etendue_projection::Raster;
 use etendue_scene::asset::NumbersAsset;
@@ -23,7 +23,7 @@ pub(super) fn black_level(
         Some(description::BlackLevel::Dn(dn)) => {
             let white = sensor.least_white_level_dn();
             let problem = format!("found {}, and the sensor is saturated at {white} DN", dn.value);
-            context.fault(&dn.place, problem, "give a number below that");
+            context.fault(ErrorCode::OutOfRange, &dn.place, problem, "give a number below that");
             None
         }
         Some(description::BlackLevel::Rule(rule)) => match rule.value {
@@ -31,6 +31,7 @@ pub(super) fn black_level(
             BlackLevelRule::OpticalBlack if has_shielded_pixels(sensor) => Some(BlackLevel::OpticalBlack),
             BlackLevelRule::OpticalBlack => {
                 context.fault(
+                    ErrorCode::Contradiction,
                     &rule.place,
                     "the sensor has no optical-black rows or columns",
                     "give \"sensor\", or a number",
@@ -67,7 +68,12 @@ fn defect_map(file: &Placed<PathBuf>, picture: &Delivered, context: &mut Context
     let pixels: Option<Vec<_>> = table.rows().map(inside).collect();
     if pixels.is_none() {
         let problem = format!("the map of defects names a pixel outside the picture of {width} × {height}");
-        context.fault(&file.place, problem, "give columns and rows as whole numbers, counted from 0");
+        context.fault(
+            ErrorCode::UnsuitableFile,
+            &file.place,
+            problem,
+            "give columns and rows as whole numbers, counted from 0",
+        );
     }
     let mut pixels = pixels?;
     if k > 1 {
@@ -108,7 +114,7 @@ pub(super) fn table<'a>(
         return Some(table);
     }
     let problem = format!("the table has {} columns; expected {columns}: {of}", table.columns);
-    context.fault(&file.place, problem, "correct the file");
+    context.fault(ErrorCode::UnsuitableFile, &file.place, problem, "correct the file");
     None
 }
 

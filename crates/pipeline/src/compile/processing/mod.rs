@@ -7,7 +7,7 @@ mod tone;
 
 use correction::Delivered;
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use crate::plan::{Development, PictureFormat};
 use etendue_isp::{Bilateral, NoiseReduction, Processing, ToneCurve, Unsharp};
 use etendue_projection::Raster;
@@ -81,7 +81,7 @@ fn format(record: &record::Processing, picture: &Delivered, context: &mut Contex
         Some(key) if key.value == output::PictureFormat::Jpeg => {
             if picture.width.max(picture.height) > JPEG_PX {
                 let problem = format!("a JPEG has at most {JPEG_PX} columns and rows");
-                context.fault(&key.place, problem, "give picture_format = \"png\"");
+                context.fault(ErrorCode::UnsupportedOutput, &key.place, problem, "give picture_format = \"png\"");
                 return None;
             }
             Some(PictureFormat::Jpeg { quality: record.jpeg_quality.as_ref().map_or(90, |q| q.value as u8) })

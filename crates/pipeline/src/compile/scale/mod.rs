@@ -6,7 +6,7 @@
 
 mod sensor;
 
-use super::context::Context;
+use super::context::{Context, ErrorCode};
 use etendue_projection::{Raster, RasterError};
 use etendue_scene::Placed;
 use etendue_scene::record::processing::PaperFilter;
@@ -87,7 +87,7 @@ fn check(camera: &Camera, scale: &Placed<Scale>, context: &mut Context<'_>) -> O
     let mut divides = true;
     if !(width.is_multiple_of(k) && height.is_multiple_of(k)) {
         let problem = format!("{width} × {height} px are not a multiple of {k} × {k} pixels");
-        context.fault(&scale.place, problem, remedy([width, height].iter()));
+        context.fault(ErrorCode::NotAMultiple, &scale.place, problem, remedy([width, height].iter()));
         divides = false;
     }
     let region = sensor.electronics.as_ref().and_then(|electronics| electronics.roi_px.as_ref());
@@ -97,7 +97,7 @@ fn check(camera: &Camera, scale: &Placed<Scale>, context: &mut Context<'_>) -> O
         let problem =
             format!("the region roi_px = [{x}, {y}, {columns}, {rows}] is not a multiple of {k} × {k} pixels");
         let sides = region.value.map(|side| side as u64);
-        context.fault(&scale.place, problem, remedy([width, height].iter().chain(&sides)));
+        context.fault(ErrorCode::NotAMultiple, &scale.place, problem, remedy([width, height].iter().chain(&sides)));
         divides = false;
     }
     divides.then_some(())

@@ -1,6 +1,6 @@
 //! Which pixel measures what, and how well.
 
-use super::super::context::Context;
+use super::super::context::{Context, ErrorCode};
 use super::super::spectrum::curve;
 use etendue_scene::record;
 use etendue_scene::record::sensor::QuantumEfficiency;
@@ -48,7 +48,12 @@ pub(super) fn channels(electronics: &record::Electronics, context: &mut Context<
 fn measured(name: &Placed<String>, peak: f64, context: &mut Context<'_>) -> Option<[Spectrum; 3]> {
     let Some(found) = camera::named(&name.value) else {
         let known = camera::names().join(", ");
-        context.fault(&name.place, format!("there is no camera \"{}\"", name.value), format!("give one of {known}"));
+        context.fault(
+            ErrorCode::UnknownName,
+            &name.place,
+            format!("there is no camera \"{}\"", name.value),
+            format!("give one of {known}"),
+        );
         return None;
     };
     let per_photon = Spectrum::from_fn(|nm| 1.0 / nm);

@@ -5,7 +5,7 @@ mod charge;
 mod light;
 mod read_out;
 
-use crate::compile::context::Context;
+use crate::compile::context::{Context, ErrorCode};
 use channels::{cfa, channels};
 use etendue_scene::record::sensor::read_out::OpticalBlack;
 use etendue_scene::{Placed, record};
@@ -46,7 +46,7 @@ fn refuse_no_shield(record: Option<&OpticalBlack>, context: &mut Context<'_>) {
     let none = |key: Option<&Placed<u64>>| key.is_none_or(|k| k.value == 0);
     if let Some(dark) = record.filter(|d| none(d.rows_px.as_ref()) && none(d.columns_px.as_ref())) {
         let problem = "\"optical_black\" has neither rows nor columns";
-        context.fault(&dark.place, problem, "give \"rows_px\" or \"columns_px\", or remove it");
+        context.fault(ErrorCode::Empty, &dark.place, problem, "give \"rows_px\" or \"columns_px\", or remove it");
     }
 }
 
@@ -54,7 +54,12 @@ fn refuse_no_shield(record: Option<&OpticalBlack>, context: &mut Context<'_>) {
 fn refuse(record: &record::Sensor, errors: &[SensorError], context: &mut Context<'_>) {
     let table = record.to_table();
     for error in errors {
-        context.fault(table.place_of(error.key()).unwrap_or(&record.place), error.to_string(), "");
+        context.fault(
+            ErrorCode::OutOfRange,
+            table.place_of(error.key()).unwrap_or(&record.place),
+            error.to_string(),
+            "",
+        );
     }
 }
 

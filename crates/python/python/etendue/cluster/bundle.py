@@ -98,4 +98,4 @@ def _is_above_root(path):
 
 
 def _fault(path, why):
-    return f"{path}: {why}", str(path), None, None, None
+    return f"{path}: {why}", str(path), None, None, None, "outside-folder"

@@ -180,4 +180,4 @@ def _check_link(folder):
 
 
 def _refused(path, why):
-    return InputError([(f"{path}: {why}", str(path), None, None, None)])
+    return InputError([(f"{path}: {why}", str(path), None, None, None, "unwritable-output")])

@@ -2,7 +2,7 @@
 
 use etendue_core::ExactTime;
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{flag, keyed, number, record, time, vector, whole};
 use crate::record::render::MAX_SEED;
@@ -91,12 +91,17 @@ fn check(drops: &Drops, faults: &mut Faults) {
     let (least, greatest) = (&drops.min_radius_mm, &drops.max_radius_mm);
     if least.value > greatest.value {
         let problem = format!("{} mm is above max_radius_mm = {} mm", least.value, greatest.value);
-        faults.add(&least.place, problem, "make the least radius no larger than the greatest");
+        faults.add(ErrorCode::WrongOrder, &least.place, problem, "make the least radius no larger than the greatest");
     }
     if let (DropAmount::Count(count), None) = (&drops.amount, &drops.arrivals_per_s)
         && count.value == 0
     {
-        faults.add(&count.place, "there are no drops, and none arrive", "give 1 or more, or \"arrivals_per_s\"");
+        faults.add(
+            ErrorCode::Empty,
+            &count.place,
+            "there are no drops, and none arrive",
+            "give 1 or more, or \"arrivals_per_s\"",
+        );
     }
     check_course(drops, faults);
     if let DropAmount::Density(density) = &drops.amount {
@@ -104,7 +109,7 @@ fn check(drops: &Drops, faults: &mut Faults) {
         let count = density.value * width * height * 1e-4;
         if !(0.5..1_000_000.5).contains(&count) {
             let problem = format!("gives {count:.3} drops in size_mm = [{width}, {height}]");
-            faults.add(&density.place, problem, "choose it so that there are 1 to 1 000 000");
+            faults.add(ErrorCode::OutOfRange, &density.place, problem, "choose it so that there are 1 to 1 000 000");
         }
     }
 }
@@ -121,6 +126,7 @@ fn check_course(drops: &Drops, faults: &mut Faults) {
     if let (Some(start), false) = (&drops.start_s, drops.changes()) {
         let problem = "\"start_s\" has no effect here: nothing changes the drops";
         faults.add(
+            ErrorCode::NoEffect,
             &start.place,
             problem,
             "remove it, or add \"drying_s\", \"arrivals_per_s\", \"sliding\" or \"wiper\"",
@@ -130,7 +136,7 @@ fn check_course(drops: &Drops, faults: &mut Faults) {
     if let Some(sliding) = drops.sliding.as_ref().filter(too_still) {
         let (still, greatest) = (&sliding.still_radius_mm, drops.max_radius_mm.value);
         let problem = format!("{} mm is not below max_radius_mm = {greatest} mm", still.value);
-        faults.add(&still.place, problem, "make it smaller, or remove \"sliding\"");
+        faults.add(ErrorCode::WrongOrder, &still.place, problem, "make it smaller, or remove \"sliding\"");
     }
 }
 
@@ -138,16 +144,21 @@ fn check_wiper(wiper: &Wiper, faults: &mut Faults) {
     let [inner, outer] = wiper.blade_mm.value;
     if inner >= outer {
         let problem = format!("the blade ends at {outer} mm, before it begins at {inner} mm");
-        faults.add(&wiper.blade_mm.place, problem, "give the smaller distance first");
+        faults.add(ErrorCode::WrongOrder, &wiper.blade_mm.place, problem, "give the smaller distance first");
     }
     let [rest, turn] = wiper.angles_deg.value;
     if rest == turn || (rest - turn).abs() >= 360.0 {
         let problem = format!("the blade goes from {rest}° to {turn}°");
-        faults.add(&wiper.angles_deg.place, problem, "give two angles that differ, by less than 360°");
+        faults.add(
+            ErrorCode::OutOfRange,
+            &wiper.angles_deg.place,
+            problem,
+            "give two angles that differ, by less than 360°",
+        );
     }
     let least = 2.0 * wiper.sweep_s.value;
     if wiper.period_s.value < least {
         let problem = format!("{} s is shorter than the way there and back, {least} s", wiper.period_s.value);
-        faults.add(&wiper.period_s.place, problem, "make it at least twice \"sweep_s\"");
+        faults.add(ErrorCode::OutOfRange, &wiper.period_s.place, problem, "make it at least twice \"sweep_s\"");
     }
 }

@@ -6,7 +6,7 @@ use super::focus::{FocusDistance, focus_distance};
 use super::lateral_colour::LateralColour;
 use super::numbers::{f_number, share};
 use super::projection::{CalibrationFile, Projection, TableSource};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, path, record, words};
 
@@ -95,7 +95,7 @@ keyed! {
 fn check(lens: &Calibrated, faults: &mut Faults) {
     if let (Some(pupil), Some(_), None) = (&lens.pupil, &lens.relative_illumination, &lens.focus_distance_m) {
         let problem = "\"pupil\" has no effect here: the illumination is measured and everything is sharp";
-        faults.add(&pupil.place, problem, "remove it");
+        faults.add(ErrorCode::NoEffect, &pupil.place, problem, "remove it");
     }
 }
 
@@ -104,11 +104,21 @@ fn check_illumination(table: &RelativeIllumination, faults: &mut Faults) {
         (IlluminationSource::File(_), None) => return,
         (IlluminationSource::File(_), Some(ratios)) => {
             let place = ratios.first().map_or(&table.place, |first| &first.place);
-            faults.add(place, "\"ratio\" has no effect here, it belongs to \"radius_mm\"", "remove it");
+            faults.add(
+                ErrorCode::NoEffect,
+                place,
+                "\"ratio\" has no effect here, it belongs to \"radius_mm\"",
+                "remove it",
+            );
             return;
         }
         (IlluminationSource::Radii(_), None) => {
-            faults.add(&table.place, "the key \"ratio\" is missing", "add \"ratio\", one for each radius");
+            faults.add(
+                ErrorCode::MissingKey,
+                &table.place,
+                "the key \"ratio\" is missing",
+                "add \"ratio\", one for each radius",
+            );
             return;
         }
         (IlluminationSource::Radii(radii), Some(_)) => radii,
@@ -116,15 +126,20 @@ fn check_illumination(table: &RelativeIllumination, faults: &mut Faults) {
     let ratios = table.ratio.as_deref().unwrap_or_default();
     if radii.len() != ratios.len() {
         let problem = format!("{} radii and {} ratios", radii.len(), ratios.len());
-        faults.add(&table.place, problem, "give as many of one as of the other");
+        faults.add(ErrorCode::WrongCount, &table.place, problem, "give as many of one as of the other");
     }
     if let Some(pair) = radii.windows(2).find(|pair| pair[1].value <= pair[0].value) {
         let problem = format!("{} does not lie beyond {}", pair[1].value, pair[0].value);
-        faults.add(&pair[1].place, problem, "give rising radii");
+        faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising radii");
     }
     for (list, start, name) in [(&radii[..], 0.0, "radius"), (ratios, 1.0, "ratio")] {
         if let Some(first) = list.first().filter(|first| first.value != start) {
-            faults.add(&first.place, format!("the first {name} is {}", first.value), format!("begin with {start}"));
+            faults.add(
+                ErrorCode::OutOfRange,
+                &first.place,
+                format!("the first {name} is {}", first.value),
+                format!("begin with {start}"),
+            );
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The image's size by wavelength.
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{list, number, record};
 
@@ -19,10 +19,10 @@ fn check_colour(table: &LateralColour, faults: &mut Faults) {
     let (wavelengths, sizes) = (&table.wavelength_nm, &table.magnification);
     if wavelengths.len() != sizes.len() {
         let problem = format!("{} wavelengths and {} magnifications", wavelengths.len(), sizes.len());
-        faults.add(&table.place, problem, "give as many of one as of the other");
+        faults.add(ErrorCode::WrongCount, &table.place, problem, "give as many of one as of the other");
     }
     if let Some(pair) = wavelengths.windows(2).find(|pair| pair[1].value <= pair[0].value) {
         let problem = format!("{} does not lie beyond {}", pair[1].value, pair[0].value);
-        faults.add(&pair[1].place, problem, "give rising wavelengths");
+        faults.add(ErrorCode::WrongOrder, &pair[1].place, problem, "give rising wavelengths");
     }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::focus::{FocusDistance, focus_distance};
 use super::numbers::f_number;
 use crate::asset::ASPHERE_TERMS;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, flag, keyed, list, number, path, record, text, variant, vector, words};
 use crate::record::curve::spectrum_file;
@@ -192,35 +192,60 @@ fn focus_by() -> impl Rule<Out = FocusBy> {
 fn check(lens: &Prescription, faults: &mut Faults) {
     if lens.focus_distance_m.is_none() && !matches!(lens.source, Source::File(_)) {
         let problem = "the key \"focus_distance_m\" is missing";
-        faults.add(&lens.place, problem, "add \"focus_distance_m\", a distance in m or \"infinity\"");
+        faults.add(
+            ErrorCode::MissingKey,
+            &lens.place,
+            problem,
+            "add \"focus_distance_m\", a distance in m or \"infinity\"",
+        );
     }
     let given = lens.semi_apertures_mm.iter().flatten().next();
     if let (Some(given), false) = (given, matches!(lens.source, Source::File(_))) {
         let problem = "\"semi_apertures_mm\" has no effect here, it belongs to \"file\"";
-        faults.add(&given.place, problem, "remove it; a surface states its own \"semi_aperture_mm\"");
+        faults.add(
+            ErrorCode::NoEffect,
+            &given.place,
+            problem,
+            "remove it; a surface states its own \"semi_aperture_mm\"",
+        );
     }
     if let Some(FocusBy::Group(group)) = &lens.focus_by
         && !(group.value.iter().all(|i| i.fract() == 0.0) && group.value[0] <= group.value[1])
     {
         let problem = format!("{} to {} is no range of surfaces", group.value[0], group.value[1]);
-        faults.add(&group.place, problem, "give two whole numbers, the first surface's and the last's");
+        faults.add(
+            ErrorCode::WrongOrder,
+            &group.place,
+            problem,
+            "give two whole numbers, the first surface's and the last's",
+        );
     }
     let Source::Surfaces(surfaces) = &lens.source else { return };
     let (last, others) = surfaces.split_last().map_or((None, &[][..]), |(last, others)| (Some(last), others));
     for surface in others.iter().filter(|s| s.thickness_mm.is_none()) {
-        faults.add(&surface.place, "the distance to the next surface is missing", "add \"thickness_mm\"");
+        faults.add(
+            ErrorCode::MissingKey,
+            &surface.place,
+            "the distance to the next surface is missing",
+            "add \"thickness_mm\"",
+        );
     }
     if let Some(thickness) = last.and_then(|s| s.thickness_mm.as_ref()) {
         let problem = "\"thickness_mm\" of the last surface has no effect: the focus says where the sensor stands";
-        faults.add(&thickness.place, problem, "remove it");
+        faults.add(ErrorCode::NoEffect, &thickness.place, problem, "remove it");
     }
     for surface in surfaces {
         if let Some(beyond) = surface.asphere.iter().flatten().nth(ASPHERE_TERMS) {
             let problem = format!("found more than {ASPHERE_TERMS} coefficients");
-            faults.add(&beyond.place, problem, "give those of r² to r²⁰");
+            faults.add(ErrorCode::WrongCount, &beyond.place, problem, "give those of r² to r²⁰");
         }
         if let Some(radius) = surface.radius_mm.as_ref().filter(|r| r.value == 0.0) {
-            faults.add(&radius.place, "found a radius of 0", "give a radius, or leave the key out for a plane");
+            faults.add(
+                ErrorCode::OutOfRange,
+                &radius.place,
+                "found a radius of 0",
+                "give a radius, or leave the key out for a plane",
+            );
         }
     }
 }
@@ -228,13 +253,23 @@ fn check(lens: &Prescription, faults: &mut Faults) {
 fn check_glass(glass: &GlassNumbers, faults: &mut Faults) {
     match (&glass.known, &glass.abbe, &glass.sellmeier_c_um2) {
         (GlassKnown::Index(_), _, Some(c)) => {
-            faults.add(&c.place, "\"sellmeier_c_um2\" belongs to \"sellmeier_b\"", "remove it");
+            faults.add(ErrorCode::NoEffect, &c.place, "\"sellmeier_c_um2\" belongs to \"sellmeier_b\"", "remove it");
         }
         (GlassKnown::Sellmeier(_), Some(abbe), _) => {
-            faults.add(&abbe.place, "\"abbe\" has no effect here, it belongs to \"index\"", "remove it");
+            faults.add(
+                ErrorCode::NoEffect,
+                &abbe.place,
+                "\"abbe\" has no effect here, it belongs to \"index\"",
+                "remove it",
+            );
         }
         (GlassKnown::Sellmeier(b), _, None) => {
-            faults.add(&b.place, "Sellmeier's equation lacks its resonances", "add \"sellmeier_c_um2\"");
+            faults.add(
+                ErrorCode::MissingKey,
+                &b.place,
+                "Sellmeier's equation lacks its resonances",
+                "add \"sellmeier_c_um2\"",
+            );
         }
         _ => {}
     }
@@ -243,10 +278,15 @@ fn check_glass(glass: &GlassNumbers, faults: &mut Faults) {
 fn check_filter(filter: &IrCut, faults: &mut Faults) {
     match (&filter.normal, &filter.edge_width_nm) {
         (IrCutCurve::Edge(edge), None) => {
-            faults.add(&edge.place, "an edge without its width", "add \"edge_width_nm\"");
+            faults.add(ErrorCode::MissingKey, &edge.place, "an edge without its width", "add \"edge_width_nm\"");
         }
         (IrCutCurve::Spectrum(_), Some(width)) => {
-            faults.add(&width.place, "\"edge_width_nm\" has no effect here, it belongs to \"edge_nm\"", "remove it");
+            faults.add(
+                ErrorCode::NoEffect,
+                &width.place,
+                "\"edge_width_nm\" has no effect here, it belongs to \"edge_nm\"",
+                "remove it",
+            );
         }
         _ => {}
     }

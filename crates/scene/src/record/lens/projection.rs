@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::distortion::Direction;
 use crate::asset::{CalibrationChoice, CalibrationFormat};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{choice, exactly, keyed, list, number, path, record, text, variants, words};
 
@@ -305,18 +305,28 @@ fn check_table(table: &Table, faults: &mut Faults) {
     match (&table.source, &table.radius_mm, &table.focal_length_mm) {
         (TableSource::File(_), Some(radii), _) => {
             let place = radii.first().map_or(&table.place, |first| &first.place);
-            faults.add(place, "\"radius_mm\" has no effect here, it belongs to \"angle_deg\"", "remove it");
+            faults.add(
+                ErrorCode::NoEffect,
+                place,
+                "\"radius_mm\" has no effect here, it belongs to \"angle_deg\"",
+                "remove it",
+            );
         }
         (TableSource::Angles(_), None, _) => {
-            faults.add(&table.place, "the key \"radius_mm\" is missing", "add \"radius_mm\", one for each angle");
+            faults.add(
+                ErrorCode::MissingKey,
+                &table.place,
+                "the key \"radius_mm\" is missing",
+                "add \"radius_mm\", one for each angle",
+            );
         }
         (TableSource::Angles(_), _, Some(focal_length)) => {
             let problem = "\"focal_length_mm\" has no effect here, it belongs to \"file\"";
-            faults.add(&focal_length.place, problem, "remove it");
+            faults.add(ErrorCode::NoEffect, &focal_length.place, problem, "remove it");
         }
         (TableSource::Angles(angles), Some(radii), None) if angles.len() != radii.len() => {
             let problem = format!("{} angles and {} radii", angles.len(), radii.len());
-            faults.add(&table.place, problem, "give as many of one as of the other");
+            faults.add(ErrorCode::WrongCount, &table.place, problem, "give as many of one as of the other");
         }
         _ => {}
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::{AssetKind, Values};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{Known, keyed, known, number, record, vector};
 use crate::record::curve::{Curve, curve, spectrum_file};
@@ -108,11 +108,13 @@ impl Level {
 fn check_emission(emission: &Emission, faults: &mut Faults) {
     match (emission.level.of_a_colour(), &emission.colour) {
         (Some((key, place)), None) => faults.add(
+            ErrorCode::MissingKey,
             place,
             format!("\"{key}\" does not say the colour of the light"),
             "add one of \"illuminant\", \"temperature_k\", \"rgb\", \"spectrum\"",
         ),
         (None, Some(colour)) => faults.add(
+            ErrorCode::Contradiction,
             colour.place(),
             "\"radiance_w_m2_sr_nm\" already says the spectrum, the colour contradicts it",
             "remove the colour, or give \"luminance_cd_m2\" in place of the radiance",
@@ -127,7 +129,12 @@ pub(super) fn check_colour(colour: &LightColour, faults: &mut Faults) {
     if let LightColour::Rgb(rgb) = colour
         && rgb.value == [0.0; 3]
     {
-        faults.add(&rgb.place, "found a colour of zeros, which has no chromaticity", "make one of the three above 0");
+        faults.add(
+            ErrorCode::Degenerate,
+            &rgb.place,
+            "found a colour of zeros, which has no chromaticity",
+            "make one of the three above 0",
+        );
     }
 }
 

@@ -7,7 +7,7 @@ use super::modulation::{self, Modulation};
 use super::opening::{self, LampOpening};
 use super::placement::LampPlacement;
 use super::strength::{LampStrength, MeasuredStrength};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{choice, number, path, record, text, vector, words};
 
@@ -149,7 +149,12 @@ fn check_point(lamp: &PointLamp, faults: &mut Faults) {
         return;
     }
     for aim in lamp.placement.aims() {
-        faults.add(aim.place(), "a lamp that shines alike in all directions points nowhere", "remove it");
+        faults.add(
+            ErrorCode::NoEffect,
+            aim.place(),
+            "a lamp that shines alike in all directions points nowhere",
+            "remove it",
+        );
     }
 }
 
@@ -161,7 +166,7 @@ fn check_spot(lamp: &SpotLamp, faults: &mut Faults) {
         && inner.value > lamp.field_angle_deg.value
     {
         let problem = format!("found {}, and the field ends at {}", inner.value, lamp.field_angle_deg.value);
-        faults.add(&inner.place, problem, "give an inner angle of at most \"field_angle_deg\"");
+        faults.add(ErrorCode::WrongOrder, &inner.place, problem, "give an inner angle of at most \"field_angle_deg\"");
     }
 }
 
@@ -177,12 +182,14 @@ fn check_head_lamp(lamp: &HeadLamp, faults: &mut Faults) {
     modulation::check(lamp.modulation.as_ref(), &lamp.placement, faults);
     match (lamp.beam.value, &lamp.traffic) {
         (Beam::Low, None) => faults.add(
+            ErrorCode::MissingKey,
             &lamp.beam.place,
             "a low beam rises towards one side of the road, which is not said",
             "add traffic = \"right\" or \"left\"",
         ),
         (Beam::High, Some(traffic)) => {
             faults.add(
+                ErrorCode::NoEffect,
                 &traffic.place,
                 "\"traffic\" has no effect here, it belongs to beam = \"low_beam\"",
                 "remove it",

@@ -8,7 +8,7 @@ use etendue_core::waveform::{Between, MAX_LEVEL, Pulses, Waveform, WaveformError
 use super::placement::LampPlacement;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::AssetKind;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{Number, choice, flag, keyed, list, number, path, record, time, variants, vector, whole, words};
 
@@ -284,6 +284,7 @@ fn check_table(record: &TableModulation, faults: &mut Faults) {
 fn check_programme(record: &ProgrammeModulation, faults: &mut Faults) {
     if record.steps.is_empty() {
         faults.add(
+            ErrorCode::MissingKey,
             &record.place,
             "a programme without steps",
             "add \"steps\": a list of { level = …, duration_s = … }",
@@ -297,7 +298,7 @@ fn check_programme(record: &ProgrammeModulation, faults: &mut Faults) {
 
 fn accept(made: Result<Waveform, WaveformError>, place: &Place, faults: &mut Faults) {
     if let Err(error) = made {
-        faults.add(place, error.to_string(), "");
+        faults.add(ErrorCode::OutOfRange, place, error.to_string(), "");
     }
 }
 
@@ -305,7 +306,7 @@ fn accept(made: Result<Waveform, WaveformError>, place: &Place, faults: &mut Fau
 fn check_phases(timing: &Recurring, recurs: bool, otherwise: &str, faults: &mut Faults) {
     if let (Some(phases), false) = (&timing.phases, recurs) {
         let problem = "\"phases\" has no effect on what is gone through once";
-        faults.add(&phases.place, problem, format!("remove it, or {otherwise}"));
+        faults.add(ErrorCode::NoEffect, &phases.place, problem, format!("remove it, or {otherwise}"));
     }
 }
 
@@ -313,6 +314,7 @@ fn check_phases(timing: &Recurring, recurs: bool, otherwise: &str, faults: &mut 
 pub(super) fn check(modulation: Option<&Modulation>, placement: &LampPlacement, faults: &mut Faults) {
     if let Some(rows) = modulation.and_then(Modulation::multiplexed_rows) {
         faults.add(
+            ErrorCode::NoEffect,
             &rows.place,
             "a lamp has no rows that could be lit one after the other",
             "remove it, or make a surface glow",
@@ -322,7 +324,7 @@ pub(super) fn check(modulation: Option<&Modulation>, placement: &LampPlacement, 
         let delays = placement.instances.iter().filter_map(|instance| instance.modulation_delay_s.as_ref());
         for delay in delays {
             let problem = "\"modulation_delay_s\" has no effect on a lamp whose strength does not change";
-            faults.add(&delay.place, problem, "remove it, or add \"modulation\" to the lamp");
+            faults.add(ErrorCode::NoEffect, &delay.place, problem, "remove it, or add \"modulation\" to the lamp");
         }
     }
 }

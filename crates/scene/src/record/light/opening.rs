@@ -1,7 +1,7 @@
 //! The luminous opening of a lamp: the surface that its light leaves from.
 
 use super::placement::LampPlacement;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{Number, number, record, variants};
 
@@ -96,6 +96,7 @@ pub(super) fn check(opening: Option<&LampOpening>, placement: &LampPlacement, is
     let Some(opening) = opening else { return };
     if let (LampOpening::File(file), false) = (opening, is_measured) {
         faults.add(
+            ErrorCode::NoEffect,
             &file.place,
             "shape = \"file\" has no effect here, it belongs to type = \"measured\"",
             "give one of \"sphere\", \"disc\", \"rectangle\", \"tube\"",
@@ -103,6 +104,7 @@ pub(super) fn check(opening: Option<&LampOpening>, placement: &LampPlacement, is
     }
     if let Some(attenuation) = &placement.attenuation_per_m {
         faults.add(
+            ErrorCode::Contradiction,
             &attenuation.place,
             "\"attenuation_per_m\" contradicts \"opening\": the radiance of a surface is the same at every distance",
             "remove one of the two",

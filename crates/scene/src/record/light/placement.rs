@@ -4,7 +4,7 @@ use etendue_core::ExactTime;
 
 use glam::{DMat3, DVec3};
 
-use crate::fault::{Faults, Named};
+use crate::fault::{ErrorCode, Faults, Named};
 use crate::place::{Place, Placed};
 use crate::reader::{keyed, list, name_of, number, record, text, time, vector};
 use crate::record::motion::{Course, check_course, check_ways, trajectory_way};
@@ -131,6 +131,7 @@ fn check(placement: &LampPlacement, faults: &mut Faults) {
     check_course(placement.course.as_ref(), placement.keys.iter().map(|key| &key.time_s), faults);
     if !stands {
         faults.add(
+            ErrorCode::MissingKey,
             &placement.place,
             "the lamp stands nowhere",
             "add \"position_m\", \"instances\" for many places, or \"keys\" or \"trajectory\" for one that moves",
@@ -151,7 +152,7 @@ fn check_key(key: &LampKey, faults: &mut Faults) {
 
 fn check_aim(position: &Placed<[f64; 3]>, aim: &LampAim, faults: &mut Faults) {
     if aim.axes(position.value, MainAxis::Forward).is_none() {
-        faults.add(aim.place(), "the lamp points at its own position", "move \"target_m\"");
+        faults.add(ErrorCode::Degenerate, aim.place(), "the lamp points at its own position", "move \"target_m\"");
     }
 }
 

@@ -1,7 +1,7 @@
 //! The sun.
 
 use super::emission::{LightColour, check_colour};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{flag, keyed, number, record, text};
 
@@ -43,11 +43,13 @@ keyed! {
 fn check(sun: &Sun, faults: &mut Faults) {
     match (&sun.level, &sun.colour) {
         (SunLevel::Turbidity(_), Some(colour)) => faults.add(
+            ErrorCode::Contradiction,
             colour.place(),
             "\"turbidity\" already says the sun's spectrum, the colour contradicts it",
             "remove the colour, or give \"illuminance_lx\" in place of the turbidity",
         ),
         (SunLevel::Irradiance(v) | SunLevel::Illuminance(v), None) => faults.add(
+            ErrorCode::MissingKey,
             &v.place,
             "the level does not say the colour of the sun",
             "add one of \"illuminant\", \"temperature_k\", \"rgb\", \"spectrum\"",
@@ -56,6 +58,7 @@ fn check(sun: &Sun, faults: &mut Faults) {
     }
     if let (SunLevel::Turbidity(_), true) = (&sun.level, sun.elevation_deg.value <= 0.0) {
         faults.add(
+            ErrorCode::OutOfRange,
             &sun.elevation_deg.place,
             format!("found {}, and the solar model has no sun at or below the horizon", sun.elevation_deg.value),
             "give an elevation above 0, or state \"illuminance_lx\" in place of \"turbidity\"",

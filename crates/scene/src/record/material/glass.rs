@@ -3,7 +3,7 @@
 use super::factor::{Factor, any_factor};
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::Values;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{Number, keyed, number, record};
 use crate::record::curve::{Curve, curve};
@@ -96,11 +96,13 @@ fn any_index() -> Number {
 fn check_dielectric(glass: &Dielectric, faults: &mut Faults) {
     match (&glass.absorption, &glass.thickness_mm) {
         (Some(Absorption::Transmittance(t)), None) => faults.add(
+            ErrorCode::MissingKey,
             t.place(),
             "\"internal_transmittance\" of a solid does not say for which way through it",
             "add \"thickness_mm\"",
         ),
         (Some(Absorption::Coefficient(_)) | None, Some(thickness)) => faults.add(
+            ErrorCode::NoEffect,
             &thickness.place,
             "\"thickness_mm\" has no effect here, the mesh says how thick the solid is",
             "remove it; it belongs to \"internal_transmittance\"",
@@ -112,13 +114,14 @@ fn check_dielectric(glass: &Dielectric, faults: &mut Faults) {
 fn check_sheet(sheet: &ThinSheet, faults: &mut Faults) {
     match (&sheet.absorption, &sheet.thickness_mm) {
         (Some(Absorption::Coefficient(_)), None) => faults.add(
+            ErrorCode::MissingKey,
             &sheet.place,
             "\"absorption_per_m\" of a thin sheet needs its thickness",
             "add \"thickness_mm\", or state \"internal_transmittance\"",
         ),
         (Some(Absorption::Transmittance(_)) | None, Some(thickness)) => {
             let problem = "\"thickness_mm\" has no effect here, it belongs to \"absorption_per_m\"";
-            faults.add(&thickness.place, problem, "remove it");
+            faults.add(ErrorCode::NoEffect, &thickness.place, problem, "remove it");
         }
         _ => {}
     }

@@ -1,7 +1,7 @@
 //! Light that a surface gives.
 
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::fault::{Faults, Named};
+use crate::fault::{ErrorCode, Faults, Named};
 use crate::place::Placed;
 use crate::reader::{choice, name_of, record, words};
 use crate::record::light::{Emission, Modulation};
@@ -43,6 +43,11 @@ words! {
 fn check_glow(emission: &SurfaceEmission, faults: &mut Faults) {
     if let (Some((key, place)), Some(_)) = (emission.light.level.flux(), &emission.texture) {
         let problem = format!("\"{key}\" is no flux of a surface whose light a texture changes from place to place");
-        faults.add(place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\" of the texture's white");
+        faults.add(
+            ErrorCode::Contradiction,
+            place,
+            problem,
+            "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\" of the texture's white",
+        );
     }
 }

@@ -19,7 +19,7 @@ pub use surface::*;
 pub use wet::{Puddles, WetGround};
 
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::preset;
 use crate::reader::{Form, Reader, Record, record, text};
@@ -87,6 +87,7 @@ impl From<Surface> for SurfaceSource {
 fn check(material: &Material, faults: &mut Faults) {
     if matches!(material.surface.0, Surface::Emitter(_)) && material.emission.is_none() {
         faults.add(
+            ErrorCode::MissingKey,
             &material.place,
             "an \"emitter\" without \"emission\" is black",
             "add \"emission\", or make it \"diffuse\" with reflectance 0",
@@ -95,6 +96,6 @@ fn check(material: &Material, faults: &mut Faults) {
     let bent = matches!(material.surface.0, Surface::Emitter(_) | Surface::Mix(_));
     if let (Some(map), true) = (&material.normal_map, bent) {
         let problem = "\"normal_map\" has no effect on a surface that does not reflect by itself";
-        faults.add(&map.place, problem, "remove it; of a mix, give it to the parts");
+        faults.add(ErrorCode::NoEffect, &map.place, problem, "remove it; of a mix, give it to the parts");
     }
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::AssetKind;
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{choice, keyed, number, path, record, words};
 use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectance};
@@ -173,6 +173,7 @@ fn check_sheeting(sheeting: &Sheeting, faults: &mut Faults) {
             sheeting.colour.iter().for_each(|colour| refuse("colour", "\"class\"", &colour.place, faults));
             if sheeting.reflectance.is_none() {
                 faults.add(
+                    ErrorCode::MissingKey,
                     &file.place,
                     "the table does not say what the sheeting reflects by day",
                     "add \"reflectance\"",
@@ -192,10 +193,15 @@ fn check_print(sheeting: &Sheeting, faults: &mut Faults) {
     let grey = |colour: &&Colour| !matches!(colour, Colour::Grey(_));
     let base = sheeting.reflectance.iter().filter(grey).map(Colour::place);
     for place in coloured.chain(tinted).chain(base) {
-        faults.add(place, "\"print\" lies on white sheeting, this colours it", "remove one of the two, or give a grey");
+        faults.add(
+            ErrorCode::Contradiction,
+            place,
+            "\"print\" lies on white sheeting, this colours it",
+            "remove one of the two, or give a grey",
+        );
     }
 }
 
 fn refuse(key: &str, owner: &str, place: &Place, faults: &mut Faults) {
-    faults.add(place, format!("\"{key}\" has no effect here, it belongs to {owner}"), "remove it");
+    faults.add(ErrorCode::NoEffect, place, format!("\"{key}\" has no effect here, it belongs to {owner}"), "remove it");
 }

@@ -10,7 +10,7 @@ use super::wet::WetGround;
 use crate::asset::COAT_INDICES;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::{AssetKind, Values};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{choice, flag, keyed, known, list, number, path, record, variants, vector, words};
 use crate::record::curve::{Curve, curve};
@@ -310,7 +310,7 @@ fn check_lobe(lobe: &Lobe, faults: &mut Faults) {
     {
         let problem =
             "a lobe with C_n = 0 sends nothing back at normal incidence, so \"albedo\" cannot tell its strength";
-        faults.add(albedo.place(), problem, "give \"weight_per_sr\" in place of it");
+        faults.add(ErrorCode::Degenerate, albedo.place(), problem, "give \"weight_per_sr\" in place of it");
     }
 }
 

@@ -1,5 +1,6 @@
 //! What is put right before colours are made.
 
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed, list, number, path, record, variant, vector, words};
 use std::path::PathBuf;
@@ -48,9 +49,14 @@ record! {
     }
 }
 
-fn check_shading(shading: &Shading, faults: &mut crate::fault::Faults) {
+fn check_shading(shading: &Shading, faults: &mut Faults) {
     if let (ShadingTable::Grid(_), Some(centre)) = (&shading.table, &shading.centre_px) {
-        faults.add(&centre.place, "\"centre_px\" has no effect here, it belongs to \"radial_gains\"", "remove it");
+        faults.add(
+            ErrorCode::NoEffect,
+            &centre.place,
+            "\"centre_px\" has no effect here, it belongs to \"radial_gains\"",
+            "remove it",
+        );
     }
 }
 

@@ -1,6 +1,6 @@
 //! Noise reduction and sharpening.
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{keyed, number, record, whole};
 
@@ -28,13 +28,19 @@ fn check(reduction: &NoiseReduction, faults: &mut Faults) {
     match (&reduction.kind, &reduction.range) {
         (NoiseReductionKind::Bilateral(_), None) => {
             faults.add(
+                ErrorCode::MissingKey,
                 &reduction.place,
                 "\"bilateral_px\" needs \"range\"",
                 "add it: two or three times the noise, share of white",
             );
         }
         (NoiseReductionKind::Median(_), Some(range)) => {
-            faults.add(&range.place, "\"range\" has no effect here, it belongs to \"bilateral_px\"", "remove it");
+            faults.add(
+                ErrorCode::NoEffect,
+                &range.place,
+                "\"range\" has no effect here, it belongs to \"bilateral_px\"",
+                "remove it",
+            );
         }
         _ => {}
     }

@@ -1,7 +1,7 @@
 //! `[[isp.image_filters]]`: the filters of the paper.
 
 use super::tone::{ToneCurve, tone_curve};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{
     RuleExt as _, choice, exactly, keyed, list, number, percentile, record, variants, vector, whole, words,
@@ -79,16 +79,16 @@ fn check_drops(drops: &PaperDrops, faults: &mut Faults) {
     let (least, greatest) = (&drops.min_radius_px, drops.max_radius_px.value);
     if least.value > greatest {
         let problem = format!("{} px is above max_radius_px = {greatest} px", least.value);
-        faults.add(&least.place, problem, "make the least radius no larger than the greatest");
+        faults.add(ErrorCode::WrongOrder, &least.place, problem, "make the least radius no larger than the greatest");
     }
     let of_picture = drops.blur_px.value * drops.scale.value;
     if of_picture > 500.0 {
         let problem = format!("times scale = {} it is {of_picture} px of the picture", drops.scale.value);
-        faults.add(&drops.blur_px.place, problem, "choose both so that it is at most 500 px");
+        faults.add(ErrorCode::OutOfRange, &drops.blur_px.place, problem, "choose both so that it is at most 500 px");
     }
     if let (Some(flow), None) = (&drops.flow_px_per_frame, &drops.fade_frames) {
         let problem = "\"flow_px_per_frame\" has no effect without \"fade_frames\": drops that live for ever would flow out of the picture";
-        faults.add(&flow.place, problem, "add \"fade_frames\", or remove it");
+        faults.add(ErrorCode::NoEffect, &flow.place, problem, "add \"fade_frames\", or remove it");
     }
 }
 

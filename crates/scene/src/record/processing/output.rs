@@ -1,6 +1,6 @@
 //! How pictures are written.
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::words;
 
@@ -24,6 +24,7 @@ pub(super) fn check(
     let jpeg = format.is_some_and(|f| f.value == PictureFormat::Jpeg);
     if let Some(bits) = bits.filter(|bits| jpeg && bits.value != 8) {
         faults.add(
+            ErrorCode::UnsupportedOutput,
             &bits.place,
             format!("a JPEG cannot hold {} bits", bits.value),
             "give 8, or picture_format = \"png\"",
@@ -31,6 +32,7 @@ pub(super) fn check(
     }
     if let Some(quality) = quality.filter(|_| !jpeg) {
         faults.add(
+            ErrorCode::NoEffect,
             &quality.place,
             "\"jpeg_quality\" has no effect on PNG",
             "remove it, or add picture_format = \"jpeg\"",

@@ -1,6 +1,6 @@
 //! Tone curves.
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, keyed, number, path, record, variant, words};
 use std::path::PathBuf;
@@ -58,7 +58,12 @@ fn check(curve: &CurveTable, faults: &mut Faults) {
         [("midpoint", "contrast", &curve.midpoint, is_s), ("largest_output", "oecf", &curve.largest_output, is_oecf)]
     {
         if let Some(value) = value.as_ref().filter(|_| !fits) {
-            faults.add(&value.place, format!("\"{key}\" has no effect here, it belongs to \"{owner}\""), "remove it");
+            faults.add(
+                ErrorCode::NoEffect,
+                &value.place,
+                format!("\"{key}\" has no effect here, it belongs to \"{owner}\""),
+                "remove it",
+            );
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What happens to charge in its pixel, and how pixels differ.
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{choice, number, record, variants, whole, words};
 
@@ -94,19 +94,39 @@ fn check_dark(dark: &Dark, faults: &mut Faults) {
     match (&dark.temperature_c, &dark.reference_c) {
         (None, _) => {
             for key in law.into_iter().flatten() {
-                faults.add(&key.place, "this has no effect without \"temperature_c\"", "add it, or remove this");
+                faults.add(
+                    ErrorCode::NoEffect,
+                    &key.place,
+                    "this has no effect without \"temperature_c\"",
+                    "add it, or remove this",
+                );
             }
         }
         (Some(temperature), None) => {
-            faults.add(&temperature.place, "the temperature of the stated current is missing", "add \"reference_c\"");
+            faults.add(
+                ErrorCode::MissingKey,
+                &temperature.place,
+                "the temperature of the stated current is missing",
+                "add \"reference_c\"",
+            );
         }
         (Some(_), Some(_)) => {}
     }
     if let (Some(_), Some(share)) = (&dark.doubling_k, &dark.diffusion_fraction) {
-        faults.add(&share.place, "\"diffusion_fraction\" has no effect beside \"doubling_k\"", "remove one of both");
+        faults.add(
+            ErrorCode::NoEffect,
+            &share.place,
+            "\"diffusion_fraction\" has no effect beside \"doubling_k\"",
+            "remove one of both",
+        );
     }
     if let (Some(distribution), None) = (&dark.distribution, &dark.spread) {
-        faults.add(&distribution.place, "\"distribution\" has no effect without \"spread\"", "add it, or remove this");
+        faults.add(
+            ErrorCode::NoEffect,
+            &distribution.place,
+            "\"distribution\" has no effect without \"spread\"",
+            "add it, or remove this",
+        );
     }
 }
 

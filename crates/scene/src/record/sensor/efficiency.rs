@@ -1,6 +1,6 @@
 //! `quantum_efficiency`: electrons a photon.
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::{Place, Placed};
 use crate::reader::{Rule, RuleExt as _, either, exactly, keyed, keyed_by_name, known, number, record, variant};
 use crate::record::curve::{Curve, curve, spectrum_file};
@@ -85,9 +85,15 @@ impl QuantumEfficiencySource {
 fn check_source(source: &QuantumEfficiencySource, faults: &mut Faults) {
     match (&source.table, &source.peak) {
         (QuantumEfficiencyTable::Spectrum(_) | QuantumEfficiencyTable::Channels(_), Some(peak)) => {
-            faults.add(&peak.place, "\"peak\" has no effect here, it belongs to \"camera\"", "remove it");
+            faults.add(
+                ErrorCode::NoEffect,
+                &peak.place,
+                "\"peak\" has no effect here, it belongs to \"camera\"",
+                "remove it",
+            );
         }
         (QuantumEfficiencyTable::Camera(camera), None) => faults.add(
+            ErrorCode::MissingKey,
             &camera.place,
             "measured sensitivities are relative and need \"peak\"",
             "add \"peak\": the largest quantum efficiency, above 0 and at most 1",
@@ -109,21 +115,31 @@ pub(super) fn check_channels(efficiency: &QuantumEfficiency, channels: &[&str], 
 fn check_colours(place: &Place, channels: &[&str], faults: &mut Faults) {
     if channels == ["mono"] {
         let remedy = "give one number or one spectrum, or a \"cfa\" with colours";
-        faults.add(place, "a quantum efficiency of three channels contradicts cfa = \"mono\"", remedy);
+        faults.add(
+            ErrorCode::Contradiction,
+            place,
+            "a quantum efficiency of three channels contradicts cfa = \"mono\"",
+            remedy,
+        );
     } else if channels != ["red", "green", "blue"] {
         let problem =
             format!("a quantum efficiency of red, green and blue does not fit the channels {}", channels.join(", "));
-        faults.add(place, problem, "give { channels = { … } } with one for each");
+        faults.add(ErrorCode::WrongCount, place, problem, "give { channels = { … } } with one for each");
     }
 }
 
 fn check_names(table: &Place, list: &[(Placed<String>, Curve)], channels: &[&str], faults: &mut Faults) {
     for (name, _) in list.iter().filter(|(name, _)| !channels.contains(&name.value.as_str())) {
         let problem = format!("the filter array has no channel \"{}\"", name.value);
-        faults.add(&name.place, problem, format!("give one of {}", channels.join(", ")));
+        faults.add(ErrorCode::UnknownName, &name.place, problem, format!("give one of {}", channels.join(", ")));
     }
     for channel in channels.iter().filter(|c| !list.iter().any(|(name, _)| name.value == **c)) {
         let place = list.first().map_or(table, |(name, _)| &name.place);
-        faults.add(place, format!("the channel \"{channel}\" has no quantum efficiency"), format!("add \"{channel}\""));
+        faults.add(
+            ErrorCode::MissingKey,
+            place,
+            format!("the channel \"{channel}\" has no quantum efficiency"),
+            format!("add \"{channel}\""),
+        );
     }
 }

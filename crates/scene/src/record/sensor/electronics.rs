@@ -6,7 +6,7 @@ use super::efficiency::{QuantumEfficiency, check_channels, quantum_efficiency};
 use super::exposure::{AngleResponse, AutoExposure, Exchange};
 use super::hdr::{Companding, Hdr};
 use super::read_out::{Binning, OpticalBlack, Response, RtsNoise, Skipping};
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{flag, list, number, record, vector, whole};
 
@@ -96,13 +96,18 @@ fn check_black_level(electronics: &Electronics, faults: &mut Faults) {
     let largest = ((1_u32 << bits) - 1).into();
     if black.value >= largest {
         let problem = format!("found {}, and a converter of {bits} bits ends at {largest} DN", black.value);
-        faults.add(&black.place, problem, format!("give a number below {largest}"));
+        faults.add(ErrorCode::OutOfRange, &black.place, problem, format!("give a number below {largest}"));
     }
 }
 
 fn check_region(electronics: &Electronics, faults: &mut Faults) {
     let Some(region) = &electronics.roi_px else { return };
     if region.value.iter().any(|v| v.fract() != 0.0) {
-        faults.add(&region.place, format!("{:?} has a part of a pixel", region.value), "give whole numbers");
+        faults.add(
+            ErrorCode::WrongType,
+            &region.place,
+            format!("{:?} has a part of a pixel", region.value),
+            "give whole numbers",
+        );
     }
 }

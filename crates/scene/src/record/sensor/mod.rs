@@ -10,7 +10,7 @@ pub mod read_out;
 mod scale;
 pub mod shutter;
 
-use crate::fault::Faults;
+use crate::fault::{ErrorCode, Faults};
 use crate::place::Placed;
 use crate::reader::{number, record, vector, whole};
 
@@ -49,6 +49,7 @@ fn check(sensor: &Sensor, faults: &mut Faults) {
         if let Some(exposure) = sensor.shutter.as_ref().and_then(Shutter::exposure_s) {
             let problem = "\"exposure_s\" of the shutter contradicts that of the sensor's electronics";
             faults.add(
+                ErrorCode::Contradiction,
                 &exposure.place,
                 problem,
                 "remove it here: the sensor's own \"exposure_s\" is the exposure time",

@@ -4,9 +4,17 @@ use std::fmt::{self, Write as _};
 
 use crate::place::{Place, Placed};
 
+mod catalogue;
+mod code;
+
+pub use catalogue::ErrorCode;
+pub use code::{Example, ExampleContext, Explanation, Problem};
+
 /// One fault: where it stands, what is wrong with what was expected, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
+    /// Its kind.
+    pub code: ErrorCode,
     /// Where it stands.
     pub place: Place,
     /// What is wrong, and what was expected.
@@ -18,8 +26,8 @@ pub struct Fault {
 impl Fault {
     /// A fault at `place`.
     #[must_use]
-    pub fn new(place: &Place, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self { place: place.clone(), problem: problem.into(), remedy: remedy.into() }
+    pub fn new(code: ErrorCode, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self { code, place: place.clone(), problem: problem.into(), remedy: remedy.into() }
     }
 }
 
@@ -95,7 +103,7 @@ impl Faults {
 
     /// Notes that a key of the table at `place` is missing.
     pub(crate) fn add_missing(&mut self, place: &Place, key: &str, remedy: impl Into<String>) {
-        self.add(place, missing(key), remedy);
+        self.add(ErrorCode::MissingKey, place, missing(key), remedy);
     }
 
     /// Takes back that a key of the table at `place` is missing: another is taken for it.
@@ -105,13 +113,21 @@ impl Faults {
     }
 
     /// Notes a fault.
-    pub fn add(&mut self, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
-        self.list.push(Fault::new(place, problem, remedy));
+    pub fn add(&mut self, code: ErrorCode, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
+        self.list.push(Fault::new(code, place, problem, remedy));
     }
 
     /// Notes that `key`, which stands at `place`, has no effect for what stands at `cause`: a fault, but not where the
     /// command line says the cause and a file the key. What the command line says supersedes what it makes meaningless.
-    pub(crate) fn add_idle(&mut self, key: &str, place: &Place, cause: Option<&Place>, problem: String, remedy: &str) {
+    pub(crate) fn add_idle(
+        &mut self,
+        code: ErrorCode,
+        key: &str,
+        place: &Place,
+        cause: Option<&Place>,
+        problem: String,
+        remedy: &str,
+    ) {
         match cause {
             Some(by) if by.is_command_line() && !place.is_command_line() => {
                 let superseded = Superseded { by: by.clone(), key: key.to_owned(), place: place.clone() };
@@ -119,7 +135,7 @@ impl Faults {
                     self.superseded.push(superseded);
                 }
             }
-            _ => self.add(place, problem, remedy),
+            _ => self.add(code, place, problem, remedy),
         }
     }
 

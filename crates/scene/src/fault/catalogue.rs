@@ -1,0 +1,213 @@
+//! The catalogue of errors: every code with its cause, what to do, and an example. `etendue explain` prints it, and docs/errors.md is made of it.
+//!
+//! A code is a kind of error that a user can act on, not a place in the program: the message says what is wrong here, the code what to do about its like.
+//! Examples are run by tests of the program (`explain.rs`): keys stand in the small job of its tests, under the name `job.toml`.
+
+use super::code::{Example, Explanation};
+
+/// Makes the enum of codes, their words and their explanations of one table.
+macro_rules! error_codes {
+    ($($Name:ident $word:literal: $cause:literal, $remedy:literal, $example:expr;)*) => {
+        /// The kind of an error. Every error of an input or a run has one; [`ErrorCode::explanation`] says what to do.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum ErrorCode {
+            $(#[doc = $cause] $Name,)*
+        }
+
+        impl ErrorCode {
+            /// All codes, in the order of the catalogue.
+            pub const ALL: &'static [Self] = &[$(Self::$Name,)*];
+
+            /// The code as it is printed and asked for: small letters and hyphens.
+            #[must_use]
+            pub const fn word(self) -> &'static str {
+                match self {
+                    $(Self::$Name => $word,)*
+                }
+            }
+
+            /// Cause, remedy and an example.
+            #[must_use]
+            pub const fn explanation(self) -> Explanation {
+                match self {
+                    $(Self::$Name => Explanation { cause: $cause, remedy: $remedy, example: $example },)*
+                }
+            }
+        }
+    };
+}
+error_codes! {
+    InvalidToml "invalid-toml":
+        "A file of the format is not valid TOML; a key that is given twice in a table is not either.",
+        "Correct the syntax at the line and column.",
+        Example::keys("spp = = 8", "spp = 8");
+    UnknownFormat "unknown-format":
+        "The file states a version of the format that this program does not read.",
+        "State format = 1 and use the keys of that version, or use the program that the file was written for.",
+        Example::keys("format = 2", "format = 1");
+    WrongFileKind "wrong-file-kind":
+        "A file of one kind is given where another is expected, for example a scene in the place of a job.",
+        "Give a file of the expected kind: a job has [[cameras]] and a scene, a camera [lens] and [sensor].",
+        Example::command("plan camera.toml", "plan job.toml");
+    UnknownKey "unknown-key":
+        "A table has a key that the format does not know there.",
+        "Correct the spelling, or remove the key; docs/scene-format.md lists the keys of each table.",
+        Example::keys("focal_lenght_mm = 6", "focal_length_mm = 6");
+    MissingKey "missing-key":
+        "A table lacks a key that it cannot do without, alone or beside another key of the table.",
+        "Add the key.",
+        Example::keys("type = \"thin\"\nf_number = 2", "type = \"thin\"\nfocal_length_mm = 6\nf_number = 2");
+    WrongType "wrong-type":
+        "A value is of another type than its key takes: a text for a number, a table for a list, a list of another length.",
+        "Give a value of the type that the message names.",
+        Example::keys("f_number = \"two\"", "f_number = 2");
+    OutOfRange "out-of-range":
+        "A number is outside the range that its key or argument takes, or that the other values leave to it.",
+        "Give a number within the range that the message states.",
+        Example::keys("exposure_s = -1e-6", "exposure_s = 1e-6");
+    UnknownWord "unknown-word":
+        "A key takes one of several words, and the given word is none of them.",
+        "Give one of the words that the message lists.",
+        Example::keys("type = \"fat\"", "type = \"thin\"");
+    UnknownName "unknown-name":
+        "A name refers to what is not defined: a material, mesh, class, frame, camera, glass, illuminant, channel or layer.",
+        "Define it, or give one of the names that the message lists.",
+        Example::keys("material = \"golt\"", "material = \"gold\"");
+    Duplicate "duplicate":
+        "Two entries have the same name, time or place, where each needs its own.",
+        "Rename or remove one of them.",
+        Example::keys("name = \"towers\"", "name = \"ball\"");
+    WrongOrder "wrong-order":
+        "Values that must rise do not, or the end of a range lies before its beginning.",
+        "Give the values in rising order.",
+        Example::keys("wavelength_range_nm = [800, 350]", "wavelength_range_nm = [350, 800]");
+    WrongCount "wrong-count":
+        "A list has more or fewer entries than belong to it, as one for each channel or one for each value of another list.",
+        "Give as many entries as the message states.",
+        Example::keys("quantum_efficiency = { channels = { r = 0.4, g = 0.5 } }", "quantum_efficiency = { camera = \"nikon-d5100\", peak = 0.5 }");
+    NotAMultiple "not-a-multiple":
+        "A number cannot be divided evenly: samples by replicates, a side of the picture by a scale, a range by a width.",
+        "Give a multiple of the number that the message states.",
+        Example::keys("spp = 9\nreplicates = 2", "spp = 8\nreplicates = 2");
+    NoEffect "no-effect":
+        "A key or argument changes nothing beside the others: it belongs to another choice, or to one that is not made.",
+        "Remove it, or make the choice that it belongs to.",
+        Example::keys("rotation_deg = [0, 0, 0]\nup = [0, 0, 1]", "look_at_m = [6, 0, 0.9]");
+    Contradiction "contradiction":
+        "Two statements exclude each other, or state the same fact differently.",
+        "Keep one of them, or correct the wrong one.",
+        Example::keys("look_at_m = [6, 0, 0.9]\nrotation_deg = [0, 0, 0]", "look_at_m = [6, 0, 0.9]");
+    CircularReference "circular-reference":
+        "A file, frame or element refers to itself, directly or through others.",
+        "Remove one of the references of the circle.",
+        Example::keys("format = 1\nbase = \"job.toml\"", "format = 1");
+    Empty "empty":
+        "A table, list, file or folder that must hold something holds nothing.",
+        "Fill it, or remove it.",
+        Example::keys("[cameras.effects]\n\n[cameras.isp]", "[cameras.isp]");
+    Degenerate "degenerate":
+        "Values leave a direction, scale, colour or probability undefined, as a camera that looks at its own position.",
+        "Change one of the values that coincide or are zero.",
+        Example::keys("look_at_m = [0, 0, 1.4]", "look_at_m = [6, 0, 0.9]");
+    NotModelled "not-modelled":
+        "The program does not model this, or not together with something else that is asked for.",
+        "Choose another model, or leave one of the two out; docs/models.md states what is modelled.",
+        Example::keys("[cameras.effects]\nghosts = true\n\n[cameras.lens]", "[cameras.lens]");
+    UnavailableOutput "unavailable-output":
+        "A result is asked for that this camera or job cannot give, since a sensor, a sequence or a scene part is missing.",
+        "Add what is missing, or do not ask for the result.",
+        Example::keys("[output]\nvideo = \"y4m\"", "[output]");
+    UnsupportedOutput "unsupported-output":
+        "The chosen file format cannot hold the result.",
+        "Choose another file format, or change the result to fit.",
+        Example::keys("picture_bits = 16\npicture_format = \"jpeg\"", "white_balance = \"D65\"");
+    ImpossibleTiming "impossible-timing":
+        "Exposures, the reading of rows and the distance of frames do not fit one after the other.",
+        "Expose shorter, read faster, or take fewer frames a second.",
+        Example::keys("[sequence]\nframe_rate_hz = 2e6\n\n[render]", "[sequence]\nframe_rate_hz = 30\n\n[render]");
+    UnusableLens "unusable-lens":
+        "The lens cannot be used on this sensor: it folds or ends within the picture, cannot focus there, or has no light to pass.",
+        "Correct the numbers of the lens, or make the picture smaller.",
+        Example::keys("k1 = -9", "k1 = -0.1");
+    InvalidChange "invalid-change":
+        "A change of a description is no key with a value, or names a place that the description does not have.",
+        "Give a dotted key, \"=\" and a value.",
+        Example::command("plan job.toml `set` render.spp", "plan job.toml `set` render.spp=16");
+    MissingFile "missing-file":
+        "There is no file or folder of this name.",
+        "Correct the path; a path in a file is relative to the folder of that file.",
+        Example::keys("file = \"towr.obj\"", "file = \"tower.obj\"");
+    UnreadableFile "unreadable-file":
+        "The file is there and cannot be read: it is a folder, a pipe or a device, or permission is denied.",
+        "Name a regular file that may be read.",
+        Example::keys("file = \"meshes\"", "file = \"tower.obj\"");
+    MalformedFile "malformed-file":
+        "The content of a file is not what its format demands: it is damaged, truncated or was written wrongly.",
+        "Correct the line, or export or fetch the file again.",
+        Example::file("tower.obj", "f 8 5 90", "f 8 5 9");
+    UnsupportedFile "unsupported-file":
+        "The file is of a format, or uses a feature of its format, that this program does not read.",
+        "Convert the file, or store it in one of the formats that the message names.",
+        Example::keys("file = \"tower.stl\"", "file = \"tower.obj\"");
+    UnsuitableFile "unsuitable-file":
+        "The file can be read, and its content does not fit what it is used for: its size, channels, values or parts differ.",
+        "Give a file that fits, or change what uses it.",
+        Example::keys("defect_map = \"defects.csv\"", "white_balance = \"D65\"");
+    TooLarge "too-large":
+        "A file, or what it unpacks to, is larger than a limit, or a result is larger than any machine holds.",
+        "Make it smaller, or raise the limit; docs/limits.md lists the limits.",
+        Example::command("plan job.toml `limit` mesh-corners=20", "plan job.toml `limit` mesh-corners=1000");
+    OutsideFolder "outside-folder":
+        "A sandboxed job names a file outside its folder.",
+        "Put the file into the folder of the job, or allow its folder with `allow_outside`.",
+        Example::command("plan outside.toml `sandboxed`", "plan job.toml `sandboxed`");
+    OutputExists "output-exists":
+        "A result would replace a file that is there.",
+        "Choose another place, or allow it with `overwrite`.",
+        Example::command("rig job.toml `output` done", "rig job.toml `output` done `overwrite`");
+    UnwritableOutput "unwritable-output":
+        "A result cannot be written: a file or folder is in the way, permission is denied, or the disk is full.",
+        "Choose another place, or make this one writable.",
+        Example::command("rig job.toml `output` job.toml", "rig job.toml `output` out");
+    FolderInUse "folder-in-use":
+        "Another run writes into the folder.",
+        "Wait until it ends, or choose another folder.",
+        Example::command("rig job.toml `output` busy", "rig job.toml `output` out");
+    OtherRun "other-run":
+        "The folder holds results, shards or the state of another run: of another job, of other settings, or of one that was interrupted.",
+        "Give the folders of one run, resume it with `resume`, or begin in another folder.",
+        Example::command("render job.toml `output` shard `shard` 1/2", "render job.toml `output` out `shard` 1/2");
+    NotComparable "not-comparable":
+        "Two results cannot be compared: they are of other kinds, sizes or channels.",
+        "Give two results of the same kind and size.",
+        Example::command("compare checker.png small.png", "compare checker.png checker.png");
+    NotMeasurable "not-measurable":
+        "The picture or data does not show what is to be measured: no chart or edge is found, or it is saturated, too small or uneven.",
+        "Give a picture that shows it, or state where it lies.",
+        Example::command("measure sfr checker.png `edge` 0,0,3,3", "measure noise checker.png");
+    TooFew "too-few":
+        "There are fewer pictures, patches, points or exposure times than the measurement needs.",
+        "Give as many as the message states.",
+        Example::command("measure ptc one", "measure ptc series");
+    NotStated "not-stated":
+        "Neither the file nor an argument states a quantity that is needed.",
+        "State it by the argument or key that the message names.",
+        Example::command("measure noise raw.exr", "measure noise raw.exr `full_scale` 4095");
+    UnknownArgument "unknown-argument":
+        "The verb has no such argument, or there is no such verb.",
+        "Correct the spelling; the help of the verb lists its arguments.",
+        Example::command("rende job.toml", "plan job.toml");
+    MissingArgument "missing-argument":
+        "An argument that the verb cannot do without is missing.",
+        "Add it; the help of the verb lists its arguments.",
+        Example::command("plan", "plan job.toml");
+    InvalidArgument "invalid-argument":
+        "The value of an argument cannot be used.",
+        "Give a value of the form that the message states.",
+        Example::command("plan job.toml `spp` many", "plan job.toml `spp` 16");
+    NotEnoughMemory "not-enough-memory":
+        "The run needs more memory than is free, or than it may take.",
+        "Free memory, render fewer pixels, bands or cameras at once, or raise `memory`.",
+        Example::command("render job.toml `output` out `memory` 1", "render job.toml `output` out `memory` 0");
+}
