@@ -3,7 +3,7 @@
 use crate::job_request::{JobRequest, RenderOptions};
 use crate::memory::MemoryFiles;
 use crate::memory_limits;
-use crate::results::{CameraResults, Results, file_names};
+use crate::results::{CameraResults, Results, Sequence};
 use crate::rig;
 use crate::run::Run;
 use crate::run::films::check_frames;
@@ -117,7 +117,7 @@ impl Job {
     /// The names of all files of a whole run, relative to its output folder.
     #[must_use]
     pub fn file_names(&self, frames: &Range<u32>) -> Vec<String> {
-        file_names(&self.plan, frames)
+        Sequence::new(&self.plan, frames.clone()).file_names(&self.plan)
     }
 
     /// Renders all cameras and keeps their light. For many large cameras [`render_each`](Self::render_each) holds one at a time.

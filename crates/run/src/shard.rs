@@ -283,7 +283,7 @@ pub fn merge(
     let job = manifest.request.clone().into_output(folder).open()?;
     check_same_plan(job.plan(), &manifest)?;
     let options = RenderOptions { frames: manifest.frames, simd };
-    let mut folder = RunFolder::of_shards(job.shared_plan(), options.frames.clone(), folder, existing, observer)?;
+    let mut folder = RunFolder::of_shards(job.shared_plan(), &options, folder, existing, observer)?;
     let mut run = Run::new(job.shared_plan(), &options, None, observer)?;
     while let Some(results) = run.next_results(&mut shards)? {
         folder.write(&results)?;

@@ -72,7 +72,8 @@ impl DoneFrames {
     }
 
     /// Notes the frames in a sequence that goes on after them.
-    pub(crate) fn note_all(&self, plan: &Arc<Plan>, frames: &Range<u32>, sequence: &mut Sequence) {
+    pub(crate) fn note_all(&self, plan: &Arc<Plan>, sequence: &mut Sequence) {
+        let frames = sequence.frames().clone();
         for group in plan.by_light() {
             for frame in frames.clone().filter(|frame| self.states(&group, *frame).is_some()) {
                 let facts = |camera: &CameraPlan| self.of(camera, frame).cloned().map(metadata::without_state);

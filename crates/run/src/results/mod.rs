@@ -15,9 +15,8 @@ pub(crate) use camera::SensorHistory;
 pub use camera::{CameraResults, display_jpeg};
 pub(crate) use done_frames::DoneFrames;
 pub(crate) use products::{FileEntries, PRODUCT_FILES};
-pub(crate) use sequence::{Sequence, file_names};
+pub(crate) use sequence::Sequence;
 
-use crate::rig;
 use etendue_core::observer::Observer;
 use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
@@ -54,17 +53,16 @@ impl Results {
     pub fn save(&self, folder: &Path, existing: Existing, observer: &dyn Observer) -> Result<Vec<PathBuf>, Error> {
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
         for camera in &self.cameras {
-            let names = file_names(&camera.plan, &camera.frames);
+            let names = Sequence::new(&camera.plan, camera.frame_numbers()).file_names(&camera.plan);
             let own = names.iter().filter(|name| name.starts_with(&format!("{}/", camera.name())));
             folder.claim(own.map(String::as_str)).map_err(Error::input)?;
         }
-        let mut sequence = Sequence::default();
-        self.cameras.iter().try_for_each(|camera| sequence.write(camera, &mut folder, observer))?;
-        sequence.finish(&mut folder, observer)?;
         if let Some(first) = self.cameras.first() {
             let frames = self.cameras.iter().map(CameraResults::frame_numbers);
             let frames = frames.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or_default();
-            rig::write(&rig::asked_files(&first.plan, &frames), &mut folder, observer)?;
+            let mut sequence = Sequence::new(&first.plan, frames);
+            self.cameras.iter().try_for_each(|camera| sequence.write(camera, &mut folder, observer))?;
+            sequence.finish(&mut folder, observer)?;
         }
         folder.commit().map_err(Error::run)
     }

@@ -4,7 +4,7 @@ use super::camera::CameraResults;
 use super::writer::ResultWriter;
 use super::{levels, metadata};
 use crate::result_files::Files;
-use crate::rig::asked_files;
+use crate::rig::{self, RigFiles};
 use etendue_core::observer::Observer;
 use etendue_io::exr::{ExrImage, rays_image};
 use etendue_io::failure::Error;
@@ -23,9 +23,12 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What was written of each camera.
-#[derive(Debug, Default)]
+/// The frames of a run, and what was written of each camera.
+#[derive(Debug)]
 pub(crate) struct Sequence {
+    frames: Range<u32>,
+    /// Files of all cameras together.
+    rig: RigFiles,
     cameras: Vec<CameraFrames>,
 }
 
@@ -50,6 +53,23 @@ impl CameraFrames {
 }
 
 impl Sequence {
+    /// Returns the frames of a plan, of which nothing was written.
+    pub(crate) fn new(plan: &Plan, frames: Range<u32>) -> Self {
+        Self { rig: rig::asked_files(plan, &frames), frames, cameras: Vec::new() }
+    }
+
+    /// The frames of the run.
+    pub(crate) fn frames(&self) -> &Range<u32> {
+        &self.frames
+    }
+
+    /// The names, relative to the output folder, of all files of a plan.
+    pub(crate) fn file_names(&self, plan: &Plan) -> Vec<String> {
+        let mut names = camera_file_names(plan, &self.frames);
+        names.extend(self.rig.files.iter().map(|(name, _)| name.clone()));
+        names
+    }
+
     /// Writes all files of a camera's results but its side-car.
     pub(crate) fn write(
         &mut self,
@@ -86,7 +106,7 @@ impl Sequence {
         self.of(plan, camera, &(frame..frame + 1)).facts.insert(frame, facts);
     }
 
-    /// Writes what is made of all frames, and the side-cars, and reports each camera's levels.
+    /// Writes what is made of all frames and of all cameras, and the side-cars, and reports each camera's levels.
     pub(crate) fn finish(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
         for known in &self.cameras {
             let camera = known.camera();
@@ -109,7 +129,7 @@ impl Sequence {
             writer.json(Files::SIDECAR, &facts)?;
             levels::report(&camera.name, known.facts.values(), observer);
         }
-        Ok(())
+        rig::write(&self.rig, folder, observer)
     }
 
     fn of(&mut self, plan: &Arc<Plan>, camera: &CameraPlan, frames: &Range<u32>) -> &mut CameraFrames {
@@ -258,12 +278,11 @@ fn write_video(camera: &CameraPlan, frames: &Range<u32>, folder: &mut OutputFold
     written.map_err(Error::run)
 }
 
-/// The names, relative to the output folder, of all files of a plan.
-pub(crate) fn file_names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
+/// The names, relative to the output folder, of the files of all cameras of a plan.
+fn camera_file_names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
     let of_camera = |camera: &CameraPlan| {
         let names = Files::of_camera(camera, frames).into_keys().chain([Files::SIDECAR.to_owned()]);
         names.map(|name| format!("{}/{name}", camera.name)).collect::<Vec<_>>()
     };
-    let rig = asked_files(plan, frames).files.into_iter().map(|(name, _)| name);
-    plan.cameras.iter().flat_map(of_camera).chain(rig).collect()
+    plan.cameras.iter().flat_map(of_camera).collect()
 }

@@ -13,7 +13,7 @@ use etendue_pipeline::tile::{Shard, tiles};
 use etendue_sensor::SensorState;
 use std::ops::Range;
 
-/// How far a film is.
+/// Progress of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FilmStage {
     /// Nothing is known of it, and light of it may be stored.
@@ -52,7 +52,7 @@ impl RunFilm {
 /// The films whose results are delivered together: those of a frame, or the one of all frames; of a shard a single one.
 #[derive(Debug)]
 pub(super) struct FrameFilms {
-    /// Which group of cameras of equal light, in the order of [`Plan::by_light`].
+    /// Number of the group of cameras of equal light, in the order of [`Plan::by_light`].
     pub(super) group: usize,
     /// The frames that they serve.
     pub(super) frames: Range<u32>,
@@ -63,7 +63,7 @@ pub(super) struct FrameFilms {
 }
 
 impl FrameFilms {
-    /// Places of films that are not complete.
+    /// Returns the place of the first film that is not complete.
     pub(super) fn first_incomplete(&self) -> Option<usize> {
         self.films.iter().position(|film| film.stage != FilmStage::Complete)
     }
@@ -71,7 +71,7 @@ impl FrameFilms {
     /// Takes the light of all films.
     ///
     /// # Errors
-    /// Where one has none.
+    /// A film has no light.
     pub(super) fn take_light(&mut self, camera: &CameraPlan) -> Result<Vec<Film>, Error> {
         let no_pass = || Error::Run(format!("camera {}: no pass was rendered", camera.name));
         self.films.iter_mut().map(|film| film.light.take().ok_or_else(no_pass)).collect()

@@ -41,7 +41,7 @@ use std::sync::Arc;
 use store::{RunStore, StoredLight};
 use timed::TimedPasses;
 
-/// What a run does next.
+/// An action of a run.
 enum Step {
     /// Takes over the light that is stored of a film.
     Open(FilmPlace),
@@ -75,7 +75,7 @@ pub(crate) struct Run<'a> {
     films: RunFilms,
     /// The passes, where a time decides them; else they are the plan's.
     timed: Option<TimedPasses<'a>>,
-    /// Whether the frames that an earlier run has written are known.
+    /// True once the frames that an earlier run has written are known.
     knows_done: bool,
     /// The frame of the next results, by its place among the films, and which camera of its group.
     entry: usize,
@@ -95,7 +95,7 @@ impl<'a> Run<'a> {
     /// Begins a run of all cameras of a plan, for the time, s, where one is given.
     ///
     /// # Errors
-    /// Where frames have no times, or the observer has no clock for a time.
+    /// Frames have no times, or the observer has no clock for a time.
     pub(crate) fn new(
         plan: &Arc<Plan>,
         options: &RenderOptions,
@@ -111,7 +111,7 @@ impl<'a> Run<'a> {
     /// Begins a run of a shard: its films that are `wanted`.
     ///
     /// # Errors
-    /// Where frames have no times.
+    /// Frames have no times.
     pub(crate) fn of_shard(
         plan: &Arc<Plan>,
         options: &RenderOptions,
@@ -152,7 +152,7 @@ impl<'a> Run<'a> {
     /// after frame. `None` at the end.
     ///
     /// # Errors
-    /// Where the observer cancels, light is not finite, or the store fails.
+    /// The observer cancels, light is not finite, or the store fails.
     pub(crate) fn next_results(&mut self, store: &mut dyn RunStore) -> Result<Option<CameraResults>, Error> {
         match self.go_on(store)? {
             true => self.results().map(Some),
@@ -163,7 +163,7 @@ impl<'a> Run<'a> {
     /// Goes on until the next film of a shard is there; `None` at the end.
     ///
     /// # Errors
-    /// Where the observer cancels, or light is not finite.
+    /// The observer cancels, or light is not finite.
     pub(crate) fn next_film(&mut self, store: &mut dyn RunStore) -> Result<Option<(FilmOrigin<'_>, Film)>, Error> {
         if !self.go_on(store)? {
             return Ok(None);

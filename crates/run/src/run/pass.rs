@@ -30,16 +30,16 @@ pub(super) struct WatchedPass<'a> {
     pub(super) plan: &'a Plan,
     /// The first of the cameras that share the light.
     pub(super) camera: &'a CameraPlan,
-    /// What is rendered: picture and tiles.
+    /// Picture and tiles that are rendered.
     pub(super) request: Request,
     pub(super) observer: &'a dyn Observer,
-    /// What progress is headed by.
+    /// Heading of the progress.
     pub(super) heading: String,
     pub(super) frame: Option<FramePlace>,
     pub(super) count: TileCount,
-    /// Where a time decides the passes.
+    /// The time of the run; `None` where the plan says the passes.
     pub(super) watch: Option<&'a Watch<'a>>,
-    /// Whether tiles are shown: those of a pilot are not.
+    /// False for a pilot, whose tiles are not shown.
     pub(super) is_shown: bool,
 }
 
@@ -47,7 +47,7 @@ impl WatchedPass<'_> {
     /// Renders the pass and joins it with the light of the passes before it; `None` where the time is well over.
     ///
     /// # Errors
-    /// Where the observer cancels, or a texture cannot be read.
+    /// The observer cancels, or a texture cannot be read.
     pub(super) fn render(&self, at: PassAt, before: Option<&Film>) -> Result<Option<Film>, Error> {
         let film = pass(self.plan, self.camera, self.request, at, before, self);
         if let Some(watch) = self.watch {
@@ -135,7 +135,7 @@ fn show(observer: &dyn Observer, camera: &CameraPlan, shot: Shot, tile: Tile, fi
     observer.tile(&ImageTile { image, size_px, first_px, tile_px, channels, values: &values });
 }
 
-/// What a viewer calls a film.
+/// Name of a film in a viewer.
 fn image_name(camera: &CameraPlan, shot: Shot) -> String {
     match (camera.time, shot.capture) {
         (TimeDependence::None, _) => camera.name.clone(),

@@ -7,8 +7,7 @@
 use super::films::check_finite;
 use crate::film_file::{self, FilmOrigin, StoredPasses, holds_state, state_name};
 use crate::job_request::{JobRequest, RenderOptions};
-use crate::results::{CameraResults, DoneFrames, Sequence, file_names};
-use crate::rig;
+use crate::results::{CameraResults, DoneFrames, Sequence};
 use etendue_core::observer::{Message, Observer, Unobserved};
 use etendue_io::failure::Error;
 use etendue_io::{Existing, OutputFolder};
@@ -16,7 +15,6 @@ use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::render::Shot;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -31,7 +29,7 @@ pub(crate) enum StoredLight {
     Complete(Film),
 }
 
-/// Where a run finds light and frames that other runs have left, and leaves its own after each pass.
+/// Storage of a run: light and frames that other runs have left, and its own light after each pass.
 pub(crate) trait RunStore {
     /// Returns what is stored of a film.
     fn light(&self, _origin: &FilmOrigin<'_>) -> Result<StoredLight, Error> {
@@ -70,20 +68,18 @@ pub(crate) struct RunFolder<'a> {
     folder: OutputFolder,
     /// Of runs that go on and can be gone on with: all but `merge`.
     state: Option<RunState>,
-    /// What an earlier run has written, where it is known before the light.
+    /// Frames that an earlier run has written; `None` where they are known after the light.
     done: Option<DoneFrames>,
     sequence: Sequence,
     written: Vec<PathBuf>,
-    plan: Arc<Plan>,
-    frames: Range<u32>,
     observer: &'a dyn Observer,
 }
 
 /// The state of a run.
 struct RunState {
-    /// Where it is stored and pictures are refined, of a progressive run.
+    /// Folder in which it is stored and pictures are refined, of a progressive run.
     progressive: Option<OutputFolder>,
-    /// Where that of an earlier run is, of a run that resumes.
+    /// Folder of the earlier run, of a run that resumes.
     resumed: Option<PathBuf>,
 }
 
@@ -91,7 +87,7 @@ impl<'a> RunFolder<'a> {
     /// Opens the folder of a run. One that replaces what is there begins anew.
     ///
     /// # Errors
-    /// Where files are there that must not be replaced, the state is that of another run, or the folder cannot be written.
+    /// Files are there that must not be replaced, the state is that of another run, or the folder cannot be written.
     pub(crate) fn open(
         request: &JobRequest,
         plan: &Arc<Plan>,
@@ -100,16 +96,16 @@ impl<'a> RunFolder<'a> {
         existing: Existing,
         observer: &'a dyn Observer,
     ) -> Result<Self, Error> {
-        let frames = options.frames.clone();
+        let sequence = Sequence::new(plan, options.frames.clone());
         let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
         let resumed = (existing == Existing::Resume).then(|| root.to_path_buf());
         // Where a time decides the passes, the plan of the frames is known when they are done.
         let done = match (&resumed, request.time_s) {
-            (Some(root), None) => Some(DoneFrames::in_folder(root, plan, &frames, observer)?),
+            (Some(root), None) => Some(DoneFrames::in_folder(root, plan, sequence.frames(), observer)?),
             _ => None,
         };
         film_file::check_state(&folder, existing)?;
-        claim(&folder, plan, &frames)?;
+        claim(&folder, plan, &sequence)?;
         let folder = if request.progressive { folder.refining() } else { folder };
         let open_again = || folder.again(Existing::Replace).map_err(Error::input);
         let progressive = request.progressive.then(open_again).transpose()?;
@@ -117,45 +113,35 @@ impl<'a> RunFolder<'a> {
             film_file::remove_state(&folder).map_err(Error::run)?;
         }
         let state = Some(RunState { progressive, resumed });
-        Ok(Self { state, done, ..Self::new(folder, plan, frames, observer) })
+        Ok(Self { state, done, ..Self::new(folder, sequence, observer) })
     }
 
     /// Opens the folder that takes the results of shards.
     ///
     /// # Errors
-    /// Where files are there that must not be replaced, or the folder cannot be written.
+    /// Files are there that must not be replaced, or the folder cannot be written.
     pub(crate) fn of_shards(
         plan: &Arc<Plan>,
-        frames: Range<u32>,
+        options: &RenderOptions,
         root: &Path,
         existing: Existing,
         observer: &'a dyn Observer,
     ) -> Result<Self, Error> {
         let folder = OutputFolder::open(root, existing).map_err(Error::input)?;
-        claim(&folder, plan, &frames)?;
-        Ok(Self::new(folder, plan, frames, observer))
+        let sequence = Sequence::new(plan, options.frames.clone());
+        claim(&folder, plan, &sequence)?;
+        Ok(Self::new(folder, sequence, observer))
     }
 
-    fn new(folder: OutputFolder, plan: &Arc<Plan>, frames: Range<u32>, observer: &'a dyn Observer) -> Self {
+    fn new(folder: OutputFolder, sequence: Sequence, observer: &'a dyn Observer) -> Self {
         let interruption = InterruptionNote::new(&folder, observer);
-        let (plan, written) = (Arc::clone(plan), Vec::new());
-        Self {
-            interruption,
-            folder,
-            state: None,
-            done: None,
-            sequence: Sequence::default(),
-            written,
-            plan,
-            frames,
-            observer,
-        }
+        Self { interruption, folder, state: None, done: None, sequence, written: Vec::new(), observer }
     }
 
     /// Writes a camera's results. The files of a frame that has a light of its own get their names at once.
     ///
     /// # Errors
-    /// Where a file cannot be made or written.
+    /// A file cannot be made or written.
     pub(crate) fn write(&mut self, results: &CameraResults) -> Result<(), Error> {
         self.sequence.write(results, &mut self.folder, self.observer)?;
         let Some(state) = self.state.as_ref().filter(|_| results.has_own_light()) else { return Ok(()) };
@@ -167,10 +153,9 @@ impl<'a> RunFolder<'a> {
     /// Writes what is made of all frames and cameras, gives all files their names, and removes the state; answers with the paths of all files.
     ///
     /// # Errors
-    /// Where a file cannot be made, written or removed.
+    /// A file cannot be made, written or removed.
     pub(crate) fn finish(mut self) -> Result<Vec<PathBuf>, Error> {
         self.sequence.finish(&mut self.folder, self.observer)?;
-        rig::write(&rig::asked_files(&self.plan, &self.frames), &mut self.folder, self.observer)?;
         self.written.extend(self.folder.publish().map_err(Error::run)?);
         if self.state.is_some() {
             film_file::remove_state(&self.folder).map_err(Error::run)?;
@@ -181,8 +166,8 @@ impl<'a> RunFolder<'a> {
 }
 
 /// Refuses early where a result is already there.
-fn claim(folder: &OutputFolder, plan: &Plan, frames: &Range<u32>) -> Result<(), Error> {
-    folder.claim(file_names(plan, frames).iter().map(String::as_str)).map_err(Error::input)
+fn claim(folder: &OutputFolder, plan: &Plan, sequence: &Sequence) -> Result<(), Error> {
+    folder.claim(sequence.file_names(plan).iter().map(String::as_str)).map_err(Error::input)
 }
 
 impl RunState {
@@ -218,10 +203,10 @@ impl RunStore for RunFolder<'_> {
     fn done_frames(&mut self, plan: &Arc<Plan>) -> Result<DoneFrames, Error> {
         let done = match (self.done.take(), self.resumed()) {
             (Some(done), _) => done,
-            (None, Some(root)) => DoneFrames::in_folder(root, plan, &self.frames, self.observer)?,
+            (None, Some(root)) => DoneFrames::in_folder(root, plan, self.sequence.frames(), self.observer)?,
             (None, None) => DoneFrames::default(),
         };
-        done.note_all(plan, &self.frames, &mut self.sequence);
+        done.note_all(plan, &mut self.sequence);
         Ok(done)
     }
 
@@ -253,7 +238,7 @@ pub(crate) struct InterruptionNote<'a> {
     observer: &'a dyn Observer,
     /// Frames of cameras that have their files.
     frames: usize,
-    /// Whether all has been written.
+    /// True once all has been written.
     pub(crate) is_complete: bool,
 }
 

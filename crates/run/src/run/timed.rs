@@ -48,12 +48,12 @@ pub(super) struct TimedPasses<'a> {
     round: Option<Round>,
     /// Replicates of each pass: of an interrupted run, or as the time allows; `None` where the job says how many.
     replicates: Option<u32>,
-    /// How many 256ths of the pixels the next pilot takes.
+    /// Part of the pixels that the next pilot takes, in 256ths.
     pilot_part: u32,
-    /// How fast samples are made; `None` before a pilot was long enough.
+    /// Rate of samples; `None` before a pilot was long enough.
     rate: Option<Rate>,
     has_warned: bool,
-    /// Whether the time is up.
+    /// True once the time is up.
     pub(super) is_over: bool,
 }
 
@@ -61,7 +61,7 @@ impl<'a> TimedPasses<'a> {
     /// Returns no passes yet, of a run for `total_s`.
     ///
     /// # Errors
-    /// Where the observer has no clock.
+    /// The observer has no clock.
     pub(super) fn new(compiled: &Arc<Plan>, total_s: f64, observer: &'a dyn Observer) -> Result<Self, Error> {
         Ok(Self {
             compiled: Arc::clone(compiled),
@@ -239,7 +239,7 @@ pub(super) struct Watch<'a> {
     pass: Mutex<(f64, f64)>,
     /// When a pass is given up, s.
     limit_s: Option<f64>,
-    /// Whether one was.
+    /// True once a pass was given up.
     is_over: AtomicBool,
 }
 
