@@ -98,7 +98,7 @@ pub(crate) fn check(plan: &Plan, memory: &RunMemory, limits: &MemoryLimits) -> R
 fn remedies(camera: &CameraPlan) -> String {
     let name = &camera.name;
     let products = &camera.products;
-    let spectra = products.radiance || products.irradiance;
+    let spectra = products.needs_radiance() || products.irradiance;
     let products_made = [
         (products.ground_truth, "output.ground_truth = false"),
         (products.radiance, "output.radiance = false"),

@@ -19,8 +19,10 @@ struct Addition {
 
 const ADDITIONS: &[Addition] = &[
     Addition { patch: "01-render-setting", page: "render-setting", max_files: 5 },
+    Addition { patch: "02-output-product", page: "output-product", max_files: 5 },
     Addition { patch: "03-sensor-effect", page: "sensor-effect", max_files: 4 },
     Addition { patch: "04-projection", page: "projection", max_files: 4 },
+    Addition { patch: "05-measurement", page: "measurement", max_files: 4 },
     Addition { patch: "06-verb", page: "verb", max_files: 2 },
     Addition { patch: "07-bsdf", page: "bsdf", max_files: 4 },
 ];

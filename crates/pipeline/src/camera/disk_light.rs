@@ -77,7 +77,7 @@ pub(super) fn seen(
         Route::Lens => {
             let KeptEstimate { mean, variance } = radiance;
             let of_picture = |mean, variance| KeptEstimate { mean: part(body, mean), variance: part(body, variance) };
-            let radiance = products.radiance.then(|| of_picture(mean, variance));
+            let radiance = products.needs_radiance().then(|| of_picture(mean, variance));
             let variance = (products.irradiance && products.variance).then(|| kept(cube, cube.variance()));
             let film = kept(cube, cube.mean());
             let light = Light { radiance, ..folded(camera, electron_rate) };

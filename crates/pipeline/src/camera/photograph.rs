@@ -60,7 +60,7 @@ impl Light {
 
     fn through_lens(camera: &CameraPlan, film: Film) -> Self {
         let body = &camera.body;
-        let radiance = if camera.products.radiance { film.radiance() } else { None };
+        let radiance = if camera.products.needs_radiance() { film.radiance() } else { None };
         let radiance = radiance.map(|CubeEstimate { mean, variance }| CubeEstimate {
             mean: picture(body, mean),
             variance: picture(body, variance),

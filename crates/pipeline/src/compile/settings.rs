@@ -415,7 +415,7 @@ fn accumulation(
     route: &Route,
     context: &mut Context<'_>,
 ) -> (bool, bool) {
-    let spectral = products.radiance || products.irradiance;
+    let spectral = products.needs_radiance() || products.irradiance;
     let pupil = matches!(route, Route::Pupil(_));
     let effects = !body.effects.is_idle();
     let electrons = body.sensor.is_some() && (products.electrons || products.raw || products.picture);

@@ -147,6 +147,12 @@ impl Products {
         ]
     }
 
+    /// Whether the spectral radiance is found: it is delivered, or a product is made of it.
+    #[must_use]
+    pub fn needs_radiance(&self) -> bool {
+        self.radiance
+    }
+
     /// Whether nothing is delivered.
     #[must_use]
     pub fn is_empty(&self) -> bool {

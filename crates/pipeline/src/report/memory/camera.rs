@@ -148,13 +148,13 @@ impl<'a> Sizes<'a> {
         if self.is_at_pupil {
             return irradiance + (2.0 * self.bands + 2.0) * self.film_plane;
         }
-        let radiance = if self.camera.products.radiance { 2.0 * self.bands * self.plane } else { 0.0 };
+        let radiance = if self.camera.products.needs_radiance() { 2.0 * self.bands * self.plane } else { 0.0 };
         radiance + irradiance + self.bands * self.plane
     }
 
     /// Returns the memory while films are converted to light on the sensor: the films, the products and the effects.
     fn conversion(&self, threads: usize) -> f64 {
-        let asked = self.camera.products.radiance || self.is_at_pupil;
+        let asked = self.camera.products.needs_radiance() || self.is_at_pupil;
         let radiance = if asked { 2.0 * self.bands * self.film_plane } else { 0.0 };
         let blurred = match self.camera.depth_of_field {
             DepthOfField::None => 0.0,
