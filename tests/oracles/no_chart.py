@@ -10,6 +10,7 @@ data/left04.jpg are given for dots as well: they show a checkerboard on a screen
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -24,7 +25,7 @@ def is_chart(name):
 
 def answer(file, target):
     run = subprocess.run([PROGRAM, "measure", "distortion", file, "--target", target], capture_output=True, text=True)
-    return run.returncode, run.stderr.strip().removeprefix(f"error: {file}: ")
+    return run.returncode, re.sub(r"^error(\[[\w-]+\])?: " + re.escape(f"{file}: "), "", run.stderr.strip())
 
 
 def main():

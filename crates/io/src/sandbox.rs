@@ -6,7 +6,7 @@
 //! As every file of a job is asked for here, this is also where its files are known.
 
 use crate::error::code_of;
-use crate::failure::{ErrorCode, Fault, Problem};
+use crate::failure::{Error, ErrorCode, Problem};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -28,17 +28,17 @@ impl Sandbox {
     /// Files lie in the folder of `job`, or in one of `further`.
     ///
     /// # Errors
-    /// Where a folder is not there, in words.
-    pub fn about(job: &Path, further: &[PathBuf]) -> Result<Self, Fault> {
+    /// A folder is not there.
+    pub fn about(job: &Path, further: &[PathBuf]) -> Result<Self, Error> {
         let folder = job.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let own = folder
             .canonicalize()
-            .map_err(|cause| Fault::new(code_of(&cause), format!("{}: {cause}", job.display())))?;
+            .map_err(|cause| Error::coded(code_of(&cause), format!("{}: {cause}", job.display())))?;
         let allowed = further.iter().map(|folder| {
             let found = folder.canonicalize().ok().filter(|folder| folder.is_dir());
             found.ok_or_else(|| {
                 let message = format!("`allow_outside` {}: there is no such folder", folder.display());
-                Fault { code: ErrorCode::MissingFile, ..Fault::argument("allow_outside", message) }
+                Error::argument("allow_outside", message).with_code(ErrorCode::MissingFile)
             })
         });
         let folders = std::iter::once(Ok(own)).chain(allowed).collect::<Result<_, _>>()?;

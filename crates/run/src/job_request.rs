@@ -150,7 +150,7 @@ impl JobRequest {
     /// Where the files of the job may lie.
     pub(crate) fn folders(&self) -> Result<Sandbox, Error> {
         let Some(further) = &self.sandbox else { return Ok(Sandbox::NONE) };
-        Sandbox::about(&self.job, further).map_err(Error::input)
+        Sandbox::about(&self.job, further)
     }
 
     /// Refuses what excludes one another, and a time that cannot be kept.
@@ -169,8 +169,7 @@ impl JobRequest {
                 format!(
                     "`time_s` {time_s}: a time of {MIN_TIME_S} s or more is kept; give `time_s` {MIN_TIME_S} or samples with `spp`"
                 ),
-            )
-            .with_code(ErrorCode::OutOfRange));
+            ).with_code(ErrorCode::OutOfRange));
         }
         match (self.spp, self.noise) {
             (None, None) => Ok(()),

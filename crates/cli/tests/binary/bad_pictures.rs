@@ -127,7 +127,7 @@ fn measured(picture: &str, may_answer: &[&str]) {
             continue;
         }
         assert!(run.status == 2 && run.out.is_empty(), "{words}");
-        let errors: Vec<&str> = run.err.lines().filter(|l| l.starts_with("error: ")).collect();
+        let errors: Vec<&str> = run.err.lines().filter(|l| l.starts_with("error[")).collect();
         // Of several views each bad file is named.
         assert!(errors.len() == 1 || (line.starts_with("calibrate") && errors.len() == 3), "{words}");
         // A reading that is no number is named as such by the reader, and nowhere else.

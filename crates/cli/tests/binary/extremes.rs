@@ -5,7 +5,7 @@ mod files;
 mod pictures;
 mod runs;
 
-use crate::support::{Ran, text};
+use crate::support::{Ran, error_message, text};
 use etendue_testkit::page::Row;
 use std::path::Path;
 
@@ -16,7 +16,7 @@ pub(crate) fn refused(extreme: &str, expected: &str, ran: &Ran, folders: &[&Path
 
 /// The same with another status.
 fn ended(status: i32, extreme: &str, expected: &str, ran: &Ran, folders: &[&Path]) -> Row {
-    let errors: Vec<&str> = ran.err.lines().filter_map(|line| line.strip_prefix("error: ")).collect();
+    let errors: Vec<&str> = ran.err.lines().filter_map(error_message).collect();
     Row {
         extreme: extreme.to_owned(),
         expected: format!("status {status}: {expected}"),

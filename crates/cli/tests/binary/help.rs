@@ -3,7 +3,7 @@
 use crate::support::{etendue, root};
 
 /// What it does, one verb each.
-const VERBS: [&str; 17] = [
+const VERBS: [&str; 18] = [
     "render",
     "rig",
     "merge",
@@ -17,6 +17,7 @@ const VERBS: [&str; 17] = [
     "compare",
     "calibrate",
     "schema",
+    "explain",
     "tradeoff",
     "dataset",
     "characterise",

@@ -21,7 +21,7 @@ fn a_film_without_enough_memory_is_refused_before_the_render() {
     let (status, stderr) = within(1_500_000, &arguments);
     assert_eq!(status, Some(2), "{stderr}");
     let parts = [
-        "error: the run needs ",
+        "error[not-enough-memory]: the run needs ",
         "within the address space of the process",
         "camera front ",
         "width_px",

@@ -73,6 +73,16 @@ pub(crate) fn whole() -> bool {
     std::env::var_os("ETENDUE_WHOLE").is_some_and(|value| value == "1")
 }
 
+/// The message of a line that states an error, without its code; `None` for other lines.
+pub(crate) fn error_message(line: &str) -> Option<&str> {
+    line.strip_prefix("error: ").or_else(|| Some(line.strip_prefix("error[")?.split_once("]: ")?.1))
+}
+
+/// The code of a line that states an error with one.
+pub(crate) fn error_code(line: &str) -> Option<&str> {
+    Some(line.strip_prefix("error[")?.split_once("]: ")?.0)
+}
+
 /// A path as an argument.
 pub(crate) fn text(path: &Path) -> String {
     path.to_str().expect("the tests' paths are UTF-8").to_owned()
@@ -126,6 +136,17 @@ pub(crate) fn etendue_with<S: AsRef<std::ffi::OsStr>>(
     environment.iter().for_each(|(name, value)| {
         command.env(name, value);
     });
+    ran(command)
+}
+
+/// Runs the binary in a folder.
+pub(crate) fn etendue_in<S: AsRef<std::ffi::OsStr>>(folder: &Path, arguments: impl IntoIterator<Item = S>) -> Ran {
+    let mut command = Command::cargo_bin("etendue").expect("cargo builds the binary for its tests");
+    command.current_dir(folder).env_remove("ETENDUE_SIMD").args(arguments);
+    ran(command)
+}
+
+fn ran(mut command: Command) -> Ran {
     let output = command.output().expect("the binary starts");
     let utf8 = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
     Ran { status: output.status.code().expect("it ends by itself"), out: utf8(output.stdout), err: utf8(output.stderr) }

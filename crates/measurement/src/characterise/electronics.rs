@@ -122,7 +122,7 @@ fn levels(shots: &[&Shot], photons_per_s: f64) -> Result<Vec<DescribedLevel>, Er
     }
     if let Some(single) = levels.iter().find(|level| level.files.len() < 2) {
         return Err(Error::coded(
-            ErrorCode::TooFew,
+            ErrorCode::NotMeasurable,
             format!(
                 "{}: the only frame of {} s in its folder: noise needs two frames or more of an exposure time",
                 single.files[0].display(),

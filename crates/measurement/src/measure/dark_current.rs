@@ -58,7 +58,7 @@ pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Re
         encodings.push(stated);
         let current = figures.dark_current_mean_e_per_s.ok_or_else(|| {
             Error::coded(
-                ErrorCode::TooFew,
+                ErrorCode::NotMeasurable,
                 format!("{}: expected dark levels of at least three exposure times", descriptor.display()),
             )
         })?;

@@ -85,7 +85,10 @@ fn read(request: &FlickerRequest) -> Result<(Sequence, Option<Truth>), Error> {
     let input = &request.input;
     let frames = request.frames.iter().map(|file| input.linear(file)).collect::<Result<Vec<_>, _>>()?;
     let Some((first, file)) = frames.first().zip(request.frames.first()) else {
-        return Err(Error::coded(ErrorCode::TooFew, "flicker is measured from one frame at least: give its file"));
+        return Err(Error::coded(
+            ErrorCode::NotMeasurable,
+            "flicker is measured from one frame at least: give its file",
+        ));
     };
     for (frame, file) in frames.iter().zip(&request.frames) {
         frame.independent(file, 1)?;

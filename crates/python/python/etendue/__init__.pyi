@@ -31,7 +31,7 @@ __all__ = [
     "to_xarray",
 ]
 # Written by `ETENDUE_BLESS=1` of `tests/test_stubs.py`.
-__all__ += ["merge", "rig", "tradeoff", "dataset", "expose", "weather", "develop", "flat", "datasheet", "import_", "inspect", "view", "compare", "calibrate", "characterise", "laboratory", "schema"]
+__all__ += ["merge", "rig", "tradeoff", "dataset", "expose", "weather", "develop", "flat", "datasheet", "import_", "inspect", "view", "compare", "calibrate", "characterise", "laboratory", "schema", "explain"]
 
 __version__: str
 

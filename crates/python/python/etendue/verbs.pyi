@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from . import Report
 
-__all__ = ["merge", "rig", "tradeoff", "dataset", "expose", "weather", "develop", "flat", "datasheet", "import_", "inspect", "view", "compare", "calibrate", "characterise", "laboratory", "schema"]
+__all__ = ["merge", "rig", "tradeoff", "dataset", "expose", "weather", "develop", "flat", "datasheet", "import_", "inspect", "view", "compare", "calibrate", "characterise", "laboratory", "schema", "explain"]
 
 _Path = str | PathLike[str]
 _Progress = Callable[[str, int, int], object]
@@ -522,4 +522,17 @@ def schema(
     progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
 
     Answers with a dict.
+    """
+
+def explain(
+    code: str | None = None,
+    *,
+    progress: _Progress | None = None,
+) -> str:
+    """Explain the code of an error: its cause, an example and what to do.
+
+    code: The code of an error, such as unknown-key, which stands in brackets before its message [default: a list of all codes].
+    progress: called with what is worked on, how much is done, and of how much; what it raises cancels, as Ctrl-C does.
+
+    Answers with a text.
     """

@@ -85,7 +85,7 @@ error_codes! {
     WrongCount "wrong-count":
         "A list has more or fewer entries than belong to it, as one for each channel or one for each value of another list.",
         "Give as many entries as the message states.",
-        Example::keys("quantum_efficiency = { channels = { r = 0.4, g = 0.5 } }", "quantum_efficiency = { camera = \"nikon-d5100\", peak = 0.5 }");
+        Example::keys("white_balance = [1.9, 1]", "white_balance = [1.9, 1, 1.4]");
     NotAMultiple "not-a-multiple":
         "A number cannot be divided evenly: samples by replicates, a side of the picture by a scale, a range by a width.",
         "Give a multiple of the number that the message states.",
@@ -125,7 +125,7 @@ error_codes! {
     ImpossibleTiming "impossible-timing":
         "Exposures, the reading of rows and the distance of frames do not fit one after the other.",
         "Expose shorter, read faster, or take fewer frames a second.",
-        Example::keys("[sequence]\nframe_rate_hz = 2e6\n\n[render]", "[sequence]\nframe_rate_hz = 30\n\n[render]");
+        Example::keys("exposure_s = 0.5", "exposure_s = 1e-6");
     UnusableLens "unusable-lens":
         "The lens cannot be used on this sensor: it folds or ends within the picture, cannot focus there, or has no light to pass.",
         "Correct the numbers of the lens, or make the picture smaller.",
@@ -141,7 +141,7 @@ error_codes! {
     UnreadableFile "unreadable-file":
         "The file is there and cannot be read: it is a folder, a pipe or a device, or permission is denied.",
         "Name a regular file that may be read.",
-        Example::keys("file = \"meshes\"", "file = \"tower.obj\"");
+        Example::command("plan scenes", "plan job.toml");
     MalformedFile "malformed-file":
         "The content of a file is not what its format demands: it is damaged, truncated or was written wrongly.",
         "Correct the line, or export or fetch the file again.",
@@ -181,19 +181,15 @@ error_codes! {
     NotComparable "not-comparable":
         "Two results cannot be compared: they are of other kinds, sizes or channels.",
         "Give two results of the same kind and size.",
-        Example::command("compare checker.png small.png", "compare checker.png checker.png");
+        Example::command("compare checker.png letter.png", "compare checker.png checker.png");
     NotMeasurable "not-measurable":
-        "The picture or data does not show what is to be measured: no chart or edge is found, or it is saturated, too small or uneven.",
-        "Give a picture that shows it, or state where it lies.",
-        Example::command("measure sfr checker.png `edge` 0,0,3,3", "measure noise checker.png");
-    TooFew "too-few":
-        "There are fewer pictures, patches, points or exposure times than the measurement needs.",
-        "Give as many as the message states.",
-        Example::command("measure ptc one", "measure ptc series");
+        "The picture or data does not show what is to be measured: no chart or edge is found, it is saturated or too small, or there are fewer pictures or points than the measurement needs.",
+        "Give pictures that show it, as many as the message states, or state where it lies.",
+        Example::command("measure sfr checker.png", "measure sfr edge.png");
     NotStated "not-stated":
         "Neither the file nor an argument states a quantity that is needed.",
         "State it by the argument or key that the message names.",
-        Example::command("measure noise raw.exr", "measure noise raw.exr `full_scale` 4095");
+        Example::command("measure texture checker.png", "measure texture leaves.png `truth` truth.json");
     UnknownArgument "unknown-argument":
         "The verb has no such argument, or there is no such verb.",
         "Correct the spelling; the help of the verb lists its arguments.",

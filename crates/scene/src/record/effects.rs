@@ -192,7 +192,7 @@ fn check_psf(psf: &Psf, faults: &mut Faults) {
             check_alone(psf, "files", faults);
         }
         (Some(image), Some(_), _) => {
-            faults.add(ErrorCode::Contradiction, &image.place, "\"image\" contradicts \"mtf\"", "remove one of them")
+            faults.add(ErrorCode::Contradiction, &image.place, "\"image\" contradicts \"mtf\"", "remove one of them");
         }
         (image, _, Some(file)) => {
             let other = if image.is_some() { "image" } else { "mtf" };

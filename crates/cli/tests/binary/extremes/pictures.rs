@@ -2,7 +2,7 @@
 
 use super::told;
 use crate::bad_pictures::{MEASUREMENTS, SIZE, coloured, floats, grey, of_picture};
-use crate::support::etendue;
+use crate::support::{error_message, etendue};
 use etendue_testkit::page::{Row, check};
 use std::path::Path;
 
@@ -12,7 +12,7 @@ fn measured(extreme: &str, expected: &str, picture: &str, folder: &Path) -> Row 
     let refused = runs.iter().filter(|run| run.status == 2 && run.out.is_empty()).count();
     let answered =
         runs.iter().filter(|run| run.status == 0 && !run.out.contains("NaN") && !run.out.contains("inf")).count();
-    let first = runs[0].err.lines().find_map(|line| line.strip_prefix("error: ")).unwrap_or_default();
+    let first = runs[0].err.lines().find_map(error_message).unwrap_or_default();
     Row {
         extreme: extreme.to_owned(),
         expected: expected.to_owned(),

@@ -75,7 +75,10 @@ def main(arguments=None):
     job, output = given.pop("job"), given.pop("output")
     try:
         paths = render(job, output, progress=show, **{name: value for name, value in given.items() if value is not None})
-    except (InputError, ValueError) as error:
+    except InputError as error:
+        print("\n".join(f"error[{fault.code}]: {spelled(fault.message)}" for fault in error.faults), file=sys.stderr)
+        return 2
+    except ValueError as error:
         print("\n".join(f"error: {line}" for line in spelled(error).splitlines()), file=sys.stderr)
         return 2
     except RunError as error:
