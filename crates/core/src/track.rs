@@ -42,7 +42,7 @@ pub fn slerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
 
 words! {
     /// How a track moves from key to key. Before its first key and after its last it holds still.
-    pub enum Interpolation {
+    pub enum Interpolation = Linear {
         /// Position and scale along straight lines at an even speed; rotation the short way about one axis at an even rate (slerp,
         /// Shoemake 1985, "Animating rotation with quaternion curves", SIGGRAPH).
         "linear" => Linear,
@@ -52,12 +52,6 @@ words! {
         /// through three; rotation by the cubic Hermite curve of quaternions (Kim, Kim, Shin 1995) with angular velocities made
         /// alike from those of the slerps beside a key. Two keys are joined as by `Linear`. The curves may overshoot the keys.
         "smooth" => Smooth,
-    }
-}
-
-impl Default for Interpolation {
-    fn default() -> Self {
-        Self::Linear
     }
 }
 

@@ -27,12 +27,12 @@ pub trait Word: Copy + PartialEq + Send + Sync + 'static {
     }
 }
 
-/// Declares an enum of words: `"word" => Variant`, each below its documentation.
+/// Declares an enum of words: `"word" => Variant`, each below its documentation; `pub enum Name = Variant` has that variant as its default.
 #[macro_export]
 macro_rules! words {
     (
         $(#[$meta:meta])*
-        pub enum $name:ident { $( $(#[doc = $doc:literal])* $word:literal => $variant:ident, )* }
+        pub enum $name:ident $(= $default:ident)? { $( $(#[doc = $doc:literal])* $word:literal => $variant:ident, )* }
     ) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -42,6 +42,12 @@ macro_rules! words {
             const WORDS: &'static [(&'static str, Self)] = &[$( ($word, Self::$variant) ),*];
             const ABOUT: &'static [&'static str] = &[$( concat!($($doc),*) ),*];
         }
+
+        $(impl Default for $name {
+            fn default() -> Self {
+                Self::$default
+            }
+        })?
     };
 }
 
@@ -124,7 +130,7 @@ macro_rules! serde_words {
 
 words! {
     /// Which light paths are simulated: a trade of time for accuracy. All see the same surfaces: depth and identities do not depend on it.
-    pub enum Integrator {
+    pub enum Integrator = Path {
         /// Local shading by lamps, suns and sky, without shadows.
         "flat" => Flat,
         /// The same with shadows.
@@ -136,7 +142,7 @@ words! {
 
 words! {
     /// Quantity to which a light's probability of being sampled at a surface is proportional. No mean depends on it.
-    pub enum LightSampling {
+    pub enum LightSampling = Gloss {
         /// Its irradiance, and the part of it that the surface's narrow lobes scatter back along the path.
         "gloss" => Gloss,
         /// Its irradiance alone: cheaper at glossy surfaces, and noisier where they mirror lamps.
@@ -146,7 +152,7 @@ words! {
 
 words! {
     /// Work that is spent on acceleration structures. Every choice gives the same answers to rays.
-    pub enum Accelerator {
+    pub enum Accelerator = Default {
         /// The least time to build: one pass from the top down.
         "fast" => Fast,
         /// The same with large triangles split, and better places for the largest subtrees.
@@ -170,7 +176,7 @@ words! {
 
 words! {
     /// File format of digital numbers.
-    pub enum RawFormat {
+    pub enum RawFormat = Png {
         /// 16-bit PNG.
         "png" => Png,
         /// TIFF of 16 bits, of 32 bits for more.
@@ -181,30 +187,6 @@ words! {
 }
 
 serde_words!(Integrator, LightSampling, Accelerator, Quality);
-
-impl Default for RawFormat {
-    fn default() -> Self {
-        Self::Png
-    }
-}
-
-impl Default for Integrator {
-    fn default() -> Self {
-        Self::Path
-    }
-}
-
-impl Default for LightSampling {
-    fn default() -> Self {
-        Self::Gloss
-    }
-}
-
-impl Default for Accelerator {
-    fn default() -> Self {
-        Self::Default
-    }
-}
 
 #[cfg(test)]
 mod tests {
