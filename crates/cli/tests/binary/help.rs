@@ -3,7 +3,7 @@
 use crate::support::{etendue, root};
 
 /// What it does, one verb each.
-const VERBS: [&str; 18] = [
+const VERBS: &[&str] = &[
     "render",
     "rig",
     "merge",
@@ -30,7 +30,7 @@ const GROUPS: [&str; 2] = ["chart", "measure"];
 fn help_names_every_verb_and_the_exit_statuses() {
     let help = etendue(["--help"]).ok().out;
     let statuses = ["Exit status: 0 done, 1", "2 unusable"];
-    for word in VERBS.into_iter().chain(GROUPS).chain(statuses) {
+    for word in VERBS.iter().copied().chain(GROUPS).chain(statuses) {
         assert!(help.contains(word), "{word} is missing in:\n{help}");
     }
 }
@@ -46,7 +46,7 @@ fn the_version_is_the_newest_of_the_change_log() {
 
 #[test]
 fn every_option_explains_itself() {
-    for verb in VERBS {
+    for verb in VERBS.iter().copied() {
         let help = etendue(["help", verb]).ok().out;
         let options = help.lines().filter(|line| line.trim_start().starts_with("--")).count();
         let lines: Vec<&str> = help.lines().collect();
