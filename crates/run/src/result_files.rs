@@ -1,18 +1,13 @@
-//! The files that a camera can deliver: their names, and what they hold.
+//! The names of the files that a camera can deliver.
 //! Also files that the user names one by one: plots, previews, camera files.
 
-use crate::results::{FileEntries, PRODUCT_FILES};
 use etendue_core::RawFormat;
-use etendue_core::quantity::{DigitalNumber, Quantity};
+use etendue_core::quantity::Quantity;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::{Existing, OutputFolder};
-use etendue_pipeline::plan::{
-    CameraBody, CameraPlan, Development, PictureFormat, Products, TimeDependence, raw_extension,
-};
+use etendue_pipeline::plan::{Development, PictureFormat, raw_extension};
 use etendue_plan_report::tone_curve::encoding;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
-use std::ops::Range;
 use std::path::Path;
 
 /// What a file holds: its quantity and unit.
@@ -121,85 +116,6 @@ impl Files {
     #[must_use]
     pub fn undistorted(name: &str) -> String {
         format!("undistorted/{name}")
-    }
-
-    /// All files of a camera whose frames have one light, with what they hold.
-    #[must_use]
-    pub fn of(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
-        let mut files = Self::of_light(p);
-        files.extend(Self::of_frames(p, body, frames));
-        files
-    }
-
-    /// All files of a camera of a plan over frames, with what they hold.
-    #[must_use]
-    pub fn of_camera(camera: &CameraPlan, frames: &Range<u32>) -> BTreeMap<String, Value> {
-        let (p, body) = (&camera.products, &camera.body);
-        if camera.time == TimeDependence::None {
-            return Self::of(p, body, frames);
-        }
-        let mut files = Self::of_frames(p, body, frames);
-        for (name, entry) in Self::of_light(p) {
-            if Self::is_of_camera(&name) {
-                files.insert(name, entry);
-                continue;
-            }
-            files.extend(frames.clone().map(|frame| (Self::numbered(&name, frame), entry.clone())));
-        }
-        let facts = entry("times, poses and sensor of a frame", "");
-        files.extend(frames.clone().map(|frame| (Self::frame(frame), facts.clone())));
-        files
-    }
-
-    /// Whether a file tells of the camera or of all frames, and has no frame's number.
-    pub(crate) fn is_of_camera(name: &str) -> bool {
-        [Self::RAYS, Self::TRACKS].contains(&name) || name == Self::undistorted(Self::RAYS)
-    }
-
-    /// The files of light and ground truth.
-    fn of_light(p: &Products) -> BTreeMap<String, Value> {
-        let mut files = FileEntries::default();
-        PRODUCT_FILES.iter().for_each(|product| (product.entries)(p, &mut files));
-        files.add(
-            p.annotations.tracks,
-            Self::TRACKS,
-            entry("boxes of objects over all frames, object by object", "px, m, s"),
-        );
-        files.add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
-        let twin = p.undistorted.is_some();
-        let planes = entry("depth, distance, normal, position, ids of the undistorted twin", "m, m, 1, m, 1");
-        files.add(twin && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
-        let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
-        files.add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
-        files.0.into_iter().collect()
-    }
-
-    /// The files of photographs.
-    fn of_frames(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
-        let mut files = BTreeMap::new();
-        let mut add = |wanted: bool, name: &str, entry: Value| {
-            if wanted {
-                files.insert(name.to_owned(), entry);
-            }
-        };
-        let twin = p.undistorted.is_some();
-        let format = body.picture_format();
-        let picture = body.development.as_ref().map_or(Value::Null, Self::picture_entry);
-        let video = entry("pictures of all frames, Y'CbCr of BT.709 in limited range, 4:4:4", "8 bits");
-        add(p.video, Self::VIDEO, video);
-        let mut undistorted = picture.clone();
-        undistorted["quantity"] = format!("undistorted {}", picture["quantity"].as_str().unwrap_or_default()).into();
-        for frame in frames.clone() {
-            add(twin && p.picture, &Self::undistorted(&Self::picture(frame, format)), undistorted.clone());
-            add(p.raw, &Self::raw(frame, p.raw_format), entry_of::<DigitalNumber>());
-            add(
-                p.signal_breakdown,
-                &Self::signal_breakdown(frame),
-                entry("causes of the digital number, one layer each", "e"),
-            );
-            add(p.picture, &Self::picture(frame, format), picture.clone());
-        }
-        files
     }
 }
 

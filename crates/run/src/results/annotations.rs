@@ -2,9 +2,8 @@
 
 use super::camera::CameraResults;
 use super::metadata::add_time;
-use super::products::{FileEntries, ProductFiles, Stage};
 use super::writer::{Encoder, ResultWriter};
-use crate::result_files::{Files, entry};
+use crate::result_files::Files;
 use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, Identity};
 use etendue_io::Provenance;
@@ -20,28 +19,6 @@ use etendue_pipeline::motion::{MotionTruth, NeighbourTruth, disparity, motion_tr
 use etendue_pipeline::plan::{CorrespondenceFormat, Plan, Products};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-
-/// The files of what lies between frames, between cameras and of objects.
-pub(super) const ANNOTATIONS: ProductFiles =
-    ProductFiles { entries, stage: Stage::GroundTruth, write: |results, writer| results.write_annotations(writer) };
-
-fn entries(products: &Products, files: &mut FileEntries) {
-    let asked = &products.annotations;
-    let flow = entry("optical flow to the next frame", "px");
-    let layers = "flow, visibility, image velocity, scene flow, velocity and time, as far as asked for";
-    files.add(asked.needs_neighbours(), Files::MOTION, entry(layers, "px, 1, px/s, m, m/s, s"));
-    files.add(asked.optical_flow == Some(CorrespondenceFormat::Middlebury), Files::FLOW_FLO, flow.clone());
-    files.add(asked.optical_flow == Some(CorrespondenceFormat::Kitti), Files::FLOW_PNG, flow);
-    let disparity = asked.disparity.map(|asked| asked.format);
-    files.add(disparity.is_some(), Files::DISPARITY, entry("disparity, visibility", "px, 1"));
-    let map = entry("disparity; infinite where it is not known", "px");
-    files.add(disparity == Some(CorrespondenceFormat::Middlebury), Files::DISPARITY_PFM, map);
-    let picture = entry("disparity; 0 where it is not known", "1/256 px");
-    files.add(disparity == Some(CorrespondenceFormat::Kitti), Files::DISPARITY_PNG, picture);
-    files.add(asked.boxes, Files::BOXES, entry("boxes of objects in the picture and in space", "px, m"));
-    let ranked = "objects and materials of each pixel by falling coverage, Cryptomatte 1.2";
-    files.add(asked.cryptomatte, Files::CRYPTOMATTE, entry(ranked, "1"));
-}
 
 impl CameraResults {
     /// Optical flow, visibility and motion in space of the first of the frames: against the next frame, and then against the one before it,

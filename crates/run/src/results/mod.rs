@@ -14,7 +14,6 @@ pub(crate) mod writer;
 pub(crate) use camera::SensorHistory;
 pub use camera::{CameraResults, display_jpeg};
 pub(crate) use done_frames::DoneFrames;
-pub(crate) use products::{FileEntries, PRODUCT_FILES};
 pub(crate) use sequence::Sequence;
 
 use etendue_core::observer::Observer;

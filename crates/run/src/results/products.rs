@@ -1,11 +1,10 @@
 //! The files of light and ground truth that a camera can deliver: their names, what they hold, and how they are written.
 
-use super::annotations::ANNOTATIONS;
 use super::camera::CameraResults;
 use super::metadata;
 use super::writer::ResultWriter;
 use crate::result_files::{Files, entry, entry_of};
-use etendue_core::quantity::{Cover, Irradiance, MeanElectrons, Radiance, Transmittance};
+use etendue_core::quantity::{Cover, DigitalNumber, Irradiance, MeanElectrons, Radiance, Transmittance};
 use etendue_io::exr::{
     self, ExrImage, Layer, Lengths, SpectralBands, ground_truth_image, ground_truth_of_planes, layers_image,
     plane_image, radiance_image, spectral_image,
@@ -13,16 +12,17 @@ use etendue_io::exr::{
 use etendue_io::failure::Error;
 use etendue_io::{Provenance, png};
 use etendue_pipeline::Plan;
-use etendue_pipeline::plan::{CameraPlan, Products};
+use etendue_pipeline::plan::{CameraBody, CameraPlan, CorrespondenceFormat, Products, TimeDependence};
 use etendue_pipeline::render::Shot;
 use etendue_pipeline::sampling::SamplingPlanes;
 use etendue_pipeline::truth::{GroundTruth, TruthRows};
 use etendue_pipeline::weather_layers::weather_layers;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Files that are written together, of a frame, or of all frames where light does not depend on time.
-pub(crate) struct ProductFiles {
+pub(super) struct ProductFiles {
     /// Adds the files that are asked for, with what they hold.
     pub(crate) entries: fn(&Products, &mut FileEntries),
     /// When they are written.
@@ -33,7 +33,7 @@ pub(crate) struct ProductFiles {
 
 /// When files are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stage {
+pub(super) enum Stage {
     /// Before the photographs, and whenever those are refined.
     Light,
     /// After them.
@@ -42,7 +42,7 @@ pub(crate) enum Stage {
 
 /// Names of files, and what each holds.
 #[derive(Debug, Default)]
-pub(crate) struct FileEntries(pub(crate) Vec<(String, Value)>);
+pub(super) struct FileEntries(Vec<(String, Value)>);
 
 impl FileEntries {
     /// Adds a file where it is asked for.
@@ -63,7 +63,7 @@ impl ProductFiles {
 }
 
 /// All of them, in the order in which they are written.
-pub(crate) const PRODUCT_FILES: &[ProductFiles] = &[
+pub(super) const PRODUCT_FILES: &[ProductFiles] = &[
     ProductFiles {
         entries: |p, files| files.add(p.radiance, Files::RADIANCE, entry_of::<Radiance>()),
         stage: Stage::Light,
@@ -107,6 +107,112 @@ pub(crate) const PRODUCT_FILES: &[ProductFiles] = &[
     },
     ANNOTATIONS,
 ];
+
+/// The files of what lies between frames, between cameras and of objects.
+const ANNOTATIONS: ProductFiles = ProductFiles {
+    entries: annotation_entries,
+    stage: Stage::GroundTruth,
+    write: |results, writer| results.write_annotations(writer),
+};
+
+fn annotation_entries(products: &Products, files: &mut FileEntries) {
+    let asked = &products.annotations;
+    let flow = entry("optical flow to the next frame", "px");
+    let layers = "flow, visibility, image velocity, scene flow, velocity and time, as far as asked for";
+    files.add(asked.needs_neighbours(), Files::MOTION, entry(layers, "px, 1, px/s, m, m/s, s"));
+    files.add(asked.optical_flow == Some(CorrespondenceFormat::Middlebury), Files::FLOW_FLO, flow.clone());
+    files.add(asked.optical_flow == Some(CorrespondenceFormat::Kitti), Files::FLOW_PNG, flow);
+    let disparity = asked.disparity.map(|asked| asked.format);
+    files.add(disparity.is_some(), Files::DISPARITY, entry("disparity, visibility", "px, 1"));
+    let map = entry("disparity; infinite where it is not known", "px");
+    files.add(disparity == Some(CorrespondenceFormat::Middlebury), Files::DISPARITY_PFM, map);
+    let picture = entry("disparity; 0 where it is not known", "1/256 px");
+    files.add(disparity == Some(CorrespondenceFormat::Kitti), Files::DISPARITY_PNG, picture);
+    files.add(asked.boxes, Files::BOXES, entry("boxes of objects in the picture and in space", "px, m"));
+    let ranked = "objects and materials of each pixel by falling coverage, Cryptomatte 1.2";
+    files.add(asked.cryptomatte, Files::CRYPTOMATTE, entry(ranked, "1"));
+}
+
+impl Files {
+    /// All files of a camera whose frames have one light, with what they hold.
+    #[must_use]
+    pub fn of(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
+        let mut files = Self::of_light(p);
+        files.extend(Self::of_frames(p, body, frames));
+        files
+    }
+
+    /// All files of a camera of a plan over frames, with what they hold.
+    #[must_use]
+    pub fn of_camera(camera: &CameraPlan, frames: &Range<u32>) -> BTreeMap<String, Value> {
+        let (p, body) = (&camera.products, &camera.body);
+        if camera.time == TimeDependence::None {
+            return Self::of(p, body, frames);
+        }
+        let mut files = Self::of_frames(p, body, frames);
+        for (name, entry) in Self::of_light(p) {
+            if Self::is_of_camera(&name) {
+                files.insert(name, entry);
+                continue;
+            }
+            files.extend(frames.clone().map(|frame| (Self::numbered(&name, frame), entry.clone())));
+        }
+        let facts = entry("times, poses and sensor of a frame", "");
+        files.extend(frames.clone().map(|frame| (Self::frame(frame), facts.clone())));
+        files
+    }
+
+    /// Returns true if a file is of the camera or of all frames, and has no frame's number.
+    fn is_of_camera(name: &str) -> bool {
+        [Self::RAYS, Self::TRACKS].contains(&name) || name == Self::undistorted(Self::RAYS)
+    }
+
+    /// The files of light and ground truth.
+    fn of_light(p: &Products) -> BTreeMap<String, Value> {
+        let mut files = FileEntries::default();
+        PRODUCT_FILES.iter().for_each(|product| (product.entries)(p, &mut files));
+        files.add(
+            p.annotations.tracks,
+            Self::TRACKS,
+            entry("boxes of objects over all frames, object by object", "px, m, s"),
+        );
+        files.add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
+        let twin = p.undistorted.is_some();
+        let planes = entry("depth, distance, normal, position, ids of the undistorted twin", "m, m, 1, m, 1");
+        files.add(twin && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
+        let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
+        files.add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
+        files.0.into_iter().collect()
+    }
+
+    /// The files of photographs.
+    fn of_frames(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
+        let mut files = BTreeMap::new();
+        let mut add = |wanted: bool, name: &str, entry: Value| {
+            if wanted {
+                files.insert(name.to_owned(), entry);
+            }
+        };
+        let twin = p.undistorted.is_some();
+        let format = body.picture_format();
+        let picture = body.development.as_ref().map_or(Value::Null, Self::picture_entry);
+        let video = entry("pictures of all frames, Y'CbCr of BT.709 in limited range, 4:4:4", "8 bits");
+        add(p.video, Self::VIDEO, video);
+        let mut undistorted = picture.clone();
+        undistorted["quantity"] = format!("undistorted {}", picture["quantity"].as_str().unwrap_or_default()).into();
+        for frame in frames.clone() {
+            add(twin && p.picture, &Self::undistorted(&Self::picture(frame, format)), undistorted.clone());
+            add(p.raw, &Self::raw(frame, p.raw_format), entry_of::<DigitalNumber>());
+            add(
+                p.signal_breakdown,
+                &Self::signal_breakdown(frame),
+                entry("causes of the digital number, one layer each", "e"),
+            );
+            add(p.picture, &Self::picture(frame, format), picture.clone());
+        }
+        files
+    }
+}
 
 fn write_radiance(results: &CameraResults, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
     let camera = results.camera();
