@@ -12,10 +12,12 @@
 //! Y = 0.299 R + 0.587 G + 0.114 B. A half is added to differences of colour so that a picture can hold them (U and V of
 //! saturated colours still leave 0 … 1 and are clipped at the end). Between white points colours are adapted by
 //! Bradford's transform (Lam 1985), so that white stays white.
+//!
+//! Affine maps of colours: 4 × 4 matrices whose last row is 0 0 0 1.
 
-use super::super::{FilterError, Stage};
-use super::Affine;
 use etendue_spectra::colour::{D65_WHITE, XYZ_FROM_SRGB};
+
+use super::{FilterError, Stage};
 
 /// A colour space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,7 +53,7 @@ impl ColourSpace {
         }
     }
 
-    pub(super) fn check(self, stage: Stage) -> Result<(), FilterError> {
+    pub(crate) fn check(self, stage: Stage) -> Result<(), FilterError> {
         let wanted = match (self, stage) {
             (Self::RgbNtsc | Self::RgbPal, Stage::Display) => "linear light",
             (Self::Yuv | Self::Yiq | Self::YCbCr, Stage::Linear) => "encoded pictures",
@@ -118,6 +120,55 @@ fn adaptation(from: [f64; 3], to: [f64; 3]) -> Affine {
     cones.then(&gains).then(&cones.inverse().expect("Bradford's matrix has an inverse"))
 }
 
+/// The upper three rows; the fourth column is what is added.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Affine(pub [[f64; 4]; 3]);
+
+impl Affine {
+    /// Changes nothing.
+    pub const IDENTITY: Self = Self([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]);
+
+    /// A matrix and what is added.
+    #[must_use]
+    pub fn new(rows: [[f64; 3]; 3], offset: [f64; 3]) -> Self {
+        Self([0, 1, 2].map(|i| [rows[i][0], rows[i][1], rows[i][2], offset[i]]))
+    }
+
+    /// The colour's image.
+    #[must_use]
+    pub fn apply(&self, v: [f64; 3]) -> [f64; 3] {
+        self.0.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3])
+    }
+
+    /// This map, then `next`.
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        Self(next.0.map(|row| {
+            core::array::from_fn(|j| {
+                let sum: f64 = (0..3).map(|k| row[k] * self.0[k][j]).sum();
+                if j == 3 { sum + row[3] } else { sum }
+            })
+        }))
+    }
+
+    /// The map back; `None` where there is none.
+    #[must_use]
+    pub fn inverse(&self) -> Option<Self> {
+        let m = &self.0;
+        let minor = |i: usize, j: usize| {
+            let ([a, b], [c, d]) = ([(i + 1) % 3, (i + 2) % 3], [(j + 1) % 3, (j + 2) % 3]);
+            m[a][c] * m[b][d] - m[a][d] * m[b][c]
+        };
+        let determinant: f64 = (0..3).map(|j| m[0][j] * minor(0, j)).sum();
+        if determinant == 0.0 || !determinant.is_finite() {
+            return None;
+        }
+        let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| minor(j, i) / determinant));
+        let offset = rows.map(|row| -(0..3).map(|k| row[k] * m[k][3]).sum::<f64>());
+        Some(Self::new(rows, offset))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -180,5 +231,16 @@ mod tests {
         near(ColourSpace::YCbCr.from_rgb().apply([1.0, 0.0, 0.0]), [0.299, 0.5 - 0.168_736, 1.0], 1e-6);
         near(ColourSpace::Yiq.from_rgb().apply([1.0, 0.0, 0.0]), [0.299, 1.1, 0.71], 6e-3);
         near(ColourSpace::Yuv.from_rgb().apply([1.0, 0.0, 0.0]), [0.299, 0.5 - 0.147, 1.115], 1e-3);
+    }
+
+    #[test]
+    fn an_inverse_undoes_and_a_flat_map_has_none() {
+        let map = Affine::new([[2.0, 1.0, 0.0], [0.0, 1.0, -1.0], [1.0, 0.0, 1.0]], [0.1, -0.2, 0.3]);
+        let back = map.then(&map.inverse().expect("determinant 1"));
+        for (row, want) in back.0.iter().zip(Affine::IDENTITY.0) {
+            assert!((0..4).all(|j| (row[j] - want[j]).abs() < 1e-14), "{back:?}");
+        }
+        assert_eq!(map.apply([1.0, 2.0, 3.0]), [4.1, -1.2, 4.3]);
+        assert_eq!(Affine::new([[1.0; 3]; 3], [0.0; 3]).inverse(), None);
     }
 }
