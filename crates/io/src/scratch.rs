@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use etendue_core::scratch::{Scratch, ScratchStore};
+use etendue_core::storage::{Scratch, ScratchStore};
 
 use crate::tile_cache::folder_of_user;
 

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use ::exr::prelude::FlatSamples;
-use etendue_core::kept_cube::BandReader;
+use etendue_core::storage::BandReader;
 
 use super::encode_error::EncodeError;
 

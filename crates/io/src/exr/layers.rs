@@ -1,6 +1,6 @@
 //! Planes of any name in one file: what a program keeps for itself.
 
-use etendue_core::kept_cube::BandReader;
+use etendue_core::storage::BandReader;
 
 use super::channel::Channel;
 use super::encode::ExrImage;

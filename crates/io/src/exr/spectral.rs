@@ -6,8 +6,8 @@
 
 use std::ops::Range;
 
-use etendue_core::kept_cube::BandReader;
 use etendue_core::quantity::{Length, Quantity, Radiance, Variance};
+use etendue_core::storage::BandReader;
 use etendue_core::{Bands, KeptCube, Plane, SpectralCube};
 
 use super::channel::{Channel, Samples, Strips};

@@ -1,6 +1,6 @@
 //! The head of a file of blocks, and where its blocks are.
 
-use etendue_core::blocks::BlockKey;
+use etendue_core::storage::BlockKey;
 
 use super::checksum;
 

@@ -24,7 +24,7 @@ mod writer;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use etendue_core::blocks::{BlockKey, BlockStore, Blocks, Fill};
+use etendue_core::storage::{BlockKey, BlockStore, Blocks, Fill};
 
 use crate::hash::hex;
 use crate::within;
@@ -134,7 +134,7 @@ mod tests {
         (0..LENGTHS[i]).map(|j| (j * 7 + i as u32) as u8).collect()
     }
 
-    fn fill(out: &mut dyn etendue_core::blocks::BlockWriter) -> Result<(), String> {
+    fn fill(out: &mut dyn etendue_core::storage::BlockWriter) -> Result<(), String> {
         // In any order.
         [2, 0, 1].into_iter().try_for_each(|i| out.write(i, &block(i)))
     }

@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use etendue_core::blocks::{BlockKey, BlockWriter, Blocks, Fill};
+use etendue_core::storage::{BlockKey, BlockWriter, Blocks, Fill};
 
 use super::checksum;
 use super::head::{HEAD_BYTES, head, offsets};

@@ -5,7 +5,7 @@ use std::io::{Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use etendue_core::blocks::{BlockKey, BlockWriter, Fill};
+use etendue_core::storage::{BlockKey, BlockWriter, Fill};
 
 use super::checksum;
 use super::head::{head, offsets};

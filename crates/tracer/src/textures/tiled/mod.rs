@@ -6,7 +6,7 @@
 mod layout;
 mod memory;
 mod writer;
-use etendue_core::blocks::Blocks;
+use etendue_core::storage::Blocks;
 use glam::Vec3;
 use layout::{FLOAT_TEXEL, LevelLayout, STATISTICS_BYTES, Statistics, TILE, layout};
 pub use memory::TileMemory;

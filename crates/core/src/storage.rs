@@ -1,12 +1,118 @@
-//! Spectral cubes that need not be in memory.
+//! Room outside of memory: numbered blocks of bytes, scratch space, and spectral cubes that are kept in it.
+//!
+//! Numbered blocks of bytes that are kept outside of memory, each read by itself when it is needed.
+//!
+//! Who makes blocks knows what they hold; who keeps them knows where. Errors are sentences for the user that name the file.
+//!
+//! Room outside of memory for what a run needs until it ends.
+//!
+//! Who asks for room knows what it holds; who gives it knows where it is. Nothing is left of it when the last who holds it lets go, however the run
+//! ends. Errors are sentences for the user.
+
+use core::fmt::Debug;
+use std::{borrow::Cow, ops::Range, sync::Arc};
 
 use crate::plane::{Plane, SpectralCube};
-use crate::quantity::Quantity;
-use crate::wavelength::Bands;
-use core::fmt::Debug;
-use std::borrow::Cow;
-use std::ops::Range;
-use std::sync::Arc;
+use crate::{quantity::Quantity, wavelength::Bands};
+
+/// What blocks are kept under: a hash of everything that decides their bytes.
+pub type BlockKey = [u8; 32];
+
+/// Blocks that are complete.
+pub trait Blocks: Debug + Send + Sync {
+    /// Fills `bytes`, which is as long as the block, from any thread.
+    ///
+    /// # Errors
+    /// Where the block cannot be read or is not what was written.
+    fn read(&self, block: usize, bytes: &mut [u8]) -> Result<(), String>;
+}
+
+/// Takes blocks, in any order, each once.
+pub trait BlockWriter {
+    /// Writes a block.
+    ///
+    /// # Errors
+    /// Where it cannot be written.
+    fn write(&mut self, block: usize, bytes: &[u8]) -> Result<(), String>;
+}
+
+/// Writes all blocks to where it is told.
+pub type Fill<'a> = &'a mut dyn FnMut(&mut dyn BlockWriter) -> Result<(), String>;
+
+/// Where blocks are kept.
+pub trait BlockStore: Debug + Send + Sync {
+    /// The blocks of a key; `None` where there are none that are whole. `lengths` are the bytes of each.
+    fn find(&self, key: &BlockKey, lengths: &[u32]) -> Option<Arc<dyn Blocks>>;
+
+    /// Refuses blocks for which there is no room whatever is removed, before they are made.
+    ///
+    /// # Errors
+    /// What is too much, and what to do.
+    fn check_room(&self, _key: &BlockKey, _lengths: &[u32]) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// Keeps the blocks that `fill` writes; nobody sees them before all are there.
+    ///
+    /// # Errors
+    /// Where they cannot be kept, or the error of `fill`; nothing is left of them then.
+    fn make(&self, key: &BlockKey, lengths: &[u32], fill: Fill<'_>) -> Result<Arc<dyn Blocks>, String>;
+}
+
+/// Bytes that can be written and read at any place, from any thread. What was never written reads as 0.
+pub trait Scratch: Debug + Send + Sync {
+    /// Writes `bytes` from the byte `offset` on.
+    ///
+    /// # Errors
+    /// Where they cannot be written: a full disk is named.
+    fn write(&self, offset: u64, bytes: &[u8]) -> Result<(), String>;
+
+    /// Fills `bytes` from the byte `offset` on.
+    ///
+    /// # Errors
+    /// Where they cannot be read.
+    fn read(&self, offset: u64, bytes: &mut [u8]) -> Result<(), String>;
+}
+
+/// Bytes of a number.
+pub const NUMBER_BYTES: usize = size_of::<f32>();
+/// Numbers that are turned into bytes at a time.
+const PART: usize = 1 << 18;
+
+/// Writes numbers of 32 bits, little-endian, from the byte `offset` on.
+///
+/// # Errors
+/// As [`Scratch::write`].
+pub fn write_numbers(scratch: &dyn Scratch, offset: u64, numbers: &[f32]) -> Result<(), String> {
+    for (part, numbers) in numbers.chunks(PART).enumerate() {
+        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        scratch.write(offset + (part * PART * NUMBER_BYTES) as u64, &bytes)?;
+    }
+    Ok(())
+}
+
+/// Reads numbers that [`write_numbers`] wrote, with the same bits.
+///
+/// # Errors
+/// As [`Scratch::read`].
+pub fn read_numbers(scratch: &dyn Scratch, offset: u64, numbers: &mut [f32]) -> Result<(), String> {
+    for (part, numbers) in numbers.chunks_mut(PART).enumerate() {
+        let mut bytes = vec![0; numbers.len() * NUMBER_BYTES];
+        scratch.read(offset + (part * PART * NUMBER_BYTES) as u64, &mut bytes)?;
+        let (stored, _) = bytes.as_chunks::<NUMBER_BYTES>();
+        numbers.iter_mut().zip(stored).for_each(|(number, stored)| *number = f32::from_le_bytes(*stored));
+    }
+    Ok(())
+}
+
+/// Where there is room.
+pub trait ScratchStore: Debug + Send + Sync {
+    /// Room for `bytes`.
+    ///
+    /// # Errors
+    /// Where there cannot be any.
+    fn room(&self, bytes: u64) -> Result<Arc<dyn Scratch>, String>;
+}
 
 /// Bands of pixels that are read where they are kept, from any thread.
 pub trait BandReader: Debug + Send + Sync {
