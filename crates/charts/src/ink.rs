@@ -119,7 +119,7 @@ impl Ink {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue_spectra::chart::colorchecker;
+    use etendue_spectra::reflectance::colorchecker;
 
     #[test]
     fn greys_and_spectra_are_shown_by_the_light() {

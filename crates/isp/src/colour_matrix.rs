@@ -219,7 +219,7 @@ fn substitute(lower: &Square, b: [f64; MAX_CHANNELS], channels: usize) -> [f64; 
 
 #[cfg(test)]
 mod tests {
-    use etendue_spectra::{camera, chart};
+    use etendue_spectra::{camera, reflectance};
 
     use super::*;
 
@@ -238,7 +238,7 @@ mod tests {
     }
 
     fn chart_spectra() -> impl Iterator<Item = &'static Spectrum> {
-        chart::colorchecker().iter().map(|patch| &patch.reflectance)
+        reflectance::colorchecker().iter().map(|patch| &patch.reflectance)
     }
 
     fn lab_of(linear: [f64; 3]) -> colour::Lab {

@@ -9,7 +9,7 @@ use crate::panel::Panel;
 use crate::ray_camera::Footprint;
 use crate::shape::{Cell, Fill, Lattice, Sheet};
 use etendue_core::maths::f64::pow;
-use etendue_spectra::chart::colorchecker;
+use etendue_spectra::reflectance::colorchecker;
 use glam::DVec2;
 
 /// How much of what is wholly seen the patches take.

@@ -12,7 +12,7 @@ use etendue_charts::design::ColorChecker;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
-use etendue_spectra::chart::colorchecker;
+use etendue_spectra::reflectance::colorchecker;
 use etendue_spectra::{colour, illuminant, observer};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
@@ -122,7 +122,7 @@ fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<V
         (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v
     };
     let half = 0.5 * request.patch * ((b - a).length() / columns).min((d - a).length() / rows);
-    let patch = |(i, patch): (usize, &etendue_spectra::chart::Patch)| {
+    let patch = |(i, patch): (usize, &etendue_spectra::reflectance::Patch)| {
         let (low, high) = (middle(i) - half, middle(i) + half);
         let beyond = || {
             Error::argument("corners", "`corners`: a patch lies beyond the picture").with_code(ErrorCode::OutOfRange)

@@ -158,10 +158,10 @@ fn fitted(patches: &[ColourPatch], readings: &[f64]) -> Option<[[f64; 3]; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue_spectra::{chart::colorchecker, colour::D65_WHITE, illuminant, observer};
+    use etendue_spectra::{colour::D65_WHITE, illuminant, observer, reflectance::colorchecker};
 
     fn patches(readings: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<ColourPatch> {
-        let patch = |p: &etendue_spectra::chart::Patch| {
+        let patch = |p: &etendue_spectra::reflectance::Patch| {
             let reference = observer::xyz_of_reflectance(&p.reflectance, illuminant::d65());
             let pixels = readings(reference).map(|r| Image::filled(4, 4, (r + 16.0) as f32));
             ColourPatch { name: p.name.to_owned(), pixels, reference }

@@ -104,7 +104,7 @@ fn fitted(patches: &[ColourPatch], readings: &[f64]) -> Option<[[f64; 3]; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue_spectra::{chart::colorchecker, illuminant, observer};
+    use etendue_spectra::{illuminant, observer, reflectance::colorchecker};
 
     #[test]
     fn a_camera_that_is_a_matrix_of_srgb_gives_its_inverse() {

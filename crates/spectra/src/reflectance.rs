@@ -1,3 +1,5 @@
+//! Reflectances by name: typical materials of roads and streets, and the ColorChecker of 24 patches.
+//!
 //! Typical spectra of the materials of roads and streets, by name.
 //!
 //! Values are typical of a material class and set down by hand: level and form follow what the works that [`source`]
@@ -7,9 +9,13 @@
 //!
 //! **Left out:** spread within a class, dirt, weathering, fluorescence (so no daylight-fluorescent sheeting, no
 //! brightener in cloth), dependence on direction.
+//!
+//! The ColorChecker of 24 patches: BabelColor's average of measured reflectances, 380–730 nm, end values held.
 
-use crate::{Outside, Spectrum, table};
 use std::sync::LazyLock;
+
+use crate::spectrum::{embedded, embedded_names};
+use crate::{Outside, Spectrum, table};
 
 /// A spectrum of the table.
 struct Entry {
@@ -19,7 +25,7 @@ struct Entry {
 }
 
 static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| {
-    let (_, entries) = include_str!("../../data/reflectance.txt").split_once("\n[").expect("entries");
+    let (_, entries) = include_str!("../data/reflectance.txt").split_once("\n[").expect("entries");
     entries.split("\n[").map(entry).collect()
 });
 
@@ -59,6 +65,26 @@ pub fn source(name: &str) -> Option<&'static str> {
 #[must_use]
 pub fn names() -> &'static [&'static str] {
     &NAMES
+}
+
+/// A patch of the chart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    /// The patch's name, as the table gives it: `dark_skin`, … `black_2_(1.5_D)`.
+    pub name: &'static str,
+    /// Its reflectance.
+    pub reflectance: Spectrum,
+}
+
+/// The 24 patches in the chart's order: four rows of six, from dark skin to black.
+#[must_use]
+pub fn colorchecker() -> &'static [Patch] {
+    static PATCHES: LazyLock<Vec<Patch>> = LazyLock::new(|| {
+        let text = include_str!("../data/colorchecker_reflectance.csv");
+        let spectra = embedded::<25>(text, Outside::Hold);
+        embedded_names(text).zip(spectra).map(|(name, reflectance)| Patch { name, reflectance }).collect()
+    });
+    &PATCHES
 }
 
 #[cfg(test)]
@@ -131,5 +157,14 @@ mod tests {
         }
         assert!(at("paint-red", 650.0) > 10.0 * at("paint-red", 500.0));
         assert!(at("paint-blue", 460.0) > 5.0 * at("paint-blue", 620.0));
+    }
+
+    #[test]
+    fn the_chart_has_its_patches_in_order() {
+        let patches = colorchecker();
+        assert_eq!((patches.len(), patches[0].name, patches[14].name), (24, "dark_skin", "red"));
+        assert!(patches.iter().all(|p| p.reflectance.min_value() > 0.0 && p.reflectance.max_value() < 1.0));
+        let greys: Vec<f32> = patches[18..].iter().map(|p| p.reflectance.at(550.0)).collect();
+        assert!(greys.windows(2).all(|w| w[1] < w[0]), "the last row falls from white to black: {greys:?}");
     }
 }
