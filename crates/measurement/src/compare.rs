@@ -7,7 +7,7 @@ use crate::compare_pictures;
 use etendue_io::compare::{Channel, Content, Origin, Pair, read_pair};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_stats::ErrorSummary;
-use etendue_stats::family::sidak_level;
+use etendue_stats::chi_square::sidak_level;
 use etendue_stats::planes::{EstimatedPlane, PlaneTest, Verdict, compare as compare_planes};
 use std::path::Path;
 

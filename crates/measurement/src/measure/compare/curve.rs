@@ -5,7 +5,7 @@
 //! points passes as often as one point passes 1 (k = 2: 4.55 %), by Šidák's level; n counts the points of all curves of one kind, such as those of all edges. Points of fitted curves share errors: there it errs towards agreement.
 
 use etendue_metrology::Estimate;
-use etendue_stats::family::sidak_level;
+use etendue_stats::chi_square::sidak_level;
 use etendue_stats::normal::{quantile, two_sided_p};
 use serde_json::Value;
 
