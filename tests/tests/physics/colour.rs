@@ -3,8 +3,8 @@
 use etendue_isp::WhiteBalance;
 use etendue_spectra::colour::{lab, xyz_from_linear_srgb};
 use etendue_spectra::{illuminant, metal, observer, reflectance};
+use etendue_testkit::form_factor::simpson;
 use etendue_testkit::judge::against_truth;
-use etendue_testkit::quadrature::simpson;
 use etendue_tests::{Job, Shot};
 
 /// Luminance of the light, cd/m².
