@@ -11,7 +11,7 @@ use etendue_charts::design::{DeadLeaves, SiemensStar};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::Stated;
 use etendue_metrology::texture::leaves::{TexturePoint, measure_texture};
-use etendue_metrology::texture::star::{Star, StarPoint, measure_star};
+use etendue_metrology::texture::{Star, StarPoint, measure_star};
 use etendue_metrology::{Estimate, Image};
 use std::path::{Path, PathBuf};
 

@@ -12,12 +12,11 @@
 
 mod processing;
 
-use crate::flat::saturated_percent;
-use crate::patch_statistics::patch_statistics;
-use crate::propagate::{Curved, propagate_curved};
-use crate::solve::Normal;
-use crate::{Estimate, Image};
 use etendue_spectra::colour::{Lab, ciede2000, lab};
+
+use crate::estimate::{Curved, propagate_curved};
+use crate::patch_statistics::{patch_statistics, saturated_percent};
+use crate::{Estimate, Image, linear::Normal};
 
 pub use processing::{ColourProcessing, colour_processing, white_balance};
 
