@@ -4,10 +4,9 @@
 //! killed. (Where names of open files cannot be removed, the system is asked to do it when the file is closed.)
 
 use std::fs::{File, OpenOptions};
-use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::{io, sync::Arc};
 
 use etendue_core::storage::{Scratch, ScratchStore};
 

@@ -3,7 +3,7 @@
 use super::layers::Layers;
 use super::tree::{UsdAttribute, UsdAxis, UsdPrim, UsdRelation, UsdStage};
 use super::values::{bytes_of, plain};
-use etendue_io::guard::guarded;
+use etendue_io::error::guarded;
 use etendue_io::{Error, Sandbox};
 use etendue_scene::limits;
 use openusd::sdf::{Specifier, Value};

@@ -3,15 +3,11 @@
 //! Without aliases, tags and several documents, which no program that is read here writes but for OpenCV's `!!opencv-matrix`, and
 //! that one says nothing that its keys do not. OpenCV's own header `%YAML:1.0`, which is not YAML, is passed over.
 
-mod fault;
+use std::{borrow::Cow, collections::BTreeSet, path::Path};
 
-use std::borrow::Cow;
-use std::collections::BTreeSet;
-
-use crate::ErrorCode;
 use saphyr_parser::{Event, Parser, ScalarStyle, Span, StrInput};
 
-pub(crate) use fault::{Fault, Read, passed_over};
+use crate::{Error, ErrorCode, Problem};
 
 /// A node of the tree.
 #[derive(Debug)]
@@ -225,6 +221,37 @@ pub(crate) fn list(names: &[&str]) -> String {
     const SHOWN: usize = 24;
     let more = if names.len() > SHOWN { ", …" } else { "" };
     if names.is_empty() { "no keys".to_owned() } else { names[..names.len().min(SHOWN)].join(", ") + more }
+}
+
+/// What is wrong, and in which line (from 1; 0 for the whole file).
+#[derive(Debug)]
+pub(crate) struct Fault {
+    pub(crate) line: usize,
+    pub(crate) what: String,
+    code: ErrorCode,
+}
+
+pub(crate) type Read<T> = Result<T, Fault>;
+
+impl Fault {
+    pub(crate) fn at(line: usize, what: impl Into<Problem>) -> Self {
+        let Problem { code, words } = what.into();
+        Self { line, what: words, code }
+    }
+
+    pub(crate) fn coded(code: ErrorCode, line: usize, what: impl Into<String>) -> Self {
+        Self::at(line, Problem::new(code, what))
+    }
+
+    pub(crate) fn of(self, file: &Path) -> Error {
+        let what = Problem::new(self.code, self.what);
+        if self.line == 0 { Error::new(file, what) } else { Error::at(file, self.line, what) }
+    }
+}
+
+/// A note of keys that say nothing of the camera.
+pub(crate) fn passed_over(keys: &[&str]) -> Vec<String> {
+    if keys.is_empty() { Vec::new() } else { vec![format!("passed over: {}", keys.join(", "))] }
 }
 
 #[cfg(test)]
