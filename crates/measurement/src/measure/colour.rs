@@ -1,21 +1,20 @@
 //! `measure colour`: the colours of a ColorChecker after a fitted matrix.
 
-use super::picture_input::{PictureInput, refused};
-use super::readings::Readings;
-use super::truth::Truth;
-use super::truth::place::Patch;
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use etendue_arguments::place;
 use etendue_charts::design::ColorChecker;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
-use etendue_spectra::reflectance::colorchecker;
-use etendue_spectra::{colour, illuminant, observer};
+use etendue_spectra::{colour, illuminant, observer, reflectance::colorchecker};
 use glam::DVec2;
-use std::path::{Path, PathBuf};
+
+use super::pictures::{PictureInput, refused};
+use super::{readings::Readings, truth::Truth, truth::place::Patch};
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// `etendue measure colour`
 #[derive(Args, Clone, Debug)]

@@ -14,17 +14,14 @@
 //! How bright the surface was is no fact of the camera: s is what brings the readings between 5 % and 95 % of the range nearest
 //! (least squares of s H on the light that the declared curve reads from them). So the form is compared, and its ends, not the sensitivity.
 
-use super::channel::{channel, place_of};
-use super::curve::Curve;
-use super::light::{spectrum, weighed};
-use super::side::Side;
 use etendue_isp::WhiteBalance;
-use etendue_metrology::Estimate;
-use etendue_metrology::oecf::noisy_mean;
+use etendue_metrology::{Estimate, oecf::noisy_mean};
 use etendue_pipeline::plan::{CameraBody, Development};
-use etendue_sensor::Sensor;
-use etendue_sensor::effects::response::Response;
+use etendue_sensor::{Sensor, effects::response::Response};
 use etendue_spectra::colour::BT709;
+
+use super::mean::Curve;
+use super::side::{Side, channel, place_of, spectrum, weighed};
 
 /// What turns a share of saturation into a reading.
 struct Tone<'a> {

@@ -1,9 +1,10 @@
 //! Curves of photon transfer.
 
-use super::found::Found;
+use etendue_metrology::photon_transfer::{Stack, TransferData, model_snr, spatial};
+
+use super::request::Found;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::Report;
-use etendue_metrology::photon_transfer::{Stack, TransferData, model_snr, spatial};
 
 pub(super) fn draw(report: &mut Report, found: &Found) {
     report.plot(transfer_plot(found));

@@ -1,14 +1,33 @@
-//! The report of a measurement as one page: what was found, tables, plots, notes.
+//! Pages that a browser opens from the file system: the look that results and reports share, and the report of a measurement.
 
-use super::html_page;
-use crate::plot::svg;
-use crate::report::{Cell, Report, Table};
-use etendue_io::escape::escaped;
-use serde_json::Value;
 use std::fmt::Write as _;
 
+use etendue_io::escape::escaped;
+use serde_json::Value;
+
+use crate::plot::svg;
+use crate::report::{Cell, Report, Table};
+
+/// The look that all pages share: colours, light or dark as the system asks for, text and tables.
+pub const PAGE_STYLE: &str = include_str!("page/style.css");
+
+/// What a page of this program has near its beginning.
+pub const PAGE_GENERATOR: &str = "<meta name=\"generator\" content=\"etendue ";
+
+/// A page: its head, and what stands in the body. Nothing of `style`, which comes after [`PAGE_STYLE`], and of `body` is escaped.
+#[must_use]
+pub fn html_page(title: &str, style: &str, body: &str) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n{PAGE_GENERATOR}{version}\">\n<title>{}</title>\n\
+         <style>\n{PAGE_STYLE}{style}</style>\n</head>\n<body>\n{body}</body>\n</html>\n",
+        escaped(title)
+    )
+}
+
 /// The look of reports.
-pub(crate) const REPORT_STYLE: &str = include_str!("report.css");
+pub(crate) const REPORT_STYLE: &str = include_str!("page/report.css");
 /// Rows of a table on the page; JSON has all of them.
 const MAX_ROWS: usize = 500;
 
@@ -114,4 +133,14 @@ fn cell(cell: &Cell) -> String {
 /// Numbers stand to the right.
 fn class(cell: &Cell) -> &'static str {
     if matches!(cell, Cell::Text(_) | Cell::Nothing) { "" } else { " class=\"number\"" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_are_text() {
+        assert!(html_page("<x>", "", "").contains("<title>&lt;x&gt;</title>"));
+    }
 }
