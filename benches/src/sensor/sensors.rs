@@ -2,18 +2,18 @@
 
 use etendue_sensor::cfa::Cfa;
 use etendue_sensor::effects::angle_response::AngleResponse;
-use etendue_sensor::effects::crosstalk::Crosstalk;
 use etendue_sensor::effects::dark_current::{DarkCurrent, DarkSpread, Hot, SpreadDistribution};
 use etendue_sensor::effects::full_well::Blooming;
-use etendue_sensor::effects::inter_pixel_capacitance::InterPixelCapacitance;
 use etendue_sensor::effects::lag::Trap;
+use etendue_sensor::effects::neighbours::Crosstalk;
+use etendue_sensor::effects::neighbours::InterPixelCapacitance;
 use etendue_sensor::effects::neighbours::Neighbours;
 use etendue_sensor::effects::offset_pattern::OffsetPattern;
+use etendue_sensor::effects::offset_pattern::ReadNoise;
 use etendue_sensor::effects::photo_response::PhotoResponse;
-use etendue_sensor::effects::read_noise::ReadNoise;
 use etendue_sensor::effects::response::{Knee, Response};
-use etendue_sensor::effects::rts_noise::RtsNoise;
 use etendue_sensor::effects::smear::Smear;
+use etendue_sensor::effects::two_level::RtsNoise;
 use etendue_sensor::effects::two_level::TwoLevel;
 use etendue_sensor::hdr::{Capture, HighDynamicRange};
 use etendue_sensor::{

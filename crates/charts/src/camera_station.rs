@@ -1,10 +1,12 @@
 //! Where cameras stand and how long they look.
 
-use crate::error::ChartError;
+use std::f64::consts::TAU;
+
 use etendue_core::CameraPose;
 use etendue_core::maths::f64::{exp, ln, sin_cos};
 use glam::DVec3;
-use std::f64::consts::TAU;
+
+use crate::error::ChartError;
 
 /// A camera of the job.
 #[derive(Clone, Debug, PartialEq)]

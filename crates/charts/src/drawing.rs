@@ -1,9 +1,9 @@
 //! What a chart is: sheets, inks, and where its features lie.
 
-use crate::ink::Ink;
-use crate::panel::Panel;
 use glam::DVec2;
 use serde_json::{Map, Value};
+
+use crate::{ink::Ink, light::Panel};
 
 /// What there is to be found on a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,11 +3,12 @@
 //! Views in even steps meet the pixels' raster, and the mosaic of a sensor in colour, in the same places every time. A measurement over several such series
 //! repeats what the raster does to it instead of averaging it.
 
-use crate::camera_station::CameraStation;
 use etendue_core::maths::f64::sin_cos;
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use glam::{DQuat, DVec3};
 use rand::RngExt as _;
+
+use crate::camera_station::CameraStation;
 
 /// The camera points beside its target by up to this share of the distance, across and up.
 const ASIDE: f64 = 0.005;

@@ -1,9 +1,10 @@
 //! Inks: what the pieces of a sheet are printed with, and how that looks under the chart's light.
 
-use crate::light::Light;
 use etendue_spectra::colour::{Lab, lab, linear_srgb_from_xyz};
 use etendue_spectra::observer::{xyz, xyz_of_reflectance};
 use etendue_spectra::{Spectrum, illuminant};
+
+use crate::light::Light;
 
 /// An ink and its name.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,7 +120,7 @@ impl Ink {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue_spectra::chart::colorchecker;
+    use etendue_spectra::reflectance::colorchecker;
 
     #[test]
     fn greys_and_spectra_are_shown_by_the_light() {

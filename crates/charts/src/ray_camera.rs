@@ -1,8 +1,9 @@
 //! A camera as a function from raster points to rays, what it sees of a plane, and its inverse.
 
-use crate::error::ChartError;
 use etendue_core::maths::f64::{cos, tan};
 use glam::{DMat2, DVec2, DVec3};
+
+use crate::error::ChartError;
 
 /// The ray of a raster point, camera frame (x right, y down, z forward; m).
 #[derive(Clone, Copy, Debug, PartialEq)]

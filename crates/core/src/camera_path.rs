@@ -1,9 +1,8 @@
 //! Where a camera stands over time.
 
-use crate::TimeInterval;
-use crate::frame::CameraPose;
-use crate::motion::Motion;
 use glam::{DAffine3, DVec3};
+
+use crate::{TimeInterval, frame::CameraPose, motion::Motion};
 
 /// The pose of a camera at every time.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,8 +3,7 @@
 //! An f64 of 1.7·10⁹ s (a Unix time) has steps of 0.24 µs, and one of 10¹⁰ s of 1.9 µs. Times of a job are therefore stored as whole
 //! seconds and a fraction, and a job that begins far from zero counts its times from a whole second near its beginning.
 
-use std::fmt;
-use std::str::FromStr;
+use std::{fmt, str::FromStr};
 
 /// A point of simulated time or a difference of two: whole seconds and a fraction of a second of the same sign.
 ///

@@ -15,14 +15,11 @@
 //! | sensor | x right, y down as the erect picture is seen, origin at the principal point | mm, f64 |
 //! | raster | x right, y down, the top-left corner is (0, 0), pixel centres at + 0.5 | px, f64 |
 
-pub mod blocks;
 mod camera_path;
 pub mod distribution;
 mod effect_status;
 mod exact_time;
-pub mod field;
 pub mod frame;
-pub mod kept_cube;
 pub mod maths;
 mod motion;
 pub mod observer;
@@ -30,8 +27,8 @@ pub mod plane;
 pub mod quantity;
 pub mod random;
 pub mod ray;
-pub mod scratch;
 mod shutter;
+pub mod storage;
 mod time_interval;
 pub mod track;
 pub mod warp;
@@ -43,13 +40,12 @@ pub mod words;
 pub use camera_path::CameraPath;
 pub use effect_status::{EffectStatus, KeyChange, KnownError};
 pub use exact_time::{Cycle, Epoch, ExactTime};
-pub use field::{FieldRay, RadianceField};
 pub use frame::{Basis, CameraPose};
-pub use kept_cube::KeptCube;
 pub use motion::Motion;
 pub use plane::{Plane, SpectralCube};
-pub use ray::{PrimitiveId, PupilRay, Ray};
+pub use ray::{FieldRay, PrimitiveId, PupilRay, RadianceField, Ray};
 pub use shutter::{RowTiming, Shutter};
+pub use storage::KeptCube;
 pub use time_interval::TimeInterval;
 pub use track::Track;
 pub use waveform::Waveform;

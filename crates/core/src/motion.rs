@@ -8,10 +8,12 @@ mod bounds;
 #[cfg(test)]
 mod tests;
 
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3};
+
 use crate::TimeInterval;
 use crate::track::{MovingTransform, RollingError, Track};
-use glam::{DAffine3, DMat3, DVec3};
-use std::sync::Arc;
 
 /// A transform over time: from a moved frame to the world. Before the first of its keys and after the last it holds still.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,6 @@
 //! Rectangles of pixels, and stacks of them over wavelength.
 
-use crate::quantity::Quantity;
-use crate::wavelength::Bands;
+use crate::{quantity::Quantity, wavelength::Bands};
 
 /// A rectangle of pixels of one quantity, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,7 +4,6 @@
 //! time, so that it can be asked for its transform at any time and for boxes that hold all of an interval (`bounds`).
 
 mod bounds;
-mod cubic;
 mod rates;
 mod rolling;
 mod span;
@@ -12,15 +11,17 @@ mod span;
 mod tests;
 mod turn;
 
-pub(crate) use rates::{Bend, Moving as MovingTransform};
-pub use rolling::RollingError;
+use std::sync::Arc;
+
+use glam::{DAffine3, DQuat, DVec3};
 
 use crate::{TimeInterval, words};
-use cubic::Cubic;
-use glam::{DAffine3, DQuat, DVec3};
-use span::{Pose, Span};
-use std::sync::Arc;
+use span::{Cubic, Pose, Span};
 use turn::{Turn, vector_between};
+
+pub use rolling::RollingError;
+
+pub(crate) use rates::{Bend, Moving as MovingTransform};
 
 /// Where something is at a moment: it is scaled, then rotated, then moved.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,10 @@
 //! Maps from the unit square to shapes, with their densities.
 
-use crate::maths::f32::{cos, sin};
 use core::f32::consts::{FRAC_PI_4, PI, TAU};
+
 use glam::{Vec2, Vec3};
+
+use crate::maths::f32::{cos, sin};
 
 /// From the unit square to the unit disc, area-preserving and continuous (Shirley and Chiu 1997). Density 1/π by area.
 #[must_use]

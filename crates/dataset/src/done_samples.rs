@@ -3,14 +3,12 @@
 //! The record of a sample states what was drawn, the digests of the sample's files and a hash of itself. A sample is whole where all of that agrees with the set and
 //! with what is in the folder. Of samples that the run does not make only the records are looked at: what is made of all samples is made of them.
 
-use crate::draw::Drawn;
-use crate::format::Writer;
-use crate::record::SampleRecord;
-use crate::records::{Records, record_name};
-use crate::set::Set;
+use std::{ops::Range, path::Path};
+
 use etendue::{Error, ErrorCode, Message, Observer};
-use std::ops::Range;
-use std::path::Path;
+
+use crate::records::{Records, record_name};
+use crate::{draw::Drawn, format::Writer, record::SampleRecord, set::Set};
 
 /// The samples of a folder, looked at by a run of some of them.
 pub(crate) struct DoneSamples<'a> {

@@ -1,6 +1,5 @@
 //! What a sample draws: a function of the seed, its number and the name of what is drawn.
 
-use crate::change::{Change, choice_texts, number_text, of_choice, of_value};
 use etendue_core::maths::f64::{exp, ln};
 use etendue_core::random::{NoiseStream, stream_of_name};
 use etendue_scene::Placed;
@@ -8,6 +7,8 @@ use etendue_scene::record::variations::{Distribution, Normal, Variations};
 use rand::RngExt as _;
 use rand_distr::Distribution as _;
 use serde::{Deserialize, Serialize};
+
+use crate::request::{Change, choice_texts, number_text, of_choice, of_value};
 
 /// What a sample is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]

@@ -24,11 +24,9 @@
 //!
 //! Masks, boxes, poses and depth are those of the pipeline's ground truth; nothing is found anew here.
 
-mod change;
 mod done_samples;
 mod draw;
 mod format;
-mod mask;
 mod observer;
 mod picture;
 mod record;
@@ -36,8 +34,8 @@ mod records;
 mod request;
 mod run;
 mod set;
-mod tar;
 
 pub use etendue_scene::record::variations::SetFormat;
+
 pub use request::DatasetRequest;
 pub use run::dataset;

@@ -1,12 +1,14 @@
 //! The record of a sample: what was drawn and the truth of its pictures, in `samples/NNNNNN.json`.
 
-use crate::draw::Split;
+use std::collections::BTreeMap;
+
 use etendue::FileDigest;
 use etendue_core::ExactTime;
 use etendue_io::sidecar;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use std::collections::BTreeMap;
+
+use crate::draw::Split;
 
 /// A sample that is done.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

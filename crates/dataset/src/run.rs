@@ -1,24 +1,19 @@
 //! Sample after sample, each whole or not there; then what is made of all.
 
-use crate::change;
-use crate::done_samples::DoneSamples;
-use crate::draw::Drawn;
-use crate::format::{Writer, writers};
-use crate::observer::OfSample;
-use crate::picture;
-use crate::record::SampleRecord;
-use crate::records::{Records, record_name};
-use crate::request::DatasetRequest;
-use crate::set::Set;
+use std::path::{Path, PathBuf};
+use std::{collections::BTreeMap, ops::Range};
+
 use etendue::{
     Error, ErrorCode, Existing, Job, JobRequest, Message, Observer, OutputFolder, RenderOptions, open_variations,
 };
 use etendue_io::{hash, read_regular, sidecar};
 use etendue_scene::limits::DESCRIPTION;
 use serde_json::Value;
-use std::collections::BTreeMap;
-use std::ops::Range;
-use std::path::{Path, PathBuf};
+
+use crate::format::{Writer, writers};
+use crate::records::{Records, record_name};
+use crate::request::{self, DatasetRequest};
+use crate::{done_samples::DoneSamples, draw::Drawn, observer::OfSample, picture, record::SampleRecord, set::Set};
 
 /// What the set is made of.
 const FACTS: &str = "dataset.json";
@@ -42,7 +37,7 @@ pub fn dataset(
     set.idle_keys().iter().for_each(|told| observer.message(Message::Note(told)));
     if let Some(variations) = &set.variations {
         let first = Drawn::of(Some(variations), set.seed, request.samples.start);
-        change::check(variations, &first.groups, &request.job)?;
+        request::check(variations, &first.groups, &request.job)?;
     }
     let writers = writers(&set)?;
     let mut folder = OutputFolder::open(root, existing).map_err(Error::input)?;

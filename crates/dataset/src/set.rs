@@ -1,12 +1,13 @@
 //! What is the same for all samples: cameras, classes, formats; and the file that says so.
 
-use crate::picture::no_picture;
-use crate::request::DatasetRequest;
+use std::ops::Range;
+
 use etendue::{Error, ErrorCode, Job, pinhole_view};
 use etendue_scene::Placed;
 use etendue_scene::record::variations::{SetFormat, Variations};
 use serde_json::{Value, json};
-use std::ops::Range;
+
+use crate::{picture::no_picture, request::DatasetRequest};
 
 /// What is the same for all samples.
 pub(crate) struct Set {

@@ -1,10 +1,7 @@
 //! glTF files: their mesh as it is, lights, cameras and what moves in our keys.
 
-use super::lamps;
-use super::moving::{Moving, add_moving, part_of, to_world};
-use super::naming::{Names, path_between};
-use super::without::{even_sky, whole_view};
-use super::written::{ImportedCamera, View, Written, pose_of, size_of, written};
+use std::path::Path;
+
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::mesh::{
     GltfCamera, GltfLight, GltfLightKind, GltfMotion, GltfProjection, GltfStage, read_gltf_motion, read_gltf_stage,
@@ -14,7 +11,12 @@ use etendue_scene::asset::{MeshAsset, SlotSurface};
 use etendue_scene::record::{Body, Light, LightColour, Mesh, Object, Pose, Scene, Transform};
 use etendue_spectra::colour::BT709;
 use glam::{DAffine3, DVec3};
-use std::path::Path;
+
+use super::lamps;
+use super::moving::{Moving, add_moving, part_of, to_world};
+use super::naming::{Names, path_between};
+use super::without::{even_sky, whole_view};
+use super::written::{ImportedCamera, View, Written, pose_of, size_of, written};
 
 pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
     let stage = read_gltf_stage(file).map_err(Error::input)?;

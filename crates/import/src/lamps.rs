@@ -1,9 +1,10 @@
 //! Lights of other programs as ours: points, cones, parallel light.
 
-use super::naming::{azimuth_elevation_deg, rounded};
 use etendue_scene::record::light::{LampAim, LampPlacement, LampStrength, PointLamp, SpotLamp};
 use etendue_scene::record::{Light, LightColour, Sun, SunLevel};
 use glam::DVec3;
+
+use super::naming::{azimuth_elevation_deg, rounded};
 
 /// The disc of parallel light, whose rays are all alike in the file: as small as shadows need it, degrees.
 const PARALLEL_DEG: f64 = 0.01;

@@ -16,11 +16,13 @@ mod usd;
 mod without;
 mod written;
 
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::{Existing, OutputFolder};
-use std::path::{Path, PathBuf};
+
 use written::Written;
 
 /// What is imported, by the endings of files.

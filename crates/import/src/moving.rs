@@ -1,16 +1,15 @@
 //! Nodes of glTF files that move, as frames with keys and objects in them.
 
-use super::naming::{Names, path_between, rounded};
-use etendue_core::ExactTime;
-use etendue_core::maths::f64 as maths;
-use etendue_core::track::slerp;
+use std::path::Path;
+
+use etendue_core::{ExactTime, maths::f64 as maths, track::slerp};
 use etendue_io::mesh::{GLTF_CUBIC_KEYS as CUBIC_KEYS, GLTF_MIN_TURN, GltfMotion, GltfMover, GltfTrack};
 use etendue_scene::record::frame::{FrameKey, FramePlacement};
-use etendue_scene::record::object::Keyframe;
-use etendue_scene::record::transform::angles_deg;
 use etendue_scene::record::{Body, Frame, Mesh, Object, Scene, Transform};
+use etendue_scene::{record::object::Keyframe, record::transform::angles_deg};
 use glam::{DMat3, DQuat, DVec3};
-use std::path::Path;
+
+use super::naming::{Names, path_between, rounded};
 
 /// The binary chunk of a GLB file, by its name in `meshes/`.
 const BLOB: &str = "chunk.bin";

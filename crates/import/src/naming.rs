@@ -1,10 +1,11 @@
 //! Names, paths and angles as files of the format have them.
 
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
 use etendue_core::maths::f64 as maths;
 use etendue_io::paths::relative_path;
 use glam::DVec3;
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 
 /// Names that were given, each with the number of the next that is like it.
 #[derive(Debug, Default)]

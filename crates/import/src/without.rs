@@ -1,9 +1,10 @@
 //! What stands in for the light and the camera of a scene that has none.
 
-use super::written::{ImportedCamera, View, size_of};
 use etendue_core::maths::f64 as maths;
 use etendue_scene::record::{Emission, Environment, Level, LightColour, Pose, Scene};
 use glam::DVec3;
+
+use super::written::{ImportedCamera, View, size_of};
 
 /// The sky of a scene without light, cd/m²: an overcast day's.
 const SKY_CD_M2: f64 = 2000.0;

@@ -1,14 +1,14 @@
 //! A scene, its job and its report as files.
 
-use super::naming::rounded;
+use std::{fmt::Write as _, path::Path};
+
 use etendue_core::maths::f64 as maths;
-use etendue_scene::record::pose::Aim;
-use etendue_scene::record::transform::angles_deg;
 use etendue_scene::record::{Pose, Scene};
 use etendue_scene::written::{File, Table};
+use etendue_scene::{record::pose::Aim, record::transform::angles_deg};
 use glam::{DMat3, DVec3};
-use std::fmt::Write as _;
-use std::path::Path;
+
+use super::naming::rounded;
 
 /// What an import writes.
 pub(super) struct Written {

@@ -7,16 +7,13 @@ use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset, Te
 use crate::calibration::{ImportedCamera, read_calibration};
 use crate::lens_table::{read_lens_table, read_point_spread};
 use crate::mesh::{read_mesh_frame, read_mesh_in};
-use crate::photometry::read_photometry_in;
 use crate::picture::{PictureHead, head, large_picture, read_picture};
-use crate::prescription::read_prescription;
-use crate::ray_transfer::read_ray_transfer;
-use crate::spectrum::read_spectrum_of;
 use crate::table::{read_complex_index, read_numbers, read_retro_table};
 use crate::texture_memory::{TextureMemory, pyramid_bytes};
-use crate::tile_cache::TileCache;
-use crate::trajectory::read_trajectory;
-use crate::{Error, Sandbox};
+use crate::{
+    Error, Sandbox, photometry::read_photometry_in, prescription::read_prescription, ray_transfer::read_ray_transfer,
+    spectrum::read_spectrum_of, tile_cache::TileCache, trajectory::read_trajectory,
+};
 
 /// Reads every file of `named` (as a description names them), and those that its meshes name in turn; all pictures whole.
 ///

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::exr::{ExrFile, Samples, read_exr};
-use crate::picture::read_picture;
-use crate::{Error, ErrorCode};
 use etendue_scene::asset::ImagePixels;
+
+use crate::exr::{ExrFile, Samples, read_exr};
+use crate::{Error, ErrorCode, picture::read_picture};
 
 /// The channels of two files of one size.
 #[derive(Clone, Debug, PartialEq)]

@@ -14,9 +14,10 @@
 //! Two pictures are a level of the photon transfer curve, more of them a stack for the fixed patterns. Unknown statements are
 //! refused. Left out: masks and the extra columns of other programs.
 
+use std::path::{Path, PathBuf};
+
 use crate::Error;
 use crate::source::{decode_text, read_description_bytes};
-use std::path::{Path, PathBuf};
 
 /// Seconds a nanosecond.
 const NANOSECOND_S: f64 = 1e-9;

@@ -4,8 +4,7 @@
 //! Escaped are the control characters of Unicode (C0 but for line feed and tab, DEL, C1) and the characters of its bidirectional algorithm that have no shape
 //! (UAX #9: marks, embeddings, overrides, isolates).
 
-use std::borrow::Cow;
-use std::fmt::Write as _;
+use std::{borrow::Cow, fmt::Write as _};
 
 /// The text with such characters as `\u{1b}`.
 #[must_use]

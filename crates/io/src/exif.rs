@@ -5,9 +5,9 @@
 //! lie beyond the file, and of kinds that the tag does not have, are taken for not stated. Left out: maker notes, BigTIFF, directories of
 //! further pictures.
 
-use crate::source::read_bytes;
-use crate::{Error, png_chunks};
 use std::path::Path;
+
+use crate::{Error, png, source::read_bytes};
 
 /// What is stated; `None` where it is not.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,7 +43,7 @@ pub fn read_exif(file: &Path) -> Result<Option<Exif>, Error> {
 pub fn exif_of(bytes: &[u8]) -> Option<Exif> {
     let data = match bytes {
         [0xff, 0xd8, ..] => of_jpeg(bytes)?,
-        [0x89, b'P', b'N', b'G', ..] => png_chunks::exif(bytes)?,
+        [0x89, b'P', b'N', b'G', ..] => png::exif(bytes)?,
         _ => bytes,
     };
     Tiff::of(data).map(Tiff::exif)

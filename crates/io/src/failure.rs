@@ -1,10 +1,11 @@
 //! Errors between a file and its results: of inputs, each with its place, and of the run.
 
-use crate::error::code_of;
-pub use etendue_scene::{ErrorCode, ExampleContext, Problem};
 use std::fmt::{self, Display};
-use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::{ops::RangeInclusive, path::PathBuf};
+
+use crate::error::code_of;
+
+pub use etendue_scene::{ErrorCode, ExampleContext, Problem};
 
 /// An error of a call of the library. No file under a final name is half-written.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -9,9 +9,7 @@ use std::fs::{File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use crate::made_folders::Missed;
-use crate::run_mark;
-use crate::{Error, ErrorCode};
+use crate::{Error, ErrorCode, paths::Missed, run_mark};
 
 /// A locked folder; free again when it is dropped.
 #[derive(Debug)]

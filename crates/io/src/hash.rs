@@ -1,5 +1,9 @@
-//! Content hashes: SHA-256 (FIPS 180-4) of a file's bytes.
+//! Content hashes: SHA-256 (FIPS 180-4) of the bytes of a file, and with its size the digest that a record states of files beside it.
 
+use std::io::{self, Read};
+use std::{fs::File, path::Path};
+
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 /// A SHA-256 digest.
@@ -25,6 +29,62 @@ pub fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
+/// Bytes that are read at once.
+const PIECE: usize = 1 << 20;
+
+/// Size and content hash of a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FileDigest {
+    /// Its size.
+    pub bytes: u64,
+    /// SHA-256 (FIPS 180-4) of its bytes, hexadecimal.
+    pub sha256: String,
+}
+
+impl FileDigest {
+    /// The digest of a file.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub fn new(path: &Path) -> io::Result<Self> {
+        Self::from_reader(File::open(path)?)
+    }
+
+    /// The digest of all that a reader gives.
+    ///
+    /// # Errors
+    /// Where it cannot be read.
+    pub fn from_reader(mut reader: impl Read) -> io::Result<Self> {
+        let (mut hash, mut bytes) = (Sha256::new(), 0);
+        let mut piece = vec![0; PIECE];
+        loop {
+            let count = match reader.read(&mut piece) {
+                Ok(0) => break,
+                Ok(count) => count,
+                Err(cause) if cause.kind() == io::ErrorKind::Interrupted => continue,
+                Err(cause) => return Err(cause),
+            };
+            hash.update(&piece[..count]);
+            bytes += count as u64;
+        }
+        Ok(Self { bytes, sha256: hex(&hash.finalize()) })
+    }
+
+    /// The digest of bytes.
+    #[must_use]
+    pub fn from_bytes(bytes: &[u8]) -> Self {
+        Self { bytes: bytes.len() as u64, sha256: hex(&of_bytes(bytes)) }
+    }
+
+    /// Returns true where a regular file of this content is at `path`; a link is none.
+    #[must_use]
+    pub fn matches(&self, path: &Path) -> bool {
+        let is_of_size = path.symlink_metadata().is_ok_and(|found| found.is_file() && found.len() == self.bytes);
+        is_of_size && Self::new(path).is_ok_and(|found| found == *self)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -39,5 +99,23 @@ mod tests {
     #[test]
     fn parts_are_kept_apart() {
         assert_ne!(of_parts([&b"ab"[..], b"c"]), of_parts([&b"a"[..], b"bc"]));
+    }
+
+    #[test]
+    fn a_file_that_is_gone_cut_or_changed_does_not_match() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let file = place.path().join("x");
+        let bytes = vec![7; 3 * PIECE / 2];
+        std::fs::write(&file, &bytes).expect("write");
+        let digest = FileDigest::new(&file).expect("readable");
+        assert_eq!(digest, FileDigest::from_bytes(&bytes));
+        assert!(digest.matches(&file));
+        let mut changed = bytes.clone();
+        changed[PIECE + 5] ^= 1;
+        for other in [&bytes[..100], &[], &changed] {
+            std::fs::write(&file, other).expect("write");
+            assert!(!digest.matches(&file));
+        }
+        assert!(!digest.matches(&place.path().join("none")) && !digest.matches(place.path()));
     }
 }

@@ -1,10 +1,9 @@
 //! JPEG files: display pictures, with loss.
 
+use etendue_core::{Plane, quantity::Display};
+use image::{ExtendedColorType, ImageEncoder, codecs::jpeg::JpegEncoder};
+
 use crate::exr::EncodeError;
-use etendue_core::Plane;
-use etendue_core::quantity::Display;
-use image::codecs::jpeg::JpegEncoder;
-use image::{ExtendedColorType, ImageEncoder};
 
 /// A display picture, rounded to 8 bits, at a quality of 1 to 100. Values outside 0–1 are cut; NaN is black.
 pub fn encode_jpeg(picture: &Plane<Display>, quality: u8) -> Result<Vec<u8>, EncodeError> {

@@ -12,18 +12,13 @@
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
-use crate::file_digest::FileDigest;
-use crate::folder_lock::FolderLock;
-use crate::made_folders::{MadeFolders, Missed};
-use crate::run_mark::RunMark;
-use crate::within;
-use crate::{Error, ErrorCode};
+use crate::paths::{self, MadeFolders, Missed};
+use crate::{Error, ErrorCode, folder_lock::FolderLock, hash::FileDigest, run_mark::RunMark};
 
 /// How often a folder is made that another run removes at that moment, as nothing is in it.
 const TRIES: usize = 100;
@@ -70,8 +65,8 @@ impl OutputFolder {
         Self::opened(root, existing, |folder| {
             let whole = FolderLock::shared(root)?;
             let part = folder.resolve(part)?;
-            within::check_folders(root, &part)?;
-            within::check_folder(&part)?;
+            paths::check_folders(root, &part)?;
+            paths::check_folder(&part)?;
             folder.made.make(&part)?;
             Ok(vec![whole, FolderLock::part(root, &part)?])
         })
@@ -146,7 +141,7 @@ impl OutputFolder {
     pub fn remove<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), Error> {
         for name in names {
             let path = self.resolve(name)?;
-            within::remove_file(&self.root, &path)?;
+            paths::remove_file(&self.root, &path)?;
             // Left where it is not empty.
             let _ = path.parent().filter(|folder| *folder != self.root).map(fs::remove_dir);
         }
@@ -155,7 +150,7 @@ impl OutputFolder {
 
     /// The names of the files in a folder within, sorted; none where it is not there. A link in its place is refused, links in it are left out.
     pub fn files_in(&self, folder: &str) -> Result<Vec<String>, Error> {
-        let files = within::files_in(&self.root, &self.resolve(folder)?)?;
+        let files = paths::files_in(&self.root, &self.resolve(folder)?)?;
         let name = |path: PathBuf| Some(format!("{folder}/{}", path.file_name()?.to_str()?));
         Ok(files.into_iter().filter_map(name).collect())
     }
@@ -259,7 +254,7 @@ impl OutputFolder {
     }
 
     fn check_free(&self, target: &Path) -> Result<(), Error> {
-        within::check_folders(&self.root, target)?;
+        paths::check_folders(&self.root, target)?;
         // Of a link itself, not of where it leads.
         let there = match fs::symlink_metadata(target) {
             Ok(there) => there,
@@ -290,7 +285,7 @@ impl Drop for OutputFolder {
     /// Removes what was not committed. Failures are passed over: there is nobody left to tell.
     fn drop(&mut self) {
         for file in &self.pending {
-            let _ = within::remove_file(&self.root, &file.temporary);
+            let _ = paths::remove_file(&self.root, &file.temporary);
         }
         self.mark = None;
         self.made.remove();

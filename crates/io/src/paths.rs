@@ -1,6 +1,19 @@
-//! Paths as files name them.
+//! Paths: as files name them, within an output folder, and folders that a run makes for its results.
+//!
+//! Paths within an output folder: no symbolic link is followed to write or to delete.
+//!
+//! Every module that writes or deletes below an output folder asks here. The output folder itself may be a link, which its owner made; a folder within it may not,
+//! since whoever made that link chose where files go or disappear. A link in the place of a file is that file's name: it is replaced or removed, never what it leads to.
+//!
+//! Folders that a run makes for its results: made where they are missing, removed again where nothing came into them.
+//!
+//! Other runs may make and remove the same folders meanwhile, those of other parts of one output folder above all.
 
+use std::fs;
+use std::io::{self, ErrorKind};
 use std::path::{Component, Path, PathBuf};
+
+use crate::{Error, ErrorCode};
 
 /// The way from a folder to a file, such as `../models/car.glb`. Both are absolute, without `.` and `..`; links are not followed.
 #[must_use]
@@ -16,6 +29,137 @@ pub fn camera_stem(file: &Path) -> String {
     file.file_stem().map_or_else(|| "camera".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
+/// Refuses a file, or a link to elsewhere, in the place of a folder between `root` and `target`.
+pub(crate) fn check_folders(root: &Path, target: &Path) -> Result<(), Error> {
+    let folders = target.ancestors().skip(1).take_while(|folder| *folder != root);
+    folders.into_iter().try_for_each(check_folder)
+}
+
+/// The same of one folder, which need not be there.
+pub(crate) fn check_folder(folder: &Path) -> Result<(), Error> {
+    if folder.is_symlink() {
+        return Err(Error::coded(
+            ErrorCode::UnwritableOutput,
+            folder,
+            "a symbolic link is in the place of a folder of results, which stay in the output folder; remove it, or choose another output folder",
+        ));
+    }
+    if folder.is_file() {
+        return Err(no_folder(folder));
+    }
+    Ok(())
+}
+
+/// Removes a file below `root`, or a link in its place; what is not there is removed already.
+pub(crate) fn remove_file(root: &Path, target: &Path) -> Result<(), Error> {
+    check_folders(root, target)?;
+    match fs::remove_file(target) {
+        Err(cause) if cause.kind() != ErrorKind::NotFound => {
+            Err(Error::coded(ErrorCode::UnwritableOutput, target, format!("cannot be removed: {cause}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The files in a folder below `root`, by their names; none where it is not there. Links, folders and devices are not among them.
+pub(crate) fn files_in(root: &Path, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    check_folders(root, folder)?;
+    check_folder(folder)?;
+    let failed = |cause: io::Error| {
+        Error::coded(ErrorCode::UnreadableFile, folder, format!("this folder cannot be read: {cause}"))
+    };
+    let entries = match fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(cause) if cause.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(cause) => return Err(failed(cause)),
+    };
+    let mut files = Vec::new();
+    for entry in entries {
+        let entry = entry.map_err(failed)?;
+        if entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            files.push(entry.path());
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// Why a folder could not be had.
+#[derive(Debug)]
+pub(crate) struct Missed {
+    /// What the user is told where no other try follows.
+    pub(crate) error: Error,
+    /// Whether it, or the folder around it, was removed meanwhile: another try may have it.
+    pub(crate) is_gone: bool,
+}
+
+impl Missed {
+    /// A fault of the system over a path.
+    pub(crate) fn of(path: &Path, told: &str, cause: &io::Error) -> Self {
+        let is_gone = cause.kind() == io::ErrorKind::NotFound;
+        Self { error: Error::coded(ErrorCode::UnwritableOutput, path, format!("{told}: {cause}")), is_gone }
+    }
+
+    /// A folder that has its name no more.
+    pub(crate) fn gone(path: &Path) -> Self {
+        let told = "this output folder is removed again and again while it is made; choose another one";
+        Self { error: Error::coded(ErrorCode::UnwritableOutput, path, told), is_gone: true }
+    }
+}
+
+impl From<Error> for Missed {
+    fn from(error: Error) -> Self {
+        Self { error, is_gone: false }
+    }
+}
+
+/// Folders that a run made itself.
+#[derive(Debug, Default)]
+pub(crate) struct MadeFolders(Vec<PathBuf>);
+
+impl MadeFolders {
+    /// Makes a folder and those around it, where they are missing.
+    pub(crate) fn make(&mut self, folder: &Path) -> Result<(), Missed> {
+        let missing: Vec<&Path> = folder.ancestors().take_while(|f| !f.as_os_str().is_empty() && !f.exists()).collect();
+        for path in missing.into_iter().rev() {
+            match fs::create_dir(path) {
+                Ok(()) => self.0.push(path.to_path_buf()),
+                // Another run made it at this moment, or it is a link that leads nowhere: seen below.
+                Err(cause) if cause.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(cause) => return Err(Missed::of(path, "this output folder cannot be made", &cause)),
+            }
+        }
+        if folder.as_os_str().is_empty() || folder.is_dir() {
+            return Ok(());
+        }
+        match fs::symlink_metadata(folder) {
+            Ok(_) => Err(no_folder(folder).into()),
+            Err(_) => Err(Missed::gone(folder)),
+        }
+    }
+
+    /// They stay: results are in them.
+    pub(crate) fn keep(&mut self) {
+        self.0.clear();
+    }
+
+    /// Removes those in which nothing is.
+    pub(crate) fn remove(&mut self) {
+        for folder in self.0.drain(..).rev() {
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// The error of what is in the place of a folder and is none.
+fn no_folder(path: &Path) -> Error {
+    Error::coded(
+        ErrorCode::UnwritableOutput,
+        path,
+        "expected a folder for the results, but this is a file; choose another name",
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -25,5 +169,30 @@ mod tests {
         let way = |folder: &str, file: &str| relative_path(Path::new(folder), Path::new(file));
         assert_eq!(way("/a/b/c", "/a/d/e.toml"), Path::new("../../d/e.toml"));
         assert_eq!(way("/a", "/a/e.toml"), Path::new("e.toml"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn nothing_is_listed_or_removed_through_a_link() {
+        use std::os::unix::fs::symlink;
+
+        let place = tempfile::tempdir().expect("temporary folder");
+        let (root, foreign) = (place.path().join("out"), place.path().join("foreign"));
+        [&root, &foreign].iter().for_each(|folder| fs::create_dir(folder).expect("folder"));
+        fs::write(foreign.join("x"), b"theirs").expect("write");
+        symlink(&foreign, root.join("linked")).expect("link");
+        symlink(foreign.join("x"), root.join("x")).expect("link");
+        for told in [
+            files_in(&root, &root.join("linked")).map(|_| ()),
+            remove_file(&root, &root.join("linked/x")),
+            check_folders(&root, &root.join("linked/deep/x")),
+        ] {
+            let told = told.expect_err("a link in the place of a folder").to_string();
+            assert!(told.contains("linked: a symbolic link is in the place of a folder of results"), "{told}");
+        }
+        assert_eq!(files_in(&root, &root).expect("readable"), Vec::<PathBuf>::new(), "a link is no file");
+        remove_file(&root, &root.join("x")).expect("the link itself");
+        assert!(!root.join("x").is_symlink() && foreign.join("x").exists());
+        assert_eq!(files_in(&root, &root.join("none")).expect("none"), Vec::<PathBuf>::new());
     }
 }

@@ -8,7 +8,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Read as _, Write as _};
 use std::path::{Component, Path, PathBuf};
 
-use crate::within;
+use crate::paths;
 
 const HEAD: &str = ".etendue.";
 const TAIL: &str = ".part";
@@ -105,7 +105,7 @@ fn remove_run(root: &Path, mark: &Path, run: &str) -> io::Result<()> {
     let mut names = String::new();
     list.read_to_string(&mut names)?;
     for name in names.lines().filter(|name| is_temporary(Path::new(name), run)) {
-        let _ = within::remove_file(root, &root.join(name));
+        let _ = paths::remove_file(root, &root.join(name));
     }
     // While it is locked: nobody takes it for a mark of its own any more.
     fs::remove_file(mark)

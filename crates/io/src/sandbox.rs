@@ -5,12 +5,12 @@
 //!
 //! As every file of a job is asked for here, this is also where its files are known.
 
-use crate::error::code_of;
-use crate::failure::{Error, ErrorCode, Problem};
-use std::collections::BTreeSet;
-use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::{collections::BTreeSet, io};
+
+use crate::error::code_of;
+use crate::failure::{Error, ErrorCode, Problem};
 
 /// Where files may be read from.
 #[derive(Clone, Debug, Default)]

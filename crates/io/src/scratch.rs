@@ -4,12 +4,11 @@
 //! killed. (Where names of open files cannot be removed, the system is asked to do it when the file is closed.)
 
 use std::fs::{File, OpenOptions};
-use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::{io, sync::Arc};
 
-use etendue_core::scratch::{Scratch, ScratchStore};
+use etendue_core::storage::{Scratch, ScratchStore};
 
 use crate::tile_cache::folder_of_user;
 

@@ -1,14 +1,11 @@
 //! Reading a whole file, with an error that says what to do.
 
-use std::borrow::Cow;
-use std::fs::File;
 use std::io::{ErrorKind, Read as _};
-use std::path::Path;
+use std::{borrow::Cow, fs::File, path::Path};
 
 use etendue_scene::limits::{self, DESCRIPTION, Limit};
 
-use crate::error::code_of;
-use crate::{Error, ErrorCode, Problem, failure};
+use crate::{Error, ErrorCode, Problem, error::code_of, failure};
 
 /// The bytes of `file`; `what` names in words what it should be ("mesh", "texture").
 pub fn read_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {

@@ -1,10 +1,15 @@
-//! Which pictures of textures are held in memory, and which are read tile by tile.
+//! How much memory pictures take: which textures are held and which are read tile by tile, and how much a compressed picture may unpack to.
+//!
+//! How much a compressed picture may unpack to: a small file must not fill the memory.
+//!
+//! At most 8 times the size of the file, or what the limit `picture-mib` says where that is more (docs/limits.md). Pictures of floats and those that are
+//! measured count 4 bytes a sample, others as their file stores them. It is known from the head, before anything is unpacked.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use etendue_scene::asset::PixelFormat;
+use etendue_scene::{asset::PixelFormat, limits::PICTURE};
 
-use crate::tile_cache::CacheUse;
+use crate::{Error, ErrorCode, tile_cache::CacheUse};
 
 /// How much memory textures may take, and where those are kept that take more. No result depends on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,6 +53,56 @@ pub(crate) fn pyramid_bytes(width: u32, height: u32, format: PixelFormat) -> u64
     u64::from(width) * u64::from(height) * (texel + 4)
 }
 
+/// How many times its own size any file may unpack to.
+const TIMES_PACKED: u128 = 8;
+
+/// Refuses samples of 32 bits that are too many for a file of `packed` bytes.
+pub(crate) fn check(file: &Path, samples: u128, packed: usize) -> Result<(), Error> {
+    check_bytes(file, in_bytes(samples), packed)
+}
+
+/// Refuses bytes that are too many for a file of `packed` bytes.
+pub(crate) fn check_bytes(file: &Path, bytes: u128, packed: usize) -> Result<(), Error> {
+    let most = most(packed);
+    if bytes <= most {
+        return Ok(());
+    }
+    let told = format!(
+        "unpacks to {} MiB, where a file of its size may unpack to {} MiB; make the picture smaller, {}",
+        mebibytes(bytes),
+        mebibytes(most),
+        PICTURE.remedy_bytes(bytes)
+    );
+    Err(Error::coded(ErrorCode::TooLarge, file, told))
+}
+
+/// Bytes that a file of `packed` bytes may unpack to.
+pub(crate) fn most(packed: usize) -> u128 {
+    u128::from(PICTURE.most_bytes()).max(TIMES_PACKED * packed as u128)
+}
+
+/// Refuses samples of 32 bits that are more than `most` bytes, where it is known how many there should be.
+pub(crate) fn check_within(file: &Path, samples: u128, most: u128) -> Result<(), Error> {
+    let bytes = in_bytes(samples);
+    if bytes <= most {
+        return Ok(());
+    }
+    let (found, expected) = (mebibytes(bytes), mebibytes(most));
+    Err(Error::coded(
+        ErrorCode::TooLarge,
+        file,
+        format!("unpacks to {found} MiB, where {expected} MiB are expected; render it again"),
+    ))
+}
+
+fn in_bytes(samples: u128) -> u128 {
+    samples.saturating_mul(size_of::<f32>() as u128)
+}
+
+fn mebibytes(bytes: u128) -> u128 {
+    bytes.div_ceil(1 << 20)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,5 +117,20 @@ mod tests {
         assert_eq!(large(1, &[30, 100]), [true, true]);
         assert_eq!(large(1, &[]), [false; 0]);
         assert_eq!(pyramid_bytes(8192, 8192, PixelFormat::Rgb8), 7 << 26);
+    }
+
+    #[test]
+    fn a_measurement_may_unpack_and_a_bomb_may_not() {
+        let file = Path::new("a.exr");
+        // Two megapixels of 38 bands with their variance, however well they pack.
+        assert!(check(file, 2_000_000 * 76, 500).is_ok());
+        // A header of 20 000² pixels; 100 MB that unpack to 100 GB.
+        let told = check(file, 400_000_000, 500).expect_err("a bomb").to_string();
+        let expected = "a.exr: unpacks to 1526 MiB, where a file of its size may unpack to 1024 MiB; make the picture smaller, or raise the limit: \
+                        `limit` picture-mib=1526";
+        assert_eq!(told, expected);
+        assert!(check(file, 25_000_000_000, 100_000_000).is_err());
+        // A measurement of 40 GB that brings 5.
+        assert!(check(file, 10_000_000_000, 5_000_000_000).is_ok());
     }
 }

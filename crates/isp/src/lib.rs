@@ -19,27 +19,21 @@
 //! mapping, chromatic aberration, temporal noise reduction. This crate does not know electrons: a raw picture is digital
 //! numbers between a black and a white level.
 
-pub mod black_level;
 pub mod colour_matrix;
-pub mod defects;
+pub mod correction;
 pub mod demosaic;
 pub mod detail;
 mod develop;
-mod mosaic;
 pub mod paper;
-mod raw;
-pub mod shading;
+pub mod raw;
 pub mod tone;
 pub mod white_balance;
 
-pub use black_level::BlackLevel;
 pub use colour_matrix::{ColourMatrix, FitError, MatrixError, NOISE_OF_OTHER_CHANNELS, fit_colour_matrix};
-pub use defects::Defects;
+pub use correction::{Defects, Shading, ShadingError};
 pub use demosaic::Demosaic;
 pub use detail::{Bilateral, DetailError, NoiseReduction, Unsharp};
 pub use develop::{Colour, DevelopError, Developed, Facts, Processing, develop};
-pub use mosaic::{Filter, MAX_CHANNELS, Mosaic, MosaicError, Tile};
-pub use raw::RawPicture;
-pub use shading::{Shading, ShadingError};
+pub use raw::{BlackLevel, Filter, MAX_CHANNELS, Mosaic, MosaicError, RawPicture, Tile};
 pub use tone::{Oecf, SCurve, Table, ToneCurve, ToneError};
 pub use white_balance::{NoResponse, WhiteBalance, white_balance_from_illuminant};

@@ -3,7 +3,6 @@
 
 pub mod characterise;
 mod compare;
-mod compare_pictures;
 pub mod measure;
 pub mod page;
 pub mod plot;

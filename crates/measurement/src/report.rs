@@ -1,12 +1,15 @@
 //! What a measurement found: numbers with unit and standard uncertainty, tables, curves and notes; as text, JSON and plots.
 
-use crate::plot::{Plot, svg};
+use std::fmt;
+
 use etendue_core::maths::f64::log10;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::Stated;
-pub use etendue_metrology::Estimate;
 use serde_json::{Map, Value, json};
-use std::fmt;
+
+use crate::plot::{Plot, svg};
+
+pub use etendue_metrology::Estimate;
 
 /// One number of a report.
 #[derive(Clone, Debug)]

@@ -11,9 +11,9 @@
 //!
 //! Discs' shifts by perspective are the same in all channels to second order, and not taken off.
 
-use crate::Estimate;
-use crate::target::Grid;
 use glam::DVec2;
+
+use crate::{Estimate, target::Grid};
 
 /// The displacement at a point of the chart.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,12 +13,11 @@
 //! Means and variances of patches replace all pairs of pixels (an error below 0.04 where readings are near Gaussian and positive).
 //! Uncertainty: of means and of variances ([`patch_statistics`](crate::patch_statistics)), propagated.
 
-use crate::flat::saturated_percent;
-use crate::patch_statistics::patch_statistics;
-use crate::propagate::propagate;
-use crate::{Estimate, Image};
 use etendue_core::maths::f64::hypot;
 use etendue_stats::normal;
+
+use crate::patch_statistics::{patch_statistics, saturated_percent};
+use crate::{Estimate, Image, estimate::propagate};
 
 /// A pair of patches.
 #[derive(Clone, Copy, Debug, PartialEq)]

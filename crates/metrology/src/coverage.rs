@@ -8,10 +8,11 @@
 //! table's within 3 %. That is the finer test: uncertainties that are too small by a tenth change it by a tenth, but the count of 200 by
 //! some six.
 
-use crate::Estimate;
+use std::{path::PathBuf, sync::Mutex};
+
 use rayon::prelude::*;
-use std::path::PathBuf;
-use std::sync::Mutex;
+
+use crate::Estimate;
 
 /// Seeds of every quantity.
 const SEEDS: u64 = 200;

@@ -10,8 +10,7 @@
 //! ([`patch_statistics`](crate::patch_statistics)); light that the traps themselves reflect is not in it. IEEE 2020 adds a source within or outside the field: measure its traps the same way with the
 //! source on.
 
-use crate::flat::saturated_percent;
-use crate::patch_statistics::patch_statistics;
+use crate::patch_statistics::{patch_statistics, saturated_percent};
 use crate::{Estimate, Image};
 
 /// Why flare cannot be measured.

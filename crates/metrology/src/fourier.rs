@@ -8,6 +8,7 @@
 //! are slow (N²) and correct.
 
 use core::f64::consts::TAU;
+
 use etendue_core::maths::f64::sin_cos;
 
 /// Real and imaginary part.

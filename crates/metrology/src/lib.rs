@@ -11,12 +11,10 @@ pub mod contrast;
 #[cfg(test)]
 mod coverage;
 pub mod depth;
-pub mod disc;
 pub mod distortion;
 pub mod estimate;
 pub mod fit;
 pub mod flare;
-mod flat;
 pub mod flicker;
 mod fourier;
 pub mod linear;
@@ -24,13 +22,10 @@ pub mod noise;
 pub mod oecf;
 pub mod patch_statistics;
 pub mod photon_transfer;
-pub mod picture;
-mod propagate;
 pub mod sfr;
 pub mod shading;
-mod solve;
 pub mod target;
 pub mod texture;
 
 pub use estimate::Estimate;
-pub use picture::{Image, Reading};
+pub use patch_statistics::{Image, Reading};

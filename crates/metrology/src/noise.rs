@@ -14,10 +14,8 @@
 //! columns and pixels ([`Pattern`]). Left out: the visual weighting of the standard's annex, removal of
 //! low-frequency shading (take a patch that is even).
 
-use crate::flat::saturated_percent;
 use crate::photon_transfer::{Pattern, Stack, TransferError};
-use crate::propagate::root;
-use crate::{Estimate, Image};
+use crate::{Estimate, Image, estimate::root, patch_statistics::saturated_percent};
 
 /// The least number of frames that the standard lets.
 pub const MIN_FRAMES: usize = 8;

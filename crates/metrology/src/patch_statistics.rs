@@ -15,9 +15,20 @@
 //! six), less the same off rows and columns (light that is uneven) and less two standard deviations of independent noise, of h rows u²(mean) has τ²/h more, where that is above 0, and Σ ρ has as much less
 //! of it. Columns likewise; neither where paths are shared by blocks. u²(σ²) does not know of rows and columns. A slope within
 //! the patch counts as noise.
+//!
+//! The image of a disc: where its centre of area lies, and where the image of its centre.
+//!
+//! The two differ in perspective and under distortion (Heikkilä 2000; Mallon & Whelan 2007), for a disc of radius r by about
+//! r²/8 times the second derivatives of the map, a tenth of a pixel for large dots in a wide picture. The disc's rim is mapped at
+//! 64 points, and the centroid of the polygon taken; a polygon of n corners has all but 2π²/(3 n²), here 0.2 %, of the shift.
 
-use crate::{Estimate, Image};
+use core::f64::consts::TAU;
+
+use etendue_core::{Plane, maths::f64::sin_cos, quantity::Quantity};
 use etendue_stats::Moments;
+use glam::DVec2;
+
+use crate::Estimate;
 
 /// How far neighbours are looked at, px.
 const REACH: usize = 3;
@@ -140,6 +151,78 @@ impl Deviations {
     }
 }
 
+/// What one pixel of one channel says: a digital number, or a linear quantity in the unit that the owner states.
+/// Digital numbers of up to 24 bits are exact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reading;
+
+impl Quantity for Reading {
+    type Sample = f32;
+    const NAME: &'static str = "reading";
+    const UNIT: &'static str = "DN or 1";
+}
+
+/// One channel of a picture.
+pub type Image = Plane<Reading>;
+
+/// The largest share of saturated pixels that a measurement lets pass.
+pub(crate) const SATURATED_SHARE: f64 = 1e-3;
+
+/// Share of pixels at or above full scale. Where full scale is unknown, share of pixels at the largest reading: a plateau tells of
+/// clipping, unless the picture is all one value.
+pub(crate) fn saturated_fraction(samples: &[f32], full_scale: Option<f64>) -> f64 {
+    let count = |level: f64| samples.iter().filter(|s| f64::from(**s) >= level).count() as f64 / samples.len() as f64;
+    if let Some(full) = full_scale {
+        return count(full);
+    }
+    let most = samples.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let plateau = count(f64::from(most));
+    // One pixel in a hundred at exactly the largest reading is no accident of noise.
+    if plateau > 0.01 && plateau < 1.0 { plateau } else { 0.0 }
+}
+
+/// Percent of the pixels of parts of a picture, that of the worst part, at or above a known full scale, where that is more than a
+/// measurement lets pass.
+pub(crate) fn saturated_percent<'a>(
+    parts: impl IntoIterator<Item = &'a Image>,
+    full_scale: Option<f64>,
+) -> Option<f64> {
+    let full = full_scale?;
+    let share = parts.into_iter().map(|part| saturated_fraction(part.samples(), Some(full))).fold(0.0, f64::max);
+    (share > SATURATED_SHARE).then_some(100.0 * share)
+}
+
+/// A sixth of the squared second differences of neighbours in a row, at the middle one: unbiased for independent noise on a level
+/// that changes evenly from pixel to pixel.
+pub(crate) fn neighbour_variances(image: &Image) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+    let rows = image.samples().chunks_exact(image.width()).enumerate();
+    rows.flat_map(|(y, row)| {
+        row.windows(3).enumerate().map(move |(x, three)| {
+            let [a, b, c] = [three[0], three[1], three[2]].map(f64::from);
+            let difference = a - 2.0 * b + c;
+            (x + 1, y, difference * difference / 6.0)
+        })
+    })
+}
+
+/// Centroid of a disc's image less the image of its centre; `None` where the map has no image of one of them.
+pub fn centroid_shift(map: impl Fn(DVec2) -> Option<DVec2>, centre: DVec2, radius: f64) -> Option<DVec2> {
+    const CORNERS: usize = 64;
+    let middle = map(centre)?;
+    let corner = |i: usize| {
+        let (sin, cos) = sin_cos(TAU * i as f64 / CORNERS as f64);
+        map(centre + radius * DVec2::new(cos, sin)).map(|p| p - middle)
+    };
+    let rim: Vec<DVec2> = (0..CORNERS).map(corner).collect::<Option<_>>()?;
+    let (mut area, mut moment) = (0.0, DVec2::ZERO);
+    for (a, b) in rim.iter().zip(rim.iter().cycle().skip(1)) {
+        let part = a.perp_dot(*b);
+        area += part;
+        moment += part * (*a + *b) / 3.0;
+    }
+    Some(moment / area).filter(|shift| shift.is_finite())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -200,5 +283,17 @@ mod tests {
                 "blocks of {shared}, patch of {side}: {stated} {scattered}"
             );
         }
+    }
+
+    #[test]
+    fn a_tilted_disc_s_image_is_an_ellipse_whose_centre_is_known() {
+        // x′ = x/(1 + h x): a disc about the origin goes to an ellipse from −r/(1 − h r) to r/(1 + h r).
+        let (h, r) = (0.02, 3.0);
+        let map = |p: DVec2| Some(p / (1.0 + h * p.x));
+        let shift = centroid_shift(map, DVec2::ZERO, r).expect("finite");
+        let centre = 0.5 * (r / (1.0 + h * r) - r / (1.0 - h * r));
+        // The polygon of 64 corners: 0.2 %.
+        assert!((shift.x / centre - 1.0).abs() < 2e-3 && shift.y.abs() < 1e-12, "{shift} {centre}");
+        assert_eq!(centroid_shift(|p| Some(2.0 * p), DVec2::ONE, r).map(|s| s.length() < 1e-12), Some(true));
     }
 }

@@ -10,9 +10,7 @@ mod overlap;
 pub mod prescription;
 mod pupil;
 pub mod pupil_image;
-mod range;
 pub mod ray_transfer;
-mod wavelength;
 
 pub use defocus::{DepthOfField, FastBlend, FastParameters};
 pub use effects::{Effects, EffectsError, EffectsParameters};
@@ -23,7 +21,7 @@ pub use lens::{
     PinholeParameters, Prescribed, PupilStance, PupilStatements, Rim, SensorPlace, Telecentric, TelecentricParameters,
     Thick, ThickParameters, Thin, ThinParameters, Transferred, TruthRay,
 };
+pub use overlap::PRINCIPAL_NM;
 pub use prescription::{Prescription, PrescriptionError, PrescriptionParameters};
 pub use pupil_image::{BandEtendue, Cube, Face, PupilProjection, Resampling, View, Window, irradiance};
 pub use ray_transfer::{RayTransfer, RayTransferError};
-pub use wavelength::PRINCIPAL_NM;

@@ -5,9 +5,11 @@
 //! across it, a Gauss–Legendre rule runs piece by piece between the points where the boundary changes from one
 //! circle to another, in a variable that takes away the square roots at the ends.
 
-use crate::pupil::PupilView;
 use core::f64::consts::{FRAC_PI_2, PI};
+
 use etendue_core::maths::f64::{atan, sin_cos};
+
+use crate::{error::OpticsError, pupil::PupilView};
 
 /// A disc of the plane of the unit pupil, centred on the line through the pupil's centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,10 +122,33 @@ pub(crate) const GAUSS: [[f64; 2]; 8] = [
     [0.9894009349916499, 0.027152459411754176],
 ];
 
+/// `value` where it is positive and finite.
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, OpticsError> {
+    if value.is_finite() && value > 0.0 { Ok(value) } else { Err(OpticsError::NotPositive { name, value }) }
+}
+
+/// `value` where a lens can have it as its f-number.
+pub(crate) fn f_number(value: f64) -> Result<f64, OpticsError> {
+    let value = positive("f_number", value)?;
+    if value >= FASTEST { Ok(value) } else { Err(OpticsError::Faster { value }) }
+}
+
+/// The f-number at which light on the axis comes from the whole half space: an aplanatic lens in air has 1/2N = sin θ′ ≤ 1 (Abbe).
+const FASTEST: f64 = 0.5;
+
+/// `value` where it is finite.
+pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, OpticsError> {
+    if value.is_finite() { Ok(value) } else { Err(OpticsError::NotFinite { name, value }) }
+}
+
+/// The wavelength of ground truth, and of first-order quantities where a lens file names no other, nm: the helium d line.
+pub const PRINCIPAL_NM: f64 = 587.56;
+
 #[cfg(test)]
 mod tests {
-    use super::*;
     use glam::DVec2;
+
+    use super::*;
 
     const VIEW: PupilView = PupilView { distance_mm: 3.0, radius_mm: 1.2 };
 

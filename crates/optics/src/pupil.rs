@@ -4,8 +4,8 @@
 //! sensor are parallel planes a distance z apart, so both cosines are z/d and the integrand is L z²/d⁴.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
-use etendue_core::maths::f64::sin_cos;
-use etendue_core::ray::PupilRay;
+
+use etendue_core::{maths::f64::sin_cos, ray::PupilRay};
 use glam::{DVec2, DVec3};
 
 /// Millimetres in a metre.

@@ -7,7 +7,7 @@ use etendue_optics::front::Optic;
 use etendue_optics::{DepthOfField, Front, Lens};
 use etendue_pipeline::plan::{CameraBody, RowExposure, RowSkipping};
 use etendue_projection::Sense;
-use etendue_sensor::dynamic_range::Switch;
+use etendue_sensor::figures::Switch;
 use etendue_sensor::{DynamicRange, Sensor};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

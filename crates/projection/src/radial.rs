@@ -12,9 +12,24 @@
 //! order its k₁ has the opposite sign.
 //!
 //! Left out: tangential and thin-prism terms, k₃ and up, the rational form.
+//!
+//! One direction of a radial distortion fitted to the other.
+//!
+//! Programs and papers write distortion in either direction; a polynomial of one direction has no polynomial of the other
+//! as its inverse, but one comes near over a picture. The fit is least squares of the radius and says how far it is off.
+//!
+//! The even radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴), its inverse, and where it folds.
+//!
+//! The first radius at which dr′/dr = 1 + 3 k₁ r² + 5 k₂ r⁴ vanishes is the fold: beyond it two radii would share one
+//! image. Only the branch from 0 to the fold exists here; beyond it every function answers `None`.
+//! r is dimensionless: its unit is the caller's ([`RadialDistortion`](crate::RadialDistortion) states it).
 
-use crate::polynomial::RadialPolynomial;
+#[cfg(test)]
+mod tests;
+
 use glam::DVec2;
+
+use crate::root::increasing;
 
 /// Which way the polynomial runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -229,87 +244,150 @@ fn scaled(point: DVec2, radius: impl Fn(f64) -> Option<f64>) -> Option<DVec2> {
     Some(if r > 0.0 { point * (mapped / r) } else { point })
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
+/// A distortion fitted to another over a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit {
+    /// The fitted distortion.
+    pub distortion: RadialDistortion,
+    /// The largest difference of its radius from the other's, mm, over the radii of the fit.
+    pub worst_mm: f64,
+}
 
-    fn distortion(sense: Sense, k1: f64, k2: f64, unit_mm: f64) -> RadialDistortion {
-        RadialDistortion::new(sense, k1, k2, unit_mm).expect("legal")
+impl RadialDistortion {
+    /// The polynomial of direction `sense` and the same radius unit that comes nearest to this distortion, by least
+    /// squares of the radius over the radii of a picture.
+    ///
+    /// # Errors
+    /// Where this distortion folds inside the picture, or the fitted one does.
+    pub fn fitted(&self, sense: Sense, max_observed_mm: f64) -> Result<Fit, DistortionError> {
+        self.check(max_observed_mm)?;
+        let samples = self.pairs(sense, max_observed_mm);
+        let [k1, k2] = least_squares(&samples);
+        let distortion = Self::new(sense, k1, k2, self.unit_mm())?;
+        distortion.check(max_observed_mm)?;
+        let worst = samples.iter().map(|[r, out]| (distortion.polynomial_at(*r) - out).abs()).fold(0.0, f64::max);
+        Ok(Fit { distortion, worst_mm: worst * self.unit_mm() })
     }
 
-    #[test]
-    fn barrel_pulls_points_inwards_in_either_direction() {
-        // OpenCV's barrel has k1 < 0; the same picture written as a fetching filter has k1 > 0.
-        let forward = distortion(Sense::IdealToObserved, -0.1, 0.0, 10.0);
-        let fetch = distortion(Sense::ObservedToIdeal, 0.1, 0.0, 10.0);
-        for d in [forward, fetch] {
-            assert!(d.observed_radius_mm(5.0).expect("inside") < 5.0);
-            assert!(d.ideal_radius_mm(5.0).expect("inside") > 5.0);
+    /// Argument and value, in radius units, of the map of direction `sense` over the radii of a picture.
+    fn pairs(&self, sense: Sense, max_observed_mm: f64) -> Vec<[f64; 2]> {
+        (1..=FIT_SAMPLES)
+            .filter_map(|i| {
+                let observed_mm = max_observed_mm * i as f64 / FIT_SAMPLES as f64;
+                let ideal = self.ideal_radius_mm(observed_mm)? / self.unit_mm();
+                let observed = observed_mm / self.unit_mm();
+                Some(if sense == Sense::ObservedToIdeal { [observed, ideal] } else { [ideal, observed] })
+            })
+            .collect()
+    }
+
+    fn polynomial_at(&self, r: f64) -> f64 {
+        self.polynomial.forward(r).unwrap_or(f64::INFINITY)
+    }
+}
+
+/// Radii at which a fit compares: many more than a fifth-degree difference has turning points.
+const FIT_SAMPLES: usize = 256;
+
+/// k₁, k₂ that minimise Σ (r (1 + k₁ r² + k₂ r⁴) − r′)², by normal equations in the radius scaled to 1 at its end.
+fn least_squares(samples: &[[f64; 2]]) -> [f64; 2] {
+    let end = samples.iter().map(|[r, _]| *r).fold(0.0, f64::max);
+    let (mut a, mut b, mut c, mut p, mut q) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for [r, out] in samples {
+        let s = r / end;
+        let (cubic, quintic) = (s * s * s, s * s * s * s * s);
+        let rest = (out - r) / end;
+        a += cubic * cubic;
+        b += cubic * quintic;
+        c += quintic * quintic;
+        p += cubic * rest;
+        q += quintic * rest;
+    }
+    let determinant = a * c - b * b;
+    let [k1, k2] = [(p * c - q * b) / determinant, (q * a - p * b) / determinant];
+    [k1 / (end * end), k2 / (end * end * end * end)]
+}
+
+/// r (1 + k₁ r² + k₂ r⁴) on [0, fold).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RadialPolynomial {
+    k1: f64,
+    k2: f64,
+    fold: f64,
+}
+
+impl RadialPolynomial {
+    /// The polynomial with these coefficients.
+    #[must_use]
+    pub fn new(k1: f64, k2: f64) -> Self {
+        Self { k1, k2, fold: fold(k1, k2) }
+    }
+
+    /// The coefficients k₁ and k₂.
+    #[must_use]
+    pub fn coefficients(&self) -> [f64; 2] {
+        [self.k1, self.k2]
+    }
+
+    /// The first radius with a vanishing derivative; infinite where there is none.
+    #[must_use]
+    pub fn fold(&self) -> f64 {
+        self.fold
+    }
+
+    /// The value at the fold: the least upper bound of what [`forward`](Self::forward) returns.
+    #[must_use]
+    pub fn fold_value(&self) -> f64 {
+        if self.fold.is_finite() { self.value(self.fold) } else { f64::INFINITY }
+    }
+
+    /// r′ of r ≥ 0; `None` at the fold and beyond.
+    #[must_use]
+    pub fn forward(&self, r: f64) -> Option<f64> {
+        (r < self.fold).then(|| self.value(r))
+    }
+
+    /// The derivative dr′/dr.
+    #[must_use]
+    pub fn derivative(&self, r: f64) -> f64 {
+        let s = r * r;
+        1.0 + s * (3.0 * self.k1 + s * 5.0 * self.k2)
+    }
+
+    /// r of r′ ≥ 0 on the branch before the fold, by Newton's method kept in a bracket, to the last few units in the
+    /// last place (looser only where the fold itself makes the root ill-conditioned); `None` beyond the fold's value.
+    #[must_use]
+    pub fn inverse(&self, value: f64) -> Option<f64> {
+        if value.is_nan() || value >= self.fold_value() {
+            return None;
         }
-        // r′ = 0.5 (1 − 0.1 · 0.25) focal lengths.
-        assert!((forward.observed_radius_mm(5.0).expect("inside") - 4.875).abs() < 1e-14);
-        assert!((fetch.ideal_radius_mm(5.0).expect("inside") - 5.125).abs() < 1e-14);
+        increasing(value, [0.0, self.bracket(value)], value, |r| [self.value(r), self.derivative(r)])
     }
 
-    #[test]
-    fn a_fold_inside_the_picture_is_refused_with_its_radius() {
-        let d = distortion(Sense::ObservedToIdeal, -0.2, 0.0, 4.0);
-        let fold_mm = 4.0 * (1.0_f64 / 0.6).sqrt();
-        assert!(d.check(fold_mm * 0.999).is_ok());
-        let refused = d.check(fold_mm * 1.001).expect_err("folds");
-        assert!(matches!(refused, DistortionError::Fold { fold_mm: f, .. } if (f - fold_mm).abs() < 1e-12));
-        assert!(refused.to_string().contains("5.163978 mm"), "{refused}");
-        // The other direction folds at an observed radius that is the polynomial's value.
-        let d = distortion(Sense::IdealToObserved, -0.2, 0.0, 4.0);
-        assert!((d.fold_observed_mm() - fold_mm * (1.0 - 0.2 / 0.6)).abs() < 1e-12);
-        assert!(d.ideal(DVec2::new(d.fold_observed_mm() + 1e-9, 0.0)).is_none());
+    fn value(&self, r: f64) -> f64 {
+        let s = r * r;
+        r * (1.0 + s * (self.k1 + s * self.k2))
     }
 
-    #[test]
-    fn a_unit_changes_the_numbers_and_not_the_lens() {
-        let scales = RadiusScales { principal_distance_mm: 12.0, half_diagonal_mm: 4.0, pixel_pitch_mm: 0.005 };
-        let in_mm = distortion(Sense::IdealToObserved, -1e-3, 2e-5, 1.0);
-        for unit in [RadiusUnit::Millimetres, RadiusUnit::FocalLengths, RadiusUnit::HalfDiagonals, RadiusUnit::Pixels] {
-            let u = unit.length_mm(&scales);
-            let d = distortion(Sense::IdealToObserved, -1e-3 * u * u, 2e-5 * u * u * u * u, u);
-            let (a, b) = (d.observed_radius_mm(3.0), in_mm.observed_radius_mm(3.0));
-            assert!((a.expect("inside") - b.expect("inside")).abs() < 1e-12);
+    /// An upper bound of the root of `value`.
+    fn bracket(&self, value: f64) -> f64 {
+        let mut high = value.max(f64::MIN_POSITIVE);
+        while high < self.fold && self.value(high) <= value {
+            high *= 2.0;
         }
+        high.min(self.fold)
     }
+}
 
-    #[test]
-    fn the_area_ratio_is_the_determinant() {
-        for sense in [Sense::IdealToObserved, Sense::ObservedToIdeal] {
-            let d = distortion(sense, -0.05, 0.02, 8.0);
-            let (p, h) = (DVec2::new(2.0, 1.5), 1e-5);
-            let at = |q: DVec2| d.ideal(q).expect("inside");
-            let dx = (at(p + DVec2::X * h) - at(p - DVec2::X * h)) / (2.0 * h);
-            let dy = (at(p + DVec2::Y * h) - at(p - DVec2::Y * h)) / (2.0 * h);
-            let ratio = d.ideal_area_per_observed(p.length()).expect("inside");
-            // Central differences: h² · third derivative and ε/h, both about 1e-10.
-            assert!((dx.perp_dot(dy) - ratio).abs() < 1e-8);
-        }
+/// The smallest positive root in r of 1 + 3 k₁ r² + 5 k₂ r⁴; infinite where there is none.
+fn fold(k1: f64, k2: f64) -> f64 {
+    let (a, b) = (5.0 * k2, 3.0 * k1);
+    let discriminant = b * b - 4.0 * a;
+    if discriminant < 0.0 {
+        return f64::INFINITY;
     }
-
-    #[test]
-    fn numbers_that_are_none_are_refused() {
-        let nan = RadialDistortion::new(Sense::IdealToObserved, f64::NAN, 0.0, 1.0);
-        assert!(matches!(nan, Err(DistortionError::Coefficient { .. })));
-        let flat = RadialDistortion::new(Sense::IdealToObserved, 0.0, 0.0, 0.0);
-        assert!(matches!(flat, Err(DistortionError::Unit { .. })));
-    }
-
-    proptest! {
-        #[test]
-        fn both_directions_are_inverse(k1 in -0.15..0.15f64, k2 in -0.02..0.02f64, x in -4.0..4.0f64, y in -4.0..4.0f64, forward: bool) {
-            let sense = if forward { Sense::IdealToObserved } else { Sense::ObservedToIdeal };
-            let d = distortion(sense, k1, k2, 5.0);
-            let p = DVec2::new(x, y);
-            prop_assume!(p.length() < 0.95 * d.fold_observed_mm());
-            let back = d.ideal(p).and_then(|i| d.observed(i)).expect("before the fold");
-            // 1e-12 relative, times the root's condition near the fold (at most about 10 at 95 % of it).
-            prop_assert!((back - p).length() <= 1e-11 * (p.length() + 1e-3));
-        }
-    }
+    // Both roots without cancellation: q = −(b + sign(b) √D)/2, s = 1/q and s = q/a (the constant term is 1).
+    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+    let roots = [1.0 / q, q / a];
+    roots.into_iter().filter(|s| *s > 0.0 && s.is_finite()).fold(f64::INFINITY, f64::min).sqrt()
 }

@@ -1,9 +1,10 @@
 //! From a cube of spectral irradiance to mean electrons.
 
-use crate::sensor::Sensor;
 use etendue_core::quantity::{Irradiance, MeanElectrons};
 use etendue_core::{Bands, KeptCube, Plane, SpectralCube};
 use rayon::prelude::*;
+
+use crate::sensor::Sensor;
 
 /// Rows of light that are read at a time.
 const STRIP_ROWS: usize = 16;

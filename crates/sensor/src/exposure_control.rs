@@ -6,13 +6,11 @@
 //! target/ℓ is the target itself: the control walks down by that factor a frame until it sees.
 //! Left out: metering by region, flicker avoidance, delays of more than a frame, steps of lines.
 
-use crate::check::Checks;
+use etendue_core::{EffectStatus, maths::f64::pow};
+
+use crate::capture::{OperatingPoint, Operation};
 use crate::effect::{Effect, SensorFacts};
-use crate::operation::Operation;
-use crate::raw::Raw;
-use crate::state::OperatingPoint;
-use etendue_core::EffectStatus;
-use etendue_core::maths::f64::pow;
+use crate::{check::Checks, raw::Raw};
 
 /// How exposure is set from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,9 +90,9 @@ impl Effect for ExposureControl {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capture::{FrameAddress, SensorState};
     use crate::frame::tests::{ADDRESS, quiet};
     use crate::sensor::Sensor;
-    use crate::state::{FrameAddress, SensorState};
     use etendue_core::Plane;
 
     fn controlled(damping: f64) -> Sensor {

@@ -15,21 +15,18 @@
 //! picture's bits do not depend on threads or on the order of work. Noise from frame to frame is drawn from the job's seed,
 //! fixed patterns from the specimen's.
 
-mod capture_light;
+mod capture;
 pub mod cfa;
-mod charge_account;
 mod check;
-pub mod dynamic_range;
 mod effect;
 pub mod effects;
 mod electrons;
-pub mod emva1288;
 pub mod exposure_control;
+pub mod figures;
 mod frame;
 pub mod hdr;
 pub mod layout;
 mod mixture;
-mod operation;
 mod parameters;
 pub mod photon;
 pub mod random;
@@ -37,20 +34,15 @@ mod raw;
 mod reading;
 mod sensor;
 mod signal_breakdown;
-mod state;
-mod temporal_noise;
 mod validity;
 
-pub use capture_light::CaptureLight;
+pub use capture::{CaptureLight, FrameAddress, OperatingPoint, SensorState};
 pub use cfa::{BayerPhase, Cfa, CfaError};
-pub use charge_account::ChargeAccount;
 pub use check::SensorError;
-pub use dynamic_range::DynamicRange;
 pub use effect::SensorEffect;
 pub use effects::{ChargeEffects, LightEffects, VoltageEffects};
+pub use figures::{DynamicRange, TemporalNoise};
 pub use parameters::{Channel, Exposure, Pixel, ReadOut, SensorParameters};
 pub use raw::{LinearRaw, Raw};
 pub use sensor::Sensor;
-pub use signal_breakdown::{SignalBreakdown, SignalComponent};
-pub use state::{FrameAddress, OperatingPoint, SensorState};
-pub use temporal_noise::TemporalNoise;
+pub use signal_breakdown::{ChargeAccount, SignalBreakdown, SignalComponent};

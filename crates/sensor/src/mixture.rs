@@ -4,10 +4,9 @@
 //! a picture's red is R' = Σ w_c R_c over the channels c. White balance and colour matrices belong to these responsivities, as they
 //! would if they were measured on the camera. The weights of a channel are the mean over its pixels in the tile.
 
-use crate::cfa::Cfa;
-use crate::effects::neighbours::Neighbours;
-use crate::sensor::Sensor;
 use etendue_spectra::Spectrum;
+
+use crate::{cfa::Cfa, effects::neighbours::Neighbours, sensor::Sensor};
 
 impl Sensor {
     /// Responsivities of all channels as an even picture shows them, e⁻ per W·m⁻² during the exposure; during a second where that
@@ -68,8 +67,8 @@ fn mean_of(channel: usize, cfa: &Cfa, tile: &[Vec<f64>]) -> Vec<f64> {
 mod tests {
     use crate::Channel;
     use crate::cfa::{BayerPhase, Cfa};
-    use crate::effects::crosstalk::Crosstalk;
-    use crate::effects::inter_pixel_capacitance::InterPixelCapacitance;
+    use crate::effects::neighbours::Crosstalk;
+    use crate::effects::neighbours::InterPixelCapacitance;
     use crate::effects::neighbours::Neighbours;
     use crate::frame::tests::{ADDRESS, quiet, run};
     use crate::sensor::Sensor;

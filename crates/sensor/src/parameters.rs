@@ -1,20 +1,16 @@
 //! What a sensor is, as the description says it. Each effect's own parameters stand in the effect's file.
 
-use crate::cfa::Cfa;
+use etendue_spectra::Spectrum;
+
+use crate::capture::{OperatingPoint, Operation};
 use crate::effect::{Effect, SensorEffect, SensorFacts, SignalLevels, Visitor};
 use crate::effects::converter::{self, Converter};
-use crate::effects::dark_current::DarkCurrent;
-use crate::effects::full_well::FullWell;
-use crate::effects::read_noise::ReadNoise;
-use crate::effects::response::Response;
-use crate::effects::shot_noise::ShotNoise;
 use crate::effects::{ChargeEffects, LightEffects, VoltageEffects};
-use crate::exposure_control::ExposureControl;
-use crate::hdr::HighDynamicRange;
-use crate::layout::Layout;
-use crate::operation::Operation;
-use crate::state::OperatingPoint;
-use etendue_spectra::Spectrum;
+use crate::{
+    cfa::Cfa, effects::dark_current::DarkCurrent, effects::full_well::FullWell, effects::offset_pattern::ReadNoise,
+    effects::response::Response, effects::shot_noise::ShotNoise, exposure_control::ExposureControl,
+    hdr::HighDynamicRange, layout::Layout,
+};
 
 /// One kind of pixel.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,13 +1,10 @@
 //! A raw picture, with what development needs to know.
 
-use crate::charge_account::ChargeAccount;
-use crate::hdr::companding::Companding;
-use crate::layout::Region;
-use crate::state::OperatingPoint;
-use etendue_core::Plane;
-use etendue_core::quantity::DigitalNumber;
-use etendue_core::random::Pixel;
 use std::borrow::Cow;
+
+use etendue_core::{Plane, quantity::DigitalNumber, random::Pixel};
+
+use crate::{capture::OperatingPoint, hdr::companding::Companding, layout::Region, signal_breakdown::ChargeAccount};
 
 /// A raw picture, with what development needs to know.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,7 @@
 //! What one capture makes of the light of the first one: where it is white, and how noisy it is.
 
-use crate::operation::Operation;
+use crate::capture::{OperatingPoint, Operation};
 use crate::parameters::SensorParameters;
-use crate::state::OperatingPoint;
 
 /// One capture and what fraction of the first one's light it has.
 pub(crate) struct Reading<'a> {

@@ -3,14 +3,13 @@
 //! Electrons of a pixel = ∫ E(λ) R(λ) dλ, with R(λ) = A f t η(λ) λ/(hc) in e⁻ per W·m⁻²: area of the pixel, fill factor,
 //! exposure time, quantum efficiency with the colour filter in it, photons a joule (EMVA 1288, equation 2).
 
-use crate::check::SensorError;
+use std::borrow::Cow;
+
+use etendue_spectra::Spectrum;
+
 use crate::effect::{SensorEffect, SignalLevels};
 use crate::parameters::{Channel, SensorParameters};
-use crate::photon::photons_per_joule;
-use crate::state::OperatingPoint;
-use crate::validity;
-use etendue_spectra::Spectrum;
-use std::borrow::Cow;
+use crate::{capture::OperatingPoint, check::SensorError, photon::photons_per_joule, validity};
 
 /// A sensor that can be.
 #[derive(Clone, Debug, PartialEq)]

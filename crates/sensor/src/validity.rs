@@ -2,8 +2,7 @@
 
 use crate::check::{Checks, SensorError};
 use crate::effect::{Effect, SensorFacts, Visitor};
-use crate::effects::response::Response;
-use crate::parameters::SensorParameters;
+use crate::{effects::response::Response, parameters::SensorParameters};
 
 /// All contradictions, in the order of the parameters.
 pub(crate) fn errors(p: &SensorParameters) -> Vec<SensorError> {

@@ -4,9 +4,9 @@
 //! one camera compare with each other, but their scale is not a quantum efficiency. They are responses per unit of
 //! radiant power, lens and filters included.
 
-use crate::embedded::embedded;
-use crate::{Outside, Spectrum};
 use std::sync::LazyLock;
+
+use crate::{Outside, Spectrum, spectrum::embedded};
 
 /// Relative sensitivities of a camera's three channels.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,10 +5,11 @@
 //! Plastics: n² − 1 = B λ²/(λ² − C), λ in µm (Sultanova, Kasarova & Nikolov 2009, 437–1 052 nm, continued beyond), taken
 //! as without absorption. With extinction k light falls to e^(−αd) over a way d, α = 4πk/λ.
 
-use crate::Spectrum;
-use crate::metal::{ComplexIndex, complex_index};
 use core::f64::consts::PI;
 use std::sync::LazyLock;
+
+use crate::Spectrum;
+use crate::metal::{ComplexIndex, complex_index};
 
 const NAMES: &[&str] = &["water", "glass", "glass-green", "acrylic", "polycarbonate"];
 

@@ -16,8 +16,9 @@
 //! (n_g − n_F)/(n_F − n_C) = 0.6438 − 0.001682 V_d (Schott TIE-29): a third condition that ordinary glasses obey to 1 %
 //! and that fluor crowns and short flints, made to depart from it, do not.
 
-use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use std::sync::LazyLock;
+
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 
 /// The helium d line, nm: the wavelength of n_d.
 pub const LINE_D_NM: f64 = 587.5618;

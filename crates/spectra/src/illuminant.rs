@@ -3,10 +3,11 @@
 //! CIE illuminants and measured lamps are **relative** powers: scale them with
 //! [`observer::with_luminance`](crate::observer::with_luminance). The Sun and the black body are absolute.
 
-use crate::embedded::embedded;
-use crate::{Outside, Spectrum};
-use etendue_core::maths;
 use std::sync::LazyLock;
+
+use etendue_core::maths;
+
+use crate::{Outside, Spectrum, spectrum::embedded};
 
 macro_rules! tables {
     ($($name:literal $file:literal;)*) => {

@@ -7,10 +7,8 @@
 //! hold their end value; [`Outside`] names the choice and [`Spectrum::covered_nm`] says how far a table reached.
 
 pub mod camera;
-pub mod chart;
 pub mod colour;
 pub mod dielectric;
-mod embedded;
 pub mod glass;
 pub mod illuminant;
 pub mod metal;

@@ -3,9 +3,9 @@
 //! Johnson & Christy 1972 (Ag, Au, Cu) and 1974 (Cr, Fe), Rakić 1995 (Al); end values held. Surfaces are taken clean:
 //! oxide layers are left out.
 
-use crate::embedded::embedded;
-use crate::{Outside, Spectrum};
 use std::sync::LazyLock;
+
+use crate::{Outside, Spectrum, spectrum::embedded};
 
 /// A complex refractive index over wavelength.
 #[derive(Clone, Debug, PartialEq)]

@@ -12,6 +12,7 @@
 
 use core::f64::consts::PI;
 use core::ops::{Add, Mul, Sub};
+
 use etendue_core::maths::f64::{cbrt, exp, ln, sin_cos};
 
 /// A complex number; nothing but what the series needs.

@@ -4,10 +4,11 @@
 //! (683 lm/W, the luminous efficacy of the SI; CIE 15:2018). The functions are tabulated from 360 to 830 nm and zero
 //! outside. The integral is the sum over the nodes of the 1 nm grid.
 
-use crate::embedded::embedded;
-use crate::{Outside, Spectrum};
-use etendue_core::Bands;
 use std::sync::LazyLock;
+
+use etendue_core::Bands;
+
+use crate::{Outside, Spectrum, spectrum::embedded};
 
 /// Luminous efficacy of the standard observer at its peak, lm/W.
 pub const LUMINOUS_EFFICACY_LM_W: f64 = 683.0;

@@ -1,8 +1,9 @@
 //! A function of wavelength.
 
-use crate::table::{self, Outside, Place, SpectrumError};
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_core::{Bands, Spectral, Wavelengths};
+
+use crate::table::{self, Outside, Place, SpectrumError, rows};
 
 /// Nodes of the grid: 300, 301, … 1 100 nm.
 pub(crate) const NODES: usize = 801;
@@ -177,6 +178,18 @@ pub(crate) fn node_below(nm: f32) -> (usize, f32) {
 
 fn boxed(values: Vec<f32>) -> Box<[f32; NODES]> {
     values.try_into().expect("one value a node")
+}
+
+/// The spectra of a table that comes with the crate: `C` columns, the first the wavelength in nm.
+pub(crate) fn embedded<const C: usize>(text: &str, outside: Outside) -> Vec<Spectrum> {
+    let rows = rows::<C>(text).expect("a table of the crate has numbers in every column");
+    let column = |c: usize| rows.iter().map(|(_, row)| (row[0], row[c])).collect::<Vec<_>>();
+    (1..C).map(|c| Spectrum::from_points(&column(c), outside).expect("a table of the crate is in order")).collect()
+}
+
+/// The column names of a table that comes with the crate, without the wavelength's.
+pub(crate) fn embedded_names(text: &'static str) -> impl Iterator<Item = &'static str> {
+    text.lines().next().unwrap_or("").split(',').skip(1)
 }
 
 #[cfg(test)]

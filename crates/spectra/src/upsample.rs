@@ -9,13 +9,12 @@
 //! model says nothing true about infrared or ultraviolet. Components outside 0 to 1 are mixed all the same; whether
 //! they are legal is for the description to say.
 
-use crate::embedded::embedded;
-use crate::illuminant;
-use crate::observer;
-use crate::spectrum::{NODES, node_below};
-use crate::{Outside, Spectrum};
-use etendue_core::{Spectral, Wavelengths};
 use std::sync::LazyLock;
+
+use etendue_core::{Spectral, Wavelengths};
+
+use crate::spectrum::{NODES, embedded, node_below};
+use crate::{Outside, Spectrum, illuminant, observer};
 
 static BASIS: LazyLock<[Spectrum; 3]> = LazyLock::new(|| {
     let table = embedded::<4>(include_str!("../data/srgb_basis.csv"), Outside::Hold);

@@ -16,17 +16,12 @@
 
 pub mod chi_square;
 pub mod error;
-pub mod family;
-pub mod median;
 pub mod moments;
 pub mod normal;
 pub mod planes;
-pub mod replicates;
 pub mod special;
 pub mod student;
 
 pub use error::ErrorSummary;
-pub use median::upper_median;
-pub use moments::Moments;
+pub use moments::{Moments, ReplicateEstimate, upper_median};
 pub use planes::{EstimatedPlane, PlaneTest, Verdict};
-pub use replicates::ReplicateEstimate;

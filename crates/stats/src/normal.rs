@@ -1,8 +1,10 @@
 //! The standard normal distribution.
 
-use crate::special::erfc;
 use core::f64::consts::{FRAC_1_SQRT_2, PI};
+
 use etendue_core::maths::f64::{exp, ln};
+
+use crate::special::erfc;
 
 /// Density at `z`.
 #[must_use]

@@ -21,7 +21,7 @@
 //! Left out: replicate means that are not normal. With very few samples a replicate the distribution is skewed and the
 //! test is too strict; that shows as failures of both signs' extremes, and is cured by more samples.
 
-use crate::{family, student};
+use crate::{chi_square, student};
 
 /// Runs of pixels are pooled until they nominally have this many degrees of freedom.
 pub const POOLED_DEGREES_OF_FREEDOM: u32 = 30;
@@ -192,7 +192,7 @@ fn judge(runs: &[Run], alike: [u32; 2], pooled_pixels: usize, significance: f64)
     let all = runs.iter().map(|run| (*run, within)).chain(whole);
     let tests: Vec<(usize, f64, f64)> =
         all.filter_map(|(run, alike)| run.test(alike).map(|(z, p)| (run.first_pixel, z, p))).collect();
-    let level = family::sidak_level(significance, tests.len());
+    let level = chi_square::sidak_level(significance, tests.len());
     let certain: usize = runs.iter().map(|r| r.certain_differences).sum();
     let not_finite = runs.iter().map(|r| r.not_finite).sum();
     let random = tests.iter().filter(|t| t.2 < level).count();
@@ -206,7 +206,7 @@ fn judge(runs: &[Run], alike: [u32; 2], pooled_pixels: usize, significance: f64)
         (worst_pixel, max_abs_z) = (run.first_pixel, f64::INFINITY);
     }
     let smallest = tests.iter().fold(1.0_f64, |p, t| p.min(t.2));
-    let p = if certain > 0 { 0.0 } else { family::sidak_p(smallest, tests.len()) };
+    let p = if certain > 0 { 0.0 } else { chi_square::sidak_p(smallest, tests.len()) };
     let differ = certain + random + not_finite > 0;
     let verdict = if differ { Verdict::Differ } else { Verdict::Agree };
     let (exceeding, tests) = (certain + random, tests.len());

@@ -5,6 +5,7 @@
 //! values of multiple-precision arithmetic.
 
 use core::f64::consts::PI;
+
 use etendue_core::maths::f64::{exp, ln, ln_1p};
 
 /// Below this a continued fraction's denominator is moved away from zero (Lentz).

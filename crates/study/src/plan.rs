@@ -1,7 +1,7 @@
 //! Which tiles a study looks at, so that it takes the time that it may take.
 
 use etendue::{Error, Job, ShardSpec};
-use etendue_core::maths::integer::greatest_common_divisor;
+use etendue_core::maths::greatest_common_divisor;
 
 /// Side of the study's tiles, px, where no pixels share more.
 pub(crate) const TILE_PX: u32 = 16;

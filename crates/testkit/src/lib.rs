@@ -14,6 +14,4 @@
 pub mod form_factor;
 pub mod judge;
 pub mod page;
-pub mod pupil;
-pub mod quadrature;
 pub mod skip;

@@ -1,8 +1,6 @@
 //! The page of extremes: docs/extremes.md, a section an area, whose rows are made by tests of several crates.
 
-use std::fmt::Write as _;
-use std::path::PathBuf;
-use std::sync::Mutex;
+use std::{fmt::Write as _, path::PathBuf, sync::Mutex};
 
 /// One extreme, and how it went.
 #[derive(Clone, Debug)]

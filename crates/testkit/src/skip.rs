@@ -1,7 +1,6 @@
 //! Tests that need files which may be missing: they pass, say so, and are counted.
 
-use std::io::Write as _;
-use std::path::Path;
+use std::{io::Write as _, path::Path};
 
 /// The variable that names the file to which a skipped test adds a line; CI counts and prints them.
 const LIST: &str = "ETENDUE_SKIPPED";

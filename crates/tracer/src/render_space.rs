@@ -5,19 +5,19 @@
 //! interval. What moves is where it is at a ray's own time. Rays and answers are in the render frame (axes of
 //! the world, origin at the entrance pupil, m). Nothing about a mesh is rebuilt but the trees of those whose vertices move.
 
-mod footprint;
 mod point;
 mod truth;
 
-pub use truth::Truth;
+use std::borrow::Cow;
 
-use crate::accel::tlas::Tlas;
-use crate::accel::{Simd, Visits, World};
-use crate::geometry::{Footprint, Hit, InstanceTransform, MeshId, MeshPose, Placement, Shape, SurfacePoint};
-use crate::is_optional;
 use etendue_core::{Ray, TimeInterval};
 use glam::{DVec3, Vec2, Vec3};
-use std::borrow::Cow;
+
+use crate::accel::{Simd, Visits, World};
+use crate::geometry::{Footprint, Hit, InstanceTransform, MeshId, MeshPose, Placement, Shape, SurfacePoint};
+use crate::{accel::tlas::Tlas, is_optional};
+
+pub use truth::Truth;
 
 impl World {
     /// The world placed about a camera whose entrance pupil is at `origin_m` (world, m), at the time 0.
@@ -125,8 +125,8 @@ impl<'w> RenderSpace<'w> {
     pub fn footprint(&self, point: &SurfacePoint) -> Footprint {
         let placed = &*self.placed_at(point.instance, point.time_s);
         match self.world.instances()[point.instance as usize].shape {
-            Shape::Mesh(id) => footprint::mesh_footprint(&self.pose(id, point.time_s), placed, point.primitive),
-            Shape::Sphere { radius_m } => footprint::sphere_footprint(radius_m, placed),
+            Shape::Mesh(id) => point::mesh_footprint(&self.pose(id, point.time_s), placed, point.primitive),
+            Shape::Sphere { radius_m } => point::sphere_footprint(radius_m, placed),
         }
     }
 
@@ -145,8 +145,8 @@ impl<'w> RenderSpace<'w> {
     pub fn change_along(&self, point: &SurfacePoint, vector: Vec3) -> (Vec2, Vec3) {
         let local = self.placed_at(point.instance, point.time_s).vector_to_local(vector.as_dvec3());
         let uv = match self.world.instances()[point.instance as usize].shape {
-            Shape::Mesh(id) => footprint::uv_along(&self.pose(id, point.time_s), point.primitive, local),
-            Shape::Sphere { .. } => footprint::globe_along(point.local.as_dvec3(), local),
+            Shape::Mesh(id) => point::uv_along(&self.pose(id, point.time_s), point.primitive, local),
+            Shape::Sphere { .. } => point::globe_along(point.local.as_dvec3(), local),
         };
         (uv.as_vec2(), local.as_vec3())
     }
@@ -158,10 +158,10 @@ impl<'w> RenderSpace<'w> {
     pub fn tangents(&self, point: &SurfacePoint) -> Option<[Vec3; 2]> {
         let placed = &*self.placed_at(point.instance, point.time_s);
         let local = match self.world.instances()[point.instance as usize].shape {
-            Shape::Mesh(id) => footprint::mesh_tangents(&self.pose(id, point.time_s), point.primitive)?,
-            Shape::Sphere { .. } => footprint::sphere_tangents(point.local.as_dvec3())?,
+            Shape::Mesh(id) => point::mesh_tangents(&self.pose(id, point.time_s), point.primitive)?,
+            Shape::Sphere { .. } => point::sphere_tangents(point.local.as_dvec3())?,
         };
-        footprint::tangents_to_render(local, placed)
+        point::tangents_to_render(local, placed)
     }
 
     /// An instance's place.

@@ -1,10 +1,9 @@
 //! The files of a result: of each folder, and of each frame where their names have its number.
 
-use etendue::{Error, ErrorCode};
-use std::ffi::OsStr;
-use std::fs;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::{ffi::OsStr, fs, ops::Range};
+
+use etendue::{Error, ErrorCode};
 
 /// A file that may have layers.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -22,10 +22,7 @@
 //!
 //! The page has no server, loads nothing from a network, and its bytes depend on the files alone (docs/decisions/viewer.md).
 
-mod base64;
-mod bin;
 mod found;
-mod html;
 mod layer;
 mod pack;
 mod page;

@@ -1,13 +1,13 @@
 //! Where the page goes: a folder of `index.html` and `data`, or one file.
+//!
+//! Bytes as text (RFC 4648, section 4).
 
-use crate::html::in_script;
+use std::path::{Path, PathBuf};
+use std::{fmt::Write as _, fs, io::Read as _};
+
 use etendue::page::{PAGE_GENERATOR, html_page};
 use etendue::{Error, ErrorCode, Existing, OutputFolder, write_file};
 use serde_json::Value;
-use std::fmt::Write as _;
-use std::fs;
-use std::io::Read as _;
-use std::path::{Path, PathBuf};
 
 const STYLE: &str = include_str!("../page/view.css");
 const BODY: &str = include_str!("../page/view.html");
@@ -110,4 +110,49 @@ fn html(title: &str, facts: &Value, chunks: &str) -> String {
         "{BODY}{chunks}<script>\n\"use strict\";\n(() => {{\nconst PAGE = {facts};\n{script}{START}}})();\n</script>\n"
     );
     html_page(title, STYLE, &body)
+}
+
+/// JSON as a script may contain it, whatever names it holds.
+fn in_script(value: &Value) -> String {
+    value.to_string().replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
+}
+
+const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+/// The text of bytes, with padding.
+pub(crate) fn encoded(bytes: &[u8]) -> String {
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for group in bytes.chunks(3) {
+        let bits = group.iter().enumerate().fold(0_u32, |bits, (i, byte)| bits | u32::from(*byte) << (16 - 8 * i));
+        for place in 0..4 {
+            let character = ALPHABET[(bits >> (18 - 6 * place)) as usize & 63];
+            text.push(if place <= group.len() { char::from(character) } else { '=' });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn no_name_ends_a_script_or_begins_an_element() {
+        let hostile = json!({ "name": "</script><b>\u{2028}" });
+        let told = in_script(&hostile);
+        assert_eq!(told, "{\"name\":\"\\u003c/script>\\u003cb>\\u2028\"}");
+        assert_eq!(serde_json::from_str::<Value>(&told).expect("JSON"), hostile);
+    }
+
+    #[test]
+    fn the_examples_of_the_standard() {
+        let examples =
+            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("foobar", "Zm9vYmFy")];
+        for (bytes, text) in examples {
+            assert_eq!(encoded(bytes.as_bytes()), text);
+        }
+        assert_eq!(encoded(&[0xff, 0xfb, 0xf0]), "//vw");
+    }
 }

@@ -1,7 +1,8 @@
 //! The files of two results, those of the same camera, frame and name together.
 
-use crate::found::FoundFile;
 use std::collections::{BTreeSet, HashMap};
+
+use crate::found::FoundFile;
 
 /// A file of the first result, of the second, or of both.
 pub(crate) struct FilePair {

@@ -1,9 +1,9 @@
 //! What a page is asked to show.
 
+use std::{ops::Range, path::PathBuf};
+
 use clap::Args;
 use etendue_arguments::{frames, whole};
-use std::ops::Range;
-use std::path::PathBuf;
 
 /// A result to look at.
 #[derive(Args, Clone, Debug, Eq, PartialEq)]

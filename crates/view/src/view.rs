@@ -1,18 +1,19 @@
 //! From the folders of results to a page.
 
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use etendue::{Error, ErrorCode, Existing, Message, Observer, Progress, Unit};
+use etendue_io::inspect::{ChannelReport, VIRIDIS, flow_wheel};
+use serde_json::{Map, Value, json};
+
 use crate::found::{FoundFile, find};
 use crate::layer::{Layer, NamedPlane, Role, Samples};
-use crate::pack::packed;
+use crate::pack::{self, packed};
 use crate::page::{Page, is_ours};
 use crate::pairs::{FilePair, paired};
 use crate::read::{self, FileLayers, SideCar};
 use crate::request::ViewRequest;
-use crate::{bin, pack};
-use etendue::{Error, ErrorCode, Existing, Message, Observer, Progress, Unit};
-use etendue_io::inspect::{ChannelReport, VIRIDIS, flow_wheel};
-use serde_json::{Map, Value, json};
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 /// Writes the page of a result: into the folder `page`, as the one file `page` where that ends in `.html`, or into the folder `view` of the result,
 /// where an earlier page is replaced. Answers with the file to open. One file of a result, and the one beside it, are in memory at a time.
@@ -115,7 +116,7 @@ impl Build<'_> {
     fn steps(&self, both: &[(usize, &FoundFile, FileLayers)]) -> BTreeMap<String, usize> {
         let mut steps = BTreeMap::new();
         for layer in both.iter().flat_map(|(_, _, read)| &read.layers) {
-            let step = bin::factor(layer, self.request.max_mb as usize * 1_000_000);
+            let step = pack::factor(layer, self.request.max_mb as usize * 1_000_000);
             let most = steps.entry(layer.name.clone()).or_insert(1);
             *most = step.max(*most);
         }
@@ -124,7 +125,7 @@ impl Build<'_> {
 
     fn layer(&mut self, stand: Stand<'_>, layer: &Layer, step: usize) -> Result<(), Error> {
         self.binned += usize::from(step > 1);
-        let planes = bin::planes(layer, step);
+        let planes = pack::planes(layer, step);
         let packed = packed(&planes)?;
         let chunk = (!planes.is_empty()).then(|| format!("{:04}", self.layers.len()));
         if let Some(id) = &chunk {
@@ -163,7 +164,7 @@ impl Stand<'_> {
         let FoundFile { name: file, stem, frame, .. } = self.file;
         // The same layer in all frames, and in both results.
         let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending);
-        let (width, height) = bin::size(layer, step);
+        let (width, height) = pack::size(layer, step);
         let planes = layer.planes.iter().zip(&packed.types);
         let said = json!({
             "result": self.result,

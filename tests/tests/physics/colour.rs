@@ -2,9 +2,9 @@
 
 use etendue_isp::WhiteBalance;
 use etendue_spectra::colour::{lab, xyz_from_linear_srgb};
-use etendue_spectra::{chart, illuminant, metal, observer};
+use etendue_spectra::{illuminant, metal, observer, reflectance};
+use etendue_testkit::form_factor::simpson;
 use etendue_testkit::judge::against_truth;
-use etendue_testkit::quadrature::simpson;
 use etendue_tests::{Job, Shot};
 
 /// Luminance of the light, cd/m².
@@ -83,7 +83,7 @@ fn a_grey_card_in_the_light_of_the_white_balance_is_neutral() {
 
 #[test]
 fn the_chart_has_the_colours_that_spectra_and_matrix_say() {
-    for patch in chart::colorchecker() {
+    for patch in reflectance::colorchecker() {
         let points: Vec<(f64, f64)> =
             (380..=780).map(|nm| (f64::from(nm), f64::from(patch.reflectance.at(nm as f32)))).collect();
         let shot = card("{ spectrum = \"patch.csv\" }", 1024).with_spectrum("patch.csv", &points).shot();

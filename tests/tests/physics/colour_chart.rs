@@ -10,7 +10,7 @@ use etendue_pipeline::photograph::take;
 use etendue_pipeline::plan::CameraBody;
 use etendue_sensor::{CaptureLight, FrameAddress, Sensor, SensorState};
 use etendue_spectra::colour::{D65_WHITE, Lab, ciede2000, lab, xyz_from_linear_srgb};
-use etendue_spectra::{Spectrum, camera, chart, illuminant, observer};
+use etendue_spectra::{Spectrum, camera, illuminant, observer, reflectance};
 use etendue_tests::Job;
 
 const SIDE: usize = 32;
@@ -105,7 +105,7 @@ fn seen(name: &str, light: &str, demosaic: &str, chart: &[&Spectrum]) -> Vec<Lab
 }
 
 fn reflectances() -> Vec<&'static Spectrum> {
-    chart::colorchecker().iter().map(|patch| &patch.reflectance).collect()
+    reflectance::colorchecker().iter().map(|patch| &patch.reflectance).collect()
 }
 
 /// How far a camera is from the chart under D65: mean and largest ΔE₀₀, and the farthest of a grey in the plane of a* and b*.

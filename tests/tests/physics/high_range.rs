@@ -5,7 +5,7 @@ use etendue_core::quantity::MeanElectrons;
 use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::asset::Assets;
 use etendue_scene::{Description, Overrides};
-use etendue_sensor::emva1288::db;
+use etendue_sensor::figures::db;
 use etendue_sensor::{FrameAddress, Raw, Sensor, SensorState};
 use etendue_stats::Moments;
 use etendue_tests::Shot;

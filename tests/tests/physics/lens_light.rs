@@ -2,8 +2,8 @@
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{atan, cos, pow, tan};
+use etendue_testkit::form_factor::{by_sum, foote, lens_area};
 use etendue_testkit::judge::against_truth;
-use etendue_testkit::pupil::{by_sum, foote, lens_area};
 use etendue_tests::{Job, Samples, Shot};
 
 const COLUMNS: usize = 41;

@@ -3,7 +3,7 @@
 //! They must agree where the pupil's picture holds all there is to know: everything in focus (a pinhole) or nothing but a
 //! uniform radiance.
 
-use etendue_stats::family::sidak_level;
+use etendue_stats::chi_square::sidak_level;
 use etendue_stats::{ReplicateEstimate, student};
 use etendue_testkit::judge::SIGNIFICANCE;
 use etendue_tests::Job;

@@ -5,8 +5,8 @@
 
 use etendue_spectra::{Spectrum, illuminant, upsample};
 use etendue_stats::ReplicateEstimate;
+use etendue_testkit::form_factor::simpson;
 use etendue_testkit::judge::is_near;
-use etendue_testkit::quadrature::simpson;
 use etendue_tests::{Job, Shot};
 
 const PAINT: [f32; 3] = [0.7, 0.15, 0.05];

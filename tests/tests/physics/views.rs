@@ -7,7 +7,7 @@ use etendue_core::quantity::Length;
 use etendue_pipeline::plan::Route;
 use etendue_pipeline::pupil_depth::pupil_depth;
 use etendue_pipeline::stored::Stored;
-use etendue_stats::family::sidak_level;
+use etendue_stats::chi_square::sidak_level;
 use etendue_stats::{ReplicateEstimate, student};
 use etendue_testkit::judge::SIGNIFICANCE;
 use etendue_tests::{Job, Shot};

@@ -1,13 +1,11 @@
-//! A checkerboard, all of it in view: corners to calibrate with.
+//! Charts of points: checkerboards and grids of dots.
 
-use super::{BLACK, BLEED, GridSize, WHITE};
-use crate::drawing::{Drawing, Feature, Kind};
-use crate::error::ChartError;
-use crate::ink::Ink;
-use crate::panel::Panel;
-use crate::ray_camera::Footprint;
-use crate::shape::{Cell, Fill, Lattice};
 use glam::DVec2;
+
+use super::{BLACK, BLEED, WHITE};
+use crate::drawing::{Drawing, Feature, Kind};
+use crate::shape::{Cell, Fill, Lattice};
+use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// How much of what is wholly seen the board takes.
 const ROOM: f64 = 0.92;
@@ -37,5 +35,76 @@ impl Checkerboard {
         drawing.note("inner_corners", vec![grid.columns - 1, grid.rows - 1]);
         drawing.note("pitch_mm", grid.pitch_mm);
         Ok(drawing)
+    }
+}
+
+/// The size of a lattice of figures; what is left open follows from the room there is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GridSize {
+    /// Columns.
+    pub columns: Option<u32>,
+    /// Rows.
+    pub rows: Option<u32>,
+    /// Distance from centre to centre, mm.
+    pub pitch_mm: Option<f64>,
+}
+
+/// Columns, rows and pitch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Grid {
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    pub(super) pitch_mm: f64,
+}
+
+/// More columns or rows than this are taken for a slip.
+const MOST: u32 = 500;
+
+impl GridSize {
+    /// The grid in a room (mm): as many of `columns` as the pitch allows, or the pitch that `columns` allow.
+    pub(super) fn in_room(self, room_mm: DVec2, columns: u32, least: u32) -> Result<Grid, ChartError> {
+        let checked = |option, count: Option<u32>| match count {
+            Some(n) if !(least..=MOST).contains(&n) => {
+                Err(ChartError::option(option, n, format!("expected {least} … {MOST}")))
+            }
+            given => Ok(given),
+        };
+        let (given_columns, given_rows) = (checked("columns", self.columns)?, checked("rows", self.rows)?);
+        let pitch_mm = match (self.pitch_mm, given_columns, given_rows) {
+            (Some(pitch), ..) if !(pitch.is_finite() && pitch > 0.0) => {
+                return Err(ChartError::option("pitch_mm", pitch, "expected a distance above 0 mm"));
+            }
+            (Some(pitch), ..) => pitch,
+            (None, Some(x), Some(y)) => (room_mm / DVec2::new(f64::from(x), f64::from(y))).min_element(),
+            (None, None, Some(y)) => room_mm.y / f64::from(y),
+            (None, x, None) => room_mm.x / f64::from(x.unwrap_or(columns)),
+        };
+        // Rounding shall not take the last column away.
+        let fit = |room: f64| (room / pitch_mm * (1.0 + 1e-9)).floor().min(f64::from(MOST)) as u32;
+        let count = |given: Option<u32>, room: f64| given.unwrap_or_else(|| fit(room));
+        let (columns, rows) = (count(given_columns, room_mm.x), count(given_rows, room_mm.y));
+        if columns < least || rows < least {
+            let told = format!("that leaves {columns} columns and {rows} rows in view, {least} are needed: give less");
+            return Err(ChartError::option("pitch_mm", format!("{pitch_mm:.3}"), told));
+        }
+        Ok(Grid { columns: columns as usize, rows: rows as usize, pitch_mm })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_open_follows_from_the_room() {
+        let room = DVec2::new(400.0, 300.0);
+        let grid = |size: GridSize| size.in_room(room, 40, 3).map(|g| (g.columns, g.rows, g.pitch_mm));
+        assert_eq!(grid(GridSize::default()), Ok((40, 30, 10.0)));
+        assert_eq!(grid(GridSize { pitch_mm: Some(20.0), ..GridSize::default() }), Ok((20, 15, 20.0)));
+        assert_eq!(grid(GridSize { columns: Some(10), rows: Some(10), ..GridSize::default() }), Ok((10, 10, 30.0)));
+        assert_eq!(grid(GridSize { rows: Some(6), ..GridSize::default() }), Ok((8, 6, 50.0)));
+        assert!(grid(GridSize { pitch_mm: Some(200.0), ..GridSize::default() }).is_err());
+        assert!(grid(GridSize { columns: Some(2), ..GridSize::default() }).is_err());
+        assert!(grid(GridSize { pitch_mm: Some(f64::NAN), ..GridSize::default() }).is_err());
     }
 }

@@ -4,16 +4,15 @@
 //! The leaves are laid from the top down: a texel takes the first leaf that covers it. The texture has some texels a pixel
 //! each way; its numbers are reflectances.
 
-use super::BLEED;
-use crate::drawing::{Drawing, Patch, Texture};
-use crate::error::ChartError;
-use crate::ink::{Ink, Paint};
-use crate::panel::Panel;
-use crate::ray_camera::Footprint;
-use crate::shape::{Cell, Fill, Lattice, rectangle};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use glam::DVec2;
 use rand::RngExt;
+
+use super::BLEED;
+use crate::drawing::{Drawing, Patch, Texture};
+use crate::ink::{Ink, Paint};
+use crate::shape::{Cell, Fill, Lattice, rectangle};
+use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
 /// Side over the height that is wholly seen.
 const REACH: f64 = 0.8;

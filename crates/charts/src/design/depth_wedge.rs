@@ -1,19 +1,17 @@
 //! Depth wedge: on the left a staircase of panels from near to far, on the right one slanted plane back from far to near, all
 //! with texture, before a wall. Depth by stereo, focus or a network; the ground truth's depth is the truth.
 
-use super::BLEED;
-use super::dead_leaves::leaves;
-use crate::drawing::{Drawing, Patch, Texture};
-use crate::error::ChartError;
-use crate::ink::{Ink, Paint};
-use crate::panel::Panel;
-use crate::ray_camera::Footprint;
-use crate::shape::{Sheet, rectangle};
 use etendue_core::maths::f64::{exp, ln};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use glam::{DMat3, DVec2, DVec3};
 use rand::RngExt;
 use serde_json::json;
+
+use super::{BLEED, dead_leaves::leaves};
+use crate::drawing::{Drawing, Patch, Texture};
+use crate::ink::{Ink, Paint};
+use crate::shape::{Sheet, rectangle};
+use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
 /// Side of the texture, texels; it is mirrored from tile to tile.
 const SIDE: usize = 1024;

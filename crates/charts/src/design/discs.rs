@@ -1,14 +1,13 @@
 //! Black discs in the cells of a square lattice on white: what dots and circles are made of.
 
-use super::grid::Grid;
-use super::{BLACK, BLEED, WHITE};
-use crate::drawing::{Drawing, Feature, Kind};
-use crate::ink::Ink;
-use crate::panel::Panel;
-use crate::ray_camera::Footprint;
-use crate::shape::{Cell, Figure, Fill, Lattice, disc};
 use core::f64::consts::FRAC_PI_4;
+
 use glam::DVec2;
+
+use super::{BLACK, BLEED, WHITE, checkerboard::Grid};
+use crate::drawing::{Drawing, Feature, Kind};
+use crate::shape::{Cell, Figure, Fill, Lattice, disc};
+use crate::{ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// Corners of a disc: its outline leaves the circle by 2e-4 of its radius.
 const CORNERS: usize = 128;

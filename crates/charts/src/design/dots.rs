@@ -4,11 +4,22 @@
 //! Three dots are left out beside the middle, as marks of orientation: one, one three columns to its right, and one two rows below it. A picture in which the longer leg
 //! does not lie to the right of the shorter one as the chart has it is mirrored, however it is turned and wherever its centre lies. Charts of fewer than [`MIN_MARKED`]
 //! dots, or of rows and columns too few, have none: each dot counts there.
+//!
+//! Circles to calibrate with, all of them in view: a square lattice, or a staggered one (every other row shifted by half of
+//! the distance) that shows which side is up.
+//!
+//! Points: small lamps in the dark, far below a pixel in size or of a size that is known. Point-spread function, coma, chromatic
+//! displacement.
 
-use super::{GridSize, discs};
-use crate::drawing::Drawing;
-use crate::error::ChartError;
-use crate::ray_camera::Footprint;
+use std::f64::consts::{FRAC_PI_4, PI};
+
+use glam::DVec2;
+
+use super::{BLEED, GridSize, discs};
+use crate::drawing::{Drawing, Feature, Kind};
+use crate::ink::{Ink, Paint};
+use crate::shape::{Cell, Figure, Fill, Lattice, disc};
+use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
 /// The least number of dots of a chart with marks.
 const MIN_MARKED: usize = 150;
@@ -64,6 +75,77 @@ fn usual_columns(width_px: f64) -> u32 {
     // Rounding shall not take the last column away.
     let fit = |step: f64| (width_px / step * (1.0 + 1e-9)).floor();
     fit(STEP_PX).max(fit(MIN_STEP_PX).min(FEW)).clamp(3.0, MOST) as u32
+}
+
+/// How much of what is wholly seen the lattice takes.
+const ROOM: f64 = 0.92;
+/// Diameter over the side of a circle's cell.
+const DOT_SHARE: f64 = 0.6;
+
+/// A lattice of circles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Circles {
+    /// How many, and how far apart (in a staggered lattice: the cells, of which every other one holds a circle).
+    pub size: GridSize,
+    /// Whether the lattice is staggered.
+    pub asymmetric: bool,
+}
+
+impl Circles {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+        let columns = if self.asymmetric { 15 } else { 11 };
+        let grid = self.size.in_room(seen.inner_mm * ROOM, columns, 3)?;
+        let here = |column: usize, row: usize| !self.asymmetric || (column + row).is_multiple_of(2);
+        let mut drawing = discs::draw(seen, &grid, DOT_SHARE, here);
+        drawing.note("cells", vec![grid.columns, grid.rows]);
+        drawing.note("asymmetric", self.asymmetric);
+        Ok(drawing)
+    }
+}
+
+/// Corners of a lamp.
+const CORNERS: usize = 16;
+
+/// Small lamps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Points {
+    /// How many and how far apart. Default: 15 columns over what is wholly seen.
+    pub size: GridSize,
+    /// Diameter of a lamp, pixels of the picture's middle.
+    pub diameter_px: f64,
+}
+
+impl Points {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+        if !(0.05..=10.0).contains(&self.diameter_px) {
+            return Err(ChartError::option("diameter_px", self.diameter_px, "expected 0.05 … 10 px"));
+        }
+        let grid = self.size.in_room(seen.inner_mm, 15, 1)?;
+        let radius = self.diameter_px * seen.pixel_mm / 2.0;
+        let lattice = Lattice::framed(grid.columns, grid.rows, DVec2::splat(grid.pitch_mm), seen.outer_mm * BLEED);
+        let mut features = Vec::new();
+        let sheet = lattice.sheet(|column, row| {
+            if !lattice.is_inside(column, row) {
+                return Cell::Plain(Fill::Ink(0));
+            }
+            let centre = lattice.middle(column, row);
+            let lamp = Feature::at(Kind::Point, [column - 1, row - 1], centre);
+            features.push(Feature { radius_mm: Some(radius), ..lamp });
+            Cell::Figure(Figure::one(centre, disc(centre, radius, CORNERS, FRAC_PI_4), 1), Fill::Ink(0))
+        });
+        // A pixel that holds a whole lamp is as bright as if the light of the chart filled it.
+        let share = 1.0 / (PI * self.diameter_px * self.diameter_px / 4.0).min(1.0);
+        let inks = vec![Ink::new("dark", Paint::Glow(0.0)), Ink::new("lamp", Paint::Glow(share))];
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
+        drawing.lit = false;
+        drawing.features = features;
+        drawing.note("points", vec![grid.columns, grid.rows]);
+        drawing.note("pitch_mm", grid.pitch_mm);
+        drawing.note("diameter_mm", 2.0 * radius);
+        drawing.note("diameter_px", self.diameter_px);
+        drawing.spp = 256;
+        Ok(drawing)
+    }
 }
 
 #[cfg(test)]

@@ -1,13 +1,18 @@
 //! Even fields: a white sheet in even light (ISO 17957, EMVA 1288), and a panel that shines by itself in the dark, the paper's
 //! retro-lighting chart. Vignetting, shading, tone curve, photon transfer.
+//!
+//! Flare: a white field with light traps, holes with a deep black box behind (ISO 18844). Veiling glare.
+//!
+//! What a trap shows is not black: of reflectance R inside, opening radius r and depth h its bottom has about R r²/(r² + h²) of
+//! the field's luminance, its walls more towards the opening.
 
-use super::{BLEED, share};
-use crate::drawing::{Drawing, Patch};
-use crate::error::ChartError;
+use glam::DVec2;
+
+use super::{BLEED, GridSize, WHITE, share};
+use crate::drawing::{Cavity, Drawing, Patch};
 use crate::ink::{Ink, Paint};
-use crate::panel::Panel;
-use crate::ray_camera::Footprint;
-use crate::shape::{Sheet, rectangle};
+use crate::shape::{Cell, Figure, Fill, Lattice, Sheet, Zone, disc, rectangle};
+use crate::{error::ChartError, light::Panel, ray_camera::Footprint};
 
 /// A white sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,4 +47,55 @@ fn even(seen: &Footprint, ink: Ink) -> Drawing {
     // Samples of the spectrum and of the pupil leave about 0.1 % in a pixel.
     drawing.spp = 256;
     drawing
+}
+
+/// Corners of a hole.
+const CORNERS: usize = 64;
+/// Depth of a trap over the diameter of its opening.
+const DEPTH: f64 = 3.0;
+/// Reflectance of its inside.
+const INSIDE: f64 = 0.01;
+
+/// A white field with light traps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flare {
+    /// How many traps and how far apart. Default: 5 columns over what is wholly seen.
+    pub size: GridSize,
+    /// Diameter of an opening over the distance between middles.
+    pub trap_ratio: f64,
+}
+
+impl Flare {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+        if !(0.02..=0.8).contains(&self.trap_ratio) {
+            return Err(ChartError::option("trap_ratio", self.trap_ratio, "expected 0.02 … 0.8"));
+        }
+        let grid = self.size.in_room(seen.inner_mm, 5, 1)?;
+        let radius = self.trap_ratio * grid.pitch_mm / 2.0;
+        let depth_mm = 2.0 * DEPTH * radius;
+        let pitch = DVec2::splat(grid.pitch_mm);
+        let lattice = Lattice::framed(grid.columns, grid.rows, pitch, seen.outer_mm * BLEED);
+        let (mut patches, mut cavities) = (Vec::new(), Vec::new());
+        let sheet = lattice.sheet(|column, row| {
+            if !lattice.is_inside(column, row) {
+                return Cell::Plain(Fill::Ink(0));
+            }
+            let centre = lattice.middle(column, row);
+            let opening_mm = disc(centre, radius, CORNERS, std::f64::consts::FRAC_PI_4);
+            let name = format!("trap-{}-{}", column - 1, row - 1);
+            patches.push(Patch { name, panel: 0, ink: 1, outline_mm: opening_mm.clone() });
+            cavities.push(Cavity { panel: 0, opening_mm: opening_mm.clone(), depth_mm, ink: 1 });
+            let hole = Zone { outline: opening_mm, fills: vec![Fill::Hole] };
+            Cell::Figure(Figure { centre, zones: vec![hole] }, Fill::Ink(0))
+        });
+        let inks = vec![Ink::grey("white", WHITE), Ink::grey("trap-inside", INSIDE)];
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
+        (drawing.patches, drawing.cavities) = (patches, cavities);
+        drawing.note("traps", vec![grid.columns, grid.rows]);
+        drawing.note("pitch_mm", grid.pitch_mm);
+        drawing.note("opening_mm", 2.0 * radius);
+        drawing.note("depth_mm", depth_mm);
+        drawing.note("luminance_of_a_trap_s_bottom_over_white_about", INSIDE / (1.0 + 4.0 * DEPTH * DEPTH) / WHITE);
+        Ok(drawing)
+    }
 }

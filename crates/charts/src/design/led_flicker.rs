@@ -1,16 +1,13 @@
 //! Lamps in pulses: columns of frequencies, rows of duties, equally bright while they are on, each with a phase of its own, in the dark
 //! (LED flicker; IEEE P2020).
 
-use super::GridSize;
-use super::option::BLACK;
-use super::patches::{ROOM, SIDE, rows};
-use crate::drawing::Drawing;
-use crate::error::ChartError;
-use crate::ink::{Ink, Paint};
-use crate::panel::Panel;
-use crate::ray_camera::Footprint;
 use etendue_core::random::number_of_name;
 use serde_json::json;
+
+use super::patches::{ROOM, SIDE, rows};
+use super::{GridSize, option::BLACK};
+use crate::ink::{Ink, Paint};
+use crate::{drawing::Drawing, error::ChartError, light::Panel, ray_camera::Footprint};
 
 /// Lamps in pulses.
 #[derive(Clone, Debug, PartialEq)]

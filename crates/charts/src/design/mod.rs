@@ -6,40 +6,28 @@
 //! with sheets that partition their planes, inks, features and patches; nothing is drawn at random but by the seed.
 
 mod checkerboard;
-mod circles;
 mod dead_leaves;
 mod depth_wedge;
 mod discs;
 mod dots;
-mod flare;
 mod flat;
-mod grid;
 mod led_flicker;
-mod oecf_steps;
 mod option;
 mod patches;
-mod points;
 mod siemens_star;
 mod slanted_edges;
 mod slanted_star;
 
-use crate::drawing::Drawing;
-use crate::error::ChartError;
-use crate::ray_camera::Footprint;
+use crate::{drawing::Drawing, error::ChartError, ray_camera::Footprint};
 use option::{BLACK, BLEED, WHITE, angle, contrast, is_measurable, share};
 
-pub use checkerboard::Checkerboard;
-pub use circles::Circles;
+pub use checkerboard::{Checkerboard, GridSize};
 pub use dead_leaves::DeadLeaves;
 pub use depth_wedge::DepthWedge;
-pub use dots::Dots;
-pub use flare::Flare;
-pub use flat::{Backlit, FlatField};
-pub use grid::GridSize;
+pub use dots::{Circles, Dots, Points};
+pub use flat::{Backlit, Flare, FlatField};
 pub use led_flicker::LedFlicker;
-pub use oecf_steps::OecfSteps;
-pub use patches::{ColorChecker, ContrastPatches};
-pub use points::Points;
+pub use patches::{ColorChecker, ContrastPatches, OecfSteps};
 pub use siemens_star::SiemensStar;
 pub use slanted_edges::SlantedEdges;
 pub use slanted_star::SlantedStar;

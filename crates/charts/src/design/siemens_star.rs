@@ -4,17 +4,16 @@
 //! The cosine is a staircase of sectors: R(φ) = R₀ (1 + m v(φ)), v = cos at the middle of each of n steps a cycle, over
 //! sin(π/n)/(π/n), so that its fundamental is the cosine itself; what is left are the harmonics n ± 1 and their multiples.
 
-use super::BLEED;
-use crate::drawing::{Drawing, Feature, Kind, Patch};
-use crate::error::ChartError;
-use crate::ink::Ink;
-use crate::panel::Panel;
-use crate::ray_camera::Footprint;
-use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
+use std::f64::consts::{PI, TAU};
+
 use etendue_core::maths::f64::{cos, sin};
 use glam::DVec2;
 use serde_json::json;
-use std::f64::consts::{PI, TAU};
+
+use super::BLEED;
+use crate::drawing::{Drawing, Feature, Kind, Patch};
+use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
+use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// Steps of a cycle.
 const STEPS: usize = 24;

@@ -1,14 +1,12 @@
 //! Slanted edges over the field: dark squares, turned by a small angle, each with two edges near the upright and two near the
 //! level (ISO 12233). Spatial frequency response by place and direction.
 
+use glam::DVec2;
+
 use super::{BLEED, GridSize, angle, contrast, is_measurable};
 use crate::drawing::{Drawing, Feature, Patch};
-use crate::error::ChartError;
-use crate::ink::Ink;
-use crate::panel::Panel;
-use crate::ray_camera::Footprint;
 use crate::shape::{Cell, Figure, Fill, Lattice, rectangle, turned};
-use glam::DVec2;
+use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// Side of a square over the distance between centres.
 const SIDE: f64 = 0.55;

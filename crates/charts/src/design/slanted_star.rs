@@ -1,15 +1,13 @@
 //! Slanted stars: dark and light wedges about a centre, turned so that no edge is upright or level; after the star of ISO
 //! 12233:2023. Spatial frequency response in many directions, radial and tangential, at several places.
 
-use super::{BLEED, GridSize, angle, contrast, is_measurable};
-use crate::drawing::{Drawing, Feature, Kind};
-use crate::error::ChartError;
-use crate::ink::Ink;
-use crate::panel::Panel;
-use crate::ray_camera::Footprint;
-use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
 use glam::DVec2;
 use serde_json::json;
+
+use super::{BLEED, GridSize, angle, contrast, is_measurable};
+use crate::drawing::{Drawing, Feature, Kind};
+use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
+use crate::{error::ChartError, ink::Ink, light::Panel, ray_camera::Footprint};
 
 /// Outer radius over the distance between centres.
 const OUTER: f64 = 0.46;

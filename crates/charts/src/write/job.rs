@@ -1,12 +1,73 @@
-//! The job and its cameras.
+//! What is asked for when a drawing becomes files.
 
-use super::Request;
-use crate::camera_station::CameraStation;
 use etendue_core::Integrator;
-use etendue_scene::record::samples::SampleKeys;
-use etendue_scene::record::sensor::charge::NonUniformity;
 use etendue_scene::record::{Output, Pose, Render};
 use etendue_scene::written::{File, Table};
+use etendue_scene::{record::samples::SampleKeys, record::sensor::charge::NonUniformity};
+use etendue_spectra::colour::encode;
+
+use crate::drawing::{Drawing, Texture};
+use crate::light::{Light, Meter};
+use crate::ray_camera::{Footprint, RayCamera};
+use crate::{camera_station::CameraStation, design::Chart};
+
+/// Everything that decides a chart's files.
+pub struct Request<'a> {
+    /// The chart.
+    pub chart: &'a Chart,
+    /// Its drawing.
+    pub drawing: &'a Drawing,
+    /// What the camera sees of its plane.
+    pub seen: Footprint,
+    /// The camera's rays.
+    pub ray_camera: &'a RayCamera<'a>,
+    /// What the camera makes of light; `None` without electronics.
+    pub meter: Option<&'a Meter<'a>>,
+    /// The light.
+    pub light: &'a Light,
+    /// The cameras of the job.
+    pub stations: &'a [CameraStation],
+    /// The camera file that the job's cameras build on, as a path from the chart's folder.
+    pub camera: &'a str,
+    /// Keys that are taken out of it.
+    pub remove: &'a [&'a str],
+    /// The specimen that all cameras of a series share, where the camera file does not say one.
+    pub specimen: Option<u64>,
+    /// The seed.
+    pub seed: u64,
+    /// Changes `key=value` of the job's keys that are applied after the chart is drawn.
+    pub changes: &'a [String],
+}
+
+/// What a file holds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Contents {
+    /// Text.
+    Text(String),
+    /// A grey picture of 16 bits: columns, rows, values row by row.
+    Grey16(usize, usize, Vec<u16>),
+}
+
+/// A file and its name below the chart's folder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChartFile {
+    /// Its name.
+    pub name: String,
+    /// What it holds.
+    pub contents: Contents,
+}
+
+/// A texture encoded as sRGB, for the print.
+pub(super) fn print_of(texture: &Texture) -> ChartFile {
+    let encoded = |v: &u16| (encode(f32::from(*v) / 65_535.0) * 65_535.0).round() as u16;
+    let values = texture.values.iter().map(encoded).collect();
+    ChartFile { name: print_name(texture), contents: Contents::Grey16(texture.width, texture.height, values) }
+}
+
+/// The file's name of a texture for the print.
+pub(super) fn print_name(texture: &Texture) -> String {
+    format!("{}-print.png", texture.name)
+}
 
 /// The job file.
 pub(super) fn job(request: &Request<'_>) -> String {

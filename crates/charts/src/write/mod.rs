@@ -1,21 +1,15 @@
 //! A drawing as files: meshes, scene, cameras, job, truth, print.
 
-mod file;
 mod job;
 mod obj;
 mod picture;
-mod print;
-mod request;
 mod scene;
-mod svg;
 mod truth;
 
-use print::{print_name, print_of};
+use job::{print_name, print_of};
 
-pub use file::{ChartFile, Contents};
-pub use job::camera_file;
+pub use job::{ChartFile, Contents, Request, camera_file};
 pub use picture::picture;
-pub use request::Request;
 
 /// The files of a chart.
 #[must_use]
@@ -28,7 +22,7 @@ pub fn files(request: &Request<'_>) -> Vec<ChartFile> {
         text("truth.json", truth::truth(request)),
     ];
     if drawing.is_flat() {
-        files.push(text("chart.svg", svg::svg(drawing)));
+        files.push(text("chart.svg", obj::svg(drawing)));
     }
     let meshes = drawing.panels.iter().enumerate();
     files.extend(meshes.map(|(i, panel)| text(&format!("{}.obj", panel.name), obj::mesh(drawing, i))));

@@ -1,13 +1,11 @@
 //! The print as pixels: each pixel the mean of what the pieces cover of it.
 
-use crate::drawing::Drawing;
-use crate::error::ChartError;
-use crate::ink::Paint;
-use crate::shape::{Fill, area, bounds};
-use etendue_core::Plane;
-use etendue_core::quantity::Display;
+use etendue_core::{Plane, quantity::Display};
 use etendue_spectra::colour::encode;
 use glam::DVec2;
+
+use crate::shape::{Fill, area, bounds};
+use crate::{drawing::Drawing, error::ChartError, ink::Paint};
 
 /// More pixels than this are taken for a slip.
 const MAX_PX: f64 = 2e8;

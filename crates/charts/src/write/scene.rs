@@ -1,23 +1,21 @@
 //! The scene: inks as materials, even light from everywhere or none.
 
-use crate::drawing::{Drawing, Texture};
-use crate::ink::{Ink, Paint};
-use crate::light::Light;
-use crate::panel::Panel;
-use crate::shape::Fill;
 use etendue_core::ExactTime;
-use etendue_scene::record::light::Modulation;
 use etendue_scene::record::light::modulation::{PwmModulation, Recurring};
 use etendue_scene::record::material::{Diffuse, Emitter};
-use etendue_scene::record::mesh::Axis;
 use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_scene::record::{
     self, Body, Colour, Emission, Environment, Level, LightColour, Material, Mesh, Object, Reflectance, Scene, Surface,
     SurfaceEmission, Transform,
 };
-use etendue_scene::written::File;
+use etendue_scene::{record::light::Modulation, record::mesh::Axis, written::File};
 use etendue_spectra::Spectrum;
 use glam::DVec2;
+
+use crate::drawing::{Drawing, Texture};
+use crate::ink::{Ink, Paint};
+use crate::light::{Light, Panel};
+use crate::shape::Fill;
 
 /// The scene file.
 pub(super) fn scene(drawing: &Drawing, light: &Light) -> String {

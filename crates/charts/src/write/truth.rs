@@ -1,16 +1,16 @@
 //! What is true of a chart: sizes, light, features, patches, and where each camera sees them.
 
-use super::Request;
-use crate::camera_station::CameraStation;
-use crate::drawing::{Feature, Kind, Patch};
-use crate::ink::{Ink, Paint};
-use crate::panel::Panel;
-use crate::ray_camera::RasterRay;
-use crate::shape::{centroid, disc};
+use std::fmt::Write as _;
+
 use etendue_core::CameraPose;
 use glam::{DVec2, DVec3};
 use serde_json::{Map, Value, json};
-use std::fmt::Write as _;
+
+use super::Request;
+use crate::drawing::{Feature, Kind, Patch};
+use crate::ink::{Ink, Paint};
+use crate::shape::{centroid, disc};
+use crate::{camera_station::CameraStation, light::Panel, ray_camera::RasterRay};
 
 /// Points of a dot's outline at which its image is followed.
 const OUTLINE: usize = 32;

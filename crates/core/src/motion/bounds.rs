@@ -6,11 +6,13 @@
 //! between, h²/8 · max|p̈|. The acceleration of a point that is carried by a chain is bounded from within outwards by the product
 //! rule ([`crate::track`]'s `Bend`), so that a box is as tight as that of one track, however long the chain.
 
+use core::f64::consts::PI;
+
+use glam::{BVec3, DVec3};
+
 use super::{Links, Motion, is_similarity};
 use crate::TimeInterval;
 use crate::track::{Bend, Track};
-use core::f64::consts::PI;
-use glam::{BVec3, DVec3};
 
 /// Room for rounding by every track, relative to what is added up: some sixty operations of 1.1e-16 each, at most.
 const ROUNDING: f64 = 2e-14;

@@ -11,21 +11,14 @@
 //! - [`stream_of_name`] serves what is varied from sample to sample of a data set.
 
 mod address;
-mod golden_sequence;
-mod named;
 mod noise;
 mod path;
-mod philox;
-mod shifted_lattice;
-mod sobol;
+mod sequences;
 
-pub use address::{Draw, FrameAddress, Pixel, PixelAddress};
-pub use golden_sequence::GoldenSequence;
-pub use named::{number_of_name, stream_of_name};
-pub use noise::{NoiseDraw, NoiseKey, NoiseStream};
+pub use address::{Draw, FrameAddress, Pixel, PixelAddress, philox4x32};
+pub use noise::{NoiseDraw, NoiseKey, NoiseStream, number_of_name, stream_of_name};
 pub use path::PathStream;
-pub use philox::philox4x32;
-pub use shifted_lattice::ShiftedLattice;
+pub use sequences::{GoldenSequence, ShiftedLattice};
 
 /// A float in [0, 1) from the upper 24 bits of a word.
 #[inline]

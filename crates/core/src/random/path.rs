@@ -1,9 +1,10 @@
 //! Numbers for one path: stratified over the samples of a replicate.
 
-use super::address::{Draw, PixelAddress, mix};
-use super::sobol::{scrambled_0, scrambled_pair, shuffle_mirrored};
-use super::unit_f32;
 use glam::Vec2;
+
+use super::address::{Draw, PixelAddress, mix};
+use super::sequences::{scrambled_0, scrambled_pair, shuffle_mirrored};
+use super::unit_f32;
 
 /// The random numbers of one sample: Owen-scrambled Sobol points, padded in pairs.
 ///

@@ -4,11 +4,12 @@
 //! The box of a part is that of the corners at its two ends, enlarged by how far their paths stray from the chords between
 //! ([`Span::each_box`]): at each moment the transform is affine, so that the moved box is the convex hull of its moved corners.
 
-use super::span::Span;
-use super::{Keyed, Kind, Track};
-use crate::TimeInterval;
 use core::f64::consts::PI;
+
 use glam::{BVec3, DAffine3, DMat3, DVec3};
+
+use super::{Keyed, Kind, Track, span::Span};
+use crate::TimeInterval;
 
 /// Room for rounding, relative to what is added up: some thirty operations of 1.1e-16 each, at most.
 const ROUNDING: f64 = 1e-14;

@@ -1,9 +1,8 @@
 //! How fast a track's transform changes: exactly at a moment, and at most during a time that no key lies within.
 
-use super::bounds::most_stretch;
-use super::span::Span;
-use super::{Keyed, Kind, Track};
 use glam::{DAffine3, DMat3, DVec3};
+
+use super::{Keyed, Kind, Track, bounds::most_stretch, span::Span};
 
 /// A transform and its derivative by time.
 #[derive(Clone, Copy, Debug)]

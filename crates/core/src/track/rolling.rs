@@ -6,12 +6,13 @@
 //! cubic Hermite polynomials with the exact rate at both ends. Their number is doubled until φ is met to 1e-6 rad at the quarters
 //! of each, beyond 4096 only where it is not yet; along straight lines at an even speed one is exact.
 
-use super::cubic::Cubic;
-use super::span::{Pose, Span};
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use super::span::{Cubic, Pose, Span};
 use super::turn::{Turn, rolled};
 use super::{Keyed, Kind, Track};
-use glam::{DAffine3, DVec3};
-use std::sync::Arc;
 
 /// The greatest error of φ at the quarters of a polynomial, rad.
 const TOLERANCE_RAD: f64 = 1e-6;

@@ -1,8 +1,10 @@
 //! Motion from one key to the next.
+//!
+//! Vectors that are cubic polynomials of a parameter from 0 to 1.
 
-use super::cubic::Cubic;
-use super::turn::Turn;
 use glam::{DAffine3, DQuat, DVec3};
+
+use super::turn::Turn;
 
 /// Parts into which a span is cut for bounds: an even turn by 90° in 16 parts strays from their chords by
 /// (π/32)²/8 = 0.0012 of the radius.
@@ -90,5 +92,117 @@ impl Span {
         };
         let step = u1 - u0;
         (self.position.most_curvature(u0, u1) + DVec3::splat(bend)) * (step * step / 8.0)
+    }
+}
+
+/// c₀ + c₁ u + c₂ u² + c₃ u³.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cubic([DVec3; 4]);
+
+impl Cubic {
+    /// Straight from `start` to `end`.
+    pub(super) fn straight(start: DVec3, end: DVec3) -> Self {
+        Self([start, end - start, DVec3::ZERO, DVec3::ZERO])
+    }
+
+    /// From `start` to `end` with the derivatives `leaves` at u = 0 and `arrives` at u = 1 (Hermite).
+    pub(super) fn hermite(start: DVec3, end: DVec3, leaves: DVec3, arrives: DVec3) -> Self {
+        let way = end - start;
+        if leaves == way && arrives == way {
+            return Self::straight(start, end);
+        }
+        Self([start, leaves, way * 3.0 - leaves * 2.0 - arrives, leaves + arrives - way * 2.0])
+    }
+
+    pub(super) fn at(&self, u: f64) -> DVec3 {
+        let [a, b, c, d] = self.0;
+        a + (b + (c + d * u) * u) * u
+    }
+
+    /// The first derivative.
+    pub(super) fn slope(&self, u: f64) -> DVec3 {
+        let [_, b, c, d] = self.0;
+        b + (c * 2.0 + d * (3.0 * u)) * u
+    }
+
+    fn second(&self, u: f64) -> DVec3 {
+        let [_, _, c, d] = self.0;
+        c * 2.0 + d * (6.0 * u)
+    }
+
+    /// Whether it does not change.
+    pub(super) fn is_constant(&self) -> bool {
+        self.0[1..].iter().all(|c| *c == DVec3::ZERO)
+    }
+
+    fn is_straight(&self) -> bool {
+        self.0[2..].iter().all(|c| *c == DVec3::ZERO)
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        self.0.iter().all(|c| c.is_finite())
+    }
+
+    /// The greatest magnitudes of the second derivative within [u0, u1], by axis: it is linear.
+    pub(super) fn most_curvature(&self, u0: f64, u1: f64) -> DVec3 {
+        self.second(u0).abs().max(self.second(u1).abs())
+    }
+
+    /// Bounds of the first derivative's magnitudes, by axis: no place is farther than half the length from an end.
+    pub(super) fn most_slope(&self, u0: f64, u1: f64) -> DVec3 {
+        self.slope(u0).abs().max(self.slope(u1).abs()) + self.most_curvature(u0, u1) * (0.5 * (u1 - u0))
+    }
+
+    /// Least and greatest values within [u0, u1], by axis: at an end or where the derivative is zero.
+    pub(super) fn range(&self, u0: f64, u1: f64) -> (DVec3, DVec3) {
+        let (start, end) = (self.at(u0), self.at(u1));
+        let (mut low, mut high) = (start.min(end), start.max(end));
+        for axis in 0..3 {
+            let turning = roots(3.0 * self.0[3][axis], 2.0 * self.0[2][axis], self.0[1][axis]);
+            for u in turning.into_iter().filter(|u| *u > u0 && *u < u1) {
+                let value = self.at(u)[axis];
+                low[axis] = low[axis].min(value);
+                high[axis] = high[axis].max(value);
+            }
+        }
+        (low, high)
+    }
+
+    /// A bound of what is added up for a value, to which its rounding is relative.
+    pub(super) fn magnitude(&self) -> DVec3 {
+        self.0.iter().map(|c| c.abs()).sum()
+    }
+}
+
+/// The real roots of a u² + b u + c, without cancellation; what is no root is infinite or NaN.
+fn roots(a: f64, b: f64, c: f64) -> [f64; 2] {
+    let q = -0.5 * (b + (b * b - 4.0 * a * c).sqrt().copysign(b));
+    [q / a, c / q]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hermite_cubic_has_the_ends_and_slopes_given() {
+        let [start, end, leaves, arrives] =
+            [DVec3::new(1.0, -2.0, 0.5), DVec3::new(4.0, 8.0, -1.0), DVec3::new(0.25, 3.0, -7.0), DVec3::splat(2.0)];
+        let cubic = Cubic::hermite(start, end, leaves, arrives);
+        assert_eq!([cubic.at(0.0), cubic.at(1.0)], [start, end]);
+        assert_eq!([cubic.slope(0.0), cubic.slope(1.0)], [leaves, arrives]);
+    }
+
+    #[test]
+    fn the_range_holds_the_turning_points() {
+        // By axis: u(1 − u), a greatest value of 1/4 at 1/2; u³ − u, least −2/(3√3) at 1/√3; straight.
+        let cubic =
+            Cubic([DVec3::ZERO, DVec3::new(1.0, -1.0, 2.0), DVec3::new(-1.0, 0.0, 0.0), DVec3::new(0.0, 1.0, 0.0)]);
+        let (low, high) = cubic.range(0.0, 1.0);
+        let least = -2.0 / (3.0 * 3.0_f64.sqrt());
+        assert!((low - DVec3::new(0.0, least, 0.0)).length() < 1e-15, "{low}");
+        assert!((high - DVec3::new(0.25, 0.0, 2.0)).length() < 1e-15, "{high}");
+        let (low, high) = cubic.range(0.75, 1.0);
+        assert_eq!((low.x, high.x, low.y), (0.0, 0.1875, 0.75 * 0.75 * 0.75 - 0.75));
     }
 }

@@ -1,7 +1,8 @@
 //! Rotations between two keys.
 
-use crate::maths;
 use glam::{DQuat, DVec3};
+
+use crate::maths;
 
 /// A rotation over a parameter u from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]

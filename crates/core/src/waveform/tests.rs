@@ -1,8 +1,9 @@
-//! Means of waveforms against closed forms, against sums over moments, and far from the time 0.
+use core::f64::consts::PI;
 
 use super::*;
 use crate::maths::f64::sin;
-use core::f64::consts::PI;
+
+// Means of waveforms against closed forms, against sums over moments, and far from the time 0.
 
 fn over(start_s: f64, length_s: f64) -> TimeInterval {
     TimeInterval::new(start_s, start_s + length_s).expect("in order")

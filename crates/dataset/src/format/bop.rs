@@ -10,20 +10,17 @@
 //!   hides has the fraction 1 here.
 //! - `cam_K` counts pixel centres as whole numbers, as OpenCV does.
 
-use super::writer::{Writer, write};
-use crate::draw::Split;
-use crate::picture::Picture;
-use crate::record::{ObjectRecord, PictureRecord, SampleRecord};
-use crate::records::Records;
-use crate::set::Set;
+use std::{cell::RefCell, collections::BTreeMap};
+
 use etendue::{Error, ErrorCode, OutputFolder};
-use etendue_core::Plane;
-use etendue_core::quantity::Length;
+use etendue_core::{Plane, quantity::Length};
 use etendue_io::png::{encode_depth16, encode_grey8, stored_depth};
 use glam::{DMat3, DQuat, DVec3};
 use serde_json::{Map, Value, json};
-use std::cell::RefCell;
-use std::collections::BTreeMap;
+
+use crate::record::{ObjectRecord, PictureRecord, SampleRecord};
+use crate::records::{Records, Writer, write};
+use crate::{draw::Split, picture::Picture, set::Set};
 
 pub(super) struct Bop {
     depth_unit_mm: f64,

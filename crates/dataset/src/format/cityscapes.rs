@@ -4,14 +4,13 @@
 //! 3 (out of roi), what has no class or one that Cityscapes does not have 0 (unlabeled). Objects of labels that have instances are label × 1000 + their place among those of the label in the picture, in the order
 //! of their identities; from the 1001st on, as a group, they have the label alone.
 
-use super::writer::{Writer, write};
-use crate::picture::Picture;
-use crate::record::PictureRecord;
-use crate::records::Records;
-use crate::set::Set;
+use std::collections::BTreeMap;
+
 use etendue::{Error, ErrorCode, GroundTruth, OutputFolder};
 use etendue_io::png::{encode_grey8, encode_grey16};
-use std::collections::BTreeMap;
+
+use crate::records::{Records, Writer, write};
+use crate::{picture::Picture, record::PictureRecord, set::Set};
 
 pub(super) struct Cityscapes {
     /// Of the ids of classes.

@@ -3,11 +3,10 @@
 //! The layers `CryptoObject` and `CryptoMaterial` hold, for each pixel, the objects and the materials that cover most of it, through the lens and over the exposure
 //! ([`etendue_io::exr::cryptomatte_image`]); names are those of the scene. Unlike masks, which say what the pixel's centre shows, they have soft edges.
 
-use super::writer::{Writer, write};
-use crate::picture::Picture;
-use crate::records::Records;
-use crate::set::Set;
 use etendue::{Error, OutputFolder};
+
+use crate::records::{Records, Writer, write};
+use crate::{picture::Picture, set::Set};
 
 pub(super) struct Cryptomatte;
 

@@ -15,17 +15,16 @@
 //!
 //! Left out: a laser scanner and an inertial sensor. `Tr_velo_to_cam` places a scanner at the camera, x forward, y left, z up; no scans are written.
 
-use super::writer::{Writer, write};
-use crate::draw::Split;
-use crate::picture::Picture;
-use crate::record::{ObjectRecord, PictureRecord, SampleRecord, SolidRecord};
-use crate::records::Records;
-use crate::set::Set;
 use core::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
+
 use etendue::{Error, OutputFolder};
 use etendue_core::maths::f64::atan2;
 use glam::{DQuat, DVec3};
-use std::fmt::Write as _;
+
+use crate::record::{ObjectRecord, PictureRecord, SampleRecord, SolidRecord};
+use crate::records::{Records, Writer, write};
+use crate::{draw::Split, picture::Picture, set::Set};
 
 pub(super) struct Kitti;
 

@@ -11,15 +11,14 @@
 //! Times are the simulated ones, half-way through the exposure, from 0 on (as with `use_sim_time`); earlier ones are 0. Messages are in the order of their times, uncompressed and in no chunks; the summary has schemas,
 //! channels and statistics.
 
-use super::ros;
-use super::writer::{Writer, write};
-use crate::picture::Picture;
-use crate::record::SampleRecord;
-use crate::records::Records;
-use crate::set::{Set, topic_name};
+use std::{cell::RefCell, collections::BTreeMap};
+
 use etendue::{Error, ErrorCode, OutputFolder};
-use std::cell::RefCell;
-use std::collections::BTreeMap;
+
+use super::ros;
+use crate::records::{Records, Writer, write};
+use crate::set::{Set, topic_name};
+use crate::{picture::Picture, record::SampleRecord};
 
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
 /// The last second of a ROS time stamp, which has 32 bits: 19 January 2038, counted from 1970.

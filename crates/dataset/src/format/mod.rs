@@ -11,13 +11,13 @@ mod openlabel;
 mod osi;
 mod ros;
 mod webdataset;
-mod writer;
-mod yolo;
 
-use crate::set::Set;
 use etendue::Error;
 use etendue_scene::record::variations::SetFormat;
-pub(crate) use writer::Writer;
+
+use crate::set::Set;
+
+pub(crate) use crate::records::Writer;
 
 /// The writers of a set.
 pub(crate) fn writers(set: &Set) -> Result<Vec<Box<dyn Writer>>, Error> {
@@ -29,7 +29,7 @@ fn writer(format: SetFormat, set: &Set) -> Result<Box<dyn Writer>, Error> {
         SetFormat::Coco => Box::new(coco::Coco),
         SetFormat::Kitti => Box::new(kitti::Kitti),
         SetFormat::Cityscapes => Box::new(cityscapes::Cityscapes::of(set)?),
-        SetFormat::Yolo => Box::new(yolo::Yolo),
+        SetFormat::Yolo => Box::new(coco::Yolo),
         SetFormat::Bop => Box::new(bop::Bop::of(set)),
         SetFormat::WebDataset => Box::new(webdataset::WebDataset::of(set)),
         SetFormat::NuScenes => Box::new(nuscenes::NuScenes),

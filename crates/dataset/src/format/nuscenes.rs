@@ -12,18 +12,17 @@
 //! Times are µs from the beginning of the simulated world. Left out: lidar and radar (`num_lidar_pts` and `num_radar_pts` are 0), attributes, velocities but for those that follow from positions, and maps: `map` names a
 //! picture of one pixel, as readers ask for one.
 
-use super::writer::{Writer, write};
-use crate::draw::Split;
-use crate::picture::Picture;
-use crate::record::{ObjectRecord, PictureRecord, Pose, SampleRecord};
-use crate::records::Records;
-use crate::set::Set;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
 use etendue::{Error, OutputFolder};
 use etendue_io::png::encode_grey8;
 use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
-use std::io::{self, Write};
+
+use crate::record::{ObjectRecord, PictureRecord, Pose, SampleRecord};
+use crate::records::{Records, Writer, write};
+use crate::{draw::Split, picture::Picture, set::Set};
 
 pub(super) struct NuScenes;
 

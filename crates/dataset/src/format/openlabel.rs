@@ -7,15 +7,15 @@
 //!   and size, m. `num` is the share of the object that is seen.
 //! - Left out: masks, relations, actions and events, ontologies.
 
-use super::writer::{Writer, write};
-use crate::picture::Picture;
-use crate::record::{ObjectRecord, PictureRecord, Pose, SampleRecord};
-use crate::records::Records;
-use crate::set::Set;
+use std::collections::{BTreeMap, BTreeSet};
+
 use etendue::{Error, OutputFolder};
 use glam::{DMat4, DQuat, DVec3};
 use serde_json::{Map, Value, json};
-use std::collections::{BTreeMap, BTreeSet};
+
+use crate::record::{ObjectRecord, PictureRecord, Pose, SampleRecord};
+use crate::records::{Records, Writer, write};
+use crate::{picture::Picture, set::Set};
 
 pub(super) struct OpenLabel;
 

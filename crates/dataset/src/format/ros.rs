@@ -2,9 +2,10 @@
 //!
 //! Numbers are aligned to their own size, counted from behind the four bytes that say the encoding.
 
-use crate::record::Pose;
 use etendue_core::Plane;
 use etendue_core::quantity::{Display, Length};
+
+use crate::record::Pose;
 
 pub(super) const COMPRESSED_IMAGE: &str = "sensor_msgs/msg/CompressedImage";
 pub(super) const IMAGE: &str = "sensor_msgs/msg/Image";

@@ -2,25 +2,21 @@
 //!
 //! Of each picture four members with one stem: the picture, `.json` (its record: camera, pose, boxes, masks), `.instance.png` (identities of the ground truth, 16 bits), `.depth.npy` (32-bit floats, m; +∞ the sky, NaN where there is
 //! none). A sample is first a part in `webdataset/parts`; shards that are complete take their parts' place, others keep them for a run that goes on.
+//!
+//! Archives of files in memory: POSIX ustar (IEEE 1003.1-1988), without owners and times, so that the same files give the same bytes.
 
-use super::writer::{Writer, write};
-use crate::draw::Split;
-use crate::picture::Picture;
-use crate::record::SampleRecord;
-use crate::records::Records;
-use crate::set::Set;
-use crate::tar;
+use std::io::{self, Read as _, Seek as _, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::{cell::RefCell, collections::BTreeMap, fs::File, ops::Range};
+
 use etendue::{Error, ErrorCode, FileDigest, OutputFolder};
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Length};
 use etendue_io::png::encode_grey16;
 use serde_json::json;
-use std::cell::RefCell;
-use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{self, Read as _, Seek as _, SeekFrom, Write};
-use std::ops::Range;
-use std::path::{Path, PathBuf};
+
+use crate::records::{Records, Writer, write};
+use crate::{draw::Split, picture::Picture, record::SampleRecord, set::Set};
 
 pub(super) struct WebDataset {
     shard_samples: u32,
@@ -126,7 +122,7 @@ impl Writer for WebDataset {
             file.seek(SeekFrom::Start(*start))?;
             FileDigest::from_reader(file.take(digest.bytes))
         });
-        let is_of_length = tar.metadata().is_ok_and(|found| found.len() == length + tar::END.len() as u64);
+        let is_of_length = tar.metadata().is_ok_and(|found| found.len() == length + END.len() as u64);
         is_of_length && piece.is_ok_and(|found| found == *digest)
     }
 
@@ -144,7 +140,7 @@ impl Writer for WebDataset {
             ("instance.png", &ids),
             ("depth.npy", &npy(&picture.truth.depth)),
         ] {
-            tar::add(&mut part, &format!("{stem}.{extension}"), bytes);
+            add(&mut part, &format!("{stem}.{extension}"), bytes);
         }
         Ok(())
     }
@@ -183,7 +179,7 @@ fn joined(parts: &[PathBuf], file: &mut impl Write) -> io::Result<()> {
         let unread = |cause: io::Error| io::Error::other(format!("{}: {cause}", part.display()));
         io::copy(&mut File::open(part).map_err(unread)?, file)?;
     }
-    file.write_all(&tar::END)
+    file.write_all(&END)
 }
 
 fn identities(ids: &Plane<Identity>) -> Result<Vec<u8>, String> {
@@ -202,4 +198,39 @@ fn npy(plane: &Plane<Length>) -> Vec<u8> {
     bytes.extend_from_slice(format!("{facts:<width$}\n", width = length - 1).as_bytes());
     plane.samples().iter().for_each(|value| bytes.extend_from_slice(&value.to_le_bytes()));
     bytes
+}
+
+/// Bytes of a block.
+const BLOCK: usize = 512;
+/// What an archive ends with: two empty blocks.
+const END: [u8; 2 * BLOCK] = [0; 2 * BLOCK];
+/// Longest name, bytes.
+const MAX_NAME: usize = 100;
+
+/// Adds a file; an archive is files and [`END`].
+///
+/// # Panics
+/// Where the name is longer than 100 bytes.
+pub(crate) fn add(archive: &mut Vec<u8>, name: &str, bytes: &[u8]) {
+    assert!(name.len() <= MAX_NAME, "a name of at most {MAX_NAME} bytes: {name}");
+    let mut head = [0; BLOCK];
+    put(&mut head, 0, name.as_bytes());
+    put(&mut head, 100, b"0000644\0");
+    put(&mut head, 108, b"0000000\0");
+    put(&mut head, 116, b"0000000\0");
+    put(&mut head, 124, format!("{:011o}\0", bytes.len()).as_bytes());
+    put(&mut head, 136, b"00000000000\0");
+    // The checksum is that of the head with blanks in its place.
+    put(&mut head, 148, b"        ");
+    put(&mut head, 156, b"0");
+    put(&mut head, 257, b"ustar\x0000");
+    let sum: u32 = head.iter().map(|byte| u32::from(*byte)).sum();
+    put(&mut head, 148, format!("{sum:06o}\0 ").as_bytes());
+    archive.extend_from_slice(&head);
+    archive.extend_from_slice(bytes);
+    archive.resize(archive.len().next_multiple_of(BLOCK), 0);
+}
+
+fn put(head: &mut [u8; BLOCK], at: usize, bytes: &[u8]) {
+    head[at..at + bytes.len()].copy_from_slice(bytes);
 }

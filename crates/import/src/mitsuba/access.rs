@@ -1,8 +1,9 @@
 //! Parameters of an element, by name.
 
-use crate::syntax::mitsuba::MitsubaElement;
 use etendue_io::Error;
 use glam::DVec3;
+
+use crate::syntax::mitsuba::MitsubaElement;
 
 /// Numbers between commas and spaces.
 pub(super) fn numbers_of(text: &str) -> Result<Vec<f64>, String> {

@@ -1,13 +1,14 @@
 //! Sensors and their films.
 
+use etendue_core::maths::f64 as maths;
+use etendue_io::Error;
+use glam::{DAffine3, DMat3, DVec3};
+
 use super::access::{all, find, number, stated, text};
 use super::transform::transform_of;
 use crate::scenery::{Report, to_ours};
 use crate::syntax::mitsuba::MitsubaElement;
 use crate::written::{ImportedCamera, View, pose_of};
-use etendue_core::maths::f64 as maths;
-use etendue_io::Error;
-use glam::{DAffine3, DMat3, DVec3};
 
 /// A camera as the file has it.
 pub(super) struct MitsubaCamera {

@@ -1,13 +1,15 @@
-//! Lights that are no surfaces.
+//! Lights that are no surfaces, pictures of light from infinity among them, and media.
 
-use super::access::{find, number, vector};
-use super::importer::Importer;
-use super::transform::transform_of;
-use crate::lamps;
-use crate::syntax::mitsuba::MitsubaElement;
-use etendue_io::Error;
+use std::rc::Rc;
+
+use etendue_io::{Error, picture::read_picture};
 use etendue_scene::record::{Emission, Environment, Level};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
+
+use super::access::{all, find, number, text, vector};
+use super::{importer::Importer, transform::transform_of};
+use crate::scenery::{Homogeneous, LightPicture, linear_pixels};
+use crate::{lamps, syntax::mitsuba::MitsubaElement};
 
 impl<'a> Importer<'a> {
     pub(super) fn emitter(&mut self, element: &'a MitsubaElement) -> Result<(), Error> {
@@ -106,5 +108,89 @@ impl<'a> Importer<'a> {
         let name = self.name(element);
         self.scenery.scene.lights.push(lamps::parallel(&name, towards, lux, unit.colour));
         Ok(())
+    }
+}
+
+/// From the space of a picture of Mitsuba's to that of ours: its middle column is seen along +z and its upper edge is +y.
+fn picture_axes() -> DMat3 {
+    DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X)
+}
+
+impl<'a> Importer<'a> {
+    /// `None`, and a note, of a picture that is not read, or of one that is dark.
+    fn envmap(&mut self, element: &'a MitsubaElement) -> Result<Option<Environment>, Error> {
+        let file = text(element, "filename")?.ok_or_else(|| element.fault("an envmap without \"filename\""))?;
+        let scale = number(element, "scale", 1.0)?;
+        if scale <= 0.0 {
+            self.scenery.report.note("an emitter \"envmap\" is dark and left out");
+            return Ok(None);
+        }
+        let to_world = transform_of(element, "to_world")?.matrix3;
+        let to_world = DMat3::from_cols(
+            to_world.x_axis.normalize_or_zero(),
+            to_world.y_axis.normalize_or_zero(),
+            to_world.z_axis.normalize_or_zero(),
+        );
+        let image = read_picture(&self.file(file)).map_err(|e| element.fault(e.to_string()))?.in_rec_709();
+        let Some(pixel) = linear_pixels(&image) else {
+            let told = format!("the picture of light `{file}` is left out: expected linear numbers (EXR, HDR)");
+            self.scenery.report.note(told);
+            return Ok(None);
+        };
+        // From our pictures' space, by Mitsuba's, to our world.
+        let turn = self.scenery.to_ours * to_world * picture_axes().transpose();
+        let path = self.path(file);
+        let picture = LightPicture { shown: file, path: &path, columns: image.width as usize, pixel: &*pixel };
+        let made = self.scenery.light_picture(&picture, image.height as usize, turn, scale);
+        made.map(Some).map_err(|told| element.fault(told))
+    }
+}
+
+impl<'a> Importer<'a> {
+    /// The name of a medium; empty where it is not understood.
+    pub(super) fn medium(&mut self, element: &'a MitsubaElement) -> Result<Rc<str>, Error> {
+        if let Some(known) = self.media.get(&element.number) {
+            return Ok(known.clone());
+        }
+        self.at(element);
+        let kind = element.kind();
+        let name: Rc<str> = match kind {
+            "homogeneous" => self.homogeneous(element)?,
+            _ => {
+                let told = format!("the medium \"{kind}\" is not understood and left out: expected homogeneous");
+                self.scenery.report.note(told);
+                element.children.iter().for_each(|child| child.used.set(true));
+                "".into()
+            }
+        };
+        self.note_unused(element);
+        self.media.insert(element.number, name.clone());
+        Ok(name)
+    }
+
+    fn homogeneous(&mut self, element: &'a MitsubaElement) -> Result<Rc<str>, Error> {
+        let scale = number(element, "scale", 1.0)?;
+        let (extinction, even) = self.coefficient(element, "sigma_t", 1.0)?;
+        if scale < 0.0 || !(300..=1100).step_by(100).any(|nm| extinction.at(nm as f32) > 0.0) {
+            return Err(element.fault("a medium without \"sigma_t\" or \"scale\" above 0"));
+        }
+        let extinction = self.scenery.curve(&extinction, even, scale);
+        let (albedo, even) = self.coefficient(element, "albedo", 0.75)?;
+        let albedo = self.scenery.curve(&albedo, even, 1.0);
+        let stated = match all(element, "phase").next() {
+            Some(phase) if phase.kind() == "hg" => number(phase, "g", 0.8)?,
+            Some(phase) if phase.kind() != "isotropic" => {
+                self.scenery.report.note(format!("the phase function \"{}\" is taken as isotropic", phase.kind()));
+                0.0
+            }
+            _ => 0.0,
+        };
+        let g = stated.clamp(-0.99, 0.99);
+        if g != stated {
+            self.scenery.report.note(format!("a medium of g = {stated} is one of {g}"));
+        }
+        let name: Rc<str> = format!("{}#{}", element.attribute("id").unwrap_or("medium"), element.number).into();
+        self.scenery.known.media.insert(name.to_string(), Homogeneous { extinction, albedo, g });
+        Ok(name)
     }
 }

@@ -1,17 +1,16 @@
 //! Elements to a scene.
 
-use super::access::all;
-use super::camera;
-use super::usage::Use;
-use crate::scenery::{Graphics, KnownTexture, Scenery};
-use crate::syntax::mitsuba::{MitsubaElement, MitsubaScene};
-use crate::written::{ImportedCamera, Written, written};
+use std::path::{Path, PathBuf};
+use std::{collections::HashMap, rc::Rc};
+
 use etendue_io::Error;
 use etendue_scene::record::Transform;
 use etendue_scene::record::medium::{Everywhere, MediumShape};
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
-use std::rc::Rc;
+
+use super::{access::all, camera, transform::Use};
+use crate::scenery::{Graphics, KnownTexture, Scenery};
+use crate::syntax::mitsuba::{MitsubaElement, MitsubaScene};
+use crate::written::{ImportedCamera, Written, written};
 
 /// References and surfaces within one another.
 pub(super) const MAX_DEPTH: usize = 32;

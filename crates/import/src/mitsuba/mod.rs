@@ -10,25 +10,20 @@ mod access;
 mod bsdf;
 mod camera;
 mod emitter;
-mod envmap;
-mod green;
 mod importer;
-mod medium;
 mod plastic;
-mod principled;
 mod shape;
-mod solids;
 mod texture;
 mod transform;
-mod usage;
 mod value;
+
+use std::path::Path;
+
+use etendue_io::{Sandbox, failure::Error};
 
 use super::written::Written;
 use crate::syntax::mitsuba::read_mitsuba;
-use etendue_io::Sandbox;
-use etendue_io::failure::Error;
 use importer::Importer;
-use std::path::Path;
 
 pub(super) fn imported(file: &Path, folder: &Path, given: &[(String, String)]) -> Result<Written, Error> {
     let scene = read_mitsuba(file, given, &Sandbox::NONE).map_err(Error::input)?;

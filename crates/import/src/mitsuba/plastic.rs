@@ -1,12 +1,13 @@
 //! Coats, and indices of refraction.
 
+use etendue_io::Error;
+use etendue_scene::asset::COAT_INDICES;
+use etendue_scene::record::material::{Coated, Factor};
+
 use super::access::{find, flag, number_of};
 use super::importer::Importer;
 use super::value::{inner_reflectance, linear_base};
 use crate::syntax::mitsuba::MitsubaElement;
-use etendue_io::Error;
-use etendue_scene::asset::COAT_INDICES;
-use etendue_scene::record::material::{Coated, Factor};
 
 /// Substances that Mitsuba knows by name, and their indices of refraction.
 const SUBSTANCES: &[(&str, f64)] = &[

@@ -1,15 +1,23 @@
 //! Shapes.
+//!
+//! Which way green of normal maps points on a mesh.
+//!
+//! Mitsuba's points along n × ∂p/∂u, whatever v does: up in a picture that lies as it is, down in one that lies mirrored, as on its rectangle and on PLY
+//! files, whose v points down in pictures, and on meshes whose texture is mirrored. Ours points up in its picture unless it is said to point down
+//! (`normal_map.y`); so a surface with a normal map has a second material of ours for meshes with mirrored pictures.
+
+use std::{f64::consts::TAU, rc::Rc};
+
+use etendue_core::maths::f64 as maths;
+use etendue_io::Error;
+use etendue_scene::record::material::{Green, Material, NormalMap};
+use glam::{DAffine3, DVec2, DVec3};
 
 use super::access::{find, flag, number, stated, text, vector};
 use super::importer::{Importer, MAX_DEPTH};
-use super::solids::{cube, cylinder, rectangle};
 use super::transform::transform_of;
 use crate::scenery::{AreaLight, Graphics, Triangles};
 use crate::syntax::mitsuba::MitsubaElement;
-use etendue_io::Error;
-use glam::{DAffine3, DVec3};
-use std::f64::consts::TAU;
-use std::rc::Rc;
 
 impl<'a> Importer<'a> {
     /// A shape in the space of `outer`.
@@ -197,5 +205,121 @@ impl<'a> Importer<'a> {
         let reverse_orientation = graphics.reverse_orientation != is_turned;
         let graphics = Graphics { reverse_orientation, ..graphics };
         self.mesh(mesh, &graphics).map_err(|told| element.fault(told))
+    }
+}
+
+impl Importer<'_> {
+    /// A mesh of the material and the light that hold now.
+    pub(super) fn mesh(&mut self, mesh: Triangles, graphics: &Graphics) -> Result<(), String> {
+        let mut graphics = graphics.clone();
+        if self.normal_mapped.contains_key(&graphics.material) && self.is_mirrored(&mesh, &graphics) {
+            graphics.material = self.green_down(&graphics.material);
+        }
+        self.scenery.mesh(mesh, &graphics)
+    }
+
+    /// Whether more of a picture lies mirrored on a mesh than as it is, seen in Mitsuba's world from where normals point.
+    fn is_mirrored(&self, mesh: &Triangles, graphics: &Graphics) -> bool {
+        if mesh.uvs.len() != mesh.positions.len() {
+            return false;
+        }
+        let placed = mesh.clone().placed(self.scenery.placed(graphics), graphics.reverse_orientation);
+        // Its triangles turn anticlockwise about their normals, as pictures that lie as they are do.
+        let turn = |triangle: &[u32; 3]| {
+            let [a, b, c] = triangle.map(|i| DVec2::from_array(placed.uvs[i as usize]));
+            (b - a).perp_dot(c - a)
+        };
+        placed.triangles.iter().map(turn).sum::<f64>() * self.scenery.to_ours.determinant() < 0.0
+    }
+
+    /// The name of a material with its green down.
+    fn green_down(&mut self, name: &Rc<str>) -> Rc<str> {
+        if let Some(Some(known)) = self.normal_mapped.get(name) {
+            return known.clone();
+        }
+        let Some(found) = self.scenery.scene.materials.iter().find(|material| material.name.value == **name) else {
+            return name.clone();
+        };
+        let normal_map = found.normal_map.clone().map(|map| NormalMap { y: Some(Green::Down.into()), ..map });
+        let own = self.scenery.names.take(&format!("{name}-mirrored"), "material");
+        let made = Material { name: own.as_str().into(), normal_map, ..found.clone() };
+        self.scenery.scene.materials.push(made);
+        let own: Rc<str> = own.as_str().into();
+        self.normal_mapped.insert(name.clone(), Some(own.clone()));
+        own
+    }
+}
+
+/// Two triangles of every four corners.
+fn squares(count: u32) -> Vec<[u32; 3]> {
+    (0..count).map(|i| 4 * i).flat_map(|i| [[i, i + 1, i + 2], [i, i + 2, i + 3]]).collect()
+}
+
+/// The square −1 … 1 in z = 0, its front towards +z.
+fn rectangle() -> Triangles {
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    Triangles {
+        positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(),
+        normals: vec![[0.0, 0.0, 1.0]; 4],
+        // v is 0 at y = −1, where the first row of a picture lies.
+        uvs: corners.map(|[x, y]| [0.5 * (x + 1.0), 0.5 * (1.0 - y)]).to_vec(),
+        triangles: squares(1),
+    }
+}
+
+/// The cube −1 … 1. Corners in the order of Mitsuba's.
+pub(super) fn cube() -> Triangles {
+    let faces: [([f64; 3], [[f64; 3]; 4]); 6] = [
+        ([0., -1., 0.], [[1., -1., -1.], [1., -1., 1.], [-1., -1., 1.], [-1., -1., -1.]]),
+        ([0., 1., 0.], [[1., 1., -1.], [-1., 1., -1.], [-1., 1., 1.], [1., 1., 1.]]),
+        ([1., 0., 0.], [[1., -1., -1.], [1., 1., -1.], [1., 1., 1.], [1., -1., 1.]]),
+        ([0., 0., 1.], [[1., -1., 1.], [1., 1., 1.], [-1., 1., 1.], [-1., -1., 1.]]),
+        ([-1., 0., 0.], [[-1., -1., 1.], [-1., 1., 1.], [-1., 1., -1.], [-1., -1., -1.]]),
+        ([0., 0., -1.], [[1., 1., -1.], [1., -1., -1.], [-1., -1., -1.], [-1., 1., -1.]]),
+    ];
+    Triangles {
+        positions: faces.iter().flat_map(|(_, corners)| *corners).collect(),
+        normals: faces.iter().flat_map(|(normal, _)| [*normal; 4]).collect(),
+        uvs: [[0., 0.], [1., 0.], [1., 1.], [0., 1.]].repeat(6),
+        triangles: squares(6),
+    }
+}
+
+/// The side of a cylinder without its ends; `None` of one without extent.
+pub(super) fn cylinder([from, to]: [DVec3; 2], radius: f64) -> Option<Triangles> {
+    const SIDES: u32 = 128;
+    let axis = (to - from).try_normalize().filter(|_| radius > 0.0)?;
+    let x = axis.any_orthonormal_vector();
+    let y = axis.cross(x);
+    let mut made = Triangles::default();
+    for i in 0..=SIDES {
+        let share = f64::from(i) / f64::from(SIDES);
+        let (sin, cos) = maths::sin_cos(share * TAU);
+        let out = cos * x + sin * y;
+        for (end, v) in [(from, 1.0), (to, 0.0)] {
+            made.positions.push((end + radius * out).to_array());
+            made.normals.push(out.to_array());
+            made.uvs.push([share, v]);
+        }
+    }
+    made.triangles = (0..SIDES).map(|i| 2 * i).flat_map(|i| [[i, i + 2, i + 3], [i, i + 3, i + 1]]).collect();
+    Some(made)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every triangle faces where its normals point.
+    #[test]
+    fn solids_face_outwards() {
+        let tube = cylinder([DVec3::ZERO, DVec3::new(0.0, 2.0, 1.0)], 0.5).expect("a cylinder");
+        for mesh in [rectangle(), cube(), tube] {
+            for [a, b, c] in mesh.triangles {
+                let [p, q, r] = [a, b, c].map(|i| DVec3::from_array(mesh.positions[i as usize]));
+                let normal = DVec3::from_array(mesh.normals[a as usize]);
+                assert!((q - p).cross(r - p).dot(normal) > 0.0, "{p} {q} {r}");
+            }
+        }
     }
 }

@@ -1,22 +1,18 @@
 //! Textures.
 
-use super::access::{flag, stated, text};
-use super::importer::Importer;
-use super::transform::transform_of;
-use super::usage::Use;
-use super::value::Value;
-use crate::scenery::{KnownTexture, grey};
-use crate::syntax::mitsuba::MitsubaElement;
-use etendue_io::Error;
-use etendue_io::Provenance;
 use etendue_io::exr::{Layer, encode_layers};
-use etendue_io::picture::read_picture;
+use etendue_io::{Error, Provenance, picture::read_picture};
 use etendue_scene::record::material::factor::FactorTexture;
 use etendue_scene::record::material::{Factor, Metal};
 use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_scene::record::{Colour, Reflectance, Texture};
-use etendue_spectra::colour::luma;
-use etendue_spectra::{Outside, Spectrum};
+use etendue_spectra::{Outside, Spectrum, colour::luma};
+
+use super::access::{flag, stated, text};
+use super::transform::{Use, transform_of};
+use super::{importer::Importer, value::Value};
+use crate::scenery::{KnownTexture, grey};
+use crate::syntax::mitsuba::MitsubaElement;
 
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
 

@@ -1,10 +1,11 @@
 //! Transforms, step by step.
 
-use super::access::{attribute_number, find, numbers_of, triple_of};
-use crate::syntax::mitsuba::MitsubaElement;
 use etendue_core::maths::f64 as maths;
 use etendue_io::Error;
 use glam::{DAffine3, DMat3, DMat4, DVec3};
+
+use super::access::{attribute_number, find, numbers_of, triple_of};
+use crate::syntax::mitsuba::MitsubaElement;
 
 /// The transform of a parameter; none where it is not there.
 pub(super) fn transform_of(element: &MitsubaElement, name: &str) -> Result<DAffine3, Error> {
@@ -89,4 +90,15 @@ fn matrix(step: &MitsubaElement) -> Result<DAffine3, Error> {
         true => Ok(DAffine3::from_mat4(DMat4::from_cols_array(&rows).transpose())),
         false => Err(step.fault("a matrix that is no affine transform; expected 0, 0, 0, 1 as its last row")),
     }
+}
+
+/// What a texture is for.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Use {
+    /// Colours.
+    Colours,
+    /// A number for each texel, which Mitsuba takes from the colour there.
+    Numbers,
+    /// Numbers as they are stored, as normals.
+    Data,
 }

@@ -1,14 +1,14 @@
 //! Values over the wavelength: numbers, colours, tables, and textures.
 
+use etendue_io::{Error, read_regular};
+use etendue_scene::limits;
+use etendue_scene::record::{Colour, LightColour};
+use etendue_spectra::{Outside, Spectrum, colour::BT709, illuminant, observer};
+
 use super::access::{find, number, number_of, numbers_of, text};
 use super::importer::Importer;
 use crate::scenery::{LightUnit, coefficient_of_rgb, illuminant_of};
 use crate::syntax::mitsuba::MitsubaElement;
-use etendue_io::{Error, read_regular};
-use etendue_scene::limits;
-use etendue_scene::record::{Colour, LightColour};
-use etendue_spectra::colour::BT709;
-use etendue_spectra::{Outside, Spectrum, illuminant, observer};
 
 /// What a parameter says.
 pub(super) enum Value<'a> {
@@ -78,7 +78,7 @@ impl<'a> Importer<'a> {
         find(element, name).map(|parameter| self.value_of(parameter)).transpose()
     }
 
-    pub(super) fn value_of(&self, parameter: &'a MitsubaElement) -> Result<Value<'a>, Error> {
+    fn value_of(&self, parameter: &'a MitsubaElement) -> Result<Value<'a>, Error> {
         let element = self.resolve(parameter)?;
         let told = |what: String| element.fault(format!("\"{}\": {what}", parameter.name()));
         let value = element.attribute("value");

@@ -1,11 +1,13 @@
 //! Cameras and films.
 
+use std::rc::Rc;
+
+use etendue_core::maths::f64 as maths;
+use glam::{DAffine3, DMat3, DVec3};
+
 use super::parameters::Parameters;
 use crate::scenery::{Graphics, Report, to_ours};
 use crate::written::{ImportedCamera, View, pose_of};
-use etendue_core::maths::f64 as maths;
-use glam::{DAffine3, DMat3, DVec3};
-use std::rc::Rc;
 
 /// The field of what stands in for a camera that is not understood, degrees of the shorter side: a normal lens's.
 const STAND_IN_DEG: f64 = 40.0;

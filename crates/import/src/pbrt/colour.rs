@@ -1,12 +1,11 @@
 //! Spectra: rgb, tables, black bodies and names.
 
+use etendue_scene::record::{Colour, LightColour};
+use etendue_spectra::{Outside, Spectrum, colour::BT709, illuminant};
+
 use super::parameters::Parameters;
 use crate::scenery::{LightUnit, Scenery, coefficient_of_rgb, illuminant_of};
 use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
-use etendue_scene::record::{Colour, LightColour};
-use etendue_spectra::colour::BT709;
-use etendue_spectra::illuminant;
-use etendue_spectra::{Outside, Spectrum};
 
 pub(super) fn three(name: &str, numbers: &[f64]) -> Result<[f64; 3], String> {
     let found = numbers.len();

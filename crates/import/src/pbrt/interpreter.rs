@@ -1,15 +1,15 @@
 //! Directives to a scene: the state that they change, and what they make.
 
+use std::{collections::HashMap, path::Path, rc::Rc};
+
+use etendue_core::maths::f64 as maths;
+use glam::{DAffine3, DMat3, DMat4, DVec3};
+
 use super::camera::{Film, PbrtCamera};
 use super::parameters::Parameters;
 use crate::scenery::{Graphics, Scenery};
 use crate::syntax::pbrt::{PbrtDirective, PbrtParameter, PbrtPlace};
 use crate::written::{Written, written};
-use etendue_core::maths::f64 as maths;
-use glam::{DAffine3, DMat3, DMat4, DVec3};
-use std::collections::HashMap;
-use std::path::Path;
-use std::rc::Rc;
 
 /// Blocks within one another, and shapes of instances.
 const MAX_DEPTH: usize = 1 << 10;

@@ -1,12 +1,16 @@
-//! Lights that are no surfaces.
+//! Lights that are no surfaces, the directive of surfaces that give light, and media.
+
+use std::f64::consts::{PI, TAU};
+
+use etendue_core::maths::f64 as maths;
+use etendue_scene::record::medium::{Everywhere, MediumShape};
+use etendue_scene::record::{Emission, Environment, Level, Transform};
+use etendue_spectra::Spectrum;
+use glam::DVec3;
 
 use super::parameters::Parameters;
 use crate::lamps;
-use crate::scenery::{Graphics, Scenery};
-use etendue_core::maths::f64 as maths;
-use etendue_scene::record::{Emission, Environment, Level};
-use glam::DVec3;
-use std::f64::consts::{PI, TAU};
+use crate::scenery::{AreaLight, Graphics, Homogeneous, Scenery};
 
 impl Scenery {
     pub(super) fn light_source(
@@ -121,5 +125,70 @@ impl Scenery {
         }
         self.report.note(format!("a light \"{kind}\" is dark and left out"));
         None
+    }
+}
+
+impl Scenery {
+    /// `None` of one that is dark.
+    pub(super) fn area_light(&mut self, kind: &str, parameters: Parameters<'_>) -> Result<Option<AreaLight>, String> {
+        if kind != "diffuse" {
+            self.report.note(format!("the area light \"{kind}\" is not understood and left out"));
+            return Ok(None);
+        }
+        if parameters.find("filename").is_some() {
+            self.report.note("the picture of an area light is not used: it is as bright everywhere");
+        }
+        let unit = self.light(parameters, "L")?;
+        let luminance = parameters.number("scale", 1.0)? * unit.luminance;
+        let power = parameters.numbers("power")?.and_then(|n| n.first().copied()).filter(|p| *p > 0.0);
+        if luminance <= 0.0 {
+            self.report.note("an area light is dark and left out");
+            return Ok(None);
+        }
+        let two_sided = parameters.flag("twosided", false)?;
+        Ok(Some(AreaLight { colour: unit.colour, luminance, flux: power.map(|lm| lm * luminance), two_sided }))
+    }
+}
+
+impl Scenery {
+    pub(super) fn medium(&mut self, name: &str, parameters: Parameters<'_>) -> Result<(), String> {
+        let kind = parameters.text("type")?.unwrap_or_default();
+        if kind != "homogeneous" {
+            self.report
+                .note(format!("the medium \"{name}\" ({kind}) is not understood and left out: expected homogeneous"));
+            parameters.0.iter().for_each(|p| p.used.set(true));
+            return Ok(());
+        }
+        for unread in ["preset", "Le", "Lescale"] {
+            if parameters.find(unread).is_some() {
+                self.report.note(format!("\"{unread}\" of a medium is not used"));
+            }
+        }
+        let scale = parameters.number("scale", 1.0)?;
+        let (absorbed, even_a) = self.coefficient(parameters, "sigma_a", [0.0011, 0.0024, 0.014])?;
+        let (scattered, even_s) = self.coefficient(parameters, "sigma_s", [2.55, 3.21, 3.77])?;
+        let at = |s: &Spectrum, nm: f64| f64::from(s.at(nm as f32));
+        let sum = Spectrum::from_fn(|nm| at(&absorbed, nm) + at(&scattered, nm));
+        let share = Spectrum::from_fn(|nm| if at(&sum, nm) > 0.0 { at(&scattered, nm) / at(&sum, nm) } else { 0.0 });
+        let even = even_a.zip(even_s);
+        let extinction = self.curve(&sum, even.map(|(a, s)| a + s), scale);
+        let albedo = self.curve(&share, even.map(|(a, s)| if a + s > 0.0 { s / (a + s) } else { 0.0 }), 1.0);
+        let stated = parameters.number("g", 0.0)?;
+        let g = stated.clamp(-0.99, 0.99);
+        if g != stated {
+            self.report.note(format!("a medium of g = {stated} is one of {g}"));
+        }
+        self.known.media.insert(name.to_owned(), Homogeneous { extinction, albedo, g });
+        Ok(())
+    }
+
+    /// The medium that the camera stands in.
+    pub(super) fn fill_air(&mut self, name: &str) {
+        if !name.is_empty() {
+            self.report.note(format!(
+                "the camera's medium \"{name}\" fills the whole world, and adds to those of shapes within it"
+            ));
+            self.fill(name, MediumShape::Everywhere(Everywhere::default()), Transform::default());
+        }
     }
 }

@@ -1,16 +1,16 @@
 //! Materials.
 
-use super::colour::table;
-use super::parameters::Parameters;
-use crate::scenery::{INTERFACE, KnownTexture, Scenery, plain};
-use crate::syntax::pbrt::PbrtValues;
-use etendue_scene::asset::COAT_INDICES;
-use etendue_scene::record::Colour;
+use std::rc::Rc;
+
 use etendue_scene::record::material::{
     Coated, Conductor, Dielectric, Diffuse, Factor, Leaf, Material, Metal, Mix, Surface, ThinSheet,
 };
+use etendue_scene::{asset::COAT_INDICES, record::Colour};
 use etendue_spectra::{Outside, Spectrum, metal};
-use std::rc::Rc;
+
+use super::{colour::table, parameters::Parameters};
+use crate::scenery::{INTERFACE, KnownTexture, Scenery, plain};
+use crate::syntax::pbrt::PbrtValues;
 
 /// pbrt's α of a roughness.
 fn remapped(roughness: f64) -> f64 {

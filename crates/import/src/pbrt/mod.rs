@@ -11,19 +11,18 @@ mod environment;
 mod interpreter;
 mod light;
 mod material;
-mod media;
-mod octahedral;
 mod parameters;
 mod shape;
-mod surface;
 mod texture;
+
+use std::path::Path;
+
+use etendue_io::Sandbox;
+use etendue_io::failure::{Error, ErrorCode};
 
 use super::written::Written;
 use crate::syntax::pbrt::read_pbrt;
-use etendue_io::Sandbox;
-use etendue_io::failure::{Error, ErrorCode};
 use interpreter::Interpreter;
-use std::path::Path;
 
 pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
     let mut interpreter = Interpreter::new(file, folder);

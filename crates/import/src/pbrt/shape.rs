@@ -1,8 +1,9 @@
 //! Shapes: meshes in their places, spheres, discs, cylinders.
 
+use etendue_scene::record::material::Factor;
+
 use super::parameters::Parameters;
 use crate::scenery::{Graphics, Scenery, Triangles, above_zero};
-use etendue_scene::record::material::Factor;
 
 impl Scenery {
     pub(super) fn shape(&mut self, kind: &str, parameters: Parameters<'_>, graphics: &Graphics) -> Result<(), String> {

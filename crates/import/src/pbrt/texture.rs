@@ -1,14 +1,15 @@
 //! Textures.
 
-use super::parameters::Parameters;
-use crate::scenery::{KnownTexture, Scenery, grey};
-use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 use etendue_io::picture::read_picture;
 use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_scene::record::material::factor::FactorTexture;
 use etendue_scene::record::material::{Channel, Factor};
 use etendue_scene::record::texture::{Encoding, Wrap};
 use etendue_scene::record::{Colour, Reflectance, Texture};
+
+use super::parameters::Parameters;
+use crate::scenery::{KnownTexture, Scenery, grey};
+use crate::syntax::pbrt::{PbrtParameter, PbrtValues};
 
 /// Whether a picture says how much of it is there: one that is there all over has no opacity, as in pbrt.
 fn has_opacity(image: &ImageAsset) -> bool {

@@ -1,12 +1,16 @@
 //! Light from infinity, brought into our equirectangular pictures.
 
-use super::stage::Scenery;
+use std::f64::consts::{PI, TAU};
+
 use etendue_core::maths::f64 as maths;
 use etendue_io::Provenance;
 use etendue_io::exr::{Layer, encode_layers};
 use etendue_scene::asset::{ImageAsset, ImagePixels};
-use glam::DVec3;
-use std::f64::consts::PI;
+use etendue_scene::{record::Environment, record::environment::EnvironmentImage};
+use glam::{DMat3, DVec3};
+
+use super::stage::Scenery;
+use crate::naming::{azimuth_elevation_deg, rounded};
 
 /// Red, green and blue from a direction of our world of length 1.
 pub(crate) type Found<'a> = dyn Fn(DVec3) -> [f64; 3] + 'a;
@@ -62,4 +66,95 @@ pub(crate) fn resampled(rows: usize, found: &Found<'_>) -> [Vec<f32>; 3] {
         }
     }
     channels
+}
+
+/// An equirectangular picture, the first row at the top.
+pub(crate) struct LightPicture<'a> {
+    /// As the file calls it.
+    pub(crate) shown: &'a str,
+    /// As the written scene names it.
+    pub(crate) path: &'a str,
+    pub(crate) columns: usize,
+    /// Pixels by their numbers.
+    pub(crate) pixel: &'a dyn Fn(usize) -> [f32; 3],
+}
+
+impl Scenery {
+    /// The environment of a picture of `rows` rows, in which 1 is `scale` cd/m²; `turn` leads from the space of our pictures (the middle column is +x, the
+    /// top +z) to our world, and may mirror. It is named where it lies where it is upright, else resampled.
+    pub(crate) fn light_picture(
+        &mut self,
+        picture: &LightPicture<'_>,
+        rows: usize,
+        turn: DMat3,
+        scale: f64,
+    ) -> Result<Environment, String> {
+        let LightPicture { shown, path, columns, pixel } = *picture;
+        if is_upright(&turn) {
+            let [azimuth, _] = azimuth_elevation_deg(turn.x_axis);
+            let [degrees, ..] = rounded([azimuth, 0.0, 0.0]);
+            self.report.note(format!("the light of `{shown}`: 1 is {scale} cd/m²"));
+            let picture = EnvironmentImage::new(path, scale);
+            let rotation_deg = (degrees != 0.0).then(|| degrees.into());
+            return Ok(Environment::Image(EnvironmentImage { rotation_deg, ..picture }));
+        }
+        let to_picture = turn.transpose();
+        let found = |direction: DVec3| {
+            let d = to_picture * direction;
+            let [across, down] = [0.5 - maths::atan2(d.y, d.x) / TAU, maths::acos(d.z.clamp(-1.0, 1.0)) / PI];
+            bilinear(pixel, [columns, rows], [across * columns as f64 - 0.5, down * rows as f64 - 0.5])
+        };
+        let written = self.environment_file(rows, &found)?;
+        self.report.note(format!("the light of `{shown}`: turned, and resampled; 1 is {scale} cd/m²"));
+        Ok(Environment::Image(EnvironmentImage::new(written.as_str(), scale)))
+    }
+}
+
+/// Whether a picture by [`Scenery::light_picture`]'s `turn` stands upright and is not mirrored: it needs no other pixels.
+pub(crate) fn is_upright(turn: &DMat3) -> bool {
+    (turn.z_axis - DVec3::Z).length() < 1e-9 && turn.determinant() > 0.0
+}
+
+/// Columns go round, rows end at the poles.
+fn bilinear(pixel: &dyn Fn(usize) -> [f32; 3], [columns, rows]: [usize; 2], [x, y]: [f64; 2]) -> [f64; 3] {
+    let (x0, y0) = (x.floor(), y.floor());
+    let (fx, fy) = (x - x0, y - y0);
+    let at = |dx: f64, dy: f64| {
+        let column = (x0 + dx).rem_euclid(columns as f64) as usize;
+        let row = (y0 + dy).clamp(0.0, (rows - 1) as f64) as usize;
+        pixel(row * columns + column.min(columns - 1)).map(f64::from)
+    };
+    let [a, b, c, d] = [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0), at(1.0, 1.0)];
+    std::array::from_fn(|i| (1.0 - fy) * ((1.0 - fx) * a[i] + fx * b[i]) + fy * ((1.0 - fx) * c[i] + fx * d[i]))
+}
+
+/// From another program's world to ours, of a camera's axes there (columns: right, up, ahead, as its picture has them): upwards goes the axis nearest
+/// to the camera's up, forward the one after it (x, y, z, x), and the picture is not mirrored.
+pub(crate) fn to_ours(camera: DMat3) -> DMat3 {
+    let up = camera.y_axis;
+    let size = up.abs();
+    let axis = if size.z >= size.x && size.z >= size.y { 2 } else { usize::from(size.y >= size.x) };
+    let unit = |i: usize| DVec3::from_array(std::array::from_fn(|j| f64::from(u8::from(i == j))));
+    let (ahead, up) = (unit((axis + 1) % 3), unit(axis) * up[axis].signum());
+    // Right, up, ahead is left-handed in a right-handed world.
+    let left = up.cross(ahead) * if camera.determinant() > 0.0 { -1.0 } else { 1.0 };
+    DMat3::from_cols(ahead, left, up).transpose()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_right_handed_world_is_turned_and_a_left_handed_one_mirrored() {
+        // Looks along −z with y upwards, as in most right-handed scenes: right is x.
+        let right_handed = to_ours(DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::NEG_Z));
+        assert_eq!(right_handed * DVec3::Z, DVec3::X);
+        assert_eq!(right_handed * DVec3::X, DVec3::Y);
+        assert_eq!(right_handed * DVec3::Y, DVec3::Z);
+        // Looks along z, right is x: left-handed.
+        let left_handed = to_ours(DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::Z));
+        assert_eq!(left_handed * DVec3::Z, DVec3::X);
+        assert_eq!(left_handed * DVec3::X, DVec3::NEG_Y);
+    }
 }

@@ -1,36 +1,24 @@
 //! The scene that an import makes, piece by piece: what readers of other programs' scenes have in common.
 
-mod area_light;
-mod axes;
 mod environment;
-mod known;
-mod light_picture;
-mod media;
-mod numbers;
 mod objects;
-mod report;
 mod round;
-mod share;
 mod spectra;
 mod stage;
 mod surfaces;
-mod triangles;
 
-pub(super) use area_light::AreaLight;
-pub(super) use axes::to_ours;
-pub(super) use environment::linear_pixels;
+pub(super) use environment::LightPicture;
+#[cfg(feature = "usd")]
+pub(super) use environment::is_upright;
 #[cfg(test)]
 pub(super) use environment::resampled;
-pub(super) use known::{Homogeneous, INTERFACE, KnownTexture};
-pub(super) use light_picture::LightPicture;
-#[cfg(feature = "usd")]
-pub(super) use light_picture::is_upright;
-#[cfg(feature = "usd")]
-pub(super) use numbers::stored_pixels;
+pub(super) use environment::{linear_pixels, to_ours};
 pub(super) use objects::above_zero;
-pub(super) use report::Report;
-pub(super) use share::grey;
+pub(super) use round::Triangles;
+#[cfg(feature = "usd")]
+pub(super) use spectra::stored_pixels;
 pub(super) use spectra::{LightUnit, coefficient_of_rgb, illuminant_of};
-pub(super) use stage::{Graphics, Scenery};
-pub(super) use surfaces::plain;
-pub(super) use triangles::Triangles;
+pub(super) use stage::AreaLight;
+pub(super) use stage::{Graphics, Report, Scenery};
+pub(super) use stage::{Homogeneous, INTERFACE, KnownTexture};
+pub(super) use surfaces::{grey, plain};

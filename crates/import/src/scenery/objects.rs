@@ -1,17 +1,15 @@
 //! Objects: meshes in their places, spheres, discs, rectangles.
 
-use super::known::INTERFACE;
-use super::stage::{Graphics, Scenery};
-use super::triangles::Triangles;
-use crate::naming::rounded;
 use etendue_io::mesh::{encode_obj, encode_ply};
-use etendue_scene::record::material::Surface;
 use etendue_scene::record::medium::{MediumMesh, MediumShape, MediumSphere};
-use etendue_scene::record::mesh::Axis;
 use etendue_scene::record::shape::{Disc, Quad, Sphere};
-use etendue_scene::record::transform::angles_deg;
 use etendue_scene::record::{Body, Material, Mesh, Object, Shape, Transform};
+use etendue_scene::{record::material::Surface, record::mesh::Axis, record::transform::angles_deg};
 use glam::{DAffine3, DMat3, DVec3};
+
+use super::round::Triangles;
+use super::stage::{Graphics, INTERFACE, Scenery};
+use crate::naming::rounded;
 
 impl Scenery {
     /// From a shape's space to our world.

@@ -1,11 +1,58 @@
-//! Surfaces: the default one, those that give light, metals by tables.
+//! Surfaces and media: the default surface, those that give light, metals by tables, shares of light.
+//!
+//! Shares of light, 0 … 1.
 
-use super::stage::Scenery;
+use std::{fmt::Write as _, rc::Rc};
+
 use etendue_scene::record::material::{Diffuse, Factor, Material, Metal, Surface};
-use etendue_scene::record::{Colour, Reflectance, SurfaceEmission};
+use etendue_scene::record::medium::{Extinction, HenyeyGreenstein, Isotropic, MediumShape, Phase};
+use etendue_scene::record::{Colour, Medium, Reflectance, SurfaceEmission, Transform};
 use etendue_spectra::upsample;
-use std::fmt::Write as _;
-use std::rc::Rc;
+
+use super::stage::{Homogeneous, Scenery};
+
+/// The number that three equal ones are.
+pub(crate) fn grey(values: [f64; 3]) -> Option<f64> {
+    (values[0] == values[1] && values[1] == values[2]).then_some(values[0])
+}
+
+impl Scenery {
+    /// A share of light of a parameter called `name`, cut off at 0 and 1, which is said.
+    pub(crate) fn cut(&mut self, name: &str, share: f64) -> f64 {
+        let legal = share.clamp(0.0, 1.0);
+        if legal != share {
+            self.report.note(format!("\"{name}\" beyond 0 … 1 is cut off there"));
+        }
+        legal
+    }
+
+    /// The same of linear sRGB.
+    pub(crate) fn share_of_rgb(&mut self, name: &str, rgb: [f64; 3]) -> Colour {
+        let legal = rgb.map(|v| self.cut(name, v));
+        grey(legal).map_or(Colour::LinearSrgb(legal.into()), |v| Colour::Grey(v.into()))
+    }
+}
+
+impl Scenery {
+    /// Fills a part of the world with a medium; nothing where the name is empty or not understood.
+    pub(crate) fn fill(&mut self, name: &str, shape: MediumShape, transform: Transform) {
+        let Some(Homogeneous { extinction, albedo, g }) = self.known.media.get(name).cloned() else {
+            self.report.note(format!("a part of the world has no medium: \"{name}\" is not there or not understood"));
+            return;
+        };
+        let phase = match g {
+            0.0 => Phase::Isotropic(Isotropic::default()),
+            g => Phase::HenyeyGreenstein(HenyeyGreenstein::new(g)),
+        };
+        let own = self.names.take(name, "medium");
+        self.scene.media.push(Medium {
+            albedo: Some(albedo),
+            phase: Some(phase),
+            shape: Some(shape),
+            ..Medium::new(own.as_str(), Extinction::PerMetre(extinction), transform)
+        });
+    }
+}
 
 impl Scenery {
     /// A material by its name in ours; the grey one where it is empty.

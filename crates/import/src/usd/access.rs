@@ -1,7 +1,10 @@
 //! Attributes by what is expected of them.
 
-use crate::syntax::usd::{UsdAsset, UsdPrim, UsdValue};
+use std::collections::HashMap;
+
 use glam::DVec3;
+
+use crate::syntax::usd::{UsdAsset, UsdPrim, UsdValue};
 
 /// A number; `None` where there is none.
 pub(super) fn stated(prim: &UsdPrim, name: &str) -> Option<f64> {
@@ -80,4 +83,32 @@ pub(super) fn vector(prim: &UsdPrim, name: &str) -> Option<DVec3> {
 pub(super) fn leave(prim: &UsdPrim) {
     prim.attributes.values().for_each(|attribute| attribute.used.set(true));
     prim.relations.values().for_each(|relation| relation.used.set(true));
+}
+
+/// All prims of a stage.
+pub(super) struct Paths<'a>(HashMap<&'a str, &'a UsdPrim>);
+
+impl<'a> Paths<'a> {
+    pub(super) fn of(roots: &'a [UsdPrim]) -> Self {
+        fn add<'a>(prims: &'a [UsdPrim], all: &mut HashMap<&'a str, &'a UsdPrim>) {
+            for prim in prims {
+                all.insert(&prim.path, prim);
+                add(&prim.children, all);
+            }
+        }
+        let mut all = HashMap::new();
+        add(roots, &mut all);
+        Self(all)
+    }
+
+    /// The prim of a path.
+    pub(super) fn prim(&self, path: &str) -> Option<&'a UsdPrim> {
+        self.0.get(path).copied()
+    }
+
+    /// The prim and the name of a property, `/a/b.outputs:rgb`.
+    pub(super) fn property<'p>(&self, path: &'p str) -> Option<(&'a UsdPrim, &'p str)> {
+        let (prim, name) = path.split_once('.')?;
+        Some((self.prim(prim)?, name))
+    }
 }

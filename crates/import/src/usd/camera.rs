@@ -1,11 +1,12 @@
 //! Cameras of UsdGeom.
 
+use etendue_core::maths::f64 as maths;
+use glam::DVec3;
+
 use super::access::{number, text, tuple};
 use super::importer::{Importer, State};
 use crate::syntax::usd::UsdPrim;
 use crate::written::{ImportedCamera, View, pose_of, size_of};
-use etendue_core::maths::f64 as maths;
-use glam::DVec3;
 
 /// Focal lengths that are believed, mm.
 const USUAL_MM: std::ops::RangeInclusive<f64> = 1.0..=1000.0;

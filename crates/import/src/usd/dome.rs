@@ -1,12 +1,14 @@
 //! Light from all round: UsdLux's DomeLight.
 
+use std::path::Path;
+
+use etendue_scene::record::{Emission, Environment, Level, LightColour};
+use glam::{DMat3, DVec3};
+
 use super::access::{asset, text};
 use super::importer::{Importer, State};
 use crate::scenery::{LightPicture, LightUnit, grey, is_upright, linear_pixels};
 use crate::syntax::usd::{UsdAxis, UsdFile, UsdPrim};
-use etendue_scene::record::{Emission, Environment, Level, LightColour};
-use glam::{DMat3, DVec3};
-use std::path::Path;
 
 /// From the space of a dome, its top +y, to that of our pictures: the middle of its picture is seen along +z, the quarter to the left along +x (OpenEXR's).
 fn picture_axes() -> DMat3 {

@@ -1,18 +1,16 @@
 //! Prims to a scene.
 
-use super::access::text;
-use super::binding::{Bindings, binds_collections, bound};
-use super::bound_material::BoundMaterial;
-use super::paths::Paths;
+use std::{collections::HashMap, path::Path, rc::Rc};
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::access::{Paths, text};
+use super::binding::{Bindings, BoundMaterial, binds_collections, bound};
 use super::transform::transform_of;
 use crate::scenery::{KnownTexture, Scenery};
 use crate::syntax::usd::{UsdAxis, UsdPrim, UsdStage};
 use crate::without::{even_sky, whole_view};
 use crate::written::{ImportedCamera, Written, written};
-use glam::{DAffine3, DMat3, DVec3};
-use std::collections::HashMap;
-use std::path::Path;
-use std::rc::Rc;
 
 /// Prims that are walked, those of instances counted each.
 const MAX_VISITS: usize = 1_000_000;

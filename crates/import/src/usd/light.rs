@@ -1,17 +1,16 @@
 //! Lights of UsdLux.
 
-use super::access::{flag, number};
-use super::cone::cone_of;
-use super::importer::{Importer, State};
-use super::solids::{about, cylinder};
-use crate::lamps;
-use crate::scenery::{AreaLight, Graphics, LightUnit};
-use crate::syntax::usd::UsdPrim;
+use std::{f64::consts::PI, rc::Rc};
+
 use etendue_core::maths::f64 as maths;
 use etendue_scene::record::{Light, LightColour};
 use glam::{DAffine3, DMat3, DVec3};
-use std::f64::consts::PI;
-use std::rc::Rc;
+
+use super::access::{flag, number};
+use super::importer::{Importer, State};
+use super::shape::{about, cylinder};
+use crate::scenery::{AreaLight, Graphics, LightUnit};
+use crate::{lamps, syntax::usd::UsdPrim};
 
 /// The least disc of parallel light, degrees.
 const PARALLEL_DEG: f64 = 0.01;
@@ -174,6 +173,14 @@ fn area_of(prim: &UsdPrim, [x, y, z]: [f64; 3]) -> f64 {
         "CylinderLight" => 2.0 * PI * radius * (y * z).sqrt() * number(prim, "inputs:length", 1.0) * x,
         _ => 4.0 * PI * radius * radius * maths::cbrt(x * y * z) * maths::cbrt(x * y * z),
     }
+}
+
+/// Angles of the cone of a light from its axis, degrees: where it begins to fall, and where it ends; `None` of one that shines all round.
+fn cone_of(prim: &UsdPrim) -> Option<[f64; 2]> {
+    let outer_deg = number(prim, "inputs:shaping:cone:angle", 90.0);
+    let softness = number(prim, "inputs:shaping:cone:softness", 0.0).clamp(0.0, 1.0);
+    (prim.has_schema("ShapingAPI") && outer_deg > 0.0 && outer_deg < 90.0)
+        .then_some([outer_deg * (1.0 - softness), outer_deg])
 }
 
 #[cfg(test)]

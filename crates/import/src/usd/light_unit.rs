@@ -3,14 +3,15 @@
 //! Of UsdLux: the luminance of a light's surface is intensity · 2^exposure, in cd/m², times its colour, times that of a black body of luminance 1 where a
 //! temperature holds; "normalize" divides by the surface's area in the world's unit.
 
-use super::access::{flag, number, tuple};
-use super::importer::Importer;
-use crate::scenery::{AreaLight, LightUnit, grey, illuminant_of};
-use crate::syntax::usd::UsdPrim;
 use etendue_core::maths::f64 as maths;
 use etendue_scene::record::LightColour;
 use etendue_spectra::colour::{BT709, linear_srgb_from_xyz};
 use etendue_spectra::{illuminant, observer};
+
+use super::access::{flag, number, tuple};
+use super::importer::Importer;
+use crate::scenery::{AreaLight, LightUnit, grey, illuminant_of};
+use crate::syntax::usd::UsdPrim;
 
 impl<'a> Importer<'a> {
     /// Luminance and colour, without what "normalize" divides by; `None`, and a note, of one that is dark.

@@ -1,19 +1,18 @@
 //! UsdPreviewSurface as surfaces of ours.
 
-use super::bound_material::BoundMaterial;
-use super::importer::Importer;
-use super::network::Input;
-use super::texture::{ColourRule, Picture};
-use crate::scenery::{KnownTexture, grey};
-use crate::syntax::usd::{UsdPrim, UsdValue};
-use etendue_scene::asset::COAT_INDICES;
-use etendue_scene::record::material::factor::FactorTexture;
+use std::ops::RangeInclusive;
+
 use etendue_scene::record::material::{
     Channel, Coated, Conductor, Diffuse, Factor, Green, Material, Mix, NormalMap, Sides, Surface, ThinSheet,
 };
 use etendue_scene::record::{Emission, Level, LightColour, Reflectance, SurfaceEmission};
+use etendue_scene::{asset::COAT_INDICES, record::material::factor::FactorTexture};
 use etendue_spectra::colour::BT709;
-use std::ops::RangeInclusive;
+
+use super::texture::{ColourRule, Picture};
+use super::{binding::BoundMaterial, importer::Importer, network::Input};
+use crate::scenery::{KnownTexture, grey};
+use crate::syntax::usd::{UsdPrim, UsdValue};
 
 /// The index that reflects a share of light at normal incidence.
 fn index_of(share: f64) -> f64 {

@@ -7,34 +7,29 @@
 
 mod access;
 mod binding;
-mod bound_material;
 mod camera;
-mod cone;
 mod dome;
 mod importer;
-mod instancer;
 mod light;
 mod light_unit;
 mod material;
 mod mesh;
 mod network;
-mod paths;
 mod polygons;
-mod primvar;
 mod shape;
-mod solids;
 #[cfg(test)]
 mod tests;
 mod texture;
 mod transform;
-mod wrap;
+
+use std::path::Path;
+
+use etendue_io::Sandbox;
+use etendue_io::failure::{Error, ErrorCode};
 
 use super::written::Written;
 use crate::syntax::usd::read_usd;
-use etendue_io::Sandbox;
-use etendue_io::failure::{Error, ErrorCode};
 use importer::Importer;
-use std::path::Path;
 
 pub(super) fn imported(file: &Path, folder: &Path) -> Result<Written, Error> {
     let stage = read_usd(file, &Sandbox::NONE).map_err(Error::input)?;

@@ -1,14 +1,13 @@
 //! Meshes of polygons, a mesh of ours for each of their materials.
 
+use std::{collections::BTreeMap, rc::Rc};
+
 use super::access::{flag, indices, text};
 use super::binding::is_bound;
 use super::importer::{Importer, State};
-use super::mesh::{PolygonMesh, Scheme};
-use super::primvar::Primvar;
+use super::mesh::{PolygonMesh, Primvar, Scheme};
 use crate::scenery::{AreaLight, Graphics, Triangles};
 use crate::syntax::usd::UsdPrim;
-use std::collections::BTreeMap;
-use std::rc::Rc;
 
 /// The faces of a mesh.
 struct Parts<'a> {

@@ -1,20 +1,23 @@
 //! Pictures of UsdUVTexture.
+//!
+//! What is outside of a picture: UsdUVTexture's wrapS and wrapT.
+//!
+//! Source: "UsdPreviewSurface Specification" 2.6: `useMetadata`, which holds where nothing is said, is `black` where the file says nothing, as PNG and JPEG files do. Our
+//! textures are black nowhere: they go on with their edge.
 
-use super::importer::Importer;
-use super::network::Input;
-use crate::scenery::{KnownTexture, stored_pixels};
-use crate::syntax::usd::{UsdAsset, UsdFile, UsdPrim, UsdValue};
+use std::io::{BufReader, Cursor};
+use std::{fs::File, path::Path, rc::Rc};
+
 use etendue_io::Provenance;
 use etendue_io::exr::{Layer, encode_layers};
 use etendue_io::picture::{decode_picture, has_colours_of_8_bits, read_picture};
-use etendue_scene::asset::ImageAsset;
-use etendue_scene::record::Texture;
 use etendue_scene::record::texture::{Encoding, Wrap};
+use etendue_scene::{asset::ImageAsset, record::Texture};
 use etendue_spectra::colour;
-use std::fs::File;
-use std::io::{BufReader, Cursor};
-use std::path::Path;
-use std::rc::Rc;
+
+use super::{importer::Importer, network::Input};
+use crate::scenery::{KnownTexture, stored_pixels};
+use crate::syntax::usd::{UsdAsset, UsdFile, UsdPrim, UsdValue};
 
 const ENDINGS: [&str; 5] = ["png", "jpg", "jpeg", "hdr", "exr"];
 /// Nodes between a picture and the primvar by which it lies.
@@ -314,4 +317,43 @@ fn values(image: &ImageAsset, node: &PictureNode<'_>, rule: &dyn Fn(f64) -> f64)
         }
     };
     stored_pixels(image).into_iter().map(value).collect()
+}
+
+/// How a picture goes on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Outside {
+    Black,
+    Again(Wrap),
+}
+
+impl Outside {
+    fn of(word: &str) -> Self {
+        match word {
+            "repeat" => Self::Again(Wrap::Repeat),
+            "clamp" => Self::Again(Wrap::Clamp),
+            "mirror" => Self::Again(Wrap::Mirror),
+            _ => Self::Black,
+        }
+    }
+}
+
+impl<'a> Importer<'a> {
+    /// How a picture goes on, and whether it is black there.
+    pub(super) fn wrap(&mut self, node: &'a UsdPrim) -> (Wrap, bool) {
+        let [s, t] =
+            ["inputs:wrapS", "inputs:wrapT"].map(|name| Outside::of(self.plain_text(node, name).unwrap_or("")));
+        if s != t {
+            self.scenery.report.note("of two ways in which a picture goes on, that along s holds for both");
+        }
+        match s {
+            Outside::Black => (Wrap::Clamp, true),
+            Outside::Again(wrap) => (wrap, false),
+        }
+    }
+
+    /// Says that a shape shows what is outside of a picture that is black there.
+    pub(super) fn note_outside(&mut self) {
+        let told = "a picture that is black outside of u, v = 0 … 1 (so where wrapS and wrapT say nothing, or useMetadata), of which the shape shows some, has its edge there";
+        self.scenery.report.note(told);
+    }
 }

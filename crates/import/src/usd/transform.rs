@@ -2,10 +2,11 @@
 //!
 //! Of UsdGeomXformable: the first of the list is the outermost; a point goes through the last one first.
 
-use super::access::{tuple, vector};
-use crate::syntax::usd::{UsdPrim, UsdValue};
 use etendue_core::maths::f64 as maths;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
+
+use super::access::{tuple, vector};
+use crate::syntax::usd::{UsdPrim, UsdValue};
 
 const RESET: &str = "!resetXformStack!";
 const INVERSE: &str = "!invert!";

@@ -7,11 +7,9 @@ use core::f64::consts::{PI, TAU};
 use etendue_projection::model::{
     Division, ExtendedUnified, FieldOfView, KannalaBrandt, ModelError, Panorama, Perspective, ThinPrismFisheye,
 };
-use etendue_projection::plane::DistortionTerms;
-use etendue_projection::{Calibration, CameraMatrix, Model};
+use etendue_projection::{Calibration, CameraMatrix, Model, plane::DistortionTerms};
 
-use super::opencv::wrong;
-use super::{ErrorCode, Fault, Found, Read, of_camera};
+use super::{ErrorCode, Fault, Found, Read, of_camera, opencv::wrong};
 
 /// Models with one focal length and with two, each with its number of parameters.
 const ONE_FOCAL: [(&str, usize); 7] = [

@@ -18,12 +18,10 @@
 use core::f64::consts::PI;
 
 use etendue_projection::model::{FTheta, FThetaSense};
-use etendue_projection::plane::Affine;
-use etendue_projection::{Calibration, CameraMatrix, Model};
+use etendue_projection::{Calibration, CameraMatrix, Model, plane::Affine};
 
-use super::opencv::wrong;
 use super::yaml::{self, Node};
-use super::{ErrorCode, Fault, Found, Read, of_camera, passed_over};
+use super::{ErrorCode, Fault, Found, Read, of_camera, opencv::wrong, passed_over};
 
 const DRIVE_WORKS: [&str; 11] = [
     "Model",

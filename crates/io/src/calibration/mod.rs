@@ -18,18 +18,18 @@ pub mod export;
 mod f_theta;
 mod found;
 mod kalibr;
-mod matrix;
 mod ocam;
 mod opencv;
-mod ros;
+
+use std::path::Path;
+
+use etendue_projection::Calibration;
 
 use crate::hash::{self, ContentHash};
 use crate::source::{decode_text, read_description_bytes};
-use crate::tree::{self as yaml, Fault, Read, passed_over};
-use crate::{Error, ErrorCode};
-use etendue_projection::Calibration;
+use crate::tree::{Fault, Read, passed_over};
+use crate::{Error, ErrorCode, tree as yaml};
 use found::{Found, of_camera};
-use std::path::Path;
 
 pub use etendue_scene::asset::CalibrationFormat;
 
@@ -54,9 +54,9 @@ pub fn read_calibration(file: &Path, format: CalibrationFormat, camera: Option<&
     let bytes = read_description_bytes(file, "calibration")?;
     let text = decode_text(file, &bytes)?;
     let read = match format {
-        CalibrationFormat::OpenCv => opencv::read(text, false),
-        CalibrationFormat::OpenCvFisheye => opencv::read(text, true),
-        CalibrationFormat::Ros => ros::read(text),
+        CalibrationFormat::OpenCv => opencv::read_opencv(text, false),
+        CalibrationFormat::OpenCvFisheye => opencv::read_opencv(text, true),
+        CalibrationFormat::Ros => opencv::read_ros(text),
         CalibrationFormat::Kalibr => kalibr::read(text, camera),
         CalibrationFormat::Colmap => colmap::read(text, camera),
         CalibrationFormat::Ocam => ocam::read(text),

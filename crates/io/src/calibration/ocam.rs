@@ -10,12 +10,9 @@
 //!
 //! The inverse polynomial is a fit to the inverse; the exact inverse is used, and a note says how far the fit is off.
 
-use etendue_projection::model::Ocam;
-use etendue_projection::plane::Affine;
-use etendue_projection::{Calibration, CameraMatrix, Model};
+use etendue_projection::{Calibration, CameraMatrix, Model, model::Ocam, plane::Affine};
 
-use super::opencv::wrong;
-use super::{Fault, Found, Read, of_camera};
+use super::{Fault, Found, Read, of_camera, opencv::wrong};
 
 const LINES: [&str; 5] = [
     "the direct polynomial: count a0 a1 …",

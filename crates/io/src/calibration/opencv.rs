@@ -3,27 +3,36 @@
 //! The keys are those of OpenCV's own calibration programs; `cameraMatrix`, `K` and `distCoeffs`, `dist_coeffs`, `D` are
 //! read as well, and matrices as plain nested lists. `fisheye_model: 1` means `cv::fisheye`, whose camera matrix holds
 //! α fx as its skew; `xi` means `cv::omnidir`. The perspective functions of OpenCV ignore a skew, so one is refused.
+//!
+//! ROS `camera_info` YAML (camera_calibration_parsers): the raw picture, before rectification.
+//!
+//! | distortion_model | coefficients |
+//! | --- | --- |
+//! | plumb_bob | k1, k2, p1, p2 (, k3) |
+//! | rational_polynomial | k1, k2, p1, p2, k3, k4, k5, k6 (, s1 … s4 (, τx, τy)) |
+//! | equidistant | k1, k2, k3, k4 of the polynomial fisheye |
+//!
+//! The rectification and projection matrices describe the rectified picture, so they are passed over.
 
 use etendue_projection::model::{KannalaBrandt, ModelError, Perspective, Unified};
-use etendue_projection::plane::DistortionTerms;
-use etendue_projection::{Calibration, CameraMatrix, Model};
+use etendue_projection::{Calibration, CameraMatrix, Model, plane::DistortionTerms};
 
 use super::yaml::{self, Node};
-use super::{Fault, Found, Read, matrix, of_camera, passed_over};
+use super::{ErrorCode, Fault, Found, Read, found, of_camera, passed_over};
 
 const MATRIX: [&str; 3] = ["camera_matrix", "cameraMatrix", "K"];
 const DISTORTION: [&str; 4] = ["distortion_coefficients", "distCoeffs", "dist_coeffs", "D"];
 const REST: [&str; 5] = ["image_width", "image_height", "image_size", "fisheye_model", "xi"];
 
 /// Reads a camera; `fisheye` where the caller knows that it is one.
-pub(super) fn read(text: &str, fisheye: bool) -> Read<Found> {
+pub(super) fn read_opencv(text: &str, fisheye: bool) -> Read<Found> {
     let root = yaml::parse(text)?;
-    let size_px = matrix::size(&root)?;
+    let size_px = found::size(&root)?;
     let node = root.any(&MATRIX)?;
-    let camera_matrix = matrix::camera(node)?;
+    let camera_matrix = found::camera(node)?;
     let says_fisheye = root.find("fisheye_model").map(Node::number).transpose()?.is_some_and(|flag| flag != 0.0);
     let distortion = root.any(&DISTORTION)?;
-    let k = matrix::numbers(distortion)?;
+    let k = found::numbers(distortion)?;
     let model = match root.find("xi") {
         Some(xi) => omnidir(xi, distortion.line, &k),
         None if fisheye || says_fisheye => self::fisheye(distortion.line, &k),
@@ -48,7 +57,7 @@ pub(super) fn fisheye(line: usize, k: &[f64]) -> Read<Model> {
 }
 
 fn omnidir(xi: &Node, line: usize, k: &[f64]) -> Read<Model> {
-    let [xi_value] = matrix::numbers(xi)?[..] else { return Err(Fault::at(xi.line, "expected xi as one number")) };
+    let [xi_value] = found::numbers(xi)?[..] else { return Err(Fault::at(xi.line, "expected xi as one number")) };
     let &[k1, k2, p1, p2] = k else {
         return Err(Fault::at(line, format!("found {} numbers; expected k1, k2, p1, p2", k.len())));
     };
@@ -62,4 +71,48 @@ pub(super) fn unified(xi: f64, [k1, k2, p1, p2]: [f64; 4]) -> Result<Model, Mode
 
 pub(super) fn wrong(line: usize) -> impl Fn(ModelError) -> Fault {
     move |cause| Fault::at(line, cause.to_string())
+}
+
+const KNOWN: [&str; 6] =
+    ["image_width", "image_height", "camera_name", "camera_matrix", "distortion_model", "distortion_coefficients"];
+
+pub(super) fn read_ros(text: &str) -> Read<Found> {
+    let root = yaml::parse(text)?;
+    let size_px = [root.key("image_width")?.count()?, root.key("image_height")?.count()?];
+    let node = root.key("camera_matrix")?;
+    let camera_matrix = found::camera(node)?;
+    if camera_matrix.skew != 0.0 {
+        return Err(Fault::coded(
+            ErrorCode::UnsupportedFile,
+            node.line,
+            "expected a camera matrix without skew, as camera_info defines it",
+        ));
+    }
+    let model = model(root.key("distortion_model")?, root.key("distortion_coefficients")?)?;
+    let calibration = Calibration::new(model, camera_matrix, size_px).map_err(of_camera(node.line))?;
+    let name = root.find("camera_name").map(Node::text).transpose()?.unwrap_or_default().to_owned();
+    Ok(Found { name, calibration, notes: passed_over(&root.others(&KNOWN)) })
+}
+
+fn model(name: &Node, coefficients: &Node) -> Read<Model> {
+    let k = found::numbers(coefficients)?;
+    let counts: &[usize] = match name.text()? {
+        "plumb_bob" => &[4, 5],
+        "rational_polynomial" => &[8, 12, 14],
+        "equidistant" => return fisheye(coefficients.line, &k),
+        other => {
+            let known = "plumb_bob, rational_polynomial, equidistant";
+            return Err(Fault::coded(
+                ErrorCode::UnsupportedFile,
+                name.line,
+                format!("the distortion model {other} is none of {known}"),
+            ));
+        }
+    };
+    if !counts.contains(&k.len()) {
+        let counts = counts.iter().map(usize::to_string).collect::<Vec<_>>().join(" or ");
+        let what = format!("found {} numbers; {} has {counts}", k.len(), name.text()?);
+        return Err(Fault::at(coefficients.line, what));
+    }
+    Perspective::from_opencv(&k).map(Model::Perspective).map_err(wrong(coefficients.line))
 }

@@ -1,7 +1,6 @@
 //! What tests of flow share.
 
-use etendue_core::Plane;
-use etendue_core::quantity::OpticalFlow;
+use etendue_core::{Plane, quantity::OpticalFlow};
 
 /// A plane of vectors, `width` a row.
 pub(crate) fn flow(width: usize, vectors: &[[f32; 2]]) -> Plane<OpticalFlow> {

@@ -8,10 +8,10 @@
 //!
 //! Two names of one hash cannot be told apart, by the format.
 
+use std::{collections::BTreeMap, fmt::Write as _};
+
 use super::encode::ExrImage;
 use crate::Provenance;
-use std::collections::BTreeMap;
-use std::fmt::Write as _;
 
 /// Ranks of a pixel that are written: three layers, as renderers write unless told otherwise.
 const RANKS: usize = 6;

@@ -1,21 +1,24 @@
 //! Channels and facts to the bytes of an EXR file.
+//!
+//! Channels to the compressed blocks of an EXR file, in parallel.
+//!
+//! The encoder's own way to do so starts threads of its own for every file; this one runs on the caller's. A block's bytes
+//! are its own, and blocks are written in their order: the number of threads does not show.
 
-use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::fmt::{Debug, Formatter};
-use std::io::{Cursor, Seek, Write};
+use std::io::{self, Cursor, Seek, SeekFrom, Write};
+use std::{borrow::Cow, collections::BTreeMap};
 
-use ::exr::block;
-use ::exr::image::write::layers::WritableLayers;
-use ::exr::meta::Headers;
-use ::exr::meta::attribute::AttributeValue;
-use ::exr::prelude::{AnyChannel, AnyChannels, Encoding, Image, Layer, LayerAttributes, Text};
-use ::exr::prelude::{Blocks, Compression, LineOrder};
+use ::exr::block::{self, BlockIndex, UncompressedBlock};
+use ::exr::prelude::{
+    AnyChannel, AnyChannels, Blocks, Compression, Encoding, Image, Layer, LayerAttributes, LineOrder, Text,
+};
+use ::exr::{
+    block::writer::ChunksWriter, image::write::layers::WritableLayers, meta::Headers, meta::attribute::AttributeValue,
+};
+use rayon::prelude::*;
 
-use super::channel::{Channel, ImageRows, Strips};
-use super::compress::compress;
-use super::encode_error::EncodeError;
-use super::head::HeadReplaced;
+use super::channel::{Channel, EncodeError, ImageRows, Strips};
 use crate::Provenance;
 
 /// A picture to be stored: what it states, and where its samples come from.
@@ -126,7 +129,7 @@ impl<'a> ExrImage<'a> {
 }
 
 /// The one encoding we write.
-pub(super) const ENCODING: Encoding =
+const ENCODING: Encoding =
     Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
 
 fn text(string: &str) -> Result<Text, EncodeError> {
@@ -179,10 +182,87 @@ fn record_length(bytes: &[u8]) -> Option<usize> {
     Some(head + 4 + usize::try_from(length).ok()?)
 }
 
+/// Blocks a thread that wait, compressed, to be written.
+const BLOCKS_A_THREAD: usize = 8;
+/// Bytes of the blocks that wait, before they are compressed; one waits at least.
+pub const WAITING_BYTES: usize = 32 << 20;
+
+/// Writes the file.
+fn compress(headers: Headers, image: &ImageRows<'_>, sink: impl Write + Seek) -> Result<(), EncodeError> {
+    let mut failure = None;
+    let written = block::write(sink, headers, true, |meta, file| {
+        let blocks: Vec<(usize, BlockIndex)> = meta.enumerate_ordered_header_block_indices().collect();
+        let rows = blocks.iter().map(|(_, index)| index.pixel_size.1).max().unwrap_or(1);
+        let waiting = (WAITING_BYTES / (image.row_bytes() * rows).max(1)).max(1);
+        for some in blocks.chunks(waiting.min(BLOCKS_A_THREAD * rayon::current_num_threads())) {
+            let chunks = some.par_iter().map(|(_, index)| {
+                let first = index.pixel_position.1;
+                let data = image.bytes(first..first + index.pixel_size.1)?;
+                let compressed = UncompressedBlock { index: *index, data }.compress_to_chunk(&meta.headers);
+                compressed.map_err(|cause| EncodeError::Encoder(cause.to_string()))
+            });
+            for ((place, _), chunk) in some.iter().zip(chunks.collect::<Vec<_>>()) {
+                let chunk = chunk.map_err(|cause| {
+                    failure = Some(cause);
+                    ::exr::error::Error::Aborted
+                })?;
+                file.write_chunk(*place, chunk)?;
+            }
+        }
+        Ok(())
+    });
+    match (failure, written) {
+        (Some(cause), _) => Err(cause),
+        (None, Ok(())) => Ok(()),
+        (None, Err(::exr::error::Error::Io(cause))) => Err(EncodeError::Write(cause.to_string())),
+        (None, Err(cause)) => Err(EncodeError::Encoder(cause.to_string())),
+    }
+}
+
+/// Passes on what is written, but for its first bytes, in whose place stands a head of its own.
+pub(super) struct HeadReplaced<W> {
+    sink: W,
+    head: Vec<u8>,
+    position: u64,
+}
+
+impl<W: Write + Seek> HeadReplaced<W> {
+    /// In the place of as many bytes stands `head`.
+    pub(super) fn new(sink: W, head: Vec<u8>) -> Self {
+        Self { sink, head, position: 0 }
+    }
+}
+
+impl<W: Write> Write for HeadReplaced<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let rest = usize::try_from(self.position).ok().and_then(|at| self.head.get(at..)).unwrap_or_default();
+        let count = match rest.len().min(bytes.len()) {
+            0 => self.sink.write(bytes)?,
+            count => self.sink.write(&rest[..count])?,
+        };
+        self.position += count as u64;
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.sink.flush()
+    }
+}
+
+impl<W: Seek> Seek for HeadReplaced<W> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.position = self.sink.seek(to)?;
+        Ok(self.position)
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use std::io::Cursor;
+
     use ::exr::prelude::{FlatSamples, WritableImage};
+
+    use super::*;
 
     fn image() -> ExrImage<'static> {
         let mut image = ExrImage::new(3, 2, &Provenance::default());
@@ -259,5 +339,15 @@ mod tests {
         // The table is where its first number points behind its last.
         let table = (0..bytes.len() - 8 * count).find(|place| at(*place) == (place + 8 * count) as u64);
         bytes.len() - (table.expect("a table of offsets") + 8 * count)
+    }
+
+    #[test]
+    fn the_head_stands_whatever_is_written_there() {
+        let mut sink = Cursor::new(Vec::new());
+        let mut file = HeadReplaced::new(&mut sink, b"HEAD".to_vec());
+        file.write_all(b"abcdefg").expect("memory");
+        file.seek(SeekFrom::Start(2)).expect("memory");
+        file.write_all(b"xyz").expect("memory");
+        assert_eq!(sink.into_inner(), b"HEADzfg");
     }
 }

@@ -1,10 +1,14 @@
-//! Planes of any name in one file: what a program keeps for itself.
+//! Planes in a file: of any name, as a program keeps them for itself, and one plane of a scalar quantity with its variance.
+//!
+//! One plane of a scalar quantity as an EXR, with its variance where known.
+//!
+//! The channel is named by the quantity (`electrons`), its variance `variance.electrons`, in squared units.
 
-use etendue_core::kept_cube::BandReader;
+use etendue_core::quantity::{Quantity, Variance};
+use etendue_core::{Plane, storage::BandReader};
 
-use super::channel::Channel;
+use super::channel::{Channel, EncodeError};
 use super::encode::ExrImage;
-use super::encode_error::EncodeError;
 use crate::Provenance;
 
 /// The samples of a named plane, row by row from the top left.
@@ -47,5 +51,32 @@ pub fn layers_image<'a>(
             Layer::Band(reader, band) => image.add(name.as_str(), Channel::Band(reader, band)),
         }
     }
+    image
+}
+
+/// `plane`, with the variance of each pixel where given.
+pub fn encode_plane<Q: Quantity<Sample = f32>>(
+    plane: &Plane<Q>,
+    variance: Option<&Plane<Variance>>,
+    provenance: &Provenance,
+) -> Result<Vec<u8>, EncodeError> {
+    plane_image(plane, variance, provenance).into_bytes()
+}
+
+/// The same, to be written.
+#[must_use]
+pub fn plane_image<'a, Q: Quantity<Sample = f32>>(
+    plane: &'a Plane<Q>,
+    variance: Option<&'a Plane<Variance>>,
+    provenance: &Provenance,
+) -> ExrImage<'a> {
+    let mut image = ExrImage::new(plane.width(), plane.height(), provenance);
+    let name = Q::NAME.replace(' ', "_");
+    if let Some(variance) = variance {
+        image.float(format!("variance.{name}"), variance.samples());
+    }
+    image.float(name, plane.samples());
+    image.state("quantity", Q::NAME);
+    image.state("units", Q::UNIT);
     image
 }

@@ -22,39 +22,32 @@
 
 mod channel;
 mod colour_space;
-mod compress;
 mod cryptomatte;
 mod encode;
-mod encode_error;
 mod ground_truth;
-mod head;
 mod layers;
 mod motion;
-mod name;
-mod plane;
-mod preview;
-mod rays;
 mod read;
 mod spectral;
 mod spectral_read;
 #[cfg(test)]
 pub(crate) mod tests_support;
 
-pub use compress::WAITING_BYTES;
+pub use channel::EncodeError;
+pub use colour_space::{SpectralChannel, Stokes, channel_name, parse_channel_name};
 pub use cryptomatte::{CryptomatteLayer, cryptomatte_id, cryptomatte_image};
-pub use encode::ExrImage;
-pub use encode_error::EncodeError;
-pub use ground_truth::{GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_image, ground_truth_of_planes};
-pub use layers::{Layer, encode_layers, layers_image};
+pub use encode::{ExrImage, WAITING_BYTES};
+pub use ground_truth::{
+    GroundTruth, GroundTruthRows, encode_ground_truth, ground_truth_image, ground_truth_of_planes, rays_image,
+};
+pub use layers::{Layer, encode_layers, encode_plane, layers_image, plane_image};
 pub use motion::{MotionTruth, NeighbourTruth, VISIBILITY, encode_disparity, encode_motion};
-pub use name::{SpectralChannel, Stokes, channel_name, parse_channel_name};
-pub use plane::{encode_plane, plane_image};
-pub use preview::band_weights;
-pub use rays::rays_image;
 pub use read::{ExrChannel, ExrFile, Samples, read_exr, read_exr_within};
-pub use spectral::{Lengths, SpectralBands, encode_radiance, encode_spectral, radiance_image, spectral_image};
+pub use spectral::{
+    Lengths, SpectralBands, band_weights, encode_radiance, encode_spectral, radiance_image, spectral_image,
+};
 pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral, spectral_of};
 
 pub(crate) use colour_space::to_rec_709;
-pub(crate) use preview::linear_srgb;
 pub(crate) use read::{decode_exr, decode_exr_as_stored};
+pub(crate) use spectral::linear_srgb;

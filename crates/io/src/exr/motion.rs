@@ -3,9 +3,7 @@
 use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, Identity, ImageVelocity, OpticalFlow, Quantity, Time, Vector};
 
-use super::encode::ExrImage;
-use super::encode_error::EncodeError;
-use super::ground_truth::add_vector;
+use super::{channel::EncodeError, encode::ExrImage, ground_truth::add_vector};
 use crate::Provenance;
 
 /// What a pixel's surface point is in one neighbouring frame.

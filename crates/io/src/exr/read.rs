@@ -1,19 +1,14 @@
 //! Reading any flat EXR: all channels of all parts, at full resolution; R, G and B in the primaries of Rec. 709 (`colour_space.rs`).
 
-use std::collections::BTreeMap;
-use std::io::Cursor;
-use std::path::Path;
+use std::{collections::BTreeMap, io::Cursor, path::Path};
 
 use ::exr::meta::attribute::AttributeValue;
 use ::exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers};
-
 use etendue_scene::asset::ColourMatrix;
 
 use super::colour_space;
-use crate::guard::guarded;
 use crate::source::{read_bytes, read_expected_bytes};
-use crate::unpacked;
-use crate::{Error, ErrorCode, Provenance};
+use crate::{Error, ErrorCode, Provenance, error::guarded, texture_memory};
 
 /// Samples of a channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,7 +138,7 @@ fn floats(samples: &mut Samples) -> Option<&mut [f32]> {
 /// Reads `file`.
 ///
 /// # Errors
-/// Where it is missing, damaged or of a kind that is not read, or unpacks to more than its bytes can hold (`unpacked.rs`).
+/// Where it is missing, damaged or of a kind that is not read, or unpacks to more than its bytes can hold (`texture_memory.rs`).
 pub fn read_exr(file: &Path) -> Result<ExrFile, Error> {
     decode_exr(file, &read_bytes(file, "EXR")?)
 }
@@ -159,7 +154,7 @@ pub fn read_exr_within(file: &Path, most_bytes: u64) -> Result<ExrFile, Error> {
     // Blocks that would grow are stored as they are; beside them are the head and a table of the blocks.
     let most_packed = most_bytes.saturating_add(most_bytes / 8).saturating_add(HEAD_BYTES);
     let bytes = read_expected_bytes(file, "EXR", most_packed)?;
-    unpacked::check_within(file, samples(file, &bytes)?, most_bytes.into())?;
+    texture_memory::check_within(file, samples(file, &bytes)?, most_bytes.into())?;
     decode_all(file, &bytes)
 }
 
@@ -170,7 +165,7 @@ pub(crate) fn decode_exr(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
 
 /// Reads the bytes of `file`, with R, G and B as they are stored.
 pub(crate) fn decode_exr_as_stored(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
-    unpacked::check(file, samples(file, bytes)?, bytes.len())?;
+    texture_memory::check(file, samples(file, bytes)?, bytes.len())?;
     decode_all(file, bytes)
 }
 

@@ -4,13 +4,12 @@
 //! nm where `emissiveUnits` says so or is absent, and its evenly spaced wavelengths as band centres. What does not fit
 //! (uneven wavelengths, reflectances, an unknown unit) is refused; what is passed over (polarisation) is noted.
 
-use std::collections::BTreeMap;
-use std::path::Path;
+use std::{collections::BTreeMap, path::Path};
 
 use etendue_core::quantity::{Irradiance, Length, Quantity, Radiance, Variance};
 use etendue_core::{Bands, Plane, SpectralCube};
 
-use super::name::{SpectralChannel, Stokes, parse_channel_name};
+use super::colour_space::{SpectralChannel, Stokes, parse_channel_name};
 use super::read::{ExrFile, read_exr};
 use super::spectral::DISTANCE;
 use crate::{Error, Provenance};

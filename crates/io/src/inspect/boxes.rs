@@ -1,11 +1,12 @@
 //! The boxes of objects in a file that this program has written (`boxes.0000.json`).
 
-use super::object_box::ObjectBox;
-use super::{FileReport, Preview, drawing};
-use crate::source::read_description_bytes;
-use crate::{Error, ErrorCode};
-use serde::Deserialize;
 use std::path::Path;
+
+use serde::Deserialize;
+
+use super::drawing::{self, ObjectBox};
+use super::{FileReport, Preview};
+use crate::{Error, ErrorCode, source::read_description_bytes};
 
 /// What is read of the boxes of a frame.
 #[derive(Clone, Debug, PartialEq, Deserialize)]

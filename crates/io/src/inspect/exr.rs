@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use super::statistics::ChannelReport;
-use super::{FileReport, Preview, layer};
+use super::{FileReport, Preview, layer, report::ChannelReport};
 use crate::exr::{ExrFile, Samples, SpectralImage, decode_exr, linear_srgb, parse_channel_name, spectral_of};
 use crate::{Error, ErrorCode};
 

@@ -1,14 +1,12 @@
 //! Looking into files of optical flow and float maps: `.flo`, KITTI's PNG, PFM.
 
-use super::drawing::of_flow;
-use super::statistics::ChannelReport;
-use super::{FileReport, Preview, layer};
-use crate::Error;
-use crate::correspondence::{decode_flo, decode_kitti_flow};
-use crate::photograph::decode_photograph;
-use etendue_core::Plane;
-use etendue_core::quantity::OpticalFlow;
 use std::path::Path;
+
+use etendue_core::{Plane, quantity::OpticalFlow};
+
+use super::{FileReport, Preview, drawing::of_flow, layer, report::ChannelReport};
+use crate::correspondence::{decode_flo, decode_kitti_flow};
+use crate::{Error, photograph::decode_photograph};
 
 pub(super) fn middlebury(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     Ok(of_plane(file, "optical flow, Middlebury .flo", "float", &decode_flo(file, bytes)?))

@@ -9,28 +9,22 @@ mod exr;
 mod flow;
 mod lamp;
 mod layer;
-mod object_box;
 mod picture;
-mod preview;
 mod report;
-mod statistics;
 mod text;
 mod tiff;
 
-use crate::correspondence::{is_flo, is_kitti_flow};
-use crate::photograph::{is_pfm, is_tiff};
-use crate::picture::EXR_MAGIC;
-use crate::source::{read_bytes, read_description_bytes};
-use crate::{Error, ErrorCode};
 use std::path::{Path, PathBuf};
 
+use crate::correspondence::{is_flo, is_kitti_flow};
+use crate::photograph::{is_pfm, is_tiff};
+use crate::source::{read_bytes, read_description_bytes};
+use crate::{Error, ErrorCode, picture::EXR_MAGIC};
+
 pub use boxes::{Boxes, read_boxes};
-pub use drawing::{VIRIDIS, flow_wheel, identity_colour};
+pub use drawing::{ObjectBox, VIRIDIS, flow_wheel, identity_colour};
 pub use lamp::passing_beam;
-pub use object_box::ObjectBox;
-pub use preview::Preview;
-pub use report::FileReport;
-pub use statistics::ChannelReport;
+pub use report::{ChannelReport, FileReport, Preview};
 
 /// What the picture of a file shows, where the file leaves a choice.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

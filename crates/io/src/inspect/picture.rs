@@ -4,8 +4,7 @@ use std::path::Path;
 
 use image::{ColorType, DynamicImage, GenericImageView as _};
 
-use super::statistics::ChannelReport;
-use super::{FileReport, Preview};
+use super::{FileReport, Preview, report::ChannelReport};
 use crate::Error;
 use crate::picture::{Kept, decode_raster};
 

@@ -1,11 +1,17 @@
 //! What is told of one file, and its lines of text.
+//!
+//! Pictures for looking at, 8 bits, sRGB-encoded.
+//!
+//! Linear values are divided by their 99th percentile of luminance, so that one lamp does not make everything black, and
+//! encoded. NaN becomes magenta, which no exposure hides; +∞ becomes white.
 
-use super::preview::Preview;
-use super::statistics;
-use super::statistics::ChannelReport;
-use serde::Serialize;
 use std::fmt;
 use std::path::{Path, PathBuf};
+
+use etendue_spectra::colour::{encode, luma};
+use serde::Serialize;
+
+use crate::{exr::EncodeError, png::encode_rgb8};
 
 /// What is in a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -44,11 +50,161 @@ impl fmt::Display for FileReport {
             writeln!(f, "  {name:widest$}  {value}")?;
         }
         if !self.channels.is_empty() {
-            writeln!(f, "{}", statistics::heading(&self.channels))?;
+            writeln!(f, "{}", heading(&self.channels))?;
         }
         for channel in &self.channels {
-            writeln!(f, "{}", channel.line(statistics::widest(&self.channels)))?;
+            writeln!(f, "{}", channel.line(widest_name(&self.channels)))?;
         }
         self.notes.iter().try_for_each(|note| writeln!(f, "  note: {note}"))
+    }
+}
+
+/// A channel and its statistics over finite values.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ChannelReport {
+    /// Name.
+    pub name: String,
+    /// How samples are stored.
+    pub stored_as: String,
+    /// Least value; `None` without any finite value, as for the next two.
+    pub min: Option<f64>,
+    /// Mean.
+    pub mean: Option<f64>,
+    /// Greatest value.
+    pub max: Option<f64>,
+    /// Samples that are not a number.
+    pub nan_count: usize,
+    /// Samples that are infinite.
+    pub infinite_count: usize,
+}
+
+impl ChannelReport {
+    /// The statistics of `samples`, summed in order.
+    pub fn of(name: &str, stored_as: &str, samples: impl IntoIterator<Item = f64>) -> Self {
+        let (mut min, mut max, mut sum, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0.0, 0_usize);
+        let (mut nan_count, mut infinite_count) = (0, 0);
+        for v in samples {
+            if v.is_finite() {
+                (min, max, sum, count) = (min.min(v), max.max(v), sum + v, count + 1);
+            } else if v.is_nan() {
+                nan_count += 1;
+            } else {
+                infinite_count += 1;
+            }
+        }
+        let some = |v: f64| (count > 0).then_some(v);
+        Self {
+            name: name.to_owned(),
+            stored_as: stored_as.to_owned(),
+            min: some(min),
+            mean: some(sum / count as f64),
+            max: some(max),
+            nan_count,
+            infinite_count,
+        }
+    }
+
+    /// One line of the table.
+    pub(super) fn line(&self, name_width: usize) -> String {
+        let cell = |v: Option<f64>| v.map_or_else(|| "-".to_owned(), |v| format!("{v:.6e}"));
+        let (min, mean, max) = (cell(self.min), cell(self.mean), cell(self.max));
+        let (name, stored, nan, infinite) = (&self.name, &self.stored_as, self.nan_count, self.infinite_count);
+        format!("  {name:name_width$}  {stored:6}  {min:>14}  {mean:>14}  {max:>14}  {nan:>7}  {infinite:>8}")
+    }
+}
+
+/// The head of the table.
+fn heading(channels: &[ChannelReport]) -> String {
+    let width = widest_name(channels);
+    format!(
+        "  {:width$}  {:6}  {:>14}  {:>14}  {:>14}  {:>7}  {:>8}",
+        "channel", "type", "min", "mean", "max", "NaN", "infinite"
+    )
+}
+
+/// The widest name.
+fn widest_name(channels: &[ChannelReport]) -> usize {
+    channels.iter().map(|c| c.name.len()).max().unwrap_or(0).max("channel".len())
+}
+
+/// A small picture of a file's contents.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Preview {
+    /// Pixels a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// sRGB bytes, row by row from the top.
+    pub rgb: Vec<[u8; 3]>,
+}
+
+/// The colour of NaN.
+const NAN_COLOUR: [u8; 3] = [255, 0, 255];
+
+impl Preview {
+    /// The bytes of a PNG.
+    pub fn to_png(&self) -> Result<Vec<u8>, EncodeError> {
+        encode_rgb8(self.width, self.height, self.rgb.as_flattened())
+    }
+
+    /// Exposes linear sRGB.
+    pub(super) fn of_linear(width: usize, height: usize, pixels: &[[f32; 3]]) -> Self {
+        let white = white_level(pixels);
+        Self { width, height, rgb: pixels.iter().map(|p| byte_pixel(*p, white)).collect() }
+    }
+
+    /// One linear channel as grey, exposed so that its 99th percentile is white.
+    #[must_use]
+    pub fn of_grey(width: usize, height: usize, values: &[f32]) -> Self {
+        let pixels: Vec<[f32; 3]> = values.iter().map(|v| [*v; 3]).collect();
+        Self::of_linear(width, height, &pixels)
+    }
+}
+
+/// The 99th percentile of the luminances that are finite and above 0; 1 where there is none.
+fn white_level(pixels: &[[f32; 3]]) -> f32 {
+    let mut lit: Vec<f32> = pixels.iter().map(|p| luma(*p)).filter(|y| y.is_finite() && *y > 0.0).collect();
+    if lit.is_empty() {
+        return 1.0;
+    }
+    let rank = (lit.len() - 1) * 99 / 100;
+    *lit.select_nth_unstable_by(rank, f32::total_cmp).1
+}
+
+fn byte_pixel(pixel: [f32; 3], white: f32) -> [u8; 3] {
+    if pixel.iter().any(|v| v.is_nan()) {
+        return NAN_COLOUR;
+    }
+    pixel.map(|v| (encode((v / white).clamp(0.0, 1.0)) * 255.0).round() as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_that_are_not_finite_are_counted_and_left_out() {
+        let report = ChannelReport::of("Z", "float", [1.0, f64::NAN, 3.0, f64::INFINITY, f64::NEG_INFINITY]);
+        assert_eq!((report.min, report.mean, report.max), (Some(1.0), Some(2.0), Some(3.0)));
+        assert_eq!((report.nan_count, report.infinite_count), (1, 2));
+        assert_eq!(ChannelReport::of("Z", "float", [f64::INFINITY]).mean, None);
+    }
+
+    #[test]
+    fn the_99th_percentile_is_white_whatever_the_scale() {
+        for scale in [1e-9_f32, 1.0, 1e12] {
+            let mut values: Vec<f32> = (1..=100).map(|i| i as f32 * scale).collect();
+            values[99] = 1e6 * scale;
+            let preview = Preview::of_grey(100, 1, &values);
+            assert_eq!(preview.rgb[98], [255; 3], "rank 98 of 0 to 99 is the 99th percentile");
+            assert!(preview.rgb[97][0] < 255 && preview.rgb[49][0] > 180);
+        }
+    }
+
+    #[test]
+    fn darkness_and_what_is_not_finite_have_their_colours() {
+        assert_eq!(Preview::of_grey(1, 1, &[0.0]).rgb, [[0; 3]]);
+        assert_eq!(Preview::of_grey(3, 1, &[f32::NAN, f32::INFINITY, 2.0]).rgb, [NAN_COLOUR, [255; 3], [255; 3]]);
+        assert_eq!(Preview::of_grey(2, 1, &[-5.0, 1.0]).rgb, [[0; 3], [255; 3]]);
     }
 }

@@ -5,12 +5,10 @@ use std::path::Path;
 use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface, is_gltf};
 use serde_json::Value;
 
-use super::FileReport;
-use super::statistics::ChannelReport;
-use crate::Error;
+use super::{FileReport, report::ChannelReport};
 use crate::mesh::{is_ply, read_mesh};
-use crate::spectrum::read_spectrum;
 use crate::table::{read_complex_index, read_retro_table};
+use crate::{Error, spectrum::read_spectrum};
 
 pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
     let mesh = read_mesh(file)?;

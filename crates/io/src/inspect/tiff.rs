@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use super::statistics::ChannelReport;
-use super::{FileReport, Preview};
+use super::{FileReport, Preview, report::ChannelReport};
 use crate::Error;
 use crate::photograph::{Encoding, Photograph, decode_photograph};
 

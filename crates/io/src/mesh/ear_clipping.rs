@@ -1,3 +1,5 @@
+//! Points of a plane.
+//!
 //! Ear clipping (Meisters 1975, "Polygons have ears"): the first corner that can be cut off is, until three are left.
 //!
 //! A corner that cannot be cut off for another one in its triangle waits for that one to go; what else could change is
@@ -5,12 +7,158 @@
 //! on outlines as they are drawn. Corners that coincide (bridges to holes, outlines that touch themselves) block each
 //! other where an edge of one leads into the triangle of the other.
 
-use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
-use std::rc::Rc;
+use std::{cmp::Ordering, rc::Rc};
 
-use super::corner_tree::CornerTree;
-use super::plane::{Point, turn};
+/// A point.
+pub(super) type Point = [f64; 2];
+
+/// Twice the signed area of a triangle, positive counter-clockwise.
+pub(super) fn turn(a: Point, b: Point, c: Point) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Corners a leaf holds at most.
+const LEAF: usize = 8;
+
+/// A binary tree of boxes over points, from which points are taken out.
+pub(super) struct CornerTree<'p> {
+    points: &'p [Point],
+    /// Points in the order of leaves.
+    order: Vec<usize>,
+    /// The place of each point in `order`.
+    place: Vec<usize>,
+    is_left: Vec<bool>,
+    /// The root at 1, the children of `n` at 2n and 2n + 1.
+    boxes: Vec<Bounds>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    low: Point,
+    high: Point,
+}
+
+impl Bounds {
+    const EMPTY: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
+
+    fn around(self, other: Self) -> Self {
+        let pick = |of: fn(f64, f64) -> f64, a: Point, b: Point| [of(a[0], b[0]), of(a[1], b[1])];
+        Self { low: pick(f64::min, self.low, other.low), high: pick(f64::max, self.high, other.high) }
+    }
+
+    /// Whether every point of the box is to the right of the line from `a` to `b`. The rounding of [`turn`] keeps the
+    /// order of points, so no point of the box is to the left by it.
+    fn is_right_of(&self, a: Point, b: Point) -> bool {
+        let x = if b[1] >= a[1] { self.low[0] } else { self.high[0] };
+        let y = if b[0] >= a[0] { self.high[1] } else { self.low[1] };
+        turn(a, b, [x, y]) < 0.0
+    }
+}
+
+impl<'p> CornerTree<'p> {
+    pub(super) fn new(points: &'p [Point]) -> Self {
+        let leaves = points.len().div_ceil(LEAF).next_power_of_two();
+        let mut tree = Self {
+            points,
+            order: (0..points.len()).collect(),
+            place: vec![0; points.len()],
+            is_left: vec![true; points.len()],
+            boxes: vec![Bounds::EMPTY; 2 * leaves],
+        };
+        tree.split(0, leaves);
+        for (place, point) in tree.order.iter().enumerate() {
+            tree.place[*point] = place;
+        }
+        (0..leaves).for_each(|leaf| tree.boxes[leaves + leaf] = tree.bounds_of(leaf));
+        (1..leaves).rev().for_each(|node| tree.join(node));
+        tree
+    }
+
+    fn leaves(&self) -> usize {
+        self.boxes.len() / 2
+    }
+
+    /// Where the points of a leaf begin in `order`.
+    fn start(&self, leaf: usize) -> usize {
+        leaf * self.order.len() / self.leaves()
+    }
+
+    /// Orders the points of leaves so that neighbours share leaves.
+    fn split(&mut self, from: usize, to: usize) {
+        if to - from < 2 {
+            return;
+        }
+        let middle = usize::midpoint(from, to);
+        let (first, nth, last) = (self.start(from), self.start(middle), self.start(to));
+        let points = self.points;
+        let range = &mut self.order[first..last];
+        let bounds = range.iter().fold(Bounds::EMPTY, |b, &i| b.around(Bounds { low: points[i], high: points[i] }));
+        let axis = usize::from(bounds.high[1] - bounds.low[1] > bounds.high[0] - bounds.low[0]);
+        if nth < last {
+            range.select_nth_unstable_by(nth - first, |&i, &j| {
+                points[i][axis].total_cmp(&points[j][axis]).then(i.cmp(&j))
+            });
+        }
+        self.split(from, middle);
+        self.split(middle, to);
+    }
+
+    fn bounds_of(&self, leaf: usize) -> Bounds {
+        let left = self.order[self.start(leaf)..self.start(leaf + 1)].iter().filter(|i| self.is_left[**i]);
+        left.fold(Bounds::EMPTY, |b, &i| b.around(Bounds { low: self.points[i], high: self.points[i] }))
+    }
+
+    fn join(&mut self, node: usize) {
+        self.boxes[node] = self.boxes[2 * node].around(self.boxes[2 * node + 1]);
+    }
+
+    /// The leaf that holds a point.
+    fn leaf_of(&self, point: usize) -> usize {
+        let (place, leaves) = (self.place[point], self.leaves());
+        let near = place * leaves / self.order.len();
+        (near..leaves).find(|leaf| place < self.start(leaf + 1)).unwrap_or(leaves - 1)
+    }
+
+    /// Takes a point out.
+    pub(super) fn remove(&mut self, point: usize) {
+        self.is_left[point] = false;
+        let leaf = self.leaf_of(point);
+        let mut node = self.leaves() + leaf;
+        self.boxes[node] = self.bounds_of(leaf);
+        while node > 1 {
+            node /= 2;
+            self.join(node);
+        }
+    }
+
+    /// A point that is left in the closed counter-clockwise triangle of three others, and that coincides with none.
+    pub(super) fn inside(&self, corners: [usize; 3]) -> Option<usize> {
+        let triangle = corners.map(|i| self.points[i]);
+        let [a, b, c] = triangle;
+        let mut nodes = vec![1];
+        while let Some(node) = nodes.pop() {
+            let bounds = &self.boxes[node];
+            let is_empty = bounds.low[0] > bounds.high[0];
+            if is_empty || bounds.is_right_of(a, b) || bounds.is_right_of(b, c) || bounds.is_right_of(c, a) {
+                continue;
+            }
+            if node < self.leaves() {
+                nodes.extend([2 * node, 2 * node + 1]);
+            } else if let Some(found) = self.inside_leaf(node - self.leaves(), triangle) {
+                return Some(found);
+            }
+        }
+        None
+    }
+
+    fn inside_leaf(&self, leaf: usize, [a, b, c]: [Point; 3]) -> Option<usize> {
+        let holds =
+            |p: Point| ![a, b, c].contains(&p) && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+        let mut points = self.order[self.start(leaf)..self.start(leaf + 1)].iter().copied();
+        points.find(|&i| self.is_left[i] && holds(self.points[i]))
+    }
+}
 
 /// Triangles of a counter-clockwise polygon whose edges do not cross; `None` where none of several corners can be cut off.
 pub(super) fn clip_ears(flat: &[Point]) -> Option<Vec<[usize; 3]>> {

@@ -17,29 +17,24 @@
 //! Coordinates are read in 64 bits and stored in 32; a mesh far from its origin is told what that costs.
 
 mod asset;
-mod corner_tree;
-mod crossing;
 mod ear_clipping;
-mod frame;
 mod gltf;
 mod mtl;
 mod obj;
-mod plane;
 mod ply;
 mod polygon;
 mod slot;
 mod statement;
 mod texture_option;
-mod tobj_input;
 mod vertex;
 
-pub use asset::read_mesh;
-pub(crate) use asset::read_mesh_in;
-pub use frame::read_mesh_frame;
+pub use asset::{read_mesh, read_mesh_frame};
 pub use gltf::{
     GLTF_CUBIC_KEYS, GLTF_MIN_TURN, GltfCamera, GltfLight, GltfLightKind, GltfMotion, GltfMover, GltfParts,
     GltfProjection, GltfStage, GltfTrack, read_gltf_motion, read_gltf_stage,
 };
-pub(crate) use ply::is_ply;
 pub use ply::{PlacedTriangles, encode_obj, encode_ply};
 pub use polygon::polygon_triangles;
+
+pub(crate) use asset::read_mesh_in;
+pub(crate) use ply::is_ply;

@@ -9,9 +9,8 @@ use std::path::{Path, PathBuf};
 
 use etendue_scene::asset::{MtlFields, SlotMaterial};
 
-use super::statement::{Statement, statements};
+use super::statement::{Statement, TobjInput, statements};
 use super::texture_option::{UvLayout, parse as parse_texture};
-use super::tobj_input::TobjInput;
 use crate::Error;
 
 /// The materials of one library, by name, and what of it is not used.

@@ -7,11 +7,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use super::statement::{Statement, statements};
-use super::tobj_input::TobjInput;
+use etendue_scene::limits::CORNERS;
+
+use super::statement::{Statement, TobjInput, statements};
 use super::vertex::check_range;
 use crate::{Error, ErrorCode, Problem};
-use etendue_scene::limits::CORNERS;
 
 /// What a corner names, in order.
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];

@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 use etendue_scene::asset::SlotMaterial;
 
 use super::mtl::{beside, parse};
-use super::obj::Obj;
-use super::texture_option::UvLayout;
+use super::{obj::Obj, texture_option::UvLayout};
 use crate::source::{decode_text, read_description_bytes};
 use crate::{Error, Sandbox};
 

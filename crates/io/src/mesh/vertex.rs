@@ -1,7 +1,8 @@
 //! Numbers of vertices: unit normals, and what positions are stored relative to.
 
-use crate::{ErrorCode, Problem};
 use etendue_scene::limits::CORNERS;
+
+use crate::{ErrorCode, Problem};
 
 /// A unit vector in 32 bits; z for a face without area, which no ray meets.
 pub(super) fn unit(v: [f64; 3]) -> [f32; 3] {

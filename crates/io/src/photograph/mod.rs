@@ -15,27 +15,20 @@
 //! files of cameras, TIFF of several pictures, of separate planes, or in CMYK, Lab or a palette (refused).
 
 mod channels;
-mod grid;
-mod pfm;
-mod raw;
 mod side_car;
 mod tiff;
-mod timing;
 
-use crate::exr::decode_exr;
-use crate::picture::EXR_MAGIC;
-use crate::source::read_bytes;
-use crate::{Error, ErrorCode};
-use channels::{channel_names, guess, of_floats, separated};
 use std::path::Path;
 
+use crate::{Error, ErrorCode, exr::decode_exr, picture::EXR_MAGIC, source::read_bytes};
+use channels::{channel_names, guess, of_floats, separated};
+
 pub use crate::encoding::{Encoding, Stated};
-pub(crate) use channels::KINDS;
 pub use channels::{Channel, Photograph};
-pub(crate) use pfm::is_pfm;
-pub use raw::{FilterTile, RawFacts, RawFrame};
+pub use side_car::{FilterTile, RawFacts, RawFrame, StatedRows, StatedTiming, stated_timing};
+
+pub(crate) use channels::{KINDS, is_pfm};
 pub(crate) use tiff::is_tiff;
-pub use timing::{StatedRows, StatedTiming, stated_timing};
 
 /// Reads a photograph and what a side-car beside it says of it.
 ///
@@ -47,7 +40,7 @@ pub fn read_photograph(file: &Path) -> Result<Photograph, Error> {
     photograph.correlated_block_px = beside.correlated_block_px()?;
     let reason = format!("{} beside it", beside.name());
     if photograph.channels.len() == 1
-        && let Some(facts) = raw::facts(&beside)?
+        && let Some(facts) = side_car::facts(&beside)?
     {
         photograph.stated = Stated::new(Encoding::Linear, reason);
         photograph.raw = Some(facts);
@@ -66,10 +59,10 @@ pub fn decode_photograph(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
         of_exr(file, bytes)?
     } else if tiff::is_tiff(bytes) {
         tiff::decode(file, bytes)?
-    } else if pfm::is_pfm(bytes) {
-        pfm::decode(file, bytes)?
+    } else if channels::is_pfm(bytes) {
+        channels::decode_pfm(file, bytes)?
     } else {
-        grid::decode(file, bytes)?
+        channels::decode_grid(file, bytes)?
     };
     if photograph.width == 0 || photograph.height == 0 || photograph.channels.is_empty() {
         return Err(Error::coded(

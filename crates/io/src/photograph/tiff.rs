@@ -1,17 +1,13 @@
 //! TIFF of one picture (TIFF 6.0, Adobe 1992), as the tiff crate reads it; a DNG of one plain picture, as this program
 //! writes it (Digital Negative 1.4, Adobe 2012), is read as the grey TIFF that it is but for its kind of picture.
 
-use std::borrow::Cow;
-use std::io::Cursor;
-use std::path::Path;
+use std::{borrow::Cow, io::Cursor, path::Path};
 
-use ::tiff::ColorType;
 use ::tiff::decoder::{Decoder, DecodingResult, Limits};
-use ::tiff::tags::Tag;
+use ::tiff::{ColorType, tags::Tag};
 
 use super::{Photograph, channel_names, guess, separated};
-use crate::guard::guarded;
-use crate::{Error, ErrorCode, unpacked};
+use crate::{Error, ErrorCode, error::guarded, texture_memory};
 
 /// Whether the bytes begin as a TIFF, of either byte order, plain or big.
 pub(crate) fn is_tiff(bytes: &[u8]) -> bool {
@@ -55,7 +51,7 @@ fn decode_unguarded(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
         ));
     }
     let samples = u128::from(width) * u128::from(height) * count as u128;
-    unpacked::check(file, samples, bytes.len())?;
+    texture_memory::check(file, samples, bytes.len())?;
     if decoder.more_images() {
         return Err(Error::coded(
             ErrorCode::UnsupportedFile,
@@ -112,10 +108,10 @@ fn kind_of_picture(bytes: &[u8], big: bool) -> Option<(usize, u16)> {
 /// Room for what [`unpacked::check`] lets through, in numbers of up to 64 bits.
 fn limits(packed: usize) -> Limits {
     let mut limits = Limits::default();
-    limits.decoding_buffer_size = usize::try_from(2 * unpacked::most(packed)).unwrap_or(usize::MAX);
+    limits.decoding_buffer_size = usize::try_from(2 * texture_memory::most(packed)).unwrap_or(usize::MAX);
     // Tables of offsets and what a strip is packed to are parts of the file.
     limits.ifd_value_size = packed.max(1 << 16);
-    limits.intermediate_buffer_size = usize::try_from(unpacked::most(packed)).unwrap_or(usize::MAX);
+    limits.intermediate_buffer_size = usize::try_from(texture_memory::most(packed)).unwrap_or(usize::MAX);
     limits
 }
 

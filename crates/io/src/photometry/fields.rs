@@ -1,8 +1,14 @@
 //! Numbers one after the other, each with its line.
+//!
+//! The text of old files: UTF-8 where it is, else Latin-1 (ISO 8859-1), which every byte is.
+//!
+//! Factors for lamps that burn at a tilt (LM-63, TILT=).
 
-use std::path::Path;
+use std::{borrow::Cow, ops::RangeInclusive, path::Path};
 
-use crate::{Error, Problem};
+use etendue_scene::asset::{PhotometryAxes, Tilt};
+
+use crate::{Error, Problem, Sandbox, source::read_description_bytes};
 
 /// The numbers of a text from some line on.
 pub(super) struct Fields<'a> {
@@ -131,4 +137,147 @@ pub(super) fn short(word: &str) -> String {
     const TOLD: usize = 24;
     let start: String = word.chars().take(TOLD).collect();
     if start.len() < word.len() { format!("{start}…") } else { start }
+}
+
+/// The greatest count of angles of one kind: 0.01° over a full turn.
+pub(super) const MOST: u32 = 36_001;
+
+/// The legal vertical angles, degrees.
+pub(super) fn vertical_range(axes: PhotometryAxes) -> RangeInclusive<f64> {
+    match axes {
+        PhotometryAxes::A => -90.0..=90.0,
+        PhotometryAxes::B => -180.0..=180.0,
+        PhotometryAxes::C => 0.0..=180.0,
+    }
+}
+
+/// The legal horizontal angles, degrees.
+pub(super) fn horizontal_range(axes: PhotometryAxes) -> RangeInclusive<f64> {
+    match axes {
+        PhotometryAxes::A => -180.0..=180.0,
+        PhotometryAxes::B => -90.0..=90.0,
+        PhotometryAxes::C => 0.0..=360.0,
+    }
+}
+
+/// The next `count` angles: rising, each once, in `range`.
+pub(super) fn read(
+    fields: &mut Fields<'_>,
+    count: u32,
+    which: &str,
+    range: &RangeInclusive<f64>,
+) -> Result<Vec<f64>, Error> {
+    fields.list(count as usize, &format!("{which} angle"), |before, angle| {
+        let (low, high) = (range.start(), range.end());
+        if !range.contains(&angle) {
+            return Some(format!("found the {which} angle {angle}°; expected one from {low}° to {high}°"));
+        }
+        let last = *before.last()?;
+        let number = before.len() + 1;
+        (angle <= last).then(|| {
+            format!(
+                "{which} angle {number} of {count} is {angle}° and follows {last}°: sort them by rising angle, each once, \
+                 or correct their count"
+            )
+        })
+    })
+}
+
+/// What a grid leaves out: a sentence, where it does not end where grids of these axes do.
+pub(super) fn dark_beyond(which: &str, grid: &[f64], firsts: &[f64], lasts: &[f64]) -> Option<String> {
+    let (first, last) = (*grid.first()?, *grid.last()?);
+    let whole = firsts.contains(&first) && lasts.contains(&last);
+    (!whole).then(|| format!("{which} angles from {first}° to {last}° were measured; beyond them the lamp is dark"))
+}
+
+/// The same of vertical angles. Type C may stop at the horizon: many lamps give light to one side alone.
+pub(super) fn dark_above_or_below(axes: PhotometryAxes, vertical: &[f64]) -> Option<String> {
+    match axes {
+        PhotometryAxes::C => dark_beyond("vertical", vertical, &[0.0, 90.0], &[90.0, 180.0]),
+        PhotometryAxes::A => dark_beyond("vertical", vertical, &[-90.0], &[90.0]),
+        PhotometryAxes::B => dark_beyond("vertical", vertical, &[-90.0, -180.0], &[90.0, 180.0]),
+    }
+}
+
+/// The end-of-file character of DOS.
+const DOS_END: char = '\u{1a}';
+
+/// Decodes `bytes`.
+pub(super) fn decode<'a>(file: &Path, bytes: &'a [u8]) -> Result<Cow<'a, str>, Error> {
+    if let Some(at) = bytes.iter().position(|b| *b == 0) {
+        let line = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count();
+        return Err(Error::at(file, line, "no text; expected a lamp file in ASCII, Latin-1 or UTF-8: save it as such"));
+    }
+    let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text.trim_end().trim_end_matches(DOS_END)),
+        Err(_) => {
+            Cow::Owned(bytes.iter().map(|b| char::from(*b)).collect::<String>().trim_end_matches(DOS_END).to_owned())
+        }
+    };
+    // Carriage returns alone end the lines of old Macintosh files.
+    Ok(if text.contains('\n') { text } else { Cow::Owned(text.replace('\r', "\n")) })
+}
+
+/// What the line says behind `TILT=`.
+pub(super) enum Statement<'a> {
+    None,
+    Include,
+    File(&'a str),
+}
+
+impl<'a> Statement<'a> {
+    pub(super) fn of(word: &'a str) -> Self {
+        match word {
+            _ if word.eq_ignore_ascii_case("none") => Self::None,
+            _ if word.eq_ignore_ascii_case("include") => Self::Include,
+            other => Self::File(other),
+        }
+    }
+}
+
+/// The next numbers as a table of tilts.
+pub(super) fn table(fields: &mut Fields<'_>) -> Result<Tilt, Error> {
+    let geometry = fields.whole("the lamp-to-luminaire geometry", 1..=3)? as u8;
+    let count = fields.whole("the count of tilts", 1..=MOST)?;
+    let tilts = read(fields, count, "tilt", &(-180.0..=180.0))?;
+    let factors = fields.list(count as usize, "factor of a tilt", |_, factor| {
+        (factor < 0.0).then(|| format!("found the factor {factor}; expected 0 or more"))
+    })?;
+    Ok(Tilt::Table { geometry, factors: tilts.into_iter().zip(factors).collect() })
+}
+
+/// The table in the file of that name beside `file`, and its bytes.
+pub(super) fn from_file(file: &Path, line: usize, name: &str, sandbox: &Sandbox) -> Result<(Tilt, Vec<u8>), Error> {
+    let path = file.parent().unwrap_or(Path::new("")).join(name.replace('\\', "/"));
+    let place = format!("{}:{line}: TILT", file.display());
+    let read = || {
+        sandbox.check(&path).map_err(|told| Error::new(&path, told))?;
+        let bytes = read_description_bytes(&path, "tilt")?;
+        let text = decode(&path, &bytes)?.into_owned();
+        let mut fields = Fields::divided_by_commas(&path, text.lines().enumerate().map(|(i, line)| (i + 1, line)));
+        let tilt = table(&mut fields)?;
+        fields.end("the factors of tilts")?;
+        Ok((tilt, bytes))
+    };
+    read().map_err(|error: Error| error.named_at(place))
+}
+
+/// What the user has to know of a table.
+pub(super) fn remark(tilt: &Tilt) -> Option<String> {
+    match tilt {
+        Tilt::None => None,
+        Tilt::Table { factors, .. } => {
+            let (low, high) =
+                factors.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), (_, f)| (low.min(*f), high.max(*f)));
+            Some(format!(
+                "its light changes with the tilt of the lamp (factors {low} to {high}); they are not applied: the intensities \
+                 are those of the position it was measured in"
+            ))
+        }
+        Tilt::Measured(degrees) if *degrees == 0.0 => None,
+        Tilt::Measured(degrees) => Some(format!(
+            "it was measured at a tilt of {degrees}°; its angles are used as the file gives them, without turning them back"
+        )),
+    }
 }

@@ -8,26 +8,25 @@
 //!
 //! Horizontal angles tell the symmetry. Type C: 0 alone, 0–90, 0–180, 90–270 (about the C90 plane), 0–360. Types A
 //! and B: from 0 on (the left is the mirror image of the right), or both sides.
+//!
+//! The luminous opening by the signs of its sizes (LM-63-2002, annex D): what is negative is round.
+
+mod edition;
 
 use std::path::Path;
 
-use etendue_scene::asset::{PhotometryAsset, PhotometryAxes, Tilt};
+use etendue_scene::asset::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 
-use super::fields::Fields;
+use super::fields::{self, Fields};
 use super::symmetry::{self, Symmetry};
-use super::{angles, tilt};
 use crate::{Error, Sandbox};
-
-mod edition;
-mod opening;
-
 use edition::{Edition, Identification};
 
 /// What stands before the numbers.
 struct Head<'a> {
     identification: Identification,
     texts: Vec<(String, String)>,
-    tilt: tilt::Statement<'a>,
+    tilt: fields::Statement<'a>,
     /// The line of TILT, counted from 1.
     line: usize,
 }
@@ -53,10 +52,10 @@ pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(Photom
     let numbered = text.lines().enumerate().map(|(i, line)| (i + 1, line)).skip(head.line);
     let mut fields = Fields::divided_by_commas(file, numbered);
     let (tilt, further) = match head.tilt {
-        tilt::Statement::None => (Tilt::None, None),
-        tilt::Statement::Include => (tilt::table(&mut fields)?, None),
-        tilt::Statement::File(name) => {
-            let (tilt, bytes) = tilt::from_file(file, head.line, name, sandbox)?;
+        fields::Statement::None => (Tilt::None, None),
+        fields::Statement::Include => (fields::table(&mut fields)?, None),
+        fields::Statement::File(name) => {
+            let (tilt, bytes) = fields::from_file(file, head.line, name, sandbox)?;
             (tilt, Some(bytes))
         }
     };
@@ -64,7 +63,7 @@ pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(Photom
     let edition = head.identification.edition(file, body.further)?;
     let mut report: Vec<String> = head.identification.note().into_iter().collect();
     report.extend(body.remarks(edition));
-    report.extend(tilt::remark(&tilt));
+    report.extend(fields::remark(&tilt));
     let factor = body.factor(edition);
     let (vertical_deg, planes) = grid(file, &mut fields, &body, factor, &mut report)?;
     let asset = PhotometryAsset {
@@ -78,7 +77,7 @@ pub(super) fn read(file: &Path, text: &str, sandbox: &Sandbox) -> Result<(Photom
         lamps: body.lamps,
         factor,
         watts: body.watts,
-        opening: opening::of(body.size.map(|v| v * body.metres)),
+        opening: of(body.size.map(|v| v * body.metres)),
         tilt,
         texts: head.texts,
         report,
@@ -96,7 +95,7 @@ fn head<'a>(file: &Path, text: &'a str) -> Result<Head<'a>, Error> {
                 let what = "nothing follows TILT=; expected NONE, INCLUDE or the name of a file";
                 return Err(Error::at(file, index + 1, what));
             }
-            return Ok(Head { identification, texts, tilt: tilt::Statement::of(word), line: index + 1 });
+            return Ok(Head { identification, texts, tilt: fields::Statement::of(word), line: index + 1 });
         }
         match Identification::read(line, index + 1) {
             Some(found) if identification == Identification::None => identification = found,
@@ -133,8 +132,8 @@ fn body(fields: &mut Fields<'_>) -> Result<Body, Error> {
         lamps: fields.whole("the count of lamps", 1..=1_000_000)?,
         lumens: lumens(fields)?,
         multiplier: fields.positive("the multiplier of intensities")?,
-        verticals: fields.whole("the count of vertical angles", 2..=angles::MOST)?,
-        horizontals: fields.whole("the count of horizontal angles", 1..=angles::MOST)?,
+        verticals: fields.whole("the count of vertical angles", 2..=fields::MOST)?,
+        horizontals: fields.whole("the count of horizontal angles", 1..=fields::MOST)?,
         axes: axes(fields)?,
         metres: if fields.whole("the unit (1 feet, 2 metres)", 1..=2)? == 1 { 0.3048 } else { 1.0 },
         size: [size(fields, "width")?, size(fields, "length")?, size(fields, "height")?],
@@ -221,22 +220,63 @@ fn grid(
     if factor.is_nan() || factor <= 0.0 {
         return Err(fields.fault(format!("multiplier and ballast factors make {factor}; expected a number above 0")));
     }
-    let (up, across) = (angles::vertical_range(body.axes), angles::horizontal_range(body.axes));
-    let vertical = angles::read(fields, body.verticals, "vertical", &up)?;
-    let horizontal = angles::read(fields, body.horizontals, "horizontal", &across)?;
+    let (up, across) = (fields::vertical_range(body.axes), fields::horizontal_range(body.axes));
+    let vertical = fields::read(fields, body.verticals, "vertical", &up)?;
+    let horizontal = fields::read(fields, body.horizontals, "horizontal", &across)?;
     let symmetry = body.symmetry(&horizontal).map_err(|what| fields.fault(what))?;
     let mut intensities = fields.intensities(vertical.len() * horizontal.len())?;
     fields.end("the last intensity")?;
     intensities.iter_mut().for_each(|value| *value *= factor);
     let planes = symmetry::planes(&horizontal, &intensities);
-    report.extend(angles::dark_above_or_below(body.axes, &vertical));
+    report.extend(fields::dark_above_or_below(body.axes, &vertical));
     let planes = match body.axes {
         PhotometryAxes::C => symmetry::full_turn(file, planes, symmetry)?,
         PhotometryAxes::A | PhotometryAxes::B => symmetry::fan(planes, symmetry),
     };
     if body.axes != PhotometryAxes::C {
         let all: Vec<f64> = planes.iter().map(|(angle, _)| *angle).collect();
-        report.extend(angles::dark_beyond("horizontal", &all, &[-90.0, -180.0], &[90.0, 180.0]));
+        report.extend(fields::dark_beyond("horizontal", &all, &[-90.0, -180.0], &[90.0, 180.0]));
     }
     Ok((vertical, planes))
+}
+
+/// The opening of a width, length and height, m.
+fn of([width, length, height]: [f64; 3]) -> Opening {
+    let round = [width < 0.0, length < 0.0, height < 0.0];
+    let shape = match round {
+        [false, false, _] if [width, length, height] == [0.0; 3] => OpeningShape::Point,
+        [false, false, _] => OpeningShape::Rectangular,
+        [true, true, true] => OpeningShape::Ball,
+        [_, _, false] => OpeningShape::Round,
+        [true, false, true] => OpeningShape::Lying,
+        [false, true, true] => OpeningShape::LyingAcross,
+    };
+    // Editions before 2002 state a circle by its width alone.
+    let length = if shape == OpeningShape::Round && length == 0.0 { width } else { length };
+    Opening { shape, length_m: length.abs(), width_m: width.abs(), height_m: height.abs() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signs_tell_the_shape() {
+        let shapes = [
+            ([0.0, 0.0, 0.0], OpeningShape::Point),
+            ([1.0, 2.0, 0.0], OpeningShape::Rectangular),
+            ([1.0, 2.0, 0.5], OpeningShape::Rectangular),
+            ([-1.0, -1.0, 0.0], OpeningShape::Round),
+            ([-1.0, 0.0, 0.0], OpeningShape::Round),
+            ([-1.0, -2.0, 0.5], OpeningShape::Round),
+            ([-1.0, -1.0, -1.0], OpeningShape::Ball),
+            ([-1.0, 2.0, -1.0], OpeningShape::Lying),
+            ([0.0, -1.0, -1.0], OpeningShape::LyingAcross),
+        ];
+        for (size, shape) in shapes {
+            assert_eq!(of(size).shape, shape, "{size:?}");
+        }
+        let circle = of([-0.5, 0.0, 0.0]);
+        assert_eq!((circle.width_m, circle.length_m, circle.height_m), (0.5, 0.5, 0.0));
+    }
 }

@@ -11,7 +11,6 @@ use etendue_scene::asset::{Opening, OpeningShape, PhotometryAsset, PhotometryAxe
 
 use super::fields::{self, Fields};
 use super::symmetry::{self, Symmetry};
-use super::{angles, tilt};
 use crate::Error;
 
 /// Lines before the sets of lamps, and lines of a set.
@@ -73,8 +72,8 @@ pub(super) fn read(file: &Path, text: &str) -> Result<PhotometryAsset, Error> {
     let lines = Lines { file, lines: text.lines().collect() };
     lines.whole(2, "the type of the luminaire (1, 2 or 3)", 0, 3)?;
     let code = lines.whole(3, "the symmetry (0 none, 1 round, 2 about C0, 3 about C90, 4 both)", 0, 4)?;
-    let planes = lines.whole(4, "the count of C planes", 1, angles::MOST as i32)? as usize;
-    let verticals = lines.whole(6, "the count of angles in a plane", 2, angles::MOST as i32)? as u32;
+    let planes = lines.whole(4, "the count of C planes", 1, fields::MOST as i32)? as usize;
+    let verticals = lines.whole(6, "the count of angles in a plane", 2, fields::MOST as i32)? as u32;
     let output_ratio = lines.above_0(23, "the light output ratio, per cent")? / 100.0;
     let conversion = lines.above_0(24, "the conversion factor of intensities")?;
     let measured_tilt = lines.optional(25, "the tilt of the luminaire during measurement, degrees")?;
@@ -85,8 +84,8 @@ pub(super) fn read(file: &Path, text: &str) -> Result<PhotometryAsset, Error> {
     let factor = conversion * lamps.lumens / 1000.0;
     let (vertical_deg, turn) = grid(file, &mut fields, Table { code, planes, verticals, factor })?;
     let tilt = if measured_tilt == 0.0 { Tilt::None } else { Tilt::Measured(measured_tilt) };
-    let mut report: Vec<String> = tilt::remark(&tilt).into_iter().collect();
-    report.extend(angles::dark_above_or_below(PhotometryAxes::C, &vertical_deg));
+    let mut report: Vec<String> = fields::remark(&tilt).into_iter().collect();
+    report.extend(fields::dark_above_or_below(PhotometryAxes::C, &vertical_deg));
     report.extend(
         (sets > 1).then(|| format!("{sets} sets of lamps are listed; the first is used ({} lm)", lamps.lumens)),
     );
@@ -205,9 +204,9 @@ impl Table {
 /// The vertical angles, and all planes in cd.
 fn grid(file: &Path, fields: &mut Fields<'_>, table: Table) -> Result<(Vec<f64>, Vec<symmetry::Plane>), Error> {
     fields.list(10, "direct ratio", |_, _| None)?;
-    let all = angles::read(fields, table.planes as u32, "C", &(0.0..=360.0))?;
+    let all = fields::read(fields, table.planes as u32, "C", &(0.0..=360.0))?;
     let stored = table.stored(&all).map_err(|what| fields.fault(what))?;
-    let vertical = angles::read(fields, table.verticals, "vertical", &(0.0..=180.0))?;
+    let vertical = fields::read(fields, table.verticals, "vertical", &(0.0..=180.0))?;
     let mut intensities = fields.intensities(vertical.len() * stored.len())?;
     fields.end("the last intensity")?;
     intensities.iter_mut().for_each(|value| *value *= table.factor);

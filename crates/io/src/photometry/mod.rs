@@ -9,14 +9,10 @@
 //! byte-order mark and the end-of-file character of DOS are passed over. Every fault is told with its line. Numbers are
 //! never allocated for before they are there, so that an absurd count costs nothing.
 
-mod angles;
 mod fields;
-mod flux;
 mod ies;
 mod ldt;
 mod symmetry;
-mod text;
-mod tilt;
 
 use std::path::Path;
 
@@ -36,7 +32,7 @@ pub fn read_photometry(file: &Path) -> Result<PhotometryAsset, Error> {
 /// The same, whose table of tilts must lie in `sandbox`.
 pub(crate) fn read_photometry_in(file: &Path, sandbox: &Sandbox) -> Result<PhotometryAsset, Error> {
     let bytes = read_description_bytes(file, "lamp")?;
-    let text = text::decode(file, &bytes)?;
+    let text = fields::decode(file, &bytes)?;
     let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
     let (mut asset, further) = match extension.to_str() {
         Some("ies") => ies::read(file, &text, sandbox)?,
@@ -53,7 +49,7 @@ pub(crate) fn read_photometry_in(file: &Path, sandbox: &Sandbox) -> Result<Photo
         Some(tilt) => hash::of_parts([&bytes[..], &tilt[..]]),
         None => hash::of_bytes(&bytes),
     };
-    flux::check(file, &mut asset)?;
+    symmetry::check(file, &mut asset)?;
     name_notes(file, &mut asset.report);
     Ok(asset)
 }

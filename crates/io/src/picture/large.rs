@@ -2,19 +2,14 @@
 //!
 //! PNG of 8 bits that is not interlaced is decoded a few rows at a time. Other pictures are decoded whole, handed over and dropped.
 
-use std::fs::File;
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::{fs::File, io::Cursor, sync::Arc};
 
 use etendue_scene::asset::{ColourMatrix, ImagePixels, LargeImage, PixelFormat, PixelRows, TakeRows};
 use image::{ImageDecoder as _, ImageReader};
 
-use super::raster::stored_format;
-use super::{EXR_MAGIC, Kept, decode_picture};
-use crate::guard::guarded;
-use crate::source::read_bytes;
-use crate::{Error, ErrorCode, hash, unpacked};
+use super::{EXR_MAGIC, Kept, decode_picture, raster::stored_format};
+use crate::{Error, ErrorCode, error::guarded, hash, source::read_bytes, texture_memory};
 
 /// Pixels that are handed over at a time, about.
 const STRIP_PIXELS: usize = 1 << 17;
@@ -71,7 +66,7 @@ fn raster_head(file: &Path) -> Option<PictureHead> {
     let (width, height) = decoder.dimensions();
     let format = stored_format(decoder.color_type());
     let packed = std::fs::metadata(file).ok()?.len() as usize;
-    (Kept::Stored.bytes(&decoder) <= unpacked::most(packed)).then_some(PictureHead { width, height, format })
+    (Kept::Stored.bytes(&decoder) <= texture_memory::most(packed)).then_some(PictureHead { width, height, format })
 }
 
 /// A picture whose head has been read.

@@ -11,8 +11,6 @@
 //! The kind is told by the first bytes, not by the name. What the numbers mean (sRGB-encoded or linear) is told by the
 //! description that names the file. Numbers that are not finite are refused with their pixel.
 
-mod channels;
-mod floats;
 mod large;
 mod raster;
 
@@ -20,13 +18,12 @@ use std::path::Path;
 
 use etendue_scene::asset::ImageAsset;
 
-pub use channels::has_colours_of_8_bits;
+use crate::{Error, exr::decode_exr_as_stored, hash, source::read_bytes};
+
+pub use raster::has_colours_of_8_bits;
+
 pub(crate) use large::{PictureHead, head, large_picture};
 pub(crate) use raster::{Kept, decode_raster};
-
-use crate::exr::decode_exr_as_stored;
-use crate::source::read_bytes;
-use crate::{Error, hash};
 
 /// The first bytes of every OpenEXR file.
 pub(crate) const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
@@ -42,13 +39,13 @@ pub fn read_picture(file: &Path) -> Result<ImageAsset, Error> {
 /// As [`read_picture`] has them.
 pub fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
     let (width, height, pixels, to_rec_709) = if bytes.starts_with(&EXR_MAGIC) {
-        floats::of_exr(file, decode_exr_as_stored(file, bytes)?)?
+        raster::of_exr(file, decode_exr_as_stored(file, bytes)?)?
     } else {
         raster::decode(file, bytes)?
     };
     if width == 0 || height == 0 {
         return Err(Error::new(file, format!("a picture of {width} × {height} pixels; expected at least one pixel")));
     }
-    floats::check_finite(file, width, &pixels)?;
+    raster::check_finite(file, width, &pixels)?;
     Ok(ImageAsset { width, height, pixels, to_rec_709, hash: hash::of_bytes(bytes) })
 }

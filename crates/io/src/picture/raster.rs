@@ -1,14 +1,13 @@
 //! PNG, JPEG and Radiance HDR.
 
-use std::io::Cursor;
+use std::io::{BufRead, Cursor, Seek};
 use std::path::Path;
 
-use etendue_scene::asset::{ImagePixels, PixelFormat};
+use etendue_scene::asset::{ColourMatrix, ImagePixels, PixelFormat};
 use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
 
-use super::floats::Picture;
-use crate::guard::guarded;
-use crate::{Error, ErrorCode, unpacked};
+use crate::exr::{ExrChannel, ExrFile};
+use crate::{Error, ErrorCode, error::guarded, texture_memory};
 
 /// Decodes `bytes` by their first bytes.
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Picture, Error> {
@@ -42,11 +41,11 @@ fn decode_unguarded(
 ) -> Result<(ImageFormat, DynamicImage), Error> {
     let explained = |cause: ImageError| Error::new(file, explain(&cause));
     let mut limits = image::Limits::no_limits();
-    limits.max_alloc = Some(u64::try_from(2 * unpacked::most(bytes.len())).unwrap_or(u64::MAX));
+    limits.max_alloc = Some(u64::try_from(2 * texture_memory::most(bytes.len())).unwrap_or(u64::MAX));
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
     let decoder = reader.into_decoder().map_err(explained)?;
-    unpacked::check_bytes(file, kept.bytes(&decoder), bytes.len())?;
+    texture_memory::check_bytes(file, kept.bytes(&decoder), bytes.len())?;
     Ok((format, DynamicImage::from_decoder(decoder).map_err(explained)?))
 }
 
@@ -126,10 +125,83 @@ fn share(stored: u16) -> f32 {
     f32::from(stored) / 65_535.0
 }
 
+/// Whether a picture has three or four channels of 8 bits each, as pictures of encoded colours have; of palettes, what they lead to. `false` where its head cannot be
+/// read. `file` names it in messages.
+pub fn has_colours_of_8_bits(file: &Path, bytes: impl BufRead + Seek) -> bool {
+    let colours = || Some(ImageReader::new(bytes).with_guessed_format().ok()?.into_decoder().ok()?.color_type());
+    let found = guarded(file, || Ok(colours())).ok().flatten();
+    matches!(found, Some(ColorType::Rgb8 | ColorType::Rgba8))
+}
+
+/// Width, height, pixels, and what makes their colours those of Rec. 709.
+pub(super) type Picture = (u32, u32, ImagePixels, Option<ColourMatrix>);
+
+/// R, G, B of an EXR file, or Y for all three; with A where it is there.
+pub(super) fn of_exr(file: &Path, exr: ExrFile) -> Result<Picture, Error> {
+    exr.check_is_no_cube_map(file)?;
+    let (width, height) = (size(file, exr.width)?, size(file, exr.height)?);
+    let names: Vec<String> = exr.channels.iter().map(|channel| channel.name.clone()).take(8).collect();
+    let to_rec_709 = exr.to_rec_709;
+    // What the picture does not need goes before it is put together.
+    let mut planes = ["R", "G", "B", "Y", "A"].map(|_| None);
+    for ExrChannel { name, samples } in exr.channels {
+        let place = ["R", "G", "B", "Y", "A"].iter().position(|wanted| name == *wanted);
+        if let Some(empty @ None) = place.map(|at| &mut planes[at]) {
+            *empty = Some(samples.into_floats());
+        }
+    }
+    let [r, g, b, y, a] = planes;
+    let (pixels, to_rec_709) = match (r, g, b, y) {
+        (Some(r), Some(g), Some(b), _) => {
+            (joined(r.iter().zip(&g).zip(&b).map(|((r, g), b)| [*r, *g, *b]), a), to_rec_709)
+        }
+        (None, None, None, Some(y)) => (joined(y.iter().map(|y| [*y; 3]), a), None),
+        _ => {
+            return Err(Error::new(file, format!("no picture of R, G, B or Y; its channels are {}", names.join(", "))));
+        }
+    };
+    Ok((width, height, pixels, to_rec_709))
+}
+
+fn joined(colours: impl Iterator<Item = [f32; 3]>, opacity: Option<Vec<f32>>) -> ImagePixels {
+    match opacity {
+        None => ImagePixels::Rgb32F(colours.collect()),
+        Some(a) => ImagePixels::Rgba32F(colours.zip(&a).map(|([r, g, b], a)| [r, g, b, *a]).collect()),
+    }
+}
+
+fn size(file: &Path, pixels: usize) -> Result<u32, Error> {
+    u32::try_from(pixels)
+        .map_err(|_| Error::coded(ErrorCode::TooLarge, file, format!("a side of {pixels} pixels is too long")))
+}
+
+/// Refuses the first pixel that is not finite.
+pub(super) fn check_finite(file: &Path, width: u32, pixels: &ImagePixels) -> Result<(), Error> {
+    match pixels {
+        ImagePixels::Rgb32F(values) => check(file, width, values),
+        ImagePixels::Rgba32F(values) => check(file, width, values),
+        ImagePixels::Gray8(_) | ImagePixels::Gray16(_) | ImagePixels::Rgb8(_) | ImagePixels::Rgba8(_) => Ok(()),
+    }
+}
+
+fn check<const N: usize>(file: &Path, width: u32, pixels: &[[f32; N]]) -> Result<(), Error> {
+    let Some(at) = pixels.iter().position(|p| !p.iter().all(|v| v.is_finite())) else { return Ok(()) };
+    let (x, y) = (at % width as usize, at / width as usize);
+    let told = format!(
+        "pixel ({x}, {y}) is {:?}; expected finite numbers: cut the picture to its range before use",
+        pixels[at]
+    );
+    Err(Error::new(file, told))
+}
+
 #[cfg(test)]
 mod tests {
+    use std::io::Cursor;
+
+    use image::{DynamicImage, ImageFormat};
+
+    use super::super::decode_picture;
     use super::*;
-    use crate::picture::decode_picture;
 
     fn encoded(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
         let mut bytes = std::io::Cursor::new(Vec::new());
@@ -211,5 +283,23 @@ mod tests {
         assert!(told.starts_with("t.png: pixel (0, 0) is [inf, inf, inf]; expected finite numbers"), "{told}");
         let told = read(&crate::exr::tests_support::picture(2, 2, &["depth.Z"], 1.0)).expect_err("no colours");
         assert_eq!(told, "t.png: no picture of R, G, B or Y; its channels are depth.Z");
+    }
+
+    #[test]
+    fn only_colours_of_8_bits_are_those() {
+        let found = |picture: DynamicImage, format: ImageFormat| {
+            let mut bytes = Cursor::new(Vec::new());
+            picture.write_to(&mut bytes, format).expect("encodable");
+            bytes.set_position(0);
+            has_colours_of_8_bits(Path::new("a"), bytes)
+        };
+        assert!(found(DynamicImage::new_rgb8(2, 2), ImageFormat::Png));
+        assert!(found(DynamicImage::new_rgba8(2, 2), ImageFormat::Png));
+        assert!(found(DynamicImage::new_rgb8(2, 2), ImageFormat::Jpeg));
+        assert!(!found(DynamicImage::new_luma8(2, 2), ImageFormat::Png));
+        assert!(!found(DynamicImage::new_luma_a8(2, 2), ImageFormat::Png));
+        assert!(!found(DynamicImage::new_rgb16(2, 2), ImageFormat::Png));
+        assert!(!found(DynamicImage::new_rgb32f(2, 2), ImageFormat::Hdr));
+        assert!(!has_colours_of_8_bits(Path::new("a"), Cursor::new(b"\x76\x2f\x31\x01".as_slice())));
     }
 }

@@ -9,13 +9,11 @@
 //! nothing about the lens as it stands and is passed over. Nothing of the programs is run.
 
 mod build;
-mod opening;
 mod private;
 mod seq;
 mod seq_edit;
 mod text;
 mod zmx;
-mod zmx_glass;
 
 use std::path::Path;
 

@@ -15,10 +15,8 @@ use std::path::Path;
 
 use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
 
-use super::build::{Primary, Raw, RawSurface, by_number, named, successor};
-use super::opening::Opening;
-use super::private::PrivateGlasses;
-use super::text::Words;
+use super::build::{Opening, Primary, Raw, RawSurface, by_number, named, successor};
+use super::{private::PrivateGlasses, text::Words};
 use crate::{Error, ErrorCode};
 
 /// Commands that change the lens in a way that is not modelled.

@@ -5,9 +5,8 @@
 
 use core::ops::RangeInclusive;
 
-use super::build::RawSurface;
 use super::seq::{Reader, is_count, thickness};
-use super::text::Words;
+use super::{build::RawSurface, text::Words};
 use crate::{Error, ErrorCode};
 
 /// The surfaces that a command is about, and the place of its first value.

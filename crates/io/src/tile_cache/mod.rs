@@ -15,20 +15,16 @@
 //! removed and counts as none. A block is checked against its checksum whenever it is read. The folder has at most as many bytes as the limit `texture-cache-mib`
 //! says: files that were used longest ago go first.
 
-mod checksum;
-mod head;
-mod reader;
+mod block_file;
 mod room;
-mod writer;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use etendue_core::blocks::{BlockKey, BlockStore, Blocks, Fill};
+use etendue_core::storage::{BlockKey, BlockStore, Blocks, Fill};
 
-use crate::hash::hex;
-use crate::within;
-use reader::TileFile;
+use crate::{hash::hex, paths};
+use block_file::TileFile;
 use room::OwnFiles;
 
 /// What a job may do with a folder of blocks.
@@ -63,7 +59,7 @@ impl TileCache {
     fn prepare(&self, bytes: u64) -> Result<(), String> {
         let cannot = |cause: String| format!("the cache folder {} cannot be written: {cause}", self.folder.display());
         if self.may == CacheUse::KeepInOutput {
-            within::check_folder(&self.folder).map_err(|error| cannot(error.what().to_owned()))?;
+            paths::check_folder(&self.folder).map_err(|error| cannot(error.what().to_owned()))?;
         }
         std::fs::create_dir_all(&self.folder).map_err(|cause| cannot(cause.to_string()))?;
         room::make(&self.folder, bytes, &self.own);
@@ -79,7 +75,7 @@ impl TileCache {
 impl BlockStore for TileCache {
     fn find(&self, key: &BlockKey, lengths: &[u32]) -> Option<Arc<dyn Blocks>> {
         let file = self.file(key);
-        if self.may == CacheUse::KeepInOutput && within::check_folder(&self.folder).is_err() {
+        if self.may == CacheUse::KeepInOutput && paths::check_folder(&self.folder).is_err() {
             return None;
         }
         match (TileFile::open(&file, key, lengths), self.may) {
@@ -88,7 +84,7 @@ impl BlockStore for TileCache {
                 if may != CacheUse::Read {
                     room::touch(&file);
                 }
-                self.own.add(&file, head::bytes(lengths));
+                self.own.add(&file, block_file::bytes(lengths));
                 Some(Arc::new(found))
             }
             (Err(()), _) => {
@@ -100,16 +96,16 @@ impl BlockStore for TileCache {
     }
 
     fn check_room(&self, key: &BlockKey, lengths: &[u32]) -> Result<(), String> {
-        self.own.check(&self.file(key), head::bytes(lengths))
+        self.own.check(&self.file(key), block_file::bytes(lengths))
     }
 
     fn make(&self, key: &BlockKey, lengths: &[u32], fill: Fill<'_>) -> Result<Arc<dyn Blocks>, String> {
-        self.own.add(&self.file(key), head::bytes(lengths));
+        self.own.add(&self.file(key), block_file::bytes(lengths));
         if self.may == CacheUse::Read {
-            return reader::first_block(fill);
+            return block_file::first_block(fill);
         }
-        self.prepare(head::bytes(lengths))?;
-        let (file, checksums) = writer::write(&self.file(key), key, lengths, fill)?;
+        self.prepare(block_file::bytes(lengths))?;
+        let (file, checksums) = block_file::write(&self.file(key), key, lengths, fill)?;
         Ok(Arc::new(TileFile::of(self.file(key), file, lengths, checksums)))
     }
 }
@@ -123,7 +119,7 @@ pub(crate) fn folder_of_user() -> PathBuf {
 
 #[cfg(test)]
 mod tests {
-    use super::head::HEAD_BYTES;
+    use super::block_file::HEAD_BYTES;
     use super::*;
     use std::fs;
 
@@ -134,7 +130,7 @@ mod tests {
         (0..LENGTHS[i]).map(|j| (j * 7 + i as u32) as u8).collect()
     }
 
-    fn fill(out: &mut dyn etendue_core::blocks::BlockWriter) -> Result<(), String> {
+    fn fill(out: &mut dyn etendue_core::storage::BlockWriter) -> Result<(), String> {
         // In any order.
         [2, 0, 1].into_iter().try_for_each(|i| out.write(i, &block(i)))
     }

@@ -1,22 +1,17 @@
 //! The whole way from a raw picture to a display.
 
-mod error;
 mod processing;
 
-pub use error::DevelopError;
-pub use processing::{Colour, Processing};
-
-use crate::black_level::black_level;
-use crate::colour_matrix::ColourMatrix;
-use crate::defects;
-use crate::mosaic::{Mosaic, Tile};
-use crate::paper::{self, Stage};
-use crate::raw::{RawPicture, normalised};
-use crate::white_balance::{WhiteBalance, grey_world};
-use etendue_core::Plane;
 use etendue_core::quantity::{Display, LinearRgb};
-use etendue_core::random::FrameAddress;
+use etendue_core::{Plane, random::FrameAddress};
 use rayon::prelude::*;
+
+use crate::paper::{self, Stage};
+use crate::raw::{Mosaic, RawPicture, Tile, black_level, normalised};
+use crate::white_balance::{WhiteBalance, grey_world};
+use crate::{colour_matrix::ColourMatrix, correction};
+
+pub use processing::{Colour, DevelopError, Processing};
 
 /// A developed picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,10 +70,10 @@ pub fn develop(
 ) -> Result<Developed, DevelopError> {
     processing.check(raw.mosaic, raw.plane.width(), raw.plane.height())?;
     let black = black_level(processing.black_level, raw).ok_or(DevelopError::NoOpticalBlack)?;
-    error::check_levels(black, raw.white_level_dn)?;
+    processing::check_levels(black, raw.white_level_dn)?;
     let width = raw.plane.width();
     let samples = normalised(raw.plane, black, raw.white_level_dn);
-    let (mut samples, corrected_pixels) = defects::corrected(samples, width, raw.mosaic, &processing.defects);
+    let (mut samples, corrected_pixels) = correction::corrected(samples, width, raw.mosaic, &processing.defects);
     shade(&mut samples, raw, processing);
     let gains = gains(&samples, raw, processing.colour.as_ref());
     balance(&mut samples, width, raw.mosaic, &gains, processing.ceiling());
@@ -177,7 +172,7 @@ fn product<const N: usize>(rows: &[[f32; N]; 3], channels: &[f32; N]) -> [f32; 3
 mod tests {
     use super::*;
     use crate::demosaic::Demosaic;
-    use crate::mosaic::Filter::{Blue, Clear, Green, Infrared, Red};
+    use crate::raw::Filter::{Blue, Clear, Green, Infrared, Red};
     use crate::tone::to_8_bit;
     use etendue_core::quantity::{DigitalNumber, Quantity};
     use etendue_spectra::colour;

@@ -14,11 +14,11 @@
 //! What is not in the picture a drop cannot show, and sizes, blur and brightness are nobody's optics: the traced drops of a wind-screen
 //! predict a camera.
 
-use super::{FilterError, demand};
-use crate::detail::blur;
-use etendue_core::Plane;
-use etendue_core::quantity::LinearRgb;
 use etendue_core::random::{FrameAddress, philox4x32};
+use etendue_core::{Plane, quantity::LinearRgb};
+
+use super::{FilterError, demand};
+use crate::detail;
 
 /// Drops on the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +68,7 @@ impl Drops {
         if width == 0 || height == 0 {
             return;
         }
-        let blurred = blur::gaussian(picture.samples(), width, self.blur_px * self.scale);
+        let blurred = detail::gaussian(picture.samples(), width, self.blur_px * self.scale);
         for i in 0..self.count {
             let drop = self.drop(i, [width as f64, height as f64], address);
             self.draw(drop, picture, &blurred);

@@ -2,7 +2,7 @@
 //!
 //! They change a finished picture, as the paper's plug-ins change a rendered one, and know nothing of light and electrons:
 //! noise by them is not the noise of a sensor. The paper gives formulas for the noises and for the affine colour matrix,
-//! and only words for glow, tone mapping and drops: what stands here for these is **an interpretation**, said in each file.
+//! and only words for glow, tone mapping and drops: what stands here for these is **an interpretation**, said at the head of each file.
 //!
 //! | filter | works on | paper |
 //! | --- | --- | --- |
@@ -17,30 +17,23 @@
 //! noise are digital numbers of an 8-bit picture (white is 255), whatever bits are written; every result of an encoded
 //! picture is clipped to 0 … 255.
 
-mod brightness;
 mod colour;
+mod colour_space;
 mod drops;
-mod error;
-mod gaussian_noise;
-mod glow;
-mod pulse_noise;
-mod tone_map;
-mod uniform_noise;
+mod exposure;
+mod noise;
+mod pixels;
 
-use brightness::{Change, FilterAddress, change_brightness, for_each};
-use error::demand;
-use etendue_core::Plane;
 use etendue_core::quantity::{Display, LinearRgb};
-use etendue_core::random::FrameAddress;
+use etendue_core::{Plane, random::FrameAddress};
+
+use pixels::{Change, FilterAddress, change_brightness, demand, for_each};
 
 pub use colour::{Affine, ColourChange, ColourSpace, Operation};
 pub use drops::Drops;
-pub use error::{FilterError, Stage};
-pub use gaussian_noise::GaussianNoise;
-pub use glow::Glow;
-pub use pulse_noise::PulseNoise;
-pub use tone_map::{Sensitivity, ToneMap};
-pub use uniform_noise::UniformNoise;
+pub use exposure::{Glow, Sensitivity, ToneMap};
+pub use noise::{GaussianNoise, PulseNoise, UniformNoise};
+pub use pixels::{FilterError, Stage};
 
 /// One of the paper's filters.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,7 +127,7 @@ pub(crate) fn apply_display(filters: &[Filter], picture: &mut Plane<Display>, ad
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::paper::brightness::WHITE_DN;
+    use crate::paper::pixels::WHITE_DN;
 
     /// The first filter of a frame.
     pub(super) fn address(seed: u64, camera: u32, frame: u32) -> FilterAddress {

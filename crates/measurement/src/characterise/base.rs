@@ -1,11 +1,12 @@
 //! The file over which a new camera file is laid, and whether the two together are a camera.
 
-use super::camera::Found;
+use std::path::Path;
+
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::source::read_text;
-use etendue_scene::record::Camera;
-use etendue_scene::{Overrides, load_camera};
-use std::path::Path;
+use etendue_scene::{Overrides, load_camera, record::Camera};
+
+use super::camera::Found;
 
 /// The camera of a base.
 ///

@@ -1,18 +1,17 @@
 //! The camera file of what was found: keys with their standard uncertainties beside them. Keys that a camera file must have and that nothing tells are
 //! stand-ins, which say that they are, or are left to a base.
 
-use super::colour::Colour;
-use super::electronics::Electronics;
-use super::fall_off::FallOff;
-use super::folder::Laboratory;
-use super::identity::PITCH_UM;
-use super::point_picture::PointPicture;
-use super::spread::{Spread, told};
-use crate::measure::views::Found as Geometry;
-use crate::report::{Estimate, with_uncertainty};
 use etendue_core::maths::f64::{hypot, log10};
 use etendue_pipeline::stated_projection;
 use etendue_scene::written::{File, Table};
+
+use super::spread::{Spread, told};
+use super::{
+    colour::Colour, electronics::Electronics, fall_off::FallOff, folder::Laboratory, identity::PITCH_UM,
+    point_picture::PointPicture,
+};
+use crate::measure::views::Found as Geometry;
+use crate::report::{Estimate, with_uncertainty};
 
 /// Stand-ins.
 const F_NUMBER: f64 = 4.0;

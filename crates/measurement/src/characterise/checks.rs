@@ -1,9 +1,10 @@
 //! What no measurement can be made of: pictures of several cameras, copies, flats that are saturated.
 
-use super::kind::Kind;
-use super::shot::Shot;
-use etendue_io::failure::{Error, ErrorCode};
 use std::collections::BTreeMap;
+
+use etendue_io::failure::{Error, ErrorCode};
+
+use super::{parameter::Kind, shot::Shot};
 
 /// A frame of even light with more saturated pixels tells nothing but where saturation lies.
 const SATURATED: f64 = 0.01;

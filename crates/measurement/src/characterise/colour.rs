@@ -1,19 +1,17 @@
 //! White balance and colour matrix: from a ColorChecker and from an evenly lit white in the same light.
 
-use super::electronics::Electronics;
-use super::fall_off::{black_dn, brightest};
-use super::folder::Laboratory;
-use super::kind::Kind;
-use super::parameter::Findings;
-use super::shot::Shot;
-use crate::measure::colour::{Seen, measured};
-use crate::measure::{ColourRequest, PictureInput, Selection, SignalLevels, TruthInput};
-use crate::report::Estimate;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::colour::{ColourProcessing, colour_processing, white_balance};
 use etendue_metrology::patch_statistics::patch_statistics;
 use etendue_spectra::colour::D65_WHITE;
 use glam::DVec2;
+
+use super::fall_off::{black_dn, brightest};
+use super::parameter::{Findings, Kind};
+use super::{electronics::Electronics, folder::Laboratory, shot::Shot};
+use crate::measure::colour::{Seen, measured};
+use crate::measure::{ColourRequest, PictureInput, Selection, SignalLevels, TruthInput};
+use crate::report::Estimate;
 
 const WHAT: &str = "colour matrix";
 /// The part of the field's picture, along each side, that is taken for its middle.

@@ -1,12 +1,5 @@
 //! Gain, noise, dark current, fixed patterns and pixels of another kind: from frames without light and with even light.
 
-use super::folder::Laboratory;
-use super::kind::Kind;
-use super::parameter::Findings;
-use super::shot::Shot;
-use crate::measure::Selection;
-use crate::measure::ptc::{self, Found, Group, PtcRequest};
-use crate::report::Estimate;
 use etendue_core::observer::Observer;
 use etendue_io::emva_descriptor::DescribedLevel;
 use etendue_io::failure::{Error, ErrorCode};
@@ -14,6 +7,11 @@ use etendue_metrology::patch_statistics::patch_statistics;
 use etendue_metrology::photon_transfer::{
     DarkStack, FEWEST, Figures, Nonuniformity, Outliers, Pattern, dead_pixels, hot_pixels, nonuniformity,
 };
+
+use super::parameter::{Findings, Kind};
+use super::{folder::Laboratory, shot::Shot};
+use crate::measure::ptc::{self, Found, Group, PtcRequest};
+use crate::{measure::Selection, report::Estimate};
 
 /// Pixels at the border have fewer neighbours to exchange light with.
 const BORDER: usize = 2;

@@ -1,14 +1,11 @@
 //! Fall-off of light over the field: from an evenly lit surface through the lens.
 
-use super::electronics::Electronics;
-use super::folder::Laboratory;
-use super::identity::PITCH_UM;
-use super::kind::Kind;
-use super::parameter::Findings;
-use super::shot::Shot;
+use etendue_io::failure::Error;
+
+use super::parameter::{Findings, Kind};
+use super::{electronics::Electronics, folder::Laboratory, identity::PITCH_UM, shot::Shot};
 use crate::measure::shading::falloff;
 use crate::measure::{FlatFieldRequest, PictureInput, Selection, SignalLevels, VignettingRequest};
-use etendue_io::failure::Error;
 
 const WHAT: &str = "fall-off of light over the field";
 

@@ -1,17 +1,16 @@
 //! A laboratory folder: its pictures by kind, and what is stated of them.
 
-use super::kind::Kind;
-use super::shot::Shot;
-use super::{checks, identity};
-use crate::measure::pictures::Pictures;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicUsize;
+
 use etendue_core::observer::Observer;
 use etendue_io::failure::{Error, ErrorCode, Fault};
 use etendue_io::source::read_text;
-use etendue_scene::load_laboratory;
-use etendue_scene::record;
+use etendue_scene::{load_laboratory, record};
 use rayon::prelude::*;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicUsize;
+
+use super::{checks, identity, parameter::Kind, shot::Shot};
+use crate::measure::pictures::Pictures;
 
 /// The file that states what pictures do not.
 const FILE: &str = "laboratory.toml";

@@ -1,15 +1,15 @@
 //! Projection and distortion: from views of a chart, by the camera model that suits them best.
 
+use etendue_core::observer::Observer;
+use etendue_io::failure::Error;
+use etendue_scene::record::laboratory::ChartOfPoints;
+
 use super::folder::Laboratory;
-use super::kind::Kind;
-use super::parameter::Findings;
+use super::parameter::{Findings, Kind};
 use crate::measure::readings::BALANCED;
 use crate::measure::views::{Found, TriedModel};
 use crate::measure::{CameraModel, ChartInput, Target, TruthInput, ViewsRequest};
 use crate::report::{Cell, Report, Table};
-use etendue_core::observer::Observer;
-use etendue_io::failure::Error;
-use etendue_scene::record::laboratory::ChartOfPoints;
 
 const WHAT: &str = "focal length, principal point, distortion";
 

@@ -1,8 +1,9 @@
 //! What is known of the camera by its pictures and by what is stated of them.
 
-use super::shot::Shot;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_scene::record;
+
+use super::shot::Shot;
 
 /// The stand-in for the pitch of pixels, µm, where nothing states it.
 pub(super) const PITCH_UM: f64 = 5.0;

@@ -12,29 +12,28 @@ mod fall_off;
 mod folder;
 mod geometry;
 mod identity;
-mod kind;
 mod page;
 mod parameter;
 mod point_picture;
 mod shot;
 mod spread;
 
-use crate::report::{finite, json_estimate};
-use camera::{CameraFile, Found, camera_file};
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use etendue_arguments::toml;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::paths::relative_path;
-use etendue_io::{Existing, OutputFolder};
+use etendue_io::{Existing, OutputFolder, paths::relative_path};
+use serde_json::{Map, Value, json};
+
+use crate::report::{finite, json_estimate};
+use camera::{CameraFile, Found, camera_file};
 use folder::Laboratory;
 use parameter::Findings;
 use point_picture::PointPicture;
-use serde_json::{Map, Value, json};
-use std::path::{Path, PathBuf};
 
-pub use kind::Kind;
-pub use parameter::{Parameter, Part, Unknown};
+pub use parameter::{Kind, Parameter, Part, Unknown};
 
 /// `etendue characterise`
 #[derive(Args, Clone, Debug)]

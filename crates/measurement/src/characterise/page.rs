@@ -1,13 +1,13 @@
 //! The report as one page that needs nothing beside it: a table of what was found, what is not known, and every measurement with its curves.
 
-use super::camera::CameraFile;
-use super::folder::Laboratory;
-use super::kind::Kind;
-use super::parameter::{Findings, Parameter, Part};
+use std::fmt::Write as _;
+
+use etendue_io::escape::escaped;
+
+use super::parameter::{Findings, Kind, Parameter, Part};
+use super::{camera::CameraFile, folder::Laboratory};
 use crate::page::{REPORT_STYLE, curves, details, html_page, notes};
 use crate::report::{Estimate, with_uncertainty};
-use etendue_io::escape::escaped;
-use std::fmt::Write as _;
 
 pub(super) fn page(laboratory: &Laboratory, findings: &Findings, camera: &CameraFile) -> String {
     let name = laboratory.camera.name.clone().unwrap_or_else(|| "Camera".to_owned());

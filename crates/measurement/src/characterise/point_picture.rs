@@ -1,10 +1,10 @@
 //! The picture of a point's light that a camera file names: a Gaussian of the variances that edges told.
 
-use super::spread::{Spread, told};
 use etendue_core::maths::f64::exp;
-use etendue_io::failure::Error;
-use etendue_io::png::encode_grey16;
+use etendue_io::{failure::Error, png::encode_grey16};
 use etendue_metrology::sfr::Blur;
+
+use super::spread::{Spread, told};
 
 /// Samples a pixel.
 const FINE: f64 = 8.0;

@@ -1,13 +1,14 @@
 //! One picture of a laboratory folder, and what is known of it before it is measured.
 
-use super::kind::Kind;
+use std::path::{Path, PathBuf};
+
 use etendue_io::exif::{Exif, read_exif};
-use etendue_io::failure::Error;
 use etendue_io::hash::{ContentHash, of_bytes};
 use etendue_io::photograph::{Photograph, RawFacts, read_photograph};
-use etendue_io::sidecar;
+use etendue_io::{failure::Error, sidecar};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+
+use super::parameter::Kind;
 
 /// A picture.
 #[derive(Clone, Debug)]

@@ -1,14 +1,13 @@
 //! Point spread: from slanted edges, what blurs them beyond the pixels' aperture.
 
-use super::folder::Laboratory;
-use super::kind::Kind;
-use super::parameter::Findings;
-use super::shot::Shot;
+use etendue_io::failure::Error;
+use etendue_metrology::sfr::{Blur, Orientation, Sfr, blur};
+
+use super::parameter::{Findings, Kind};
+use super::{folder::Laboratory, shot::Shot};
 use crate::measure::sfr::responses;
 use crate::measure::{PictureInput, Selection, SfrRequest, SignalLevels, TruthInput};
 use crate::report::{Estimate, Report};
-use etendue_io::failure::Error;
-use etendue_metrology::sfr::{Blur, Orientation, Sfr, blur};
 
 const WHAT: &str = "point spread";
 /// Of the profile's fine detail, pixels of one colour.

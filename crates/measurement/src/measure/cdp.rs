@@ -1,16 +1,17 @@
 //! `measure cdp`: contrast detection probability of pairs of patches.
 
-use super::clipping::region_label;
-use super::picture_input::{PictureInput, refused};
-use super::readings::Readings;
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::path::PathBuf;
+
 use clap::Args;
 use etendue_arguments::region;
 use etendue_charts::design::{ContrastPatches, OecfSteps};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::contrast::{ContrastPair, ContrastSettings, measure_contrast};
-use std::path::PathBuf;
+
+use super::pictures::{PictureInput, refused, region_label};
+use super::readings::Readings;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// `etendue measure cdp`
 #[derive(Args, Clone, Debug)]

@@ -1,14 +1,16 @@
 //! `measure chromatic`: lateral chromatic displacement.
 
-use super::chart_points::ChartInput;
-use crate::plot::{Axis, Colour, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::path::PathBuf;
+
 use clap::Args;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::chromatic::{Displacement, Ring, displacements, rings, shift};
 use glam::DVec2;
-use std::path::PathBuf;
+
+use super::point_list::ChartInput;
+use crate::plot::{Axis, Colour, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// `etendue measure chromatic`
 #[derive(Args, Clone, Debug)]

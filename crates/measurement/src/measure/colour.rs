@@ -1,21 +1,20 @@
 //! `measure colour`: the colours of a ColorChecker after a fitted matrix.
 
-use super::picture_input::{PictureInput, refused};
-use super::readings::Readings;
-use super::truth::Truth;
-use super::truth::place::Patch;
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use etendue_arguments::place;
 use etendue_charts::design::ColorChecker;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
-use etendue_spectra::chart::colorchecker;
-use etendue_spectra::{colour, illuminant, observer};
+use etendue_spectra::{colour, illuminant, observer, reflectance::colorchecker};
 use glam::DVec2;
-use std::path::{Path, PathBuf};
+
+use super::pictures::{PictureInput, refused};
+use super::{readings::Readings, truth::Truth, truth::place::Patch};
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// `etendue measure colour`
 #[derive(Args, Clone, Debug)]
@@ -122,7 +121,7 @@ fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<V
         (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v
     };
     let half = 0.5 * request.patch * ((b - a).length() / columns).min((d - a).length() / rows);
-    let patch = |(i, patch): (usize, &etendue_spectra::chart::Patch)| {
+    let patch = |(i, patch): (usize, &etendue_spectra::reflectance::Patch)| {
         let (low, high) = (middle(i) - half, middle(i) + half);
         let beyond = || {
             Error::argument("corners", "`corners`: a patch lies beyond the picture").with_code(ErrorCode::OutOfRange)

@@ -1,16 +1,18 @@
 //! `measure dark-current`: its growth with temperature.
 
-use super::ptc::{PtcRequest, measured};
-use super::readings::Selection;
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::path::PathBuf;
+
 use clap::Args;
 use etendue_core::observer::Observer;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
 use etendue_metrology::photon_transfer::temperature::{Growth, Law, fit};
 use etendue_stats::chi_square;
-use std::path::PathBuf;
+
+use super::ptc::{PtcRequest, measured};
+use super::readings::Selection;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// `etendue measure dark-current`
 #[derive(Args, Clone, Debug)]

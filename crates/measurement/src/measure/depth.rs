@@ -1,16 +1,17 @@
 //! `measure depth`: how good an estimated depth picture is against the truth.
 
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use etendue_arguments::in_range;
-use etendue_io::failure::check_whole;
-use etendue_io::failure::{Error, ErrorCode};
+use etendue_io::failure::{Error, ErrorCode, check_whole};
 use etendue_io::photograph::{Photograph, read_photograph};
 use etendue_metrology::depth::{Alignment, DepthErrors, DepthSettings, measure_depth};
 use etendue_metrology::{Estimate, Image};
-use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// The depth channel of this program's ground truth.
 const DEPTH: &str = "depth.Z";

@@ -1,8 +1,7 @@
 //! `measure distortion`: from one picture of a plane chart.
 
-use super::chart_points::{ChartInput, Seen};
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
+use std::path::PathBuf;
+
 use clap::Args;
 use etendue_arguments::place;
 use etendue_io::failure::{Error, ErrorCode};
@@ -10,7 +9,10 @@ use etendue_metrology::Estimate;
 use etendue_metrology::distortion::{Distortion, LineBow, LocalDistortion, RadialFit, distortion as fitted};
 use etendue_projection::Sense;
 use glam::DVec2;
-use std::path::PathBuf;
+
+use super::point_list::{ChartInput, Seen};
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
 
 /// `etendue measure distortion`
 #[derive(Args, Clone, Debug)]

@@ -1,5 +1,7 @@
 //! From the numbers of a picture to light: as --encoding says, or the side-car, or the file.
 
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::{Channel, Encoding, Photograph, Stated, read_photograph};
@@ -7,7 +9,6 @@ use etendue_io::table::read_numbers;
 use etendue_isp::ToneCurve;
 use etendue_plan_report::tone_curve::tone_curve;
 use etendue_sensor::hdr::companding::Companding;
-use std::path::{Path, PathBuf};
 
 /// What the numbers of a picture are.
 #[derive(Args, Clone, Debug, Default)]

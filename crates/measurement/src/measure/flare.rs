@@ -1,18 +1,18 @@
 //! `measure flare`: light in traps that send none.
 
-use super::clipping::region_label;
-use super::picture_input::{PictureInput, refused};
-use super::readings::{Readings, field_position};
-use super::truth::place::TrapPlace;
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::path::PathBuf;
+
 use clap::Args;
 use etendue_arguments::region;
 use etendue_charts::design::Flare;
 use etendue_io::failure::Error;
-use etendue_metrology::Estimate;
-use etendue_metrology::flare::measure_flare;
-use std::path::PathBuf;
+use etendue_metrology::{Estimate, flare::measure_flare};
+
+use super::pictures::{PictureInput, refused, region_label};
+use super::readings::{Readings, field_position};
+use super::truth::place::TrapPlace;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// `etendue measure flare`
 #[derive(Args, Clone, Debug)]

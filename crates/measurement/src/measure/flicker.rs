@@ -1,18 +1,18 @@
 //! `measure flicker`: light that goes up and down, over rows and over frames.
 
-use super::frame_times::{FrameTimes, completed};
-use super::picture_input::{PictureInput, refused};
-use super::readings::Readings;
-use super::truth::Truth;
-use super::truth::place::Patch;
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use etendue_charts::design::{Backlit, FlatField, LedFlicker};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::flicker::{Flicker, FlickerTiming, RowBands, measure_flicker};
 use etendue_metrology::{Estimate, Image};
-use std::path::{Path, PathBuf};
+
+use super::frame_times::{FrameTimes, completed};
+use super::pictures::{PictureInput, refused};
+use super::{readings::Readings, truth::Truth, truth::place::Patch};
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// `etendue measure flicker`
 #[derive(Args, Clone, Debug)]

@@ -1,8 +1,9 @@
 //! Times of frames that are measured: what the caller states, else what their side-car says.
 
+use std::path::PathBuf;
+
 use etendue_io::failure::Error;
 use etendue_io::photograph::{StatedRows, StatedTiming, stated_timing};
-use std::path::PathBuf;
 
 /// Relative difference of two statements that is taken for rounding.
 const ALIKE: f64 = 1e-6;

@@ -4,11 +4,8 @@
 //! uncertainty, tables, plots and notes. Pictures are read from files.
 
 mod balanced_mosaic;
-mod calibrate;
 mod cdp;
-mod chart_points;
 mod chromatic;
-mod clipping;
 pub(crate) mod colour;
 mod compare;
 mod dark_current;
@@ -22,7 +19,6 @@ mod frame_times;
 mod lens;
 mod noise;
 mod oecf;
-mod picture_input;
 pub(crate) mod pictures;
 mod point_list;
 pub(crate) mod ptc;
@@ -33,9 +29,9 @@ mod texture;
 pub(crate) mod truth;
 pub(crate) mod views;
 
-pub use calibrate::{CalibrationRequest, calibrate};
+pub use etendue_metrology::{calibrate::CameraModel, target::Target};
+
 pub use cdp::{CdpRequest, cdp};
-pub use chart_points::ChartInput;
 pub use chromatic::{ChromaticRequest, chromatic};
 pub use colour::{ColourRequest, colour};
 pub use compare::{CompareRequest, MeasurementComparison, compare};
@@ -43,15 +39,14 @@ pub use dark_current::{DarkCurrentRequest, dark_current};
 pub use depth::{DepthAlignment, DepthRequest, depth_errors};
 pub use distortion::{DistortionRequest, distortion};
 pub use encoding::{ChosenEncoding, EncodingChoice};
-pub use etendue_metrology::calibrate::CameraModel;
-pub use etendue_metrology::target::Target;
 pub use flare::{FlareRequest, flare};
 pub use flicker::{FlickerRequest, flicker};
-pub use focal::{FocalRequest, focal};
+pub use focal::{CalibrationRequest, FocalRequest, calibrate, focal};
 pub use lens::{LensMeasurement, LensRequest, lens};
 pub use noise::{NoiseRequest, noise};
 pub use oecf::{OecfRequest, oecf};
-pub use picture_input::PictureInput;
+pub use pictures::PictureInput;
+pub use point_list::ChartInput;
 pub use ptc::{PtcRequest, ptc};
 pub use readings::{Selection, SignalLevels};
 pub use sfr::{SfrRequest, sfr};

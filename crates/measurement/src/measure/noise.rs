@@ -1,19 +1,17 @@
 //! `measure noise`: temporal and fixed-pattern noise of an even surface, or of each patch of a chart.
 
-use super::clipping::Cut;
-use super::picture_input::{PictureInput, refused};
-use super::readings::Readings;
-use super::truth::Truth;
-use super::truth::place::Patch;
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use etendue_charts::design::{Backlit, ContrastPatches, FlatField, OecfSteps};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_metrology::Estimate;
 use etendue_metrology::noise::{Noise, check_frame, measure_noise};
-use etendue_metrology::photon_transfer::Stack;
-use std::path::{Path, PathBuf};
+use etendue_metrology::{Estimate, photon_transfer::Stack};
+
+use super::pictures::{Cut, PictureInput, refused};
+use super::{readings::Readings, truth::Truth, truth::place::Patch};
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// `etendue measure noise`
 #[derive(Args, Clone, Debug)]

@@ -1,11 +1,7 @@
 //! `measure oecf`: the tone curve from a series of exposures, or from steps in one picture.
 
-use super::clipping::Cut;
-use super::picture_input::{PictureInput, refused};
-use super::readings::{Readings, SignalLevels};
-use super::truth::Truth;
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use etendue_charts::design::{Backlit, FlatField, OecfSteps};
 use etendue_io::failure::{Error, ErrorCode};
@@ -13,7 +9,12 @@ use etendue_io::photograph::{Encoding, Stated};
 use etendue_metrology::oecf::response::{Response, ResponseSettings, camera_response};
 use etendue_metrology::oecf::{ExposurePoint, Oecf};
 use etendue_metrology::{Estimate, Image};
-use std::path::{Path, PathBuf};
+
+use super::pictures::{Cut, PictureInput, refused};
+use super::readings::{Readings, SignalLevels};
+use super::truth::Truth;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// `etendue measure oecf`
 #[derive(Args, Clone, Debug)]

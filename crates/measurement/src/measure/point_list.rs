@@ -4,12 +4,24 @@
 //! `x_px` and `y_px`, where it is seen, raster coordinates (pixel centres at + 0.5); `uncertainty_px`, the standard uncertainty of each of
 //! these, may be left out (0). Lines that begin with # and empty ones are skipped.
 
-use etendue_io::failure::{Error, ErrorCode};
+use std::path::{Path, PathBuf};
+use std::{collections::BTreeMap, sync::atomic::AtomicUsize};
+
+use clap::Args;
+use etendue_arguments::{Word, choice, grid, region, size, tile};
+use etendue_core::observer::Observer;
+use etendue_io::failure::{Error, ErrorCode, Fault};
+use etendue_io::photograph::{Photograph, Stated};
 use etendue_io::source::text_of;
-use etendue_metrology::target::{Grid, Node};
+use etendue_metrology::calibrate::MIN_VIEWS;
+use etendue_metrology::target::{Grid, Node, Sought, Target, TargetError, find};
 use glam::DVec2;
-use std::collections::BTreeMap;
-use std::path::Path;
+
+use super::encoding::EncodingChoice;
+use super::pictures::{Pictures, refused};
+use super::readings::{Readings, Selection};
+use super::truth::points::{CHARTS, PointsTold};
+use super::truth::{Truth, TruthInput};
 
 const COLUMNS: [&str; 5] = ["column", "row", "x_px", "y_px", "uncertainty_px"];
 const NEEDED: usize = 4;
@@ -17,7 +29,7 @@ const NEEDED: usize = 4;
 const MOST: f64 = 10_000.0;
 
 /// Whether a file is a list of points.
-pub(crate) fn is_list(file: &Path) -> bool {
+fn is_list(file: &Path) -> bool {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
 }
 
@@ -78,6 +90,232 @@ fn node(line: &str, places: &[Option<usize>], count: usize) -> Result<Node, Stri
         return Err(format!("uncertainty_px: expected a number from 0, not {uncertainty_px}"));
     }
     Ok(Node { index: [index(0)?, index(1)?], at: DVec2::new(number(2)?, number(3)?), uncertainty_px })
+}
+
+const TARGETS: [Word<Target>; 2] = [
+    (Target::Checkerboard, "checkerboard", "Squares, dark and bright"),
+    (Target::Dots, "dots", "A square grid of discs"),
+];
+
+/// The chart that is photographed.
+#[derive(Args, Clone, Debug, Default)]
+pub struct ChartInput {
+    /// The chart [default: whichever shows more points]
+    #[arg(long, value_parser = choice(TARGETS))]
+    pub target: Option<Target>,
+    /// Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found]
+    #[arg(long, value_name = "NxM", value_parser = grid)]
+    pub grid: Option<[usize; 2]>,
+    /// The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic,
+    /// or "balanced" for all its pixels with its colours balanced to one grey [default: the luminance]
+    #[arg(long, value_name = "NAME")]
+    pub channel: Option<String>,
+    /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
+    #[arg(long, value_name = "TILE", value_parser = tile)]
+    pub cfa: Option<String>,
+    /// How light follows from the numbers.
+    #[command(flatten)]
+    pub encoding: EncodingChoice,
+    /// Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
+    pub region: Option<[usize; 4]>,
+    /// Of lists of points (CSV) in place of pictures: columns and rows of the pictures in which they were seen
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size_px: Option<[usize; 2]>,
+    /// What the chart is and where.
+    #[command(flatten)]
+    pub truth: TruthInput,
+    /// List every point of the chart in the text, too; JSON has them anyway
+    #[arg(long)]
+    pub points: bool,
+}
+
+/// A chart as a picture shows it.
+#[derive(Clone, Debug)]
+pub(crate) struct Seen {
+    pub file: PathBuf,
+    pub size_px: [usize; 2],
+    pub grid: Grid,
+    /// How light was found from the picture's numbers.
+    pub stated: Option<Stated>,
+}
+
+impl ChartInput {
+    /// What the truth says, where one is given.
+    pub(crate) fn told(&self) -> Result<Option<(Truth, PointsTold)>, Error> {
+        let Some(truth) = self.truth.read(&CHARTS)? else { return Ok(None) };
+        let told = truth.points()?;
+        Ok(Some((truth, told)))
+    }
+
+    fn sought(&self, told: Option<&PointsTold>) -> Sought {
+        Sought { target: self.target.or(told.map(|told| told.target)), size: self.grid }
+    }
+
+    pub(crate) fn selection(&self, channel: Option<&str>) -> Selection {
+        let (channel, cfa, encoding) = (channel.map(str::to_owned), self.cfa.clone(), self.encoding.clone());
+        Selection { channel, cfa, region: None, encoding }
+    }
+
+    /// The chart in a picture.
+    pub(crate) fn seen(&self, file: &Path) -> Result<Seen, Error> {
+        Ok(self.look(file)?)
+    }
+
+    fn look(&self, file: &Path) -> Result<Seen, Unseen> {
+        if is_list(file) {
+            return Ok(self.listed(file)?);
+        }
+        let photograph = self.encoding.photograph(file)?;
+        self.look_in(file, &photograph, self.channel.as_deref())
+    }
+
+    /// The points of a list.
+    fn listed(&self, file: &Path) -> Result<Seen, Error> {
+        let told = self.told()?;
+        let size_px = self.size_px.ok_or_else(|| {
+            refused(file, "a list of points does not say how large the picture is: add `size_px` WxH")
+        })?;
+        told.iter().try_for_each(|(truth, _)| truth.fits_size(file, size_px))?;
+        if self.encoding.chosen.is_some() {
+            return Err(refused(file, "a list of points has no numbers of light: leave `encoding` out"));
+        }
+        let useless = [
+            ("`region`", self.region.is_some()),
+            ("`channel`", self.channel.is_some()),
+            ("`cfa`", self.cfa.is_some()),
+            ("`target`", self.target.is_some()),
+            ("`grid`", self.grid.is_some()),
+        ];
+        if let Some((name, _)) = useless.iter().find(|(_, given)| *given) {
+            return Err(refused(file, format!("a list of points: {name} has no effect, leave it out")));
+        }
+        Ok(Seen { file: file.to_owned(), size_px, grid: read(file)?, stated: None })
+    }
+
+    /// The chart in one channel. In the mosaic of a colour that has several places in the tile, each point is the mean of where
+    /// these show it: what each of them misses between its pixels the others see.
+    pub(crate) fn seen_in(&self, file: &Path, photograph: &Photograph, channel: Option<&str>) -> Result<Seen, Error> {
+        Ok(self.look_in(file, photograph, channel)?)
+    }
+
+    fn look_in(&self, file: &Path, photograph: &Photograph, channel: Option<&str>) -> Result<Seen, Unseen> {
+        let planes = self.selection(channel).planes(file, photograph)?;
+        let told = self.told()?;
+        let (width, height) = planes[0].picture_px;
+        if self.size_px.is_some_and(|stated| stated != [width, height]) {
+            let told = format!("{width} × {height} pixels, not as `size_px` says: leave that out");
+            return Err(refused(file, told).into());
+        }
+        told.iter().try_for_each(|(truth, _)| truth.fits_size(file, [width, height]))?;
+        let sought = self.sought(told.as_ref().map(|(_, told)| told));
+        let grids = planes.iter().map(|plane| self.grid(file, plane, sought));
+        let grid = Grid::mean(&grids.collect::<Result<Vec<_>, _>>()?);
+        if grid.orientation().is_some_and(|seen| seen.mirrored) {
+            return Err(refused(file, MIRRORED).into());
+        }
+        Ok(Seen { file: file.to_owned(), size_px: [width, height], grid, stated: Some(photograph.stated.clone()) })
+    }
+
+    /// The chart among readings, in the picture's raster coordinates.
+    fn grid(&self, file: &Path, plane: &Readings, sought: Sought) -> Result<Grid, Unseen> {
+        let part =
+            self.region.map(|region| plane.part_of("region", region).map(|image| (image, region))).transpose()?;
+        let (image, first) = match &part {
+            None => (&plane.image, [0, 0]),
+            Some((image, region)) => (image, plane.first_of(*region)),
+        };
+        let mut grid = find(image, sought).map_err(|error| Unseen::Chart(file.to_owned(), error))?;
+        let scale = 0.5 * (plane.period.0 + plane.period.1) as f64;
+        for node in &mut grid.nodes {
+            let at = [0, 1].map(|axis| node.at[axis] + first[axis] as f64);
+            node.at = plane.in_picture(at).into();
+            node.uncertainty_px *= scale;
+        }
+        Ok(grid)
+    }
+}
+
+/// What is wrong with a picture whose chart's marks have changed their hand.
+const MIRRORED: &str = "shows its chart mirrored, as the three dots that are left out of it say: an axis of the picture runs the wrong way; give the picture as the \
+                        camera takes it, or mirror it back";
+
+/// Why a picture gives no points.
+enum Unseen {
+    /// It is a good picture in which there is no such chart.
+    Chart(PathBuf, TargetError),
+    /// It, or what is told of it, cannot be used.
+    Failed(Error),
+}
+
+impl From<Error> for Unseen {
+    fn from(failure: Error) -> Self {
+        Self::Failed(failure)
+    }
+}
+
+impl From<Unseen> for Error {
+    fn from(unseen: Unseen) -> Self {
+        match unseen {
+            Unseen::Chart(file, error) => refused(&file, error),
+            Unseen::Failed(failure) => failure,
+        }
+    }
+}
+
+/// A picture in which there is no chart, and why none is seen.
+pub(crate) type WithoutChart = (PathBuf, TargetError);
+
+/// The charts of several pictures of one size, and the pictures in which there is none, with the reason. A picture that is there twice is
+/// refused, and so are all where fewer than [`MIN_VIEWS`] of several show the chart.
+pub(crate) fn all(
+    chart: &ChartInput,
+    files: &[PathBuf],
+    observer: &dyn Observer,
+) -> Result<(Vec<Seen>, Vec<WithoutChart>), Error> {
+    let (mut views, mut without, mut faults) = (Vec::<Seen>::new(), Vec::new(), Vec::new());
+    let pictures = Pictures { heading: "charts", done: AtomicUsize::new(0), total: files.len(), observer };
+    for file in files {
+        let seen = chart.look(file);
+        pictures.step();
+        match seen {
+            Ok(view) => match views.iter().find_map(|other| contradiction(other, &view)) {
+                Some(fault) => faults.push(Fault::new(ErrorCode::NotMeasurable, fault)),
+                None => views.push(view),
+            },
+            Err(Unseen::Chart(file, error)) => without.push((file, error)),
+            Err(Unseen::Failed(Error::Input(more))) => faults.extend(more),
+            Err(Unseen::Failed(other)) => return Err(other),
+        }
+    }
+    if views.len() < MIN_VIEWS {
+        faults.extend(
+            too_few(&without, views.len()).into_iter().map(|words| Fault::new(ErrorCode::NotMeasurable, words)),
+        );
+    }
+    if faults.is_empty() { Ok((views, without)) } else { Err(Error::Input(faults)) }
+}
+
+/// What is told where views without a chart cannot be left out: of all the first reason, of some every one.
+fn too_few(without: &[WithoutChart], left: usize) -> Vec<String> {
+    let told = |(file, error): &WithoutChart| format!("{}: {error}", file.display());
+    match without {
+        [first, _, ..] if left == 0 => {
+            vec![format!("{}; none of the {} pictures shows the chart", told(first), without.len())]
+        }
+        some => some.iter().map(told).collect(),
+    }
+}
+
+fn contradiction(a: &Seen, b: &Seen) -> Option<String> {
+    let (first, second) = (a.file.display(), b.file.display());
+    if a.size_px != b.size_px {
+        let [[w, h], [v, g]] = [a.size_px, b.size_px];
+        return Some(format!(
+            "{second}: {v} × {g} pixels, where {first} has {w} × {h}; give pictures of one camera and size"
+        ));
+    }
+    (a.grid == b.grid).then(|| format!("{second}: shows the chart exactly as {first}; give each view once"))
 }
 
 #[cfg(test)]

@@ -1,14 +1,16 @@
 //! Which readings of a picture file are measured.
 
-use super::balanced_mosaic::balanced_mosaic;
-use super::encoding::{EncodingChoice, ToLight};
+use std::path::Path;
+
 use clap::Args;
 use etendue_arguments::{region, tile};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::{FilterTile, Photograph, Stated};
 use etendue_metrology::Image;
 use etendue_spectra::colour::BT709;
-use std::path::Path;
+
+use super::balanced_mosaic::balanced_mosaic;
+use super::encoding::{EncodingChoice, ToLight};
 
 /// In place of a colour's name: a mosaic's colours balanced to one grey, a reading of each pixel.
 pub(crate) const BALANCED: &str = "balanced";

@@ -1,21 +1,21 @@
 //! `measure vignetting` and `etendue measure shading`: a flat field.
 
-use super::picture_input::{PictureInput, refused};
-use super::readings::Readings;
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::{ops::RangeInclusive, path::PathBuf};
+
 use clap::Args;
 use etendue_arguments::{in_range, point};
 use etendue_charts::design::{Backlit, FlatField};
-use etendue_io::failure::check_whole;
-use etendue_io::failure::{Error, ErrorCode};
+use etendue_io::failure::{Error, ErrorCode, check_whole};
 use etendue_metrology::Estimate;
 use etendue_metrology::shading::{
     ColourShading, Shading, ShadingError, ShadingSettings, colour_shading, measure_shading,
 };
 use glam::DVec2;
-use std::ops::RangeInclusive;
-use std::path::PathBuf;
+
+use super::pictures::{PictureInput, refused};
+use super::readings::Readings;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// A picture of an evenly lit surface, and about which centre.
 #[derive(Args, Clone, Debug)]

@@ -1,19 +1,21 @@
 //! `measure star` and `etendue measure texture`: fine structure.
 
-use super::encoding::EncodingChoice;
-use super::picture_input::{PictureInput, refused};
-use super::readings::{Readings, Selection};
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use etendue_arguments::point;
 use etendue_charts::design::{DeadLeaves, SiemensStar};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_io::photograph::Stated;
 use etendue_metrology::texture::leaves::{TexturePoint, measure_texture};
-use etendue_metrology::texture::star::{Star, StarPoint, measure_star};
+use etendue_metrology::texture::{Star, StarPoint, measure_star};
 use etendue_metrology::{Estimate, Image};
-use std::path::{Path, PathBuf};
+
+use super::encoding::EncodingChoice;
+use super::pictures::{PictureInput, refused};
+use super::readings::{Readings, Selection};
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// `etendue measure star`
 #[derive(Args, Clone, Debug)]

@@ -1,12 +1,11 @@
 //! The drawing itself.
 
-use super::axis::Fitted;
-use super::figure::{Colour, Mark, Plot, Series};
-use super::layout::{BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH};
-use super::legend::{Legend, ROW};
+use std::fmt::Write as _;
+
 use etendue_io::escape::escaped;
 use glam::DVec2;
-use std::fmt::Write as _;
+
+use super::{BOTTOM, Colour, Fitted, HEIGHT, LEFT, Legend, Mark, Plot, RIGHT, ROW, Series, TOP, WIDTH};
 
 /// Colours that people with colour-blindness tell apart (Okabe & Ito 2008).
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"];
@@ -179,7 +178,7 @@ fn label(out: &mut String, x: f64, y: f64, anchor: &str, text: &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::figure::Axis;
+    use super::super::Axis;
     use super::*;
 
     #[test]

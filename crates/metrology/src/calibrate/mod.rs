@@ -5,10 +5,10 @@
 //!
 //! 1. For some focal lengths, each view's points become directions by the model's first guess, and the homography from the
 //!    chart to these directions gives the chart's pose; the focal length whose poses throw the points nearest to where
-//!    they are seen is taken (`start.rs`). That is Zhang's (2000) condition, that the homography's first two columns are
+//!    they are seen is taken (`problem.rs`). That is Zhang's (2000) condition, that the homography's first two columns are
 //!    orthonormal, searched instead of solved: it holds for wide fields and strong distortion as well.
 //! 2. All numbers together by Levenberg and Marquardt: least squares of the distances in the picture (`problem.rs`).
-//! 3. Of discs: the shift of each centroid ([`disc`](crate::disc)) by the camera just found is taken off, and 2 repeated
+//! 3. Of discs: the shift of each centroid ([`disc`](crate::patch_statistics)) by the camera just found is taken off, and 2 repeated
 //!    until it stays.
 //!
 //! Lengths of charts, poses and distances are in one unit of the caller's. Uncertainty: the covariance of 2, from the
@@ -22,27 +22,23 @@
 //!
 //! Left out: skew, charts that are not flat or not known, several cameras.
 
-mod error;
-mod options;
 mod outlier_rejection;
 mod pose;
 mod problem;
 mod result;
 mod shared;
 mod sightings;
-mod start;
 
 use crate::Estimate;
 use crate::fit::{Fit, fit};
 use problem::Bundle;
 
-pub use error::CalibrateError;
 pub use etendue_projection::model::{CameraModel, Family, Radial};
-pub use options::Options;
+
 pub use outlier_rejection::{MIN_VIEWS, OutlierRejection, calibrate_rejecting_outliers};
 pub use pose::Pose;
 pub use result::{Calibrated, Parameter};
-pub use sightings::{Sighting, Sightings};
+pub use sightings::{CalibrateError, Options, Sighting, Sightings};
 
 /// Least of points of a view.
 const MIN_POINTS: usize = 6;
@@ -93,7 +89,7 @@ fn solved(
     options: Options,
 ) -> Result<Calibrated, CalibrateError> {
     let mut bundle = Bundle::new(views, size_px, family, options);
-    let start = start::guess(&bundle).ok_or(CalibrateError::Start)?;
+    let start = problem::guess(&bundle).ok_or(CalibrateError::Start)?;
     let mut found = fit(&bundle, &start)?;
     // The weight of the distance follows from what the points leave.
     for _ in 0..options.distance.map_or(0, |_| 2) {

@@ -1,9 +1,9 @@
 //! Where a chart stands before the camera.
 
-use crate::fit::null_vector;
-use crate::linear::Matrix;
 use etendue_core::maths::f64::sin_cos;
 use glam::{DMat3, DVec2, DVec3};
+
+use crate::{fit::null_vector, linear::Matrix};
 
 /// From the chart's frame to the camera's: X_camera = turn · X_chart + place.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,12 +1,11 @@
 //! A camera as it was found.
 
-use super::problem::Bundle;
-use super::{CalibrateError, Family, Pose, shared};
-use crate::Estimate;
-use crate::fit::{Fit, Problem};
-use crate::linear::Matrix;
 use etendue_projection::{Calibration, CameraMatrix};
 use glam::DVec2;
+
+use super::{CalibrateError, Family, Pose, problem::Bundle, shared};
+use crate::fit::{Fit, Problem};
+use crate::{Estimate, linear::Matrix};
 
 /// A fitted number.
 #[derive(Clone, Debug, PartialEq)]

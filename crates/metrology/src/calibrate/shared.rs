@@ -16,11 +16,11 @@
 //!
 //! Left out: errors that drift slowly from line to line (steps of nearly whole pixels), which look like a camera.
 
+use std::collections::BTreeMap;
+
 use super::problem::Bundle;
 use crate::fit::{Fit, slopes};
-use crate::linear::matrix::dot;
-use crate::linear::{Matrix, Orthogonal};
-use std::collections::BTreeMap;
+use crate::linear::{Matrix, Orthogonal, dot};
 
 /// Coordinates of a point, and directions of lines.
 const AXES: [usize; 2] = [0, 1];

@@ -12,12 +12,11 @@
 
 mod processing;
 
-use crate::flat::saturated_percent;
-use crate::patch_statistics::patch_statistics;
-use crate::propagate::{Curved, propagate_curved};
-use crate::solve::Normal;
-use crate::{Estimate, Image};
 use etendue_spectra::colour::{Lab, ciede2000, lab};
+
+use crate::estimate::{Curved, propagate_curved};
+use crate::patch_statistics::{patch_statistics, saturated_percent};
+use crate::{Estimate, Image, linear::Normal};
 
 pub use processing::{ColourProcessing, colour_processing, white_balance};
 
@@ -158,10 +157,10 @@ fn fitted(patches: &[ColourPatch], readings: &[f64]) -> Option<[[f64; 3]; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue_spectra::{chart::colorchecker, colour::D65_WHITE, illuminant, observer};
+    use etendue_spectra::{colour::D65_WHITE, illuminant, observer, reflectance::colorchecker};
 
     fn patches(readings: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<ColourPatch> {
-        let patch = |p: &etendue_spectra::chart::Patch| {
+        let patch = |p: &etendue_spectra::reflectance::Patch| {
             let reference = observer::xyz_of_reflectance(&p.reflectance, illuminant::d65());
             let pixels = readings(reference).map(|r| Image::filled(4, 4, (r + 16.0) as f32));
             ColourPatch { name: p.name.to_owned(), pixels, reference }

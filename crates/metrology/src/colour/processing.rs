@@ -9,13 +9,11 @@
 //! (the matrix that `colour_matrix = { fit = … }` finds from a camera's spectra, with c measured.) Uncertainty: of the means of all patches and of the
 //! white, by the law of propagation. The white's own colour is taken for that of the light. Left out: lights other than D65, in which t would be another.
 
-use super::{ColourFault, ColourPatch, check};
-use crate::patch_statistics::patch_statistics;
-use crate::propagate::propagate_curved;
-use crate::solve::Normal;
-use crate::{Estimate, Image};
 use etendue_core::maths::f64::hypot;
 use etendue_spectra::colour::{D65_WHITE, lab, linear_srgb_from_xyz};
+
+use super::{ColourFault, ColourPatch, check};
+use crate::{Estimate, Image, estimate::propagate_curved, linear::Normal, patch_statistics::patch_statistics};
 
 /// A patch of less chroma C*ab is grey.
 const GREY: f64 = 5.0;
@@ -104,7 +102,7 @@ fn fitted(patches: &[ColourPatch], readings: &[f64]) -> Option<[[f64; 3]; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etendue_spectra::{chart::colorchecker, illuminant, observer};
+    use etendue_spectra::{illuminant, observer, reflectance::colorchecker};
 
     #[test]
     fn a_camera_that_is_a_matrix_of_srgb_gives_its_inverse() {

@@ -1,9 +1,10 @@
 //! What a distortion is like at first: the radial polynomial nearest to the picture, brought to the centre's own scale.
 
-use super::RadialFit;
-use crate::fit::Homography;
 use etendue_projection::{RadialDistortion, Sense};
 use glam::{DMat2, DMat3, DVec2};
+
+use super::RadialFit;
+use crate::fit::Homography;
 
 /// A radial polynomial about a place, r in half diagonals.
 #[derive(Clone, Copy, Debug)]

@@ -1,11 +1,15 @@
+//! Figures of a distortion: its curve against field (figure 11 of the paper), how far rows and columns bow, and its local and largest values.
+//!
 //! Distortion against field: the curve of the paper's figure 11.
 
-use super::Ideal;
-use crate::Estimate;
-use crate::target::Node;
-use etendue_core::maths::f64::sin_cos;
-use glam::DVec2;
 use std::collections::BTreeMap;
+
+use etendue_core::maths::f64::{exp, ln, sin_cos};
+use etendue_stats::normal;
+use glam::DVec2;
+
+use super::Ideal;
+use crate::{Estimate, linear::dot, target::Node};
 
 /// A point of the curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,4 +72,144 @@ fn point(ideal: &Ideal, seen: &BTreeMap<[i64; 2], DVec2>, field: f64, half_diago
         covered: count / f64::from(DIRECTIONS),
         spread,
     })
+}
+
+/// The bow of a row or column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineBow {
+    /// Whether it is a row (horizontal), or a column.
+    pub is_row: bool,
+    /// Its number.
+    pub index: usize,
+    /// The largest distance of its points from the chord through its ends, in the picture's heights; positive where it bows
+    /// towards the centre (pincushion), negative away from it (barrel).
+    pub bow: f64,
+}
+
+/// Every row and column of at least five points.
+pub(super) fn bows(nodes: &[Node], size: [usize; 2], centre: DVec2, height_px: f64) -> Vec<LineBow> {
+    let line = |axis: usize, index: usize| {
+        let points: Vec<DVec2> = nodes.iter().filter(|n| n.index[axis] == index).map(|n| n.at).collect();
+        let bow = bow(&points, centre)? / height_px;
+        Some(LineBow { is_row: axis == 1, index, bow })
+    };
+    let rows = (0..size[1]).filter_map(|i| line(1, i));
+    rows.chain((0..size[0]).filter_map(|i| line(0, i))).collect()
+}
+
+/// The distance of the first row that reaches from side to side from the last such, at the sides (mean) over that in the middle,
+/// less 1: positive for a pincushion. The mean of both sides has no tilt of the chart in it, to first order.
+pub(super) fn picture_height(nodes: &[Node], [columns, rows]: [usize; 2]) -> Option<Estimate> {
+    let row = |index: usize| {
+        let points: Vec<&Node> = nodes.iter().filter(|n| n.index[1] == index).collect();
+        let column = |i: usize| points.iter().find(|n| n.index[0] == i).copied();
+        Some([column(0)?, column(columns / 2)?, column(columns.checked_sub(1)?)?])
+    };
+    let whole: Vec<[&Node; 3]> = (0..rows).filter_map(row).collect();
+    let (first, last) = (whole.first()?, whole.last()?);
+    let [left, middle, right] = [0, 1, 2].map(|i| (last[i].at - first[i].at).length());
+    let variance = |i: usize| [first, last].iter().map(|r| r[i].uncertainty_px * r[i].uncertainty_px).sum::<f64>();
+    let ratio = 0.5 * (left + right) / middle;
+    let relative = (0.25 * (variance(0) + variance(2)) + ratio * ratio * variance(1)).sqrt() / middle;
+    (whole.len() > 1 && middle > 0.0).then(|| Estimate::new(ratio - 1.0, relative))
+}
+
+/// px; `None` of fewer than five points.
+fn bow(points: &[DVec2], centre: DVec2) -> Option<f64> {
+    const LEAST: usize = 5;
+    let (first, last) = (points.first()?, points.last()?);
+    let along = (*last - *first).try_normalize().filter(|_| points.len() >= LEAST)?;
+    let offset = |p: &DVec2| along.perp_dot(*p - *first);
+    let largest = points.iter().map(offset).fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+    let side = offset(&centre);
+    Some(if largest * side >= 0.0 { largest.abs() } else { -largest.abs() })
+}
+
+/// Distortion at one point of the chart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalDistortion {
+    /// Column and row of the point.
+    pub index: [usize; 2],
+    /// Where it is seen, px.
+    pub at: DVec2,
+    /// Where it would be seen ideally, px.
+    pub ideal: DVec2,
+    /// Its distance from the centre, in half diagonals.
+    pub field: f64,
+    /// (Observed − ideal)/ideal distance from the centre by the fitted map at this place: the point's own scatter is not in it.
+    /// Neighbours share most of their errors.
+    pub distortion: Estimate,
+    /// Standard uncertainty of a coordinate of `at`, px.
+    pub uncertainty_px: f64,
+}
+
+/// Of every point but those at the centre itself, where a ratio says nothing.
+pub(super) fn all(ideal: &Ideal, nodes: &[Node], half_diagonal_px: f64) -> Vec<LocalDistortion> {
+    nodes.iter().filter_map(|n| local(ideal, n, half_diagonal_px)).collect()
+}
+
+fn local(ideal: &Ideal, node: &Node, half_diagonal_px: f64) -> Option<LocalDistortion> {
+    let seen = node.at - ideal.centre();
+    let field = seen.length() / half_diagonal_px;
+    if field <= 0.02 {
+        return None;
+    }
+    let place = ideal.place(node.at)?;
+    let ratio = seen.length() / (place - ideal.centre()).length();
+    let relative = ideal.variance(&ideal.log_distance_row(node.at)?).sqrt();
+    let distortion = Estimate::new(ratio - 1.0, ratio * relative);
+    let (index, uncertainty_px) = (node.index, node.uncertainty_px);
+    Some(LocalDistortion { index, at: node.at, ideal: place, field, distortion, uncertainty_px })
+}
+
+/// Points that are compared at most: every so many of those that may be the largest.
+const COMPARED: usize = 64;
+/// The share of cases in which an interval holds the truth.
+const COVERED: f64 = 0.95;
+
+/// The largest distortion by magnitude. Which point it is follows from the same errors as its value: of n points that may be it as
+/// far as their uncertainties tell, and whose errors are as n′ independent ones (n′ = n²/Σ ρ²ᵢⱼ, ρ their correlations), the uncertainty
+/// is that with which 95 % intervals hold all of them at once (Šidák 1967).
+pub(super) fn largest(ideal: &Ideal, local: &[LocalDistortion]) -> Option<LocalDistortion> {
+    let size = |l: &LocalDistortion| l.distortion.value.abs();
+    let found = local.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+    let may = |l: &&LocalDistortion| {
+        let [u, v] = [l, found].map(|l| l.distortion.standard_uncertainty);
+        size(l) + 2.0 * u >= size(found) - 2.0 * v
+    };
+    let rivals: Vec<&LocalDistortion> = local.iter().filter(may).collect();
+    let every = rivals.len().div_ceil(COMPARED);
+    let rows: Option<Vec<Vec<f64>>> = rivals.iter().step_by(every).map(|l| ideal.log_distance_row(l.at)).collect();
+    let single = exp(ln(COVERED) / independent(ideal, &rows?));
+    let wider = normal::quantile(0.5 * (1.0 + single)) / normal::quantile(0.5 * (1.0 + COVERED));
+    let u = rivals.iter().map(|l| l.distortion.standard_uncertainty).fold(0.0, f64::max);
+    Some(LocalDistortion { distortion: Estimate::new(found.distortion.value, wider * u), ..*found })
+}
+
+/// How many independent errors those of some ratios are like.
+fn independent(ideal: &Ideal, rows: &[Vec<f64>]) -> f64 {
+    let levers: Vec<Vec<f64>> = rows.iter().map(|row| ideal.lever(row)).collect();
+    let covariance = |i: usize, j: usize| dot(&levers[i], &rows[j]);
+    let variances: Vec<f64> = (0..rows.len()).map(|i| covariance(i, i)).collect();
+    let square = |i: usize, j: usize| covariance(i, j) * covariance(i, j) / (variances[i] * variances[j]);
+    let squares: f64 =
+        (0..rows.len()).flat_map(|i| (0..rows.len()).map(move |j| (i, j))).map(|(i, j)| square(i, j)).sum();
+    (rows.len() * rows.len()) as f64 / squares
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_that_bows_to_the_centre_is_a_pincushion_s() {
+        let arc = |sign: f64| -> Vec<Node> {
+            let at = |i: usize| {
+                DVec2::new(i as f64 * 10.0, 20.0 + sign * (16.0 - (i as f64 - 4.0) * (i as f64 - 4.0)) / 4.0)
+            };
+            (0..9).map(|i| Node { index: [i, 0], at: at(i), uncertainty_px: 0.0 }).collect()
+        };
+        let bow = |sign| bows(&arc(sign), [9, 1], DVec2::new(40.0, 100.0), 200.0)[0].bow;
+        assert!((bow(1.0) - 0.02).abs() < 1e-12 && (bow(-1.0) + 0.02).abs() < 1e-12);
+    }
 }

@@ -6,6 +6,8 @@
 
 use glam::DVec2;
 
+use crate::fit::FitError;
+
 /// Fields of a homography.
 pub(super) const PLANE: usize = 8;
 /// Degree of the highest field.
@@ -39,6 +41,30 @@ fn powers(x: f64) -> [f64; DEGREE + 1] {
     let mut powers = [1.0; DEGREE + 1];
     (1..=DEGREE).for_each(|n| powers[n] = powers[n - 1] * x);
     powers
+}
+
+/// Why a picture has no distortion to tell.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DistortionError {
+    /// Too few points.
+    #[error(
+        "{points} points of the chart are too few for a distortion curve; at least {least} are needed: use a chart of more points"
+    )]
+    Few {
+        /// Points found.
+        points: usize,
+        /// Points that would do.
+        least: usize,
+    },
+    /// The chart does not show the centre.
+    #[error("the chart does not cover the picture's centre, ({:.1}, {:.1}) px, where ideal scale is taken: centre the chart, or state another centre", centre_px[0], centre_px[1])]
+    Centre {
+        /// The centre, px.
+        centre_px: [f64; 2],
+    },
+    /// A fit failed.
+    #[error(transparent)]
+    Fit(#[from] FitError),
 }
 
 #[cfg(test)]

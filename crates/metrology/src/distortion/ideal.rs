@@ -6,14 +6,12 @@
 //! are as small as the picture shows them to be ([`fit_mixed_model`]): large where many points tell them, and where few do, what
 //! they might be is in the uncertainty.
 
-use super::base::Base;
-use super::fields::{self, PLANE};
-use super::{DistortionError, RadialFit};
-use crate::disc::centroid_shift;
-use crate::fit::{Homography, MixedModelFit, fit_mixed_model};
-use crate::linear::Matrix;
-use crate::target::Node;
 use glam::{DMat2, DMat3, DVec2};
+
+use super::fields::{self, PLANE};
+use super::{DistortionError, RadialFit, base::Base};
+use crate::fit::{Homography, MixedModelFit, fit_mixed_model};
+use crate::{linear::Matrix, patch_statistics::centroid_shift, target::Node};
 
 /// Points that are needed.
 pub(super) const LEAST: usize = 16;

@@ -4,7 +4,7 @@
 //! 2. Beginning with the better one, places of the picture are taken to where a camera without distortion and with the scale of the
 //!    picture's centre would see the same, the chart tilted as it is ([`ideal`](Ideal)): by a map of the ninth degree of which value,
 //!    slope and, as far as it can, curvature at the centre are a homography's. (Of discs, the shift of each centroid is
-//!    taken off and the map found again; [`disc`](crate::disc).)
+//!    taken off and the map found again; [`disc`](crate::patch_statistics).)
 //! 3. The ratio of the two distances from the centre,
 //!    observed over ideal, against the observed one in half diagonals, is the distortion curve ([`curve`](CurvePoint)); less 1
 //!    it is the local geometric distortion of ISO 17850:2015, whose ideal scale is that of the dots about the centre as well
@@ -23,25 +23,20 @@
 
 mod base;
 mod curve;
-mod error;
 mod fields;
 mod ideal;
-mod lines;
-mod local;
 mod radial;
 
-use crate::Estimate;
-use crate::calibrate::Sightings;
-use crate::target::{Grid, Node};
 use etendue_projection::Sense;
 use glam::DVec2;
 use rayon::prelude::*;
 
-pub use curve::CurvePoint;
-pub use error::DistortionError;
+use crate::target::{Grid, Node};
+use crate::{Estimate, calibrate::Sightings};
+
+pub use curve::{CurvePoint, LineBow, LocalDistortion};
+pub use fields::DistortionError;
 pub use ideal::Ideal;
-pub use lines::LineBow;
-pub use local::LocalDistortion;
 pub use radial::RadialFit;
 
 /// The distortion of a picture.
@@ -96,15 +91,15 @@ pub fn distortion(grid: &Grid, size_px: [usize; 2], centre_px: Option<DVec2>) ->
     }
     let found = without_shifts(grid, centre, half_diagonal_px)?;
     let Found { nodes, ideal, forward, backward } = found;
-    let local = local::all(&ideal, &nodes, half_diagonal_px);
+    let local = curve::all(&ideal, &nodes, half_diagonal_px);
     Ok(Distortion {
         centre_px: centre,
         half_diagonal_px,
         curve: curve::curve(&ideal, &nodes, half_diagonal_px),
-        largest: local::largest(&ideal, &local),
+        largest: curve::largest(&ideal, &local),
         local,
-        lines: lines::bows(&nodes, grid.size, centre, size.y),
-        height: lines::picture_height(&nodes, grid.size),
+        lines: curve::bows(&nodes, grid.size, centre, size.y),
+        height: curve::picture_height(&nodes, grid.size),
         forward,
         backward,
         ideal,

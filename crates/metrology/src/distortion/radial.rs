@@ -1,10 +1,10 @@
 //! k₁ and k₂ of one picture of a chart.
 
-use crate::Estimate;
-use crate::calibrate::Sighting;
-use crate::fit::{Fit, FitError, Homography, Problem, fit};
 use etendue_projection::{RadialDistortion, Sense};
 use glam::{DMat3, DVec2};
+
+use crate::fit::{Fit, FitError, Homography, Problem, fit};
+use crate::{Estimate, calibrate::Sighting};
 
 /// The radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴) nearest to a picture, r and r′ in half diagonals about its own centre, after
 /// a homography from the chart (eight numbers more).

@@ -217,9 +217,9 @@ fn normal_equations<P: Problem>(problem: &P, at: &[f64], residuals: &[Vec<f64>])
     let (mut normal, mut gradient) = (Matrix::zeros(n, n), vec![0.0; n]);
     for (columns, residuals) in columns.iter().zip(residuals) {
         for (k, (i, a)) in columns.iter().enumerate() {
-            gradient[*i] += crate::linear::matrix::dot(a, residuals);
+            gradient[*i] += crate::linear::dot(a, residuals);
             for (j, b) in &columns[..=k] {
-                let product = crate::linear::matrix::dot(a, b);
+                let product = crate::linear::dot(a, b);
                 *normal.at_mut(*i, *j) += product;
                 if i != j {
                     *normal.at_mut(*j, *i) += product;

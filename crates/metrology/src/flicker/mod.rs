@@ -25,22 +25,19 @@
 //! like bands are not); of extremes over frames from the scatter of columns, without the bias that noise gives to extremes.
 //! Left out: light on part of the region only, rows read in fields or upwards.
 
-mod frames;
 mod pulses;
 mod rows;
 mod series;
 #[cfg(test)]
 mod tests;
 mod time_series;
-mod timing;
 
-use crate::flat::{SATURATED_SHARE, saturated_fraction};
+use crate::patch_statistics::{SATURATED_SHARE, saturated_fraction};
 use crate::{Estimate, Image};
 
-pub use frames::{FrameFlicker, FrameFrequency};
 pub use pulses::PulseLight;
 pub use rows::{RowBands, RowFlicker};
-pub use timing::FlickerTiming;
+pub use series::{FlickerTiming, FrameFlicker, FrameFrequency};
 
 /// What flickers, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,7 +121,7 @@ pub fn measure_flicker(
     }
     let found = timing.row_time_s.map(|row_time_s| rows::measure(&rows, row_time_s, timing));
     let seen_hz = found.as_ref().and_then(|rows| rows.found.as_ref()).map(|found| found.frequency_hz);
-    let frames = (frames.len() > 1).then(|| frames::measure(&means, timing, seen_hz));
+    let frames = (frames.len() > 1).then(|| series::measure(&means, timing, seen_hz));
     Ok(Flicker { level, rows: found, frames })
 }
 

@@ -1,12 +1,13 @@
 //! Pulses as exposures see them: a trapezoid over time.
 
+use core::f64::consts::PI;
+
+use etendue_core::waveform::{Pulses, Waveform};
+use etendue_core::{TimeInterval, maths::f64::sin};
+
 use super::time_series::{FourierFit, TimeSeries, explained};
 use crate::Estimate;
 use crate::fit::{Fit, Problem, fit};
-use core::f64::consts::PI;
-use etendue_core::TimeInterval;
-use etendue_core::maths::f64::sin;
-use etendue_core::waveform::{Pulses, Waveform};
 
 /// Light of pulses.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,12 +1,13 @@
 //! Bands over the rows of a rolling shutter.
 
-use super::pulses::{self, PulseLight};
-use super::series::weighted_mean;
-use super::time_series::{FourierFit, TimeSeries, criterion};
-use super::timing::FlickerTiming;
-use crate::Estimate;
 use core::f64::consts::PI;
+
 use etendue_core::maths::f64::sin;
+
+use super::pulses::{self, PulseLight};
+use super::series::{FlickerTiming, weighted_mean};
+use super::time_series::{FourierFit, TimeSeries, criterion};
+use crate::Estimate;
 
 /// Least share of the fundamental that an exposure must leave for it to be undone.
 const LEAST_LEFT: f64 = 0.05;

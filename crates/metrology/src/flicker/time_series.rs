@@ -1,9 +1,11 @@
 //! Numbers over time, and the frequency that explains them.
 
+use core::f64::consts::TAU;
+
+use etendue_core::maths::f64::{atan2, hypot, ln, sin_cos};
+
 use crate::Estimate;
 use crate::linear::{Cholesky, Matrix};
-use core::f64::consts::TAU;
-use etendue_core::maths::f64::{atan2, hypot, ln, sin_cos};
 
 /// Harmonics tried, the fundamental among them.
 const MAX_HARMONICS: usize = 7;

@@ -16,8 +16,7 @@
 //! Refused: fewer than two pictures, pictures of equal exposure, too few usable pixels.
 
 use super::OecfError;
-use crate::linear::Matrix;
-use crate::solve::Normal;
+use crate::linear::{Matrix, Normal};
 use crate::{Estimate, Image};
 
 /// A response: light over its largest, as a polynomial of the reading over full scale.

@@ -1,11 +1,12 @@
-//! Known curves, known cameras.
+use etendue_core::maths::f64::pow;
+use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+use rand_distr::{Distribution, Normal};
 
 use super::response::{ResponseSettings, camera_response};
 use super::*;
 use crate::Image;
-use etendue_core::maths::f64::pow;
-use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
-use rand_distr::{Distribution, Normal};
+
+// Known curves, known cameras.
 
 fn point(exposure: f64, reading: f64) -> ExposurePoint {
     ExposurePoint { exposure, reading: Estimate::new(reading, 0.01), noise: Some(2.0), clipped: false }
@@ -131,4 +132,22 @@ fn what_rounding_leaves_follows_from_the_noise() {
         assert!((found - left).abs() < 1e-5, "{sigma}: {found} and {left}");
     }
     assert!((super::rounding_variance(0.0) - 1.0 / 12.0).abs() < 3e-4);
+}
+
+#[test]
+fn a_square_s_mean_has_the_variance_more() {
+    // Of L + σ z squared: mean L² + σ², variance 4 L² σ² + 2 σ⁴.
+    let (light, sigma) = (3.0_f64, 0.2_f64);
+    let noise = (4.0 * light * light * sigma * sigma + 2.0 * sigma * sigma * sigma * sigma).sqrt();
+    let mean = noisy_mean(|l| l * l, light, noise);
+    assert!((mean - light * light - sigma * sigma).abs() < 1e-5, "{mean}");
+}
+
+#[test]
+fn light_at_the_saturation_reads_less() {
+    // Of min(z, 0): mean −1/√(2π), variance (1 − 1/π)/2.
+    let noise = (0.5 - 0.5 / core::f64::consts::PI).sqrt();
+    let mean = noisy_mean(|l| l.min(1.0), 1.0, 0.01 * noise);
+    assert!((mean - 1.0 + 0.01 / core::f64::consts::TAU.sqrt()).abs() < 1e-5, "{mean}");
+    assert_eq!(noisy_mean(|l| l.min(1.0), 3.0, 0.0), 1.0);
 }

@@ -13,8 +13,9 @@
 //! Averages of L frames have temporal noise of variance σ²/L left in them. Left out: the standard's high-pass filter, which takes
 //! uneven light away; measure with even light.
 
-use super::Stack;
 use etendue_core::maths::f64::exp;
+
+use super::Stack;
 
 /// Most bins.
 const BINS: usize = 256;

@@ -20,7 +20,7 @@
 
 use super::{TransferData, TransferError};
 use crate::Estimate;
-use crate::propagate::{propagate, propagate_curved};
+use crate::estimate::{propagate, propagate_curved};
 
 /// Quantisation noise, DN².
 const QUANTISATION_DN2: f64 = 1.0 / 12.0;

@@ -25,19 +25,16 @@
 mod data;
 mod defects;
 mod figures;
-mod nonuniformity;
 mod outliers;
-mod spatial;
-pub mod spectrogram;
+pub mod spatial;
 mod stack;
 pub mod temperature;
 #[cfg(test)]
 mod tests;
 
-pub use data::{Level, TransferData};
+pub use data::{Level, Nonuniformity, TransferData, nonuniformity};
 pub use defects::Deviations;
 pub use figures::{Figures, SnrPoint, model_snr};
-pub use nonuniformity::{Nonuniformity, nonuniformity};
 pub use outliers::{DarkStack, FEWEST, Outliers, dead_pixels, hot_pixels};
 pub use spatial::{Parts, Pattern};
 pub use stack::{LevelStatistics, Stack};

@@ -10,9 +10,10 @@
 //! (saturated pixels) are known to be no less (censored, Deemer & Votaw 1955), and what lies below T is added by the same law. Uncertainty: of numbers n as
 //! √n, of m as m/√n_below. Pixels that touch in rows or columns, a saturated one among them, are one hot pixel whose charge ran over, the middle one of those that are saturated (charge runs over to both sides). Fewer than five are counted and no share is told of them.
 
+use etendue_core::maths::f64::exp;
+
 use super::Stack;
 use crate::Estimate;
-use etendue_core::maths::f64::exp;
 
 /// Fewer tell no share.
 pub const FEWEST: usize = 5;

@@ -18,9 +18,10 @@
 //!
 //! The lamp's drift is not in them.
 
+use std::collections::HashSet;
+
 use super::TransferError;
 use crate::{Estimate, Image};
-use std::collections::HashSet;
 
 /// Sums over the frames of one level.
 #[derive(Clone, Debug)]

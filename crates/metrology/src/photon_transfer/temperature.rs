@@ -11,10 +11,12 @@
 //! χ² over its degrees of freedom says which one fits. The doubling
 //! temperature of the laws without one of their own is that at T_ref.
 
+use core::f64::consts::LN_2;
+
+use etendue_core::maths::f64::{exp, ln};
+
 use super::TransferError;
 use crate::Estimate;
-use core::f64::consts::LN_2;
-use etendue_core::maths::f64::{exp, ln};
 
 /// Boltzmann's constant, eV/K (exact in SI, rounded).
 const BOLTZMANN_EV_PER_K: f64 = 8.617_333_262e-5;

@@ -9,11 +9,13 @@
 //! weights by its uncertainties; both may come out negative by noise. What is stated is their mean over edges with the standard error of the mean, widened for few edges so that
 //! twice of it holds 95 % (Student's t). The standard error knows what differs from edge to edge; a spread of another shape than a Gaussian's shows in [`Blur::misfit`] alone.
 
-use super::{Sfr, SfrPoint};
-use crate::Estimate;
+use std::f64::consts::PI;
+
 use etendue_core::maths::f64::{cos, exp, sin, sin_cos};
 use etendue_stats::{Moments, normal, student};
-use std::f64::consts::PI;
+
+use super::{Sfr, SfrPoint};
+use crate::Estimate;
 
 /// The highest frequency that is fitted, cycles a pixel: beyond it the aperture leaves little.
 const MOST: f64 = 0.8;
@@ -95,7 +97,7 @@ fn fitted(edge: &Sfr) -> Option<[f64; 2]> {
 }
 
 fn step(curve: &[SfrPoint], angle_deg: f64, at: [f64; 2]) -> Option<[f64; 2]> {
-    let mut normal = crate::solve::Normal::new(2);
+    let mut normal = crate::linear::Normal::new(2);
     for p in curve.iter().filter(|p| p.frequency > 0.0 && p.frequency <= MOST) {
         let u = p.response.standard_uncertainty.max(LEAST_U);
         let (response, slopes) = model(p.frequency, angle_deg, at);

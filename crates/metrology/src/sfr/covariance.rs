@@ -16,8 +16,7 @@
 //! follow): a variance below a tenth of that without shifts is taken to be the latter.
 
 use super::knots::{Row, Sample};
-use crate::Image;
-use crate::linear::Matrix;
+use crate::{Image, linear::Matrix};
 
 /// The farthest shift, px, and the least correlation that counts, of its own standard deviation without any.
 const FARTHEST: isize = 4;

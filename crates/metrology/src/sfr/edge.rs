@@ -1,8 +1,9 @@
 //! Where an edge lies: a polynomial over the rows, its start from the gradients.
 
+use etendue_core::maths::f64::{atan, atan2, tan};
+
 use super::SfrError;
 use crate::Image;
-use etendue_core::maths::f64::{atan, atan2, tan};
 
 /// Angles to rows, columns and diagonals that are refused, degrees.
 const MIN_ANGLE_DEG: f64 = 1.9;

@@ -1,10 +1,10 @@
 //! Where the edge lies and which pixels tell it: Gauss–Newton on edge and profile at once, without the pixels that are defects.
 
-use super::knots::{Knots, Sample};
-use super::profile::Profile;
-use super::{Edge, SfrError, SfrSettings};
-use crate::Image;
 use etendue_stats::upper_median;
+
+use super::knots::{Knots, Sample};
+use super::{Edge, SfrError, SfrSettings, profile::Profile};
+use crate::Image;
 
 /// Rounds of the refinement at most, and the move that ends it, px.
 const ROUNDS: usize = 30;

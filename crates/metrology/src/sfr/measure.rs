@@ -1,14 +1,82 @@
-//! From the picture of an edge to its response.
+//! From the picture of an edge to its response: of an edge by itself, or in a strip among others.
+//!
+//! Shading of an edge's region, taken off by the surfaces of its two sides.
+//!
+//! A lens's fall-off or uneven light makes the sides of an edge slope, and a slope is a response at low frequencies that the lens does not
+//! have: 5 % across a region move the response by as much. A polynomial is fitted to each side beyond the profile's reach, and every
+//! reading is taken as the share between the two surfaces, at the levels that they have in the region's middle:
+//!
+//! ```text
+//! y′ = D₀ + (y − D(x, y)) (B₀ − D₀)/(B(x, y) − D(x, y))
+//! ```
+//!
+//! Exact for y = b + S(x, y) E(d) where the surfaces can follow the shading S, whatever the black level b. Tails of the line spread beyond the
+//! reach are taken for shading: leave it out where glare or diffraction is to be measured. The surfaces' own uncertainty is left out.
 
-use super::curve::{SfrPoint, crossing};
-use super::edge::Edge;
-use super::error::SfrError;
-use super::profile::Profile;
-use super::response::Sfr;
-use super::settings::SfrSettings;
-use super::shading::levelled;
-use super::{fit, shading};
-use crate::Image;
+use super::response::{Sfr, SfrPoint, crossing};
+use super::{Edge, SfrError, SfrSettings, fit, knots::USUAL_REACH_PX, profile::Profile};
+use crate::{Image, linear::Normal};
+
+/// The largest degree of a surface.
+const MAX_DEGREE: usize = 2;
+
+/// A surface over the picture.
+struct Surface {
+    coefficients: Vec<f64>,
+    degree: usize,
+}
+
+/// The picture without shading.
+fn levelled(image: &Image, edge: &Edge, settings: &SfrSettings) -> Result<Image, SfrError> {
+    let degree = settings.shading_degree;
+    if degree == 0 {
+        return Ok(image.clone());
+    }
+    let reach_px = settings.reach_px.unwrap_or(USUAL_REACH_PX);
+    let (width, height) = (image.width(), image.height());
+    let [left, right] =
+        [-1.0, 1.0].map(|side| Surface::fitted(image, degree, |x, y| side * edge.distance(x, y) > reach_px));
+    let few = SfrError::NoEdge("too few pixels beyond its reach tell the shading of its sides");
+    let (left, right) = left.zip(right).ok_or(few)?;
+    let middle = [0.5 * width as f64, 0.5 * height as f64];
+    let [l0, r0] = [&left, &right].map(|s| s.at(image, middle));
+    let level = |i: usize| {
+        let at = [(i % width) as f64 + 0.5, (i / width) as f64 + 0.5];
+        let (l, r) = (left.at(image, at), right.at(image, at));
+        l0 + (f64::from(image.samples()[i]) - l) * (r0 - l0) / (r - l)
+    };
+    let samples: Vec<f32> = (0..width * height).map(|i| level(i) as f32).collect();
+    if samples.iter().any(|s| !s.is_finite()) {
+        return Err(SfrError::NoEdge("the shading of its sides crosses"));
+    }
+    Ok(Image::from_samples(width, height, samples).expect("as many as before"))
+}
+
+impl Surface {
+    /// By least squares on the pixels of a side.
+    fn fitted(image: &Image, degree: usize, within: impl Fn(f64, f64) -> bool) -> Option<Self> {
+        let terms = (degree + 1) * (degree + 2) / 2;
+        let mut normal = Normal::new(terms);
+        for (i, reading) in image.samples().iter().enumerate() {
+            let (x, y) = ((i % image.width()) as f64 + 0.5, (i / image.width()) as f64 + 0.5);
+            if within(x, y) {
+                normal.add(&powers(image, [x, y], degree), f64::from(*reading), 1.0);
+            }
+        }
+        Some(Self { coefficients: normal.solve()?, degree })
+    }
+
+    fn at(&self, image: &Image, at: [f64; 2]) -> f64 {
+        powers(image, at, self.degree).iter().zip(&self.coefficients).map(|(p, c)| p * c).sum()
+    }
+}
+
+/// uⁱ vʲ, i + j up to the degree; u and v from −1 to 1 over the picture.
+fn powers(image: &Image, [x, y]: [f64; 2], degree: usize) -> Vec<f64> {
+    let (u, v) = (2.0 * x / image.width() as f64 - 1.0, 2.0 * y / image.height() as f64 - 1.0);
+    let power = |base: f64, n: usize| (0..n).fold(1.0, |product, _| product * base);
+    (0..=degree).flat_map(|n| (0..=n).map(move |j| power(u, n - j) * power(v, j))).collect()
+}
 
 /// The response of the slanted edge that fills a picture.
 ///
@@ -26,7 +94,7 @@ pub fn measure_edge(image: &Image, settings: &SfrSettings) -> Result<Sfr, SfrErr
     };
     let found = by_degree(settings.shading_degree)?;
     let further = settings.shading_degree + 1;
-    let other = (further <= shading::MAX_DEGREE).then(|| by_degree(further)).and_then(Result::ok);
+    let other = (further <= MAX_DEGREE).then(|| by_degree(further)).and_then(Result::ok);
     Ok(match other {
         Some(other) => found.with_choice_of_shading(&other),
         None => found,
@@ -34,7 +102,7 @@ pub fn measure_edge(image: &Image, settings: &SfrSettings) -> Result<Sfr, SfrErr
 }
 
 /// Points of a curve but the first.
-pub(super) const POINTS: usize = 100;
+const POINTS: usize = 100;
 
 pub(super) fn told(edge: &Edge, profile: &Profile, settings: &SfrSettings) -> Sfr {
     let frequency = |i: usize| settings.last_frequency * i as f64 / POINTS as f64;
@@ -67,7 +135,7 @@ pub(super) fn check(image: &Image, settings: &SfrSettings) -> Result<(), SfrErro
     if settings.reach_px.is_some_and(|reach| reach.is_nan() || reach < 2.0) {
         return Err(SfrError::Settings("the profile's reach must be 2 pixels or more"));
     }
-    if settings.shading_degree > shading::MAX_DEGREE {
+    if settings.shading_degree > MAX_DEGREE {
         return Err(SfrError::Settings("the degree of the shading must be 0 to 2"));
     }
     if settings.last_frequency.is_nan() || settings.last_frequency <= 0.0 {
@@ -83,4 +151,62 @@ pub(super) fn check(image: &Image, settings: &SfrSettings) -> Result<(), SfrErro
     let dark = image.samples().iter().filter(|s| **s <= 0.0).count();
     let percent = 100.0 * dark as f64 / image.samples().len() as f64;
     if percent > 1.0 { Err(SfrError::Dark { percent }) } else { Ok(()) }
+}
+
+/// A strip about a straight edge whose place is known to a pixel or so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strip {
+    /// The ends of the edge, raster coordinates, px.
+    pub ends_px: [[f64; 2]; 2],
+    /// How far the strip reaches to either side of each end, px, and linearly between them.
+    pub half_widths_px: [f64; 2],
+}
+
+impl Strip {
+    /// Whether a point lies in the strip.
+    fn holds(&self, [x, y]: [f64; 2]) -> bool {
+        let [a, b] = self.ends_px;
+        let (run, off) = ([b[0] - a[0], b[1] - a[1]], [x - a[0], y - a[1]]);
+        let length = (run[0] * run[0] + run[1] * run[1]).sqrt();
+        let along = (off[0] * run[0] + off[1] * run[1]) / (length * length);
+        let across = (off[0] * run[1] - off[1] * run[0]) / length;
+        let [p, q] = self.half_widths_px;
+        (0.0..=1.0).contains(&along) && across.abs() <= p + along * (q - p)
+    }
+
+    /// The pixels about it: left column, top row, width, height, within a picture.
+    fn bounds(&self, image: &Image) -> [usize; 4] {
+        let most = self.half_widths_px[0].max(self.half_widths_px[1]) + 1.0;
+        let along = |k: usize, length: usize| {
+            let (a, b) = (self.ends_px[0][k], self.ends_px[1][k]);
+            let low = ((a.min(b) - most).floor().max(0.0) as usize).min(length);
+            let high = ((a.max(b) + most).ceil().max(0.0) as usize).min(length);
+            (low, high - low)
+        };
+        let ((left, width), (top, height)) = (along(0, image.width()), along(1, image.height()));
+        [left, top, width, height]
+    }
+}
+
+/// The response of the slanted edge in a strip of a picture.
+///
+/// # Errors
+/// As [`super::measure_edge`].
+pub fn measure_strip(image: &Image, strip: &Strip, settings: &SfrSettings) -> Result<Sfr, SfrError> {
+    let [left, top, width, height] = strip.bounds(image);
+    if width < 16 || height < 16 {
+        return Err(SfrError::TooSmall { width, height });
+    }
+    let part = image.part(left, top, width, height);
+    check(&part, settings)?;
+    let ends = strip.ends_px.map(|[x, y]| [x - left as f64, y - top as f64]);
+    let start = Edge::through(ends, &part)?;
+    let seen: Vec<f32> = (0..width * height)
+        .map(|i| [left + i % width, top + i / width].map(|v| v as f64 + 0.5))
+        .map(|at| if strip.holds(at) { 1.0 } else { 0.0 })
+        .collect();
+    let seen = start.upright(&Image::from_samples(width, height, seen).expect("as many pixels"));
+    let seen: Vec<bool> = seen.samples().iter().map(|s| *s > 0.5).collect();
+    let (edge, profile) = fit::fitted(&start.upright(&part), &seen, start, settings)?;
+    Ok(told(&edge, &profile, settings))
 }

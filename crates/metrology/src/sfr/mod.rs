@@ -30,10 +30,8 @@
 //! samples; clipped plateaus; anything that is not one straight edge. Of a star each edge is measured in a
 //! strip between its neighbours. Shading of the sides is taken off on request. Left out: chromatic aberration between channels (measure each).
 
-mod acutance;
 mod blur;
 mod covariance;
-mod curve;
 mod edge;
 mod error;
 mod fit;
@@ -41,21 +39,11 @@ mod knots;
 mod measure;
 mod profile;
 mod response;
-mod settings;
-mod shading;
-mod spline;
-mod strip;
 #[cfg(test)]
 mod tests;
 
-use measure::{check, told};
-
-pub use acutance::acutance;
 pub use blur::{Blur, blur};
-pub use curve::{SfrPoint, crossing, mean_curve};
 pub use edge::{Edge, Orientation};
-pub use error::SfrError;
-pub use measure::measure_edge;
-pub use response::Sfr;
-pub use settings::SfrSettings;
-pub use strip::{Strip, measure_strip};
+pub use error::{SfrError, SfrSettings};
+pub use measure::{Strip, measure_edge, measure_strip};
+pub use response::{Sfr, SfrPoint, acutance, crossing, mean_curve};

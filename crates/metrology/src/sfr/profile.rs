@@ -1,12 +1,12 @@
 //! The edge's profile and the response that follows.
 
-use super::covariance::Covariance;
-use super::knots::{FINEST_STEP_PX, Knots, MAX_PX, STEP_OVER_GAP, Sample, Step};
-use super::spline::step;
-use super::{Edge, SfrError, SfrPoint};
-use crate::{Estimate, Image};
 use core::f64::consts::{PI, TAU};
+
 use etendue_core::maths::f64::{sin, sin_cos};
+
+use super::knots::{FINEST_STEP_PX, Knots, MAX_PX, STEP_OVER_GAP, Sample, Step, step};
+use super::{Edge, SfrError, SfrPoint, covariance::Covariance};
+use crate::{Estimate, Image};
 
 /// The largest response at half the frequency of the profile's sampling: what is beyond is folded back into the response.
 const MAX_BEYOND: f64 = 0.03;

@@ -1,14 +1,9 @@
 //! The fall-off over the field: an even polynomial of the distance from the centre over the square of 1 + c r².
 
-use super::basis::{Basis, TERMS};
-use super::error::ShadingError;
-use super::report::Ring;
-use super::settings::ShadingSettings;
+use super::report::{Basis, Ring, ShadingError, ShadingSettings, TERMS};
 use super::sums::Sums;
 use crate::Estimate;
-use crate::linear::Matrix;
-use crate::linear::matrix::dot;
-use crate::solve::Normal;
+use crate::linear::{Matrix, Normal, dot};
 
 /// I₀ (1 + …) as Σ b_k φ_k(r²) of a [`Basis`], φ₀ 1 at the centre and the others 0.
 pub(super) struct Falloff {
@@ -23,7 +18,7 @@ pub(super) struct Falloff {
 }
 
 /// The noise of a pixel that the fit assumes at least, of its reading, so that no ring rules alone.
-pub(super) const MIN_NOISE: f64 = 1e-3;
+const MIN_NOISE: f64 = 1e-3;
 
 /// A ring's weight in the fit.
 pub(super) fn weight(ring: &Sums) -> f64 {
@@ -86,7 +81,7 @@ impl Falloff {
     }
 
     /// A linear form of the coefficients over b₀.
-    pub(super) fn over_centre(&self, form: [f64; TERMS]) -> Estimate {
+    fn over_centre(&self, form: [f64; TERMS]) -> Estimate {
         let value = form.iter().zip(&self.b).map(|(f, b)| f * b).sum::<f64>() / self.b[0];
         let mut slopes = form.map(|f| f / self.b[0]);
         slopes[0] -= value / self.b[0];

@@ -7,42 +7,35 @@
 //! profile: mean of y − b over rings of equal width, at √⟨r²⟩, less what the fitted fall-off's mean over the ring is more than its value there,
 //!          over the centre's value
 //! centre:  I₀ of I₀ (1 + b₁ r² + b₂ r⁴ + b₃ r⁶ + b₄ r⁸)/(1 + c r²)², fitted to the rings by weighted least squares; r = 1 in the corner; c that of a first fit
-//!          without it (`basis.rs`)
+//!          without it (`report.rs`)
 //! a₂ … a₈: of the polynomial 1 + a₂ r² + … + a₈ r⁸ that is nearest to the fit over the circle
 //! map:     means of blocks over the mean of the block in the centre (odd numbers of blocks)
 //! ```
 //!
 //! Uncertainty: from each ring's and block's own noise (from the second differences of neighbours, PRNU among it, over the number of
 //! pixels, and what neighbours share of it: `correlation.rs`), and for the profile that of I₀, which all rings share, and of what whole rows and columns of the sensor have in common
-//! (`lines.rs`). Where the rings differ from the fit by more than all that, the fit's covariance is larger by as much (Birge 1932). The unevenness of the light itself
+//! (`sums.rs`). Where the rings differ from the fit by more than all that, the fit's covariance is larger by as much (Birge 1932). The unevenness of the light itself
 //! is not in it, nor is that of rows and columns in the map's.
 //!
 //! Refused: saturated fields, fields no brighter than black, pictures that no smooth fall-off describes.
 
-mod basis;
 mod colour;
 mod correlation;
-mod error;
 mod falloff;
-mod lines;
 mod report;
-mod settings;
 mod sums;
 #[cfg(test)]
 mod tests;
 
-use crate::flat::{SATURATED_SHARE, neighbour_variances, saturated_fraction};
-use crate::linear::Matrix;
-use crate::{Estimate, Image};
-use basis::Basis;
+use crate::patch_statistics::{SATURATED_SHARE, neighbour_variances, saturated_fraction};
+use crate::{Estimate, Image, linear::Matrix};
 use correlation::Correlation;
 use falloff::Falloff;
-use sums::{Sums, readings, ring_at, square_position};
+use report::Basis;
+use sums::{Sums, readings, square_position};
 
 pub use colour::{ColourShading, colour_shading};
-pub use error::ShadingError;
-pub use report::{Ring, Shading};
-pub use settings::ShadingSettings;
+pub use report::{Ring, Shading, ShadingError, ShadingSettings};
 
 /// The shading of a flat field.
 ///
@@ -56,11 +49,11 @@ pub fn measure_shading(image: &Image, settings: &ShadingSettings) -> Result<Shad
     let basis = Basis::of_corner(polynomial.corner().value);
     let mut rings = Sums::rings(image, settings, basis);
     let first = Falloff::fitted(&rings, basis, &none(&rings))?;
-    let relative = lines::relative(image, settings, |square| first.at(square));
+    let relative = sums::relative(image, settings, |square| first.at(square));
     let correlation = Correlation::of(&relative, image.width());
     let spread = correlation.as_ref().map_or(1.0, Correlation::mean_over_differences);
     rings.iter_mut().for_each(|ring| ring.variance *= spread);
-    let shared = lines::shared(image, settings, &rings, &relative, correlation.as_ref());
+    let shared = sums::shared(image, settings, &rings, &relative, correlation.as_ref());
     let fit = Falloff::fitted(&rings, basis, &shared)?;
     let centre = fit.centre(settings)?;
     let mut blocks = block_sums(image, settings, basis);

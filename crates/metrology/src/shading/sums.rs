@@ -1,9 +1,23 @@
 //! Readings of a picture, and their sums over rings and blocks.
+//!
+//! What whole rows and columns of the sensor have in common, and what it does to the means of rings.
+//!
+//! A column whose pixels all respond by a fifth of a per cent more (amplifiers of columns) moves a ring's mean by its share of that ring, and does not
+//! average over the column's pixels. With y/m readings over the fitted fall-off, c_x its mean over a column of h pixels and σ² the variance of
+//! a pixel beyond its row's and column's (from y's second differences along both at once, a 36th of their square), neighbouring columns differ by
+//!
+//! ```text
+//! ⟨(c_{x−1} − 2 c_x + c_{x+1})²⟩/6 = τ² + σ²/h
+//! ```
+//!
+//! and a covariance of the rings' means follows, τ² Σ_x a_kx a_lx with a_kx = m_k n_kx/n_k, m_k the ring's mean, n_kx the pixels of ring k in column x; of rows likewise.
+//! Light that changes evenly from column to column is not in it. Where neighbours share noise (`correlation.rs`), what it does to neighbouring columns stands in
+//! the place of σ²/h.
 
-use super::basis::{Basis, TERMS};
-use super::settings::ShadingSettings;
-use crate::Image;
-use crate::flat::neighbour_variances;
+use super::correlation::Correlation;
+use super::report::{Basis, ShadingSettings, TERMS};
+use crate::linear::{Matrix, dot};
+use crate::{Image, patch_statistics::neighbour_variances};
 
 /// Sums over the pixels of a ring or block.
 #[derive(Clone, Copy, Debug, Default)]
@@ -84,5 +98,81 @@ pub(super) fn square_position(image: &Image, settings: &ShadingSettings) -> impl
     move |x, y| {
         let (x, y) = (x as f64 + 0.5 - cx, y as f64 + 0.5 - cy);
         (x * x + y * y) / whole
+    }
+}
+
+/// Readings over a fall-off over squared positions.
+pub(super) fn relative(image: &Image, settings: &ShadingSettings, falloff: impl Fn(f64) -> f64) -> Vec<f64> {
+    let square = square_position(image, settings);
+    readings(image, settings).map(|(x, y, reading)| reading / falloff(square(x, y))).collect()
+}
+
+/// The covariance of the rings' means by readings over their fall-off, and by what neighbours share.
+pub(super) fn shared(
+    image: &Image,
+    settings: &ShadingSettings,
+    rings: &[Sums],
+    relative: &[f64],
+    correlation: Option<&Correlation>,
+) -> Matrix {
+    let (width, height) = (image.width(), image.height());
+    let white = white_variance(relative, width);
+    let mut covariance = Matrix::zeros(rings.len(), rings.len());
+    for (columns, lines, length) in [(true, width, height), (false, height, width)] {
+        let line = |i: usize| if columns { i % width } else { i / width };
+        let own = correlation.map_or(white, |c| c.of_lines(columns));
+        let variance = line_variance(&means(relative, lines, line)) - own / length as f64;
+        if variance > 0.0 {
+            add(&mut covariance, variance, &shares(image, settings, rings, lines, line));
+        }
+    }
+    covariance
+}
+
+/// The variance of a pixel that neither its row nor its column has in common.
+fn white_variance(relative: &[f64], width: usize) -> f64 {
+    let rows: Vec<&[f64]> = relative.chunks_exact(width).collect();
+    let along = |row: &[f64], x: usize| row[x - 1] - 2.0 * row[x] + row[x + 1];
+    let at = |three: &[&[f64]], x: usize| along(three[0], x) - 2.0 * along(three[1], x) + along(three[2], x);
+    let squares = rows.windows(3).flat_map(|three| (1..width - 1).map(move |x| at(three, x) * at(three, x)));
+    let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), square| (sum + square, count + 1.0));
+    sum / (36.0 * f64::max(count, 1.0))
+}
+
+fn means(relative: &[f64], lines: usize, line: impl Fn(usize) -> usize) -> Vec<f64> {
+    let mut sums = vec![0.0; lines];
+    relative.iter().enumerate().for_each(|(i, value)| sums[line(i)] += value);
+    let length = (relative.len() / lines) as f64;
+    sums.iter().map(|sum| sum / length).collect()
+}
+
+fn line_variance(means: &[f64]) -> f64 {
+    let squares = means.windows(3).map(|m| (m[0] - 2.0 * m[1] + m[2]) * (m[0] - 2.0 * m[1] + m[2]));
+    squares.sum::<f64>() / (6.0 * (means.len() - 2) as f64)
+}
+
+/// Of each ring, what each line contributes to its mean.
+fn shares(
+    image: &Image,
+    settings: &ShadingSettings,
+    rings: &[Sums],
+    lines: usize,
+    line: impl Fn(usize) -> usize,
+) -> Vec<Vec<f64>> {
+    let mut shares = vec![vec![0.0; lines]; settings.rings];
+    let square = square_position(image, settings);
+    let width = image.width();
+    for i in 0..image.samples().len() {
+        shares[ring_at(square(i % width, i / width), settings)][line(i)] += 1.0;
+    }
+    let scaled = |ring: &Sums| shares[ring.number].iter().map(|n| n * ring.mean() / ring.count).collect();
+    rings.iter().map(scaled).collect()
+}
+
+fn add(covariance: &mut Matrix, variance: f64, shares: &[Vec<f64>]) {
+    for (i, a) in shares.iter().enumerate() {
+        for (j, b) in shares.iter().enumerate() {
+            *covariance.at_mut(i, j) += variance * dot(a, b);
+        }
     }
 }

@@ -6,14 +6,14 @@
 //! each corner is found again in the picture itself by a model of it ([`crossing`]), over a disc of 0.4 of the distance
 //! to its nearest neighbour, 3 to 12 px.
 
-use super::crossing::Corner;
-use super::lattice::{self, Places};
-use super::neighbours::Neighbours;
-use super::{Grid, LEAST, chess, crossing, saddle};
-use crate::Image;
 use etendue_stats::upper_median;
 use glam::DVec2;
 use rayon::prelude::*;
+
+use super::crossing::{self, Corner};
+use super::lattice::{self, Neighbours, Places};
+use super::{Grid, LEAST, chess};
+use crate::Image;
 
 /// Radius of the window, in steps to the nearest neighbour, and its limits, px.
 const WINDOW: f64 = 0.4;
@@ -67,7 +67,7 @@ fn board(image: &Image) -> ((Places, usize), Vec<DVec2>) {
     let radius = chess::RING_PX as f64;
     let points: Vec<DVec2> = rough
         .iter()
-        .filter_map(|[x, y]| saddle::refined(image, DVec2::new(*x as f64 + 0.5, *y as f64 + 0.5), radius, 3.0))
+        .filter_map(|[x, y]| chess::refined(image, DVec2::new(*x as f64 + 0.5, *y as f64 + 0.5), radius, 3.0))
         .collect();
     let points = single(points);
     let linked = |a: usize, b: usize| is_edge(image, points[a], points[b], least);
@@ -147,7 +147,7 @@ fn corner(image: &Image, places: &Places, points: &[DVec2], place: [i32; 2], i: 
         [Some(a), Some(b)] => Some(0.5 * (a + b)),
         [a, b] => a.or(b),
     };
-    let rough = saddle::refined(image, points[i], radius, radius)?;
+    let rough = chess::refined(image, points[i], radius, radius)?;
     crossing::fitted(image, rough, [mean(across)?, mean(down)?], radius)
 }
 

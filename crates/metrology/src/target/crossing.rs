@@ -18,10 +18,11 @@
 //!
 //! Left out: asymmetric blur (coma moves the corner by its centroid), squares of unequal brightness on one side.
 
-use crate::Image;
-use crate::linear::{Cholesky, Matrix};
 use etendue_core::maths::f64::{atan2, exp, ln_1p, sin_cos};
 use glam::DVec2;
+
+use crate::Image;
+use crate::linear::{Cholesky, Matrix};
 
 /// A corner and the standard uncertainty of its coordinates (root mean square of both), px.
 #[derive(Clone, Copy, Debug)]

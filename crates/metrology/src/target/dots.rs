@@ -5,14 +5,14 @@
 //! rectangle has 4.5 % less), are dots, put
 //! in rows and columns by where they are ([`lattice`]). Then each is measured ([`centroid`]), and what the pixels' raster does to all is taken off ([`sampling`]).
 
-use super::centroid::{Blob, Centroid, Moments};
-use super::components::{self, Run};
-use super::lattice::{self, Places};
-use super::threshold::Threshold;
-use super::{Grid, LEAST, centroid, sampling};
-use crate::Image;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
+
+use super::centroid::{self, Blob, Centroid, Moments};
+use super::lattice::{self, Places};
+use super::threshold::{self, Run, Threshold};
+use super::{Grid, LEAST};
+use crate::Image;
 
 /// The largest grid of dots of a picture, however small, and the points of the largest beside it.
 pub(super) fn find(image: &Image) -> (Grid, usize) {
@@ -35,7 +35,7 @@ pub(super) fn find(image: &Image) -> (Grid, usize) {
 }
 
 fn blobs(image: &Image, block: usize) -> Vec<Blob> {
-    let regions = components::dark(image, &Threshold::of(image, block));
+    let regions = threshold::dark(image, &Threshold::of(image, block));
     regions.iter().filter_map(|runs| blob(image, runs)).collect()
 }
 
@@ -77,8 +77,8 @@ fn measured(image: &Image, places: &Places, blobs: &[Blob], bright: bool) -> Gri
     let placed: Vec<usize> = places.values().copied().collect();
     let found: Vec<Option<Centroid>> =
         placed.par_iter().map(|i| centroid::measured(image, &blobs[*i], room, bright)).collect();
-    let blur_px2 = sampling::blur_px2(found.iter().flatten().map(|c| c.rim));
-    let centre = |c: Centroid| Centroid { at: sampling::centre(c.at, &c.rim, blur_px2), ..c };
+    let blur_px2 = centroid::blur_px2(found.iter().flatten().map(|c| c.rim));
+    let centre = |c: Centroid| Centroid { at: centroid::centre(c.at, &c.rim, blur_px2), ..c };
     let mut centroids = vec![None; blobs.len()];
     placed.iter().zip(found).for_each(|(i, c)| centroids[*i] = c.map(centre));
     let places: Places = places.iter().filter(|(_, i)| centroids[**i].is_some()).map(|(p, i)| (*p, *i)).collect();

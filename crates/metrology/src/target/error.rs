@@ -52,3 +52,6 @@ pub enum TargetError {
         stated: [usize; 2],
     },
 }
+
+/// Least points of a grid whose size is not stated.
+pub(super) const LEAST: usize = 16;

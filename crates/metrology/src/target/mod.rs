@@ -2,8 +2,8 @@
 //!
 //! | chart | points | accuracy of a sharp picture | file |
 //! | --- | --- | --- | --- |
-//! | checkerboard | inner corners | 0.02 px | `checkerboard.rs`, on `chess.rs`, `saddle.rs`, `crossing.rs` |
-//! | dots: discs, dark or bright | centroids | 0.01 px | `dots.rs`, on `threshold.rs`, `components.rs`, `centroid.rs`, `sampling.rs` |
+//! | checkerboard | inner corners | 0.02 px | `checkerboard.rs`, on `chess.rs`, `crossing.rs` |
+//! | dots: discs, dark or bright | centroids | 0.01 px | `dots.rs`, on `threshold.rs`, `centroid.rs` |
 //!
 //! Both are put in rows and columns (`lattice.rs`), robust to perspective and strong distortion. Points and numbers only
 //! come from the picture: neither the chart's size nor the lens is needed. The picture should be linear in light (a
@@ -11,32 +11,25 @@
 //!
 //! A staggered grid of discs is a square one that stands on its corner: its steps are the distances of nearest neighbours.
 //!
-//! Of a chart of dots three that are left out tell which way it is seen (`orientation.rs`).
+//! Of a chart of dots three that are left out tell which way it is seen (`grid.rs`).
 //!
 //! Left out: charts that number their points (a grid that is seen in part is found, its place on the chart is not), rings.
 
 mod centroid;
 mod checkerboard;
 mod chess;
-mod components;
 mod crossing;
 mod dots;
 mod error;
 mod grid;
 mod lattice;
-mod least;
-mod neighbours;
-mod orientation;
-mod saddle;
-mod sampling;
 mod threshold;
 
 use crate::Image;
-use least::LEAST;
+use error::LEAST;
 
 pub use error::TargetError;
-pub use grid::{Grid, Node};
-pub use orientation::Orientation;
+pub use grid::{Grid, Node, Orientation};
 
 /// Kinds of charts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,13 +15,13 @@
 //! (weights |S_xy|²) and taken off. Both are over their value at the lowest frequency band but zero, so that exposure does not count. The two part where noise reduction invents or
 //! smears texture.
 
-use super::TextureError;
-use crate::flat::saturated_percent;
-use crate::fourier::{Complex, transform};
-use crate::solve::Normal;
-use crate::{Estimate, Image};
 use core::f64::consts::TAU;
+
 use etendue_core::maths::f64::{atan2, cos, hypot, sin_cos};
+
+use super::TextureError;
+use crate::fourier::{Complex, transform};
+use crate::{Estimate, Image, linear::Normal, patch_statistics::saturated_percent};
 
 /// The largest shift between picture and reference: beyond it blocks show too much of what their neighbours in the other do, px.
 const MAX_SHIFT_PX: f64 = 2.0;

@@ -9,11 +9,11 @@
 //! not depend on the width. Near things bleed onto far ones and the other way round, and every blur has one size: it fits
 //! a lens at one distance at most.
 
-use super::PinholeView;
-use crate::error::OpticsError;
-use crate::range::positive;
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::Radiance;
+
+use super::PinholeView;
+use crate::{error::OpticsError, overlap::positive};
 
 /// Running means in each direction.
 const PASSES: usize = 3;

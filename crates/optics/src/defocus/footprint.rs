@@ -11,12 +11,13 @@
 //! Outlines are traced on a lattice over the picture at 587.56 nm and interpolated. Left out: caustics within the blur
 //! (spherical aberration's rings, coma), colours' own outlines, the pupil's cos⁴ within itself.
 
-use super::PinholeView;
-use crate::lens::Lens;
-use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::PI;
+
 use etendue_core::maths::f64::{atan2, sin};
 use glam::{DVec2, DVec3};
+
+use super::PinholeView;
+use crate::{lens::Lens, overlap::PRINCIPAL_NM};
 
 /// Vertices of an outline.
 pub(super) const VERTICES: usize = 48;

@@ -5,8 +5,7 @@
 //! may be mixed), fills the place behind the pixel with its mean light and distance, weighted by the inverse square of the
 //! way.
 
-use super::PinholeView;
-use super::footprint::Footprints;
+use super::{PinholeView, footprint::Footprints};
 
 const DIRECTIONS: [[i64; 2]; 8] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
 /// Change of the blur's diameter from a pixel to its neighbour that counts as a jump, px. Along a surface it changes by the

@@ -20,16 +20,15 @@
 mod fast;
 mod footprint;
 mod hidden;
-mod layers;
 mod physical;
 mod pinhole_view;
 mod scan;
 mod strip;
 
-use crate::lens::Lens;
-use etendue_core::plane::SpectralCube;
-use etendue_core::quantity::Radiance;
+use etendue_core::{plane::SpectralCube, quantity::Radiance};
 use etendue_projection::Raster;
+
+use crate::lens::Lens;
 
 pub use fast::{FastBlend, FastParameters};
 pub use physical::Physical;

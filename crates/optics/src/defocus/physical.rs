@@ -15,16 +15,14 @@
 //! and glass (they are blurred with the surface that shows them), and which part of the pupil a thing in front of two others
 //! covers (it covers an even share of both).
 
-use super::PinholeView;
-use super::footprint::Footprints;
-use super::hidden::Fill;
-use super::layers::{Layer, Layers};
-use super::scan::{Scan, Step, Window};
-use super::strip::Strip;
 use core::ops::Range;
-use etendue_core::plane::SpectralCube;
-use etendue_core::quantity::Radiance;
+
+use etendue_core::{plane::SpectralCube, quantity::Radiance};
 use glam::DVec2;
+
+use super::scan::{Scan, Step, Window};
+use super::strip::{Layer, Layers, Strip};
+use super::{PinholeView, footprint::Footprints, hidden::Fill};
 
 /// Rows that are made at a time.
 const ROWS: usize = 32;

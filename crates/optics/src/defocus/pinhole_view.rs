@@ -1,10 +1,10 @@
 //! What a lens looks at, as seen from the centre of its entrance pupil.
 
-use crate::error::OpticsError;
-use crate::lens::Lens;
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::{Length, Radiance};
 use etendue_projection::Raster;
+
+use crate::{error::OpticsError, lens::Lens};
 
 /// What a lens looks at, as seen from the centre of its entrance pupil.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,7 @@ impl<'a> PinholeView<'a> {
         (distance > 0.0).then(|| 1.0 / distance)
     }
 
-    pub(super) fn check_finite(&self) -> Result<(), OpticsError> {
+    fn check_finite(&self) -> Result<(), OpticsError> {
         let seen = |pixel: &usize| self.distance.samples()[*pixel] > 0.0;
         for plane in self.radiance.planes() {
             let wrong = |pixel: &usize| !plane.samples()[*pixel].is_finite();

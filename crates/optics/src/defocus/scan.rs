@@ -5,9 +5,11 @@
 //! pixel is a pixel's square about its middle, which in its own pixel changes nothing and elsewhere interpolates. Of large
 //! polygons only the rows that are asked for are looked at.
 
-use super::footprint::{Polygon, VERTICES, area};
 use core::ops::Range;
+
 use glam::DVec2;
+
+use super::footprint::{Polygon, VERTICES, area};
 
 /// Lines that a polygon is cut into at least, where a row has several.
 const LINES: f64 = 48.0;

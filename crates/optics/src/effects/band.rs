@@ -14,10 +14,12 @@
 //! of whole pixels can do better without negative light. Where samples come through the lens, such spreads displace these (`sample_spread.rs`). Of a spread that is narrow and beside the middle of a pixel
 //! even more is negative; it is shared bilinearly as a whole.
 
-use super::kernel::Kernel;
 use core::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
+
 use etendue_core::maths::f64::sin_cos;
 use glam::DVec2;
+
+use super::kernel::Kernel;
 
 /// Lobes of the sinc to either side.
 const LOBES: usize = 16;

@@ -1,8 +1,10 @@
-//! The film and the picture in it.
+//! The film and the picture in it, and a kernel that spreads means and, squared, variances.
 
-use super::convolve::Region;
 use etendue_projection::Raster;
 use glam::DVec2;
+
+use super::convolve::{Convolver, Field, Region};
+use super::kernel::Kernel;
 
 /// The film and the picture in it.
 #[derive(Clone, Copy, Debug)]
@@ -44,5 +46,23 @@ impl Canvas {
     pub(super) fn picture(&self) -> Region {
         let [x, y] = self.margin_px;
         Region { x: x..self.film.width() - x, y: y..self.film.height() - y }
+    }
+}
+
+/// A kernel for means and, squared, for variances.
+#[derive(Debug)]
+pub(super) struct Spread {
+    pub(super) mean: Convolver,
+    pub(super) variance: Convolver,
+}
+
+impl Spread {
+    pub(super) fn new(kernel: &Kernel, canvas: &Canvas) -> Self {
+        let of = |kernel: &Kernel| Convolver::new(kernel, canvas.size(), canvas.whole());
+        Self { mean: of(kernel), variance: of(&kernel.squared()) }
+    }
+
+    pub(super) fn apply(&self, light: &Field, variance: Option<&Field>) -> (Field, Option<Field>) {
+        (self.mean.apply(light), variance.map(|variance| self.variance.apply(variance)))
     }
 }

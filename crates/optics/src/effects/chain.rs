@@ -1,21 +1,15 @@
 //! The effects of a camera, one behind the other, and the margin that they need.
 
-use super::Effect;
-use super::canvas::Canvas;
-use super::convolve::{Field, Region};
-use super::error::EffectsError;
-use super::film_part::FilmPart;
-use super::glare::Glare;
-use super::operation_counts::OperationCounts;
-use super::point_spread::{PointSpread, ReadySpread};
-use super::sample_spread::SampleSpread;
-use super::spread::Spread;
-use super::spread_by::SpreadBy;
-use super::spread_width::SpreadWidth;
-use crate::ghosts::GhostSettings;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
 use etendue_core::{Bands, EffectStatus, Plane, WavelengthRange};
 use etendue_projection::Raster;
+
+use super::canvas::{Canvas, Spread};
+use super::convolve::{Field, OperationCounts, Region};
+use super::film_part::{FilmPart, SpreadBy, SpreadWidth};
+use super::point_spread::{PointSpread, ReadySpread};
+use super::{Effect, error::EffectsError, glare::Glare, sample_spread::SampleSpread};
+use crate::ghosts::GhostSettings;
 
 /// The widest margin that is chosen without being asked for, as a share of the picture's width and height.
 pub const MARGIN_CAP: f64 = 0.25;

@@ -4,6 +4,7 @@
 //! (1/6 + 1/12)/256 px² a direction: its modulation at half a cycle a pixel falls by less than half a per cent.
 
 use core::f64::consts::FRAC_PI_2;
+
 use etendue_core::maths::f64::sin_cos;
 use glam::DVec2;
 
@@ -12,7 +13,7 @@ pub(super) const CORE_PX: f64 = 2.5;
 /// How far all of the light is the core's, px.
 const WHOLE_PX: f64 = 1.0;
 /// Cells a pixel.
-pub(super) const CELLS_PER_PX: f64 = 16.0;
+const CELLS_PER_PX: f64 = 16.0;
 /// Cells along a side: one more at each end, for the bilinear shares.
 const SIDE: usize = 2 * 40 + 2;
 

@@ -1,9 +1,10 @@
-//! What of a point spread the film spreads: all of it, or the tails beyond a core that samples were displaced by.
+//! What of a point spread the film spreads: all of it, or the tails beyond a core that samples were displaced by; how narrow it is.
 
-use super::band::BandLimited;
-use super::core_table::core_share;
-use super::kernel::Kernel;
+use etendue_core::WavelengthRange;
 use glam::DVec2;
+
+use super::core_table::{CoreBuilder, core_share};
+use super::{band::BandLimited, error::EffectsError, kernel::Kernel};
 
 /// What of a point spread a film spreads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,4 +53,80 @@ impl KernelBuilder {
             }
         }
     }
+}
+
+/// How narrow a point-spread function is on the pixels of a film, in the middle of the picture at 555 nm; of tables over the field where they are widest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpreadWidth {
+    /// Share of the light that samples can be displaced by: all of it within a pixel, none beyond 2.5 px, along rows and columns.
+    pub core: f64,
+    /// Modulation that a kernel on whole pixels lacks or adds, at most, at up to half a cycle a pixel.
+    pub film_error: f64,
+    /// Whether it is of another width at other wavelengths.
+    pub scales: bool,
+}
+
+impl SpreadWidth {
+    /// Of a function that adds where light lands, px, and how much.
+    pub(super) fn new(reach: [usize; 2], scales: bool, deposit: impl FnOnce(&mut dyn FnMut(DVec2, f64))) -> Self {
+        let mut core = CoreBuilder::default();
+        let (mut all, mut band) = (0.0, BandLimited::zeros(reach));
+        deposit(&mut |offset_px: DVec2, mass: f64| {
+            all += mass;
+            core.deposit(offset_px, mass);
+            band.deposit(offset_px, mass);
+        });
+        Self { core: core.sum() / all, film_error: band.worst_error(), scales }
+    }
+
+    /// The wider core and the greater error of two.
+    pub(super) fn worse(self, other: Self) -> Self {
+        Self {
+            core: self.core.min(other.core),
+            film_error: self.film_error.max(other.film_error),
+            scales: self.scales || other.scales,
+        }
+    }
+}
+
+/// Light in the core from which on samples may be displaced: its blur of the tails, which the film then spreads once more, stays unseen.
+const MIN_CORE: f64 = 0.8;
+/// Errors of the film's modulation that are left to it where samples cost no noise: the function is the same at all wavelengths.
+const MAX_FILM_ERROR: f64 = 0.01;
+/// The same where they do. Diffraction by itself reaches 0.061, at half a cycle a pixel along the diagonals.
+const MAX_FILM_ERROR_OF_BANDS: f64 = 0.065;
+
+/// By what light is spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpreadBy {
+    /// Pixels of the film: no noise, but contrast is lost where the function is about as narrow as a pixel or narrower.
+    Film,
+    /// Samples that are displaced, with the film for the tails: exact however narrow, with some more noise.
+    Samples,
+}
+
+impl SpreadBy {
+    /// As asked for. Where nothing is, by samples if the function is narrow and the film would be wrong by more than 0.01, or 0.065 where samples
+    /// cost noise.
+    pub(super) fn choose(asked: Option<Self>, width: SpreadWidth) -> Result<Self, EffectsError> {
+        let is_narrow = width.core >= MIN_CORE;
+        let limit = if width.scales { MAX_FILM_ERROR_OF_BANDS } else { MAX_FILM_ERROR };
+        match asked {
+            Some(Self::Samples) if !is_narrow => Err(EffectsError::WideCore { core: width.core, least: MIN_CORE }),
+            Some(asked) => Ok(asked),
+            None if is_narrow && width.film_error > limit => Ok(Self::Samples),
+            None => Ok(Self::Film),
+        }
+    }
+}
+
+pub(super) const MM_PER_NM: f64 = 1e-6;
+pub(super) const NM_PER_UM: f64 = 1e3;
+/// Wavelengths of a band are at most this far apart, nm.
+const STEP_NM: f64 = 10.0;
+
+/// The middles of the equal parts of a band, none wider than the step.
+pub(super) fn mid_wavelengths(band: WavelengthRange) -> impl Iterator<Item = f64> {
+    let parts = (band.width_nm() / STEP_NM).ceil().max(1.0);
+    (0..parts as usize).map(move |part| band.low_nm + band.width_nm() * (part as f64 + 0.5) / parts)
 }

@@ -4,8 +4,8 @@
 //! lines that lie beside each other. All arithmetic is f64, and the roots of unity come from the core's own sine: the
 //! libraries of the field take them from the platform's, whose last bit differs from machine to machine.
 
-use core::f64::consts::PI;
-use core::ops::Range;
+use core::{f64::consts::PI, ops::Range};
+
 use etendue_core::maths::f64::sin_cos;
 
 /// Lines that are transformed together.

@@ -12,14 +12,15 @@
 //! Left out: dependence on field, on wavelength and on the direction of the light; scatter that is lost to the sensor
 //! altogether (it is part of the transmittance).
 
-use super::error::{EffectsError, positive};
-use super::kernel::Kernel;
-use super::operation_counts::{OperationCounts, Uses};
-use super::{Canvas, convolve};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
+
 use etendue_core::EffectStatus;
 use etendue_core::maths::f64::{atan2, exp_m1, ln_1p, pow, sin_cos};
 use glam::DVec2;
+
+use super::convolve::{self, OperationCounts, Uses};
+use super::error::{EffectsError, positive};
+use super::{Canvas, kernel::Kernel};
 
 /// The largest scattered share.
 const MAX_SCATTER: f64 = 0.5;

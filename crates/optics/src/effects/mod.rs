@@ -20,7 +20,6 @@
 //! added behind them: they are out of focus, and what scatters of them is of second order.
 
 mod band;
-mod band_wavelengths;
 mod canvas;
 mod chain;
 mod convolve;
@@ -31,31 +30,26 @@ mod fourier;
 pub mod glare;
 mod kernel;
 mod mtf;
-mod operation_counts;
 mod patches;
 mod point_spread;
 pub mod psf;
 mod sample_spread;
-mod spread;
-mod spread_by;
 pub mod spread_image;
 pub mod spread_table;
-mod spread_width;
 
-pub(crate) use canvas::Canvas;
 pub use chain::{Effects, EffectsParameters, MARGIN_CAP, Prepared};
+pub use convolve::OperationCounts;
 pub use error::EffectsError;
-pub use film_part::FilmPart;
+pub use film_part::{FilmPart, SpreadBy, SpreadWidth};
 pub use glare::{Glare, GlareParameters};
 pub use mtf::spread_of_modulation;
-pub use operation_counts::OperationCounts;
 pub use point_spread::PointSpread;
 pub use psf::{Psf, PsfParameters, Zernike, ZernikeTerm};
 pub use sample_spread::{SampleSpread, SpreadDraw};
-pub use spread_by::SpreadBy;
 pub use spread_image::{SpreadImage, SpreadImageParameters};
 pub use spread_table::{FieldSpread, SpreadTable, SpreadTableParameters, TabledWavelength};
-pub use spread_width::SpreadWidth;
+
+pub(crate) use canvas::Canvas;
 
 /// The effects that there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,10 +8,11 @@
 //! f² is such a sum; one that ends, as that of a lens without aberrations at its cut-off, is off by up to 0.04. [`SpreadImageParameters::deviation`] says by how much the samples that come of it are off.
 //! A table has no phase and no direction: the function is round, and the same over the picture.
 
-use super::error::EffectsError;
-use super::spread_image::SpreadImageParameters;
 use core::f64::consts::PI;
+
 use etendue_core::maths::f64::{cos, exp, ln};
+
+use super::{error::EffectsError, spread_image::SpreadImageParameters};
 
 /// Widths beside that of a point.
 const WIDTHS: u32 = 32;

@@ -1,17 +1,16 @@
 //! The point-spread functions that there are.
 
-use super::Canvas;
-use super::convolve::Field;
-use super::film_part::FilmPart;
-use super::operation_counts::OperationCounts;
-use super::psf::{Psf, Ready};
-use super::sample_spread::SampleSpread;
-use super::spread_image::{ReadyImage, SpreadImage};
-use super::spread_table::{ReadyTable, SpreadTable};
-use super::spread_width::SpreadWidth;
 use core::fmt;
+
 use etendue_core::{Bands, EffectStatus, WavelengthRange};
 use glam::DVec2;
+
+use super::convolve::{Field, OperationCounts};
+use super::film_part::{FilmPart, SpreadWidth};
+use super::psf::{Psf, Ready};
+use super::spread_image::{ReadyImage, SpreadImage};
+use super::spread_table::{ReadyTable, SpreadTable};
+use super::{Canvas, sample_spread::SampleSpread};
 
 /// Where it is told how narrow a function is, nm.
 const GREEN_NM: f64 = 555.0;

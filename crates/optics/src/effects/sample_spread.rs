@@ -11,10 +11,10 @@
 //!
 //! Where the function varies over the picture, a pixel takes one patch's at random, by the weights that the film's pixels take them with.
 
-use super::core_table::CoreTable;
-use super::patches::Hat;
 use etendue_core::random::Pixel;
 use glam::DVec2;
+
+use super::{core_table::CoreTable, patches::Hat};
 
 /// Random numbers of a draw, in [0, 1).
 #[derive(Clone, Copy, Debug)]

@@ -11,21 +11,17 @@
 //!
 //! Left out: a function that varies over the picture.
 
-use super::Canvas;
-use super::band_wavelengths::mid_wavelengths;
-use super::convolve::{self, Field};
-use super::core_table::CoreBuilder;
-use super::error::{EffectsError, positive};
-use super::film_part::{FilmPart, KernelBuilder};
-use super::kernel::Kernel;
-use super::operation_counts::{OperationCounts, Uses};
-use super::psf::{MAX_PX, MM_PER_UM, VISIBLE};
-use super::sample_spread::SampleSpread;
-use super::spread::Spread;
 use core::fmt;
+
 use etendue_core::{Bands, EffectStatus, WavelengthRange};
 use etendue_projection::Raster;
 use glam::DVec2;
+
+use super::convolve::{self, Field, OperationCounts, Uses};
+use super::error::{EffectsError, positive};
+use super::film_part::{FilmPart, KernelBuilder, mid_wavelengths};
+use super::psf::{MAX_PX, MM_PER_UM, VISIBLE};
+use super::{Canvas, canvas::Spread, core_table::CoreBuilder, kernel::Kernel, sample_spread::SampleSpread};
 
 /// The farthest that samples lie apart, px; the rest is rounding.
 const WIDEST_STEP_PX: f64 = 1.0 + 1e-9;

@@ -3,11 +3,12 @@
 pub(crate) mod front;
 mod prescription;
 
-pub use front::FrontError;
-pub use prescription::PrescriptionError;
+use etendue_projection::{CalibrationError, DistortionError};
 
 use crate::ray_transfer::RayTransferError;
-use etendue_projection::{CalibrationError, DistortionError};
+
+pub use front::FrontError;
+pub use prescription::PrescriptionError;
 
 /// A lens or a stored radiance image that cannot do what is asked of it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

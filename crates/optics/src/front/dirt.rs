@@ -6,12 +6,13 @@
 //!
 //! Left out: light that the dirt scatters into the picture (a matter of glare), its thickness, its colour.
 
+use core::fmt;
+
+use glam::{DVec2, DVec3};
+
 use super::{Line, Placement, line};
 use crate::error::front::{FrontError, positive};
-use crate::lens::Lens;
-use crate::wavelength::PRINCIPAL_NM;
-use core::fmt;
-use glam::{DVec2, DVec3};
+use crate::{lens::Lens, overlap::PRINCIPAL_NM};
 
 /// Pupil samples by which a footprint is averaged: a rank-1 sequence whose steps are powers of the inverse of 1.3247…, the root
 /// of x³ = x + 1, so that no edge runs along its rows (M. Roberts, "The unreasonable effectiveness of quasirandom

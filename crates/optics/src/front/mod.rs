@@ -11,33 +11,28 @@
 //!   the pupil sample and stretches the rest to the whole square; weights are divided by the probability of the choice.
 //! - Members stand in the order dirt, then wind-screen (with drops on its outer face) or mirror. Both of the latter together are not modelled.
 
-mod curve;
 mod dirt;
 mod drops;
-mod front_ray;
-mod line;
 mod mirror;
 mod placement;
 mod windscreen;
 
-use crate::lens::Lens;
-use crate::pupil::MM;
-use crate::wavelength::PRINCIPAL_NM;
 use etendue_core::ray::PupilRay;
 use etendue_projection::Raster;
 use glam::{DVec2, DVec3};
-use line::{line, outgoing};
+
+use crate::{lens::Lens, overlap::PRINCIPAL_NM, pupil::MM};
+use placement::{line, outgoing};
 use windscreen::Way;
 
 pub use crate::error::FrontError;
-pub use curve::Curve;
 pub use dirt::{Dirt, DirtParameters, Mask};
 pub use drops::{Cap, Course, Droplet, Drops, DropsParameters, Sliding, Wiper};
-pub use front_ray::FrontRay;
-pub(crate) use line::{Fate, Line};
 pub use mirror::{MeshMirror, Mirror, MirrorParameters, MirrorShape, Quadric, QuadricKind, Reflectance};
-pub use placement::Placement;
+pub use placement::{Curve, FrontRay, Placement};
 pub use windscreen::{Layer, Tint, Windscreen, WindscreenParameters};
+
+pub(crate) use placement::{Fate, Line};
 
 /// What stands in front of a lens.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,12 @@
-//! Where a member of the front stands and how it is turned.
+//! Where a member of the front stands, rays to it and from it, and its quantities over the wavelength.
 
-use super::Line;
 use core::f64::consts::PI;
-use etendue_core::maths::f64::sin_cos;
+
+use etendue_core::{maths::f64::sin_cos, ray::PupilRay};
+use etendue_spectra::Spectrum;
 use glam::{DMat3, DVec3};
+
+use crate::pupil::MM;
 
 /// A frame of its own within the camera frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +36,93 @@ impl Placement {
 
     pub(super) fn outward(&self, line: Line) -> Line {
         Line { point_mm: self.rotation * line.point_mm + self.origin_mm, direction: self.rotation * line.direction }
+    }
+}
+
+/// A ray of a member, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Line {
+    pub(crate) point_mm: DVec3,
+    pub(crate) direction: DVec3,
+}
+
+/// What a member makes of a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Fate {
+    /// It does not meet the member.
+    Past,
+    /// It ends: no light comes this way.
+    Lost,
+    /// It goes on here, with this factor on its weight.
+    On(Line, f64),
+}
+
+pub(super) fn line(ray: &PupilRay) -> Line {
+    Line { point_mm: ray.origin_m / MM, direction: ray.direction }
+}
+
+pub(super) fn outgoing(line: Line, weight_sr: f64) -> PupilRay {
+    PupilRay { origin_m: line.point_mm * MM, direction: line.direction, weight_sr }
+}
+
+/// A ray that leaves the front.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrontRay {
+    /// The ray from the last surface that it met, camera frame.
+    pub ray: PupilRay,
+    /// What a distance along `ray` lacks to the distance that ground truth states, m: see [`FrontRay::truth_origin_m`].
+    pub path_m: f64,
+    /// Where it met a mirror, camera frame, m.
+    pub mirror_m: Option<DVec3>,
+}
+
+impl FrontRay {
+    /// A ray with nothing in front of the lens.
+    #[must_use]
+    pub fn bare(ray: PupilRay) -> Self {
+        Self { ray, path_m: 0.0, mirror_m: None }
+    }
+
+    /// Where the ray table says that the ray begins: at the mirror; else where distances count from.
+    #[must_use]
+    pub fn truth_origin_m(&self) -> DVec3 {
+        self.mirror_m.unwrap_or(self.ray.origin_m - self.ray.direction * self.path_m)
+    }
+}
+
+/// A quantity that is the same at all wavelengths, exactly, or is tabulated.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Curve {
+    /// The same at all wavelengths.
+    Constant(f64),
+    /// Tabulated.
+    Table(Box<Spectrum>),
+}
+
+impl Curve {
+    /// Its value at a wavelength, nm.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, nm: f64) -> f64 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Table(spectrum) => f64::from(spectrum.at(nm as f32)),
+        }
+    }
+
+    /// Whether it depends on the wavelength.
+    #[must_use]
+    pub fn varies(&self) -> bool {
+        matches!(self, Self::Table(spectrum) if spectrum.min_value() != spectrum.max_value())
+    }
+
+    /// Least and greatest value.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        match self {
+            Self::Constant(value) => (*value, *value),
+            Self::Table(spectrum) => (f64::from(spectrum.min_value()), f64::from(spectrum.max_value())),
+        }
     }
 }
 

@@ -4,11 +4,10 @@
 //! a ray is clipped) are bilinear within a cell, so edges are found more finely than the grid. Cells with a corner whose
 //! ray misses a surface or is totally reflected on its way are dark.
 
-use crate::prescription::Prescription;
-use crate::prescription::ghost::GhostPair;
-use crate::prescription::trace::LensRay;
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
+
+use crate::{prescription::Prescription, prescription::ghost::GhostPair, prescription::trace::LensRay};
 
 /// Cells across the whole beam in the meridional plane, and across half of it.
 const COLUMNS: usize = 32;

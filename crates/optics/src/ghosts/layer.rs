@@ -1,20 +1,15 @@
 //! From a picture's irradiance to the irradiance of its ghosts.
 
-use super::response::Response;
-use super::source::{Source, SourceImage};
-use super::splat::{Laid, Level, lay};
-use super::{GhostSettings, mirrored};
-use crate::error::OpticsError;
-use crate::lens::Prescribed;
-use crate::prescription::ghost::GhostPair;
-use crate::wavelength::PRINCIPAL_NM;
-use etendue_core::Bands;
-use etendue_core::maths::f64::sin;
 use etendue_core::plane::{Plane, SpectralCube};
-use etendue_core::quantity::Irradiance;
+use etendue_core::{Bands, maths::f64::sin, quantity::Irradiance};
 use etendue_projection::Raster;
 use glam::DVec2;
 use rayon::prelude::*;
+
+use super::source::{Source, SourceImage};
+use super::splat::{Laid, Level, lay};
+use super::{GhostSettings, mirrored, response::Response};
+use crate::{error::OpticsError, lens::Prescribed, overlap::PRINCIPAL_NM, prescription::ghost::GhostPair};
 
 /// Rings between which the field is tabulated.
 const RINGS: usize = 256;

@@ -24,19 +24,18 @@
 
 mod footprint;
 mod layer;
-mod operation_counts;
 mod report;
 mod response;
 mod source;
 mod splat;
 
-use crate::error::OpticsError;
-use crate::lens::Prescribed;
 use etendue_core::EffectStatus;
 
+use crate::{error::OpticsError, lens::Prescribed};
+
 pub use layer::layer;
-pub use operation_counts::{GhostOperationCounts, operation_counts};
 pub use report::{GhostReport, strongest};
+pub use response::{GhostOperationCounts, operation_counts};
 
 /// What a layer of ghosts is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

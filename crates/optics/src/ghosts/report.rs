@@ -1,13 +1,13 @@
 //! The strongest ghosts of a far point, without a picture.
 
-use super::footprint::{Beam, Footprint};
-use super::{GhostSettings, mirrored};
-use crate::lens::Prescribed;
-use crate::prescription::ghost::GhostPair;
-use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::PI;
+
 use etendue_core::maths::f64::sin;
 use glam::DVec2;
+
+use super::footprint::{Beam, Footprint};
+use super::{GhostSettings, mirrored};
+use crate::{lens::Prescribed, overlap::PRINCIPAL_NM, prescription::ghost::GhostPair};
 
 /// Solid angle of the sun's disc, sr (radius 959.63″, Auwers 1891).
 const SUN_SR: f64 = 6.8e-5;

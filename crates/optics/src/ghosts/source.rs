@@ -1,7 +1,6 @@
 //! An image as far sources: single pixels where it is bright, blocks of pixels where it is dim.
 
-use etendue_core::plane::Plane;
-use etendue_core::quantity::Quantity;
+use etendue_core::{plane::Plane, quantity::Quantity};
 use glam::DVec2;
 
 /// The share of all light above which a block of several pixels is split.

@@ -4,10 +4,10 @@
 //! keeps it, from points at most 0.35 cells apart, which leaves at most some per cent of ripple. One row of cells around
 //! the picture is kept too, so that levels can be interpolated up to its edges.
 
-use super::footprint::Footprint;
-use super::source::SHARE;
 use etendue_projection::Raster;
 use glam::DVec2;
+
+use super::{footprint::Footprint, source::SHARE};
 
 /// Cells across a ghost of a source that has [`SHARE`] of the light, and at most.
 const CELLS: f64 = 32.0;

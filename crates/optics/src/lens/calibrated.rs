@@ -16,18 +16,18 @@
 //! Left out: what the projection does not hold: aberrations, colours (but for [`LateralColour`]), a pupil that moves with the field (all rays meet in
 //! one point), clipping.
 
-use super::falloff::{Falloff, FalloffBy};
-use super::lateral_colour::LateralColour;
-use super::paraxial_properties::ParaxialProperties;
-use super::plausibility;
-use crate::error::OpticsError;
-use crate::pupil::{MM, concentric_disc};
-use crate::range::{f_number, positive};
 use core::f64::consts::PI;
 use core::fmt::{self, Debug, Formatter};
+
 use etendue_core::ray::PupilRay;
 use etendue_projection::{Calibration, Raster};
 use glam::{DVec2, DVec3};
+
+use super::field_angles;
+use super::paraxial_properties::{Falloff, FalloffBy, LateralColour, ParaxialProperties};
+use crate::error::OpticsError;
+use crate::overlap::{f_number, positive};
+use crate::pupil::{MM, concentric_disc};
 
 /// How the entrance pupil stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,7 +172,7 @@ impl Calibrated {
             let angle = direction.map(|d| etendue_core::maths::f64::atan2(d.truncate().length(), d.z));
             angle.or(limited.then_some(r_mm / self.focal_length_mm)).map(|angle| angle * self.focal_length_mm)
         };
-        plausibility::check(radius_mm, self.focal_length_mm, &plausibility::NEAR, ideal)
+        field_angles::check(radius_mm, self.focal_length_mm, &field_angles::NEAR, ideal)
     }
 
     fn raster_px(&self, sensor_mm: DVec2) -> DVec2 {

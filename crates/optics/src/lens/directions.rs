@@ -1,9 +1,10 @@
 //! Where sensor points look, as directions and angles.
 
-use super::Lens;
-use crate::wavelength::PRINCIPAL_NM;
 use etendue_core::maths::f64::atan2;
 use glam::{DVec2, DVec3};
+
+use super::Lens;
+use crate::overlap::PRINCIPAL_NM;
 
 impl Lens {
     /// The angle between the directions seen at two sensor points, rad; `None` where one sees nothing. The horizontal

@@ -1,7 +1,9 @@
-//! Field angles of chief rays at equal steps of the distance from the axis, interpolated.
+//! Field angles of chief rays over the picture, interpolated, and whether a picture is one that a lens could make.
 
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
+
+use crate::error::OpticsError;
 
 /// Field angles (rad) at radii 0, step, 2 step, … mm.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,4 +45,33 @@ fn cubic([a, b, c, d]: [f64; 4], t: f64) -> f64 {
     let (start, end) = (0.5 * (c - a), 0.5 * (d - b));
     let rest = c - b;
     b + t * (start + t * (3.0 * rest - 2.0 * start - end + t * (start + end - 2.0 * rest)))
+}
+
+/// Focal lengths that a picture may reach from its principal point: 89.994° of a lens without distortion.
+const WIDEST: f64 = 1e4;
+/// By how much a distortion may stretch or shrink a distance from the principal point.
+const WILD: f64 = 1e3;
+
+/// Parts of the picture's reach at which a distortion is looked at.
+pub(super) const ALL: [f64; 3] = [1e-3, 0.1, 1.0];
+/// Those near the principal point.
+pub(super) const NEAR: [f64; 2] = [1e-4, 1e-3];
+
+/// Checks a picture that reaches `radius_mm` from the principal point of a lens. `ideal` is the distance at which a lens without
+/// distortion would show what is seen at a distance, mm; `None` where nothing is.
+pub(super) fn check(
+    radius_mm: f64,
+    focal_length_mm: f64,
+    parts: &[f64],
+    ideal: impl Fn(f64) -> Option<f64>,
+) -> Result<(), OpticsError> {
+    if radius_mm > WIDEST * focal_length_mm {
+        return Err(OpticsError::TooWide { radius_mm, focal_length_mm });
+    }
+    let at = parts.iter().map(|part| part * radius_mm).find_map(|radius_mm| {
+        let ratio = ideal(radius_mm).map_or(f64::NAN, |ideal_mm| ideal_mm / radius_mm);
+        let sane = (1.0 / WILD..=WILD).contains(&ratio);
+        (!sane).then_some(OpticsError::WildDistortion { radius_mm, ratio })
+    });
+    at.map_or(Ok(()), Err)
 }

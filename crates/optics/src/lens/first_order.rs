@@ -1,7 +1,8 @@
 //! First-order quantities: focal length, f-number, transmittance, focus.
 
-use super::Lens;
 use etendue_projection::Rectilinear;
+
+use super::Lens;
 
 impl Lens {
     /// Focal length, mm; infinite for a telecentric camera.

@@ -1,7 +1,6 @@
 //! Measures of a lens that its image has: scale, pupils, blur.
 
-use super::Lens;
-use super::focus::PupilSize;
+use super::{Lens, paraxial_properties::PupilSize};
 use crate::pupil::MM;
 
 impl Lens {

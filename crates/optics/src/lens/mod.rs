@@ -30,42 +30,33 @@ macro_rules! each {
 
 mod calibrated;
 mod directions;
-mod falloff;
 mod field_angles;
 mod first_order;
-mod focus;
-mod gauss;
-mod lateral_colour;
 mod measures;
 mod paraxial_properties;
-mod pinhole;
-mod plausibility;
 mod prescribed;
-mod pupil_statements;
 mod rays;
 mod search;
-mod telecentric;
+mod simple;
 mod thick;
-mod thin;
 mod transferred;
 
-use crate::error::OpticsError;
-use etendue_projection::{RadialDistortion, Raster};
 use std::sync::Arc;
 
+use etendue_projection::{RadialDistortion, Raster};
+
+use crate::error::OpticsError;
+
 pub use calibrated::{Calibrated, CalibratedParameters, PupilStance};
-pub use falloff::{Falloff, FalloffBy};
-pub(crate) use field_angles::FieldAngles;
-pub use lateral_colour::LateralColour;
-pub use pinhole::{Pinhole, PinholeParameters};
-pub(crate) use prescribed::DIRECTIONS;
+pub use paraxial_properties::{Falloff, FalloffBy, LateralColour, PupilStatements};
 pub use prescribed::{FieldReport, ImageReport, LateralShift, LensReport, OtherBundle, Prescribed, Spot};
-pub use pupil_statements::PupilStatements;
 pub use rays::TruthRay;
-pub use telecentric::{Telecentric, TelecentricParameters};
+pub use simple::{Pinhole, PinholeParameters, Telecentric, TelecentricParameters, Thin, ThinParameters};
 pub use thick::{ConstantPupil, Rim, Thick, ThickParameters};
-pub use thin::{Thin, ThinParameters};
 pub use transferred::{SensorPlace, Transferred};
+
+pub(crate) use field_angles::FieldAngles;
+pub(crate) use prescribed::DIRECTIONS;
 
 /// A lens: the closed list.
 #[derive(Clone, Debug, PartialEq)]
@@ -215,10 +206,10 @@ impl Lens {
         match (self, self.distortion()) {
             (_, Some(distortion)) => {
                 distortion.check(radius_mm)?;
-                plausibility::check(radius_mm, focal_mm, &plausibility::ALL, |r| distortion.ideal_radius_mm(r))
+                field_angles::check(radius_mm, focal_mm, &field_angles::ALL, |r| distortion.ideal_radius_mm(r))
             }
             (Self::Pinhole(_) | Self::Thin(_) | Self::Thick(_), None) => {
-                plausibility::check(radius_mm, focal_mm, &[], Some)
+                field_angles::check(radius_mm, focal_mm, &[], Some)
             }
             _ => Ok(()),
         }

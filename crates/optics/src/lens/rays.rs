@@ -1,8 +1,9 @@
 //! Rays of a sensor point, and their weights.
 
-use super::Lens;
 use etendue_core::ray::PupilRay;
 use glam::{DVec2, DVec3};
+
+use super::Lens;
 
 /// The ray by which ground truth looks.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,7 @@
-//! Searches for the edges of what lets light through.
+//! Numerical tools of traced lenses: searches for the edges of what lets light through, and a rule of integration.
 
 use core::f64::consts::TAU;
+
 use etendue_core::maths::f64::sin_cos;
 use glam::DVec2;
 
@@ -30,6 +31,15 @@ pub(super) fn unit(angle_rad: f64) -> DVec2 {
 pub(super) fn towards(i: usize, directions: usize) -> DVec2 {
     unit(TAU * i as f64 / directions as f64)
 }
+
+/// Gauss–Legendre abscissae and weights on [0, 1], five points.
+pub(super) const GAUSS: [[f64; 2]; 5] = [
+    [0.046_910_077_030_668, 0.118_463_442_528_094_5],
+    [0.230_765_344_947_158_5, 0.239_314_335_249_683_2],
+    [0.5, 0.284_444_444_444_444_4],
+    [0.769_234_655_052_841_5, 0.239_314_335_249_683_2],
+    [0.953_089_922_969_332, 0.118_463_442_528_094_5],
+];
 
 #[cfg(test)]
 mod tests {

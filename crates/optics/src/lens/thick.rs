@@ -46,16 +46,13 @@
 //! With m_p = 1, no rims and no distortion this is the thin lens. Left out: aberrations, dispersion, diffraction, and
 //! telecentric lenses (a pupil at infinity).
 
-use super::focus::{Conjugates, PupilSize};
-use super::paraxial_properties::ParaxialProperties;
-use super::pupil_statements::PupilStatements;
-use crate::error::OpticsError;
-use crate::overlap::{Disc, clipped_etendue_sr, open_centroid};
-use crate::pupil::{MM, Pencil, PupilView, concentric_disc};
-use crate::range::{finite, positive};
-use crate::wavelength::PRINCIPAL_NM;
 use etendue_core::ray::PupilRay;
 use glam::DVec2;
+
+use super::paraxial_properties::{Conjugates, ParaxialProperties, PupilSize, PupilStatements};
+use crate::error::OpticsError;
+use crate::overlap::{Disc, PRINCIPAL_NM, clipped_etendue_sr, finite, open_centroid, positive};
+use crate::pupil::{MM, Pencil, PupilView, concentric_disc};
 
 /// What a thick lens is made of. Positions: mm from the front principal plane, positive towards the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,17 +1,17 @@
 //! What makes a list of surfaces a lens.
 
-use super::Prescription;
-use super::coating::Coating;
-use super::paraxial::{AxialOpening, OtherRims};
-use super::surface::{Shape, Surface};
-use super::trace::{LensRay, Loss, Lost, Rims, Way, walk};
-use crate::error::PrescriptionError;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
 
+use super::paraxial::{self, AxialOpening, OtherRims};
+use super::surface::{Shape, Surface};
+use super::trace::{self, LensRay, Loss, Lost, Rims, Way, walk};
+use super::{Prescription, PrescriptionParameters, coating::Coating, focus, indices::IndexTable};
+use crate::error::PrescriptionError;
+
 /// Checks every surface by itself and counts the stops: the stop's place, from 0.
-pub(super) fn surfaces(surfaces: &[Surface]) -> Result<usize, PrescriptionError> {
+pub(super) fn check_surfaces(surfaces: &[Surface]) -> Result<usize, PrescriptionError> {
     if surfaces.is_empty() {
         return Err(PrescriptionError::Empty);
     }
@@ -21,13 +21,13 @@ pub(super) fn surfaces(surfaces: &[Surface]) -> Result<usize, PrescriptionError>
     Ok(stop)
 }
 
-pub(super) fn finite_number(surface: usize, name: &'static str, value: f64) -> Result<f64, PrescriptionError> {
+fn finite_number(surface: usize, name: &'static str, value: f64) -> Result<f64, PrescriptionError> {
     let expected = "it must be a finite number";
     if value.is_finite() { Ok(value) } else { Err(PrescriptionError::Number { surface, name, value, expected }) }
 }
 
 /// A wavelength that the tables of indices know.
-pub(super) fn reference(nm: f64) -> Result<f64, PrescriptionError> {
+fn reference(nm: f64) -> Result<f64, PrescriptionError> {
     if (SHORTEST_NM..=MAX_NM).contains(&nm) { Ok(nm) } else { Err(PrescriptionError::Wavelength { nm }) }
 }
 
@@ -109,7 +109,7 @@ const HALVINGS: usize = 50;
 
 /// The bundle of the axial point in focus must come through: without total reflection, and stopped by the stop alone unless other rims
 /// may clip it.
-pub(super) fn axial_bundle(lens: &Prescription, other_rims: OtherRims) -> Result<AxialOpening, PrescriptionError> {
+fn axial_bundle(lens: &Prescription, other_rims: OtherRims) -> Result<AxialOpening, PrescriptionError> {
     let open = if other_rims == OtherRims::Clip { OPEN_OR_CLIPPED } else { OPEN };
     let stop_mm = lens.stop_mm();
     for step in 0..=STEPS {
@@ -155,4 +155,46 @@ fn axial_ray(lens: &Prescription, height_mm: f64) -> LensRay {
     let pupil = DVec3::new(height_mm, 0.0, lens.paraxial.entrance_pupil_position_mm);
     let slope = height_mm / (lens.focus_distance_m * 1e3);
     LensRay { point: pupil, direction: DVec3::new(slope, 0.0, 1.0).normalize() }
+}
+
+impl Prescription {
+    /// A checked and focused lens.
+    ///
+    /// # Errors
+    /// Where the surfaces are no lens, or it cannot be focused as asked.
+    pub fn new(parameters: PrescriptionParameters) -> Result<Self, PrescriptionError> {
+        let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm, reference_nm, other_rims } = parameters;
+        let stop = check_surfaces(&surfaces)?;
+        let (list, places) = trace::media(&surfaces)?;
+        let table = IndexTable::new(&list);
+        let media = table.at(reference(reference_nm)?);
+        focus::open(&mut surfaces, stop, f_number, &places, &media)?;
+        let focused = focus::focused(&mut surfaces, stop, focus, &places, &media)?;
+        overlaps(&surfaces)?;
+        let elements = trace::elements(&surfaces, &places);
+        let paraxial = paraxial::paraxial(&elements, stop, surfaces[stop].semi_aperture_mm, &media);
+        let last_mm = elements.last().map_or(0.0, |e| e.z_mm);
+        let sensor_position_mm = last_mm + focused.image_mm + finite_number(surfaces.len(), "defocus_mm", defocus_mm)?;
+        let mut lens = Self {
+            sensor_position_mm,
+            focus_distance_m: focused.distance_m,
+            magnification: focused.magnification,
+            principal_distance_mm: focus::principal_distance_mm(
+                &elements,
+                &paraxial,
+                sensor_position_mm - last_mm,
+                &media,
+            ),
+            surfaces,
+            elements,
+            table,
+            stop,
+            reference_nm,
+            paraxial,
+            axial_opening: AxialOpening::STOP,
+        };
+        lens.axial_opening = axial_bundle(&lens, other_rims)?;
+        lens.paraxial = paraxial.clipped(lens.axial_opening.share);
+        Ok(lens)
+    }
 }

@@ -6,12 +6,14 @@
 //! end, field by field. Rays beside the meridional plane are not traced: where both ends of the bundle are vignetted by more
 //! than some nine tenths, they might need a little more.
 
+use core::f64::consts::PI;
+
+use etendue_core::maths::f64::{atan2, sin_cos};
+use glam::DVec3;
+
 use super::surface::{Hit, Surface};
 use super::trace::{Element, Journey, LensRay, Loss, Rims, Way, walk};
 use super::{Media, Prescription, coating::Crossing};
-use core::f64::consts::PI;
-use etendue_core::maths::f64::{atan2, sin_cos};
-use glam::DVec3;
 
 /// A point of the field in the meridional plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,13 +4,12 @@
 //! defocus that the prescription asks for). Distances are from the entrance pupil, as for every lens; moving a group moves
 //! the pupil and changes the focal length (focus breathing), both of which the search takes into account.
 
-use super::elements::elements;
-use super::indices::Media;
-use super::paraxial::{Matrix, Paraxial, entrance, matrix};
-use super::surface::Surface;
-use super::trace::Element;
-use crate::error::PrescriptionError;
 use etendue_spectra::glass::Dispersion;
+
+use super::paraxial::{Matrix, Paraxial, entrance, matrix};
+use super::trace::{Element, elements};
+use super::{indices::Media, surface::Surface};
+use crate::error::PrescriptionError;
 
 /// Millimetres in a metre.
 const M: f64 = 1e3;

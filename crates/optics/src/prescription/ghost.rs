@@ -10,14 +10,11 @@
 //!
 //! **Left out**: four reflections and more (some R² of these), polarisation between the surfaces, light off rims and barrel.
 
-use super::Prescription;
-use super::coating::Crossing;
-use super::indices::Media;
-use super::paraxial::Matrix;
-use super::surface::Hit;
-use super::trace::{Element, Journey, LensRay, Loss, Lost, Way, bounce, walk};
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
+
+use super::trace::{Element, Journey, LensRay, Loss, Lost, Way, bounce, walk};
+use super::{Prescription, coating::Crossing, indices::Media, paraxial::Matrix, surface::Hit};
 
 /// Two surfaces, counted from 0 at the scene, between which light is reflected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

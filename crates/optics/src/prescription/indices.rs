@@ -6,6 +6,7 @@
 //! 288 nm and let nothing through there).
 
 use core::f64::consts::PI;
+
 use etendue_core::maths::f64::cos;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_spectra::glass::Dispersion;

@@ -9,12 +9,9 @@
 //!
 //! A [`Prescription`] is checked when it is made: afterwards nothing in it can fail but a ray.
 
-mod build;
 mod check;
 pub mod clear_apertures;
 pub mod coating;
-mod elements;
-pub mod filter;
 mod focus;
 pub mod ghost;
 pub(crate) mod indices;
@@ -23,8 +20,9 @@ pub mod published;
 pub mod surface;
 pub mod trace;
 
-use crate::wavelength::PRINCIPAL_NM;
 use glam::DVec3;
+
+use crate::overlap::PRINCIPAL_NM;
 use indices::{IndexTable, Media};
 use paraxial::{AxialOpening, Paraxial};
 use trace::{Element, Fullness, LensRay, Lost, Rims, Through, Way, walk};

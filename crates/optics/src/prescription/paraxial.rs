@@ -4,8 +4,7 @@
 //! (y + t ν/n, ν). For the whole lens in air, M = [[A, B], [C, D]]: f = −1/C, the rear focal point at −A/C behind the last
 //! vertex, the front one at D/C from the first. The pupils are the stop's images through the surfaces before and behind it.
 
-use super::indices::Media;
-use super::trace::Element;
+use super::{indices::Media, trace::Element};
 
 /// First-order quantities at one wavelength. Positions in mm along the axis towards the sensor: those of the scene's side
 /// from the first vertex, those of the sensor's side from the last.

@@ -1,7 +1,8 @@
 //! Published lenses, each with its source (`data/lenses/`): to try, and to be checked against.
 
-use super::surface::Surface;
 use etendue_spectra::glass::{Dispersion, named as catalogue};
+
+use super::surface::Surface;
 
 /// A published lens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,9 +8,10 @@
 //! back, so the sign of direction · normal is known beforehand and picks the root, also for rays so oblique that they run
 //! backwards along the axis. Only the sheet at the vertex counts, as far as its equator.
 
-use super::coating::Coating;
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
+
+use super::coating::Coating;
 
 /// Number of aspheric terms: r², r⁴ … r²⁰.
 pub const ASPHERE_TERMS: usize = 10;

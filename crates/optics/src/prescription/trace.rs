@@ -4,10 +4,13 @@
 //! surfaces rays run straight, also backwards where surfaces are so curved that their vertices' order is not the order in
 //! which an oblique ray meets them.
 
-use super::coating::{Coating, Crossing};
-use super::indices::Media;
-use super::surface::{Hit, Shape};
+use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
+
+use super::coating::{Coating, Crossing};
+use super::indices::{MAX_MEDIA, Media};
+use super::surface::{Hit, Shape, Surface};
+use crate::error::PrescriptionError;
 
 /// A ray in the lens frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -216,6 +219,44 @@ pub(super) fn refract(d: DVec3, hit: &Hit, mu: f64, sense: f64) -> Option<(DVec3
     }
     let beyond = square.sqrt();
     Some((d * mu + hit.normal * (sense * beyond - mu * along), [along.abs(), beyond]))
+}
+
+/// The different media of a lens, air first, and for each surface its places in that list: before it, and behind it.
+pub(super) fn media(surfaces: &[Surface]) -> Result<(Vec<Dispersion>, Vec<[usize; 2]>), PrescriptionError> {
+    let mut list = vec![Dispersion::AIR];
+    let mut before = 0;
+    let places = surfaces
+        .iter()
+        .map(|surface| {
+            let known = list.iter().position(|medium| *medium == surface.glass);
+            let after = known.unwrap_or_else(|| {
+                list.push(surface.glass);
+                list.len() - 1
+            });
+            [core::mem::replace(&mut before, after), after]
+        })
+        .collect();
+    if list.len() > MAX_MEDIA {
+        return Err(PrescriptionError::Media { found: list.len(), most: MAX_MEDIA });
+    }
+    if before == 0 { Ok((list, places)) } else { Err(PrescriptionError::LastMedium) }
+}
+
+/// Surfaces ready to be traced.
+pub(super) fn elements(surfaces: &[Surface], places: &[[usize; 2]]) -> Vec<Element> {
+    let mut z_mm = 0.0;
+    let element = |(surface, media): (&Surface, &[usize; 2])| {
+        let element = Element {
+            shape: surface.shape(),
+            z_mm,
+            open_mm2: surface.semi_aperture_mm * surface.semi_aperture_mm,
+            media: *media,
+            coating: surface.coating,
+        };
+        z_mm += surface.thickness_mm;
+        element
+    };
+    surfaces.iter().zip(places).map(element).collect()
 }
 
 #[cfg(test)]

@@ -8,15 +8,14 @@
 //! Extremes of what is seen lie on the picture's border, which is looked at pixel by pixel, on the edge of the image
 //! circle, which is found to a step of the survey and that step added, or on a face's edge.
 
-use super::cube::{BORDER_PX, Cube, Window};
-use super::projection::{PupilProjection, WIDEST_RECTILINEAR_RAD};
-use super::survey::Survey;
-use super::view::Face;
-use crate::error::OpticsError;
-use crate::lens::Lens;
 use etendue_core::WavelengthRange;
 use etendue_projection::Raster;
 use glam::DVec2;
+
+use super::cube::{BORDER_PX, Cube, Window};
+use super::projection::{PupilProjection, WIDEST_RECTILINEAR_RAD};
+use super::{survey::Survey, view::Face};
+use crate::{error::OpticsError, lens::Lens};
 
 /// Rounding that a position in pixels may have before it counts as another pixel.
 const ROUNDING_PX: f64 = 1e-6;

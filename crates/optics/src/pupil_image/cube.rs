@@ -10,9 +10,10 @@
 //! Windows lie in the stored image in the order front, right, left, top, bottom, back: side by side from the left as long
 //! as they get no wider than 5/4 of the widest window, then in a new row below the tallest. Pixels between them belong to none.
 
+use glam::DVec2;
+
 use super::view::{Face, View};
 use crate::error::OpticsError;
-use glam::DVec2;
 
 /// Pixels beyond a face's edge that are stored of it. Cells of the resampling are two pixels wide at most.
 pub(super) const BORDER_PX: i64 = 4;

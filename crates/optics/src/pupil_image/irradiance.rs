@@ -7,14 +7,14 @@
 //! A prescription's Ω is a quadrature over traced rays; it is taken from a table over the radius (`radial.rs`), and where
 //! coatings, a filter or glasses make it depend on the wavelength, by the middle of each band.
 
-use super::radial::RadialEtendue;
-use crate::error::OpticsError;
-use crate::lens::Lens;
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::{Irradiance, Quantity, Radiance};
 use etendue_projection::Raster;
 use glam::DVec2;
 use rayon::prelude::*;
+
+use super::survey::RadialEtendue;
+use crate::{error::OpticsError, lens::Lens};
 
 /// Irradiance on the sensor of a radiance image that already is in the sensor's raster.
 ///

@@ -11,12 +11,10 @@
 //! Left out here, and exact only through the lens: defocus and aberrations, parallax across the pupil, and radiance that
 //! varies within the bundle of one sensor point.
 
-mod aim;
 mod covering;
 mod cube;
 mod irradiance;
 mod projection;
-mod radial;
 mod resample;
 mod survey;
 mod view;

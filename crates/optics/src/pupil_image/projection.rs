@@ -10,13 +10,15 @@
 //! - [`PupilProjection::Cube`]: six views (`cube.rs`), for pictures that look further than [`WIDEST_RECTILINEAR_RAD`] from
 //!   the axis.
 
+use core::f64::consts::FRAC_PI_2;
+
+use etendue_core::maths::f64::atan2;
+use glam::{DVec2, DVec3};
+
 use super::cube::Cube;
 use super::view::{Face, View};
 use crate::error::OpticsError;
-use crate::range::{finite, positive};
-use core::f64::consts::FRAC_PI_2;
-use etendue_core::maths::f64::atan2;
-use glam::{DVec2, DVec3};
+use crate::overlap::{finite, positive};
 
 /// The angle from the axis up to which one rectilinear view is used: 65°, where its pixels are 2.4 times as dense along the
 /// radius as a direction needs, and 5.6 times as many.

@@ -14,20 +14,18 @@
 //! A pixel is the mean of its cells that see something; where none does it is dark. With lateral colour every band is
 //! resampled by the chief rays of its own middle.
 
-use super::aim::Aim;
-use super::covering::serves;
-use super::irradiance::{check_plane, check_size};
-use super::projection::PupilProjection;
-use super::survey::{REACH, Survey};
-use super::view::{Face, View};
-use crate::error::OpticsError;
-use crate::lens::Lens;
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::{Quantity, Radiance};
 use etendue_core::wavelength::Bands;
 use etendue_projection::Raster;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+
+use super::irradiance::{check_plane, check_size};
+use super::survey::{Aim, REACH, Survey};
+use super::view::{Face, View};
+use super::{covering::serves, projection::PupilProjection};
+use crate::{error::OpticsError, lens::Lens};
 
 /// Cells a pixel along each axis, at least and at most.
 const CELLS: (usize, usize) = (2, 64);

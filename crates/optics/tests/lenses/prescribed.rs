@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 use etendue_optics::prescription::coating::Coating;
-use etendue_optics::prescription::filter::InterferenceFilter;
+use etendue_optics::prescription::coating::InterferenceFilter;
 use etendue_optics::prescription::surface::Surface;
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::prescription::{Focus, published};

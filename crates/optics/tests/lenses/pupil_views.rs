@@ -6,7 +6,7 @@ use etendue_core::maths::f64::{atan2, cos, sin};
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::{Length, Radiance};
 use etendue_core::wavelength::Bands;
-use etendue_optics::prescription::filter::InterferenceFilter;
+use etendue_optics::prescription::coating::InterferenceFilter;
 use etendue_optics::prescription::{Focus, published};
 use etendue_optics::{
     BandEtendue, CalibratedParameters, Cube, Face, LateralColour, Lens, OpticsError, PinholeParameters, Prescribed,

@@ -1,8 +1,8 @@
 //! A cube in a scratch file, band after band.
 
-use etendue_core::kept_cube::{BandReader, CubeOnDisk};
 use etendue_core::quantity::Quantity;
-use etendue_core::scratch::{NUMBER_BYTES, Scratch, ScratchStore, read_numbers, write_numbers};
+use etendue_core::storage::{BandReader, CubeOnDisk};
+use etendue_core::storage::{NUMBER_BYTES, Scratch, ScratchStore, read_numbers, write_numbers};
 use etendue_core::{Bands, KeptCube, Plane};
 use std::ops::Range;
 use std::sync::Arc;

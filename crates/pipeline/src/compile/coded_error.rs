@@ -29,7 +29,7 @@ codes! {
         etendue_isp::colour_matrix::MatrixError,
         etendue_isp::DevelopError,
         etendue_isp::paper::FilterError,
-        etendue_isp::shading::ShadingError,
+        etendue_isp::correction::ShadingError,
         etendue_isp::tone::ToneError,
         etendue_optics::effects::EffectsError,
         etendue_optics::front::FrontError,

@@ -1,7 +1,7 @@
 //! Where the bands of films are stored, and what of a film its camera needs.
 
 use crate::plan::{CameraBody, CameraPlan, Products, Route};
-use etendue_core::scratch::ScratchStore;
+use etendue_core::storage::ScratchStore;
 use etendue_optics::DepthOfField;
 use std::sync::Arc;
 

@@ -17,7 +17,7 @@ mod wavelength_sampling;
 mod weather;
 
 use crate::plan::remark::Remark;
-use etendue_core::scratch::ScratchStore;
+use etendue_core::storage::ScratchStore;
 use etendue_tracer::accel::World;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::MaterialTable;

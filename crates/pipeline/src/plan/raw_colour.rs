@@ -5,7 +5,7 @@
 //! largest 1. Raw readers scale M themselves so that neutral is neutral.
 
 use etendue_sensor::Sensor;
-use etendue_spectra::{Spectrum, chart, illuminant, observer};
+use etendue_spectra::{Spectrum, illuminant, observer, reflectance};
 use glam::{DMat3, DVec3};
 
 /// Colours of a raw.
@@ -47,7 +47,7 @@ impl RawColour {
 fn fitted(channels: [&Spectrum; 3], scale: f64) -> Option<[[f64; 3]; 3]> {
     let outer = |a: DVec3, b: DVec3| DMat3::from_cols(a * b.x, a * b.y, a * b.z);
     let (mut cx, mut xx) = (DMat3::ZERO, DMat3::ZERO);
-    for patch in chart::colorchecker() {
+    for patch in reflectance::colorchecker() {
         let camera = DVec3::from_array(channels.map(|c| scale * response(c, Some(&patch.reflectance))));
         let light = illuminant::d65().product(&patch.reflectance);
         let xyz = DVec3::from_array(observer::xyz(&light)) / observer::xyz(illuminant::d65())[1];

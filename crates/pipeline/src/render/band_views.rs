@@ -1,8 +1,8 @@
 //! Bands that are read through others: in another quantity, or without a margin.
 
 use etendue_core::Plane;
-use etendue_core::kept_cube::BandReader;
 use etendue_core::quantity::SolidAngle;
+use etendue_core::storage::BandReader;
 use std::ops::Range;
 use std::sync::Arc;
 

@@ -8,7 +8,7 @@ use crate::plan::{Pass, PassAt, Passes};
 use crate::sizes::film::Layout;
 use crate::sizes::tile::Shard;
 use etendue_core::random::Draw;
-use etendue_core::scratch::{Scratch, ScratchStore};
+use etendue_core::storage::{Scratch, ScratchStore};
 use etendue_core::{Bands, FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
 use glam::{DVec2, DVec3};
 use std::sync::{Arc, Mutex};

@@ -6,11 +6,11 @@ use crate::render::tile_bands::TileBands;
 use crate::render::tiled_cube::TiledCube;
 use crate::sizes::film::Layout;
 use crate::sizes::tile::Tile;
-use etendue_core::kept_cube::BandReader;
 use etendue_core::quantity::{
     ElectronRate, Identity, Irradiance, MeanElectrons, Quantity, Radiance, SolidAngle, Variance, WatchedSignal,
 };
 use etendue_core::random::Pixel;
+use etendue_core::storage::BandReader;
 use etendue_core::{Bands, Plane, SpectralCube};
 
 /// A plane of means and, where replicates know it, the variance of each.

@@ -15,7 +15,7 @@ use crate::sizes::spectrum_spread::SpectrumSpread;
 use crate::sizes::tile::{Shard, Tile, tiles};
 use crate::sizes::tolerance::Tolerance;
 use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
-use etendue_core::scratch::ScratchStore;
+use etendue_core::storage::ScratchStore;
 use etendue_core::{FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
 use etendue_optics::effects::{SampleSpread, SpreadDraw};
 use glam::DVec2;
@@ -350,7 +350,7 @@ mod tests {
     use crate::render::observer::Unobserved;
     use crate::render::test_job::{sampling, still_job};
     use etendue_core::Bands;
-    use etendue_core::field::ConstantField;
+    use etendue_core::ray::ConstantField;
     use glam::DVec3;
 
     struct Half;

@@ -8,8 +8,8 @@ use crate::render::tile_bands::TileBands;
 use crate::sizes::film::scratch_planes;
 use crate::sizes::tile::Tile;
 use etendue_core::Bands;
-use etendue_core::kept_cube::BandReader;
-use etendue_core::scratch::{NUMBER_BYTES, Scratch, ScratchStore, read_numbers, write_numbers};
+use etendue_core::storage::BandReader;
+use etendue_core::storage::{NUMBER_BYTES, Scratch, ScratchStore, read_numbers, write_numbers};
 use std::ops::Range;
 use std::sync::Arc;
 

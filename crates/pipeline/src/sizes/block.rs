@@ -4,7 +4,7 @@
 //! `stride`-th of a square. Blocks lie on a grid of the whole frame, whatever the tiles.
 
 use crate::sizes::tile::Tile;
-use etendue_core::maths::integer::least_common_multiple;
+use etendue_core::maths::least_common_multiple;
 use etendue_core::random::Pixel;
 
 /// Least side of a cell, px: where bright light is rare, fewer pixels do not know it together.

@@ -2,7 +2,7 @@
 
 use super::tile::Shard;
 use etendue_core::Bands;
-use etendue_core::scratch::NUMBER_BYTES;
+use etendue_core::storage::NUMBER_BYTES;
 
 /// The planes that every pixel's samples are gathered into.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,10 +8,9 @@
 use core::f64::consts::PI;
 
 use super::ModelError;
-use super::profile::{Edge, Profile, Projection};
-use super::staged::Stretched;
-use crate::model_error::{finite_list, legal};
+use super::profile::{Edge, Profile, Projection, Stretched};
 use crate::plane::Affine;
+use crate::rectilinear::{finite_list, legal};
 use crate::root::{derivative, first_sign_change, increasing, polynomial};
 
 /// What an f-theta polynomial takes.

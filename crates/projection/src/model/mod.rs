@@ -29,44 +29,32 @@
 //! direction and differs by the ray's origin alone; together with pushbroom and non-central catadioptric cameras it
 //! belongs to optics, where a ray has an origin.
 
-mod division;
-mod double_sphere;
-mod extended_unified;
 mod f_theta;
-mod field_of_view;
+mod fisheye;
 mod ideal;
-mod kannala_brandt;
 mod ocam;
-mod panorama;
 mod perspective;
 mod profile;
-mod radial_polynomial;
-mod staged;
+mod spherical;
 mod tabulated;
-mod thin_prism_fisheye;
-mod unified;
 
-use crate::plane::DistortionTerms;
 use glam::{DVec2, DVec3};
 
-pub use crate::model_error::ModelError;
+use crate::plane::DistortionTerms;
 use crate::radial::{RadialDistortion, Sense};
-pub use division::Division;
-pub use double_sphere::DoubleSphere;
-pub use extended_unified::ExtendedUnified;
-pub use f_theta::{FTheta, FThetaSense};
-pub use field_of_view::FieldOfView;
-pub use ideal::Ideal;
-pub use kannala_brandt::KannalaBrandt;
-pub use ocam::Ocam;
-pub use panorama::Panorama;
-pub use perspective::Perspective;
 use profile::Projection;
-pub(crate) use profile::field_angle;
+
+pub use crate::rectilinear::ModelError;
+pub use f_theta::{FTheta, FThetaSense};
+pub use fisheye::{KannalaBrandt, ThinPrismFisheye};
+pub use ideal::{Ideal, Panorama};
+pub use ocam::Ocam;
+pub use perspective::{Division, FieldOfView, Perspective};
 pub use profile::{Edge, Sight};
+pub use spherical::{DoubleSphere, ExtendedUnified, Unified};
 pub use tabulated::Tabulated;
-pub use thin_prism_fisheye::ThinPrismFisheye;
-pub use unified::Unified;
+
+pub(crate) use profile::field_angle;
 
 /// A camera model.
 #[derive(Clone, Debug, PartialEq)]

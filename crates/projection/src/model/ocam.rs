@@ -11,10 +11,9 @@
 use etendue_core::maths::f64::atan2;
 
 use super::ModelError;
-use super::profile::{Edge, Profile, Projection};
-use super::staged::Stretched;
-use crate::model_error::{finite_list, legal};
+use super::profile::{Edge, Profile, Projection, Stretched};
 use crate::plane::Affine;
+use crate::rectilinear::{finite_list, legal};
 use crate::root::{derivative, first_sign_change, increasing, polynomial};
 
 /// Scaramuzza's model.

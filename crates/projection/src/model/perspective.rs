@@ -1,3 +1,5 @@
+//! Perspective models and distortions of them: OpenCV's, the division model, the radial polynomial, the FOV model.
+//!
 //! Perspective with OpenCV's distortion: k₁ … k₆, p₁, p₂, s₁ … s₄, τx, τy.
 //!
 //! (X/Z, Y/Z) goes through the [`Distortion`] and the [`Tilt`]: `cv::projectPoints` of OpenCV 3 and later, with
@@ -5,14 +7,31 @@
 //! PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV and FULL_OPENCV are special cases, as is Kalibr's pinhole-radtan.
 //!
 //! dΩ/dA = cos³ θ/det J. Where nothing folds before, the field ends at 90°.
+//!
+//! The division model: a point at r sees (x, y, 1 + k r²).
+//!
+//! tan θ = r/(1 + k r²) (Fitzgibbon 2001; COLMAP's SIMPLE_DIVISION and DIVISION). With k < 0 (barrel) it passes 90° at
+//! r = 1/√−k and goes to 180°; with k > 0 it folds at r = 1/√k.
+//!
+//! The radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴) of [`RadialDistortion`], in either direction, after a perspective.
+//!
+//! Lengths are principal distances here, where [`RadialDistortion`] says mm: a unit of 1 makes r the tangent of the
+//! field angle.
+//!
+//! The FOV model: r = atan(2 tan θ tan(ω/2))/ω, 0 < ω < π, below 90°.
+//!
+//! Devernay & Faugeras 2001 (eqs. 13, 14); COLMAP's FOV, Kalibr's pinhole-fov.
 
-use etendue_core::maths::f64::atan;
+use core::f64::consts::PI;
+
+use etendue_core::maths::f64::{atan, atan2, sin_cos, tan};
 use glam::{DVec2, DVec3};
 
 use super::ModelError;
-use super::profile::{Edge, Projection, Sight};
-use crate::model_error::{finite_list, legal};
+use super::profile::{Edge, Profile, Projection, Sight};
 use crate::plane::{Distortion, DistortionTerms, Tilt};
+use crate::radial::RadialDistortion;
+use crate::rectilinear::{finite, finite_list, legal};
 
 /// A perspective camera with the distortion of OpenCV.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,3 +144,134 @@ impl Projection for Perspective {
 
 /// The tangent of the largest field angle: 0.06″ from 90°.
 const FARTHEST: f64 = 1e8;
+
+/// The division model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Division {
+    k: f64,
+}
+
+impl Division {
+    /// The camera of k.
+    ///
+    /// # Errors
+    /// Where k is not finite.
+    pub fn new(k: f64) -> Result<Self, ModelError> {
+        finite([("k", k)])?;
+        Ok(Self { k })
+    }
+
+    /// k.
+    #[must_use]
+    pub fn k(&self) -> f64 {
+        self.k
+    }
+}
+
+impl Profile for Division {
+    fn edge(&self) -> Edge {
+        match self.k {
+            k if k > 0.0 => Edge::fold(atan2(1.0 / k.sqrt(), 2.0)),
+            k if k < 0.0 => Edge::end(PI),
+            _ => Edge::FRONT,
+        }
+    }
+
+    /// The smaller root of k sin θ r² − cos θ r + sin θ = 0, without cancellation.
+    fn radius(&self, angle_rad: f64) -> f64 {
+        let (sin, cos) = sin_cos(angle_rad);
+        let root = (cos * cos - 4.0 * self.k * sin * sin).max(0.0).sqrt();
+        if cos > 0.0 { 2.0 * sin / (cos + root) } else { (cos - root) / (2.0 * self.k * sin) }
+    }
+
+    fn slope(&self, angle_rad: f64) -> f64 {
+        let s = self.radius(angle_rad) * self.radius(angle_rad);
+        let forward = 1.0 + self.k * s;
+        (s + forward * forward) / (1.0 - self.k * s)
+    }
+
+    fn angle(&self, radius: f64) -> Option<f64> {
+        let s = radius * radius;
+        (self.k * s < 1.0).then(|| atan2(radius, 1.0 + self.k * s))
+    }
+}
+
+impl Projection for RadialDistortion {
+    fn edge(&self) -> Edge {
+        let fold = self.fold_ideal_mm();
+        if fold.is_finite() { Edge::fold(atan(fold)) } else { Edge::FRONT }
+    }
+
+    fn project(&self, direction: DVec3) -> Option<DVec2> {
+        let in_front = direction.z > 0.0;
+        in_front.then(|| self.observed(direction.truncate() / direction.z))?.filter(|p| p.is_finite())
+    }
+
+    fn unproject(&self, point: DVec2) -> Option<DVec3> {
+        Some(self.ideal(point)?.extend(1.0).normalize())
+    }
+
+    fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
+        per_area(self, point, self.ideal(point)?)
+    }
+
+    fn sight(&self, point: DVec2) -> Option<Sight> {
+        let ideal = self.ideal(point)?;
+        Some(Sight { direction: ideal.extend(1.0).normalize(), sr_per_area: per_area(self, point, ideal)? })
+    }
+}
+
+/// dΩ/dA of an image point whose gnomonic point is known.
+fn per_area(distortion: &RadialDistortion, point: DVec2, ideal: DVec2) -> Option<f64> {
+    let square = 1.0 + ideal.length_squared();
+    Some(distortion.ideal_area_per_observed(point.length())? / (square * square.sqrt()))
+}
+
+/// The FOV model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldOfView {
+    omega: f64,
+    /// 2 tan(ω/2).
+    stretch: f64,
+}
+
+impl FieldOfView {
+    /// The camera of ω, rad.
+    ///
+    /// # Errors
+    /// Where ω is not between 0 and π.
+    pub fn new(omega_rad: f64) -> Result<Self, ModelError> {
+        let inside = omega_rad > 0.0 && omega_rad < core::f64::consts::PI;
+        legal("omega", omega_rad, inside, "an angle between 0 and 3.14159 rad")?;
+        Ok(Self { omega: omega_rad, stretch: 2.0 * tan(0.5 * omega_rad) })
+    }
+
+    /// ω, rad.
+    #[must_use]
+    pub fn omega_rad(&self) -> f64 {
+        self.omega
+    }
+}
+
+impl Profile for FieldOfView {
+    fn edge(&self) -> Edge {
+        Edge::FRONT
+    }
+
+    fn radius(&self, angle_rad: f64) -> f64 {
+        let (sin, cos) = sin_cos(angle_rad);
+        atan2(self.stretch * sin, cos) / self.omega
+    }
+
+    fn slope(&self, angle_rad: f64) -> f64 {
+        let (sin, cos) = sin_cos(angle_rad);
+        let across = self.stretch * sin;
+        self.stretch / (self.omega * (cos * cos + across * across))
+    }
+
+    fn angle(&self, radius: f64) -> Option<f64> {
+        let turned = radius * self.omega;
+        let (sin, cos) = sin_cos(turned);
+        (turned < Edge::FRONT.angle_rad).then(|| atan2(sin, self.stretch * cos))
+    }
+}

@@ -8,7 +8,7 @@ use core::f64::consts::PI;
 
 use super::ModelError;
 use super::profile::{Edge, Profile};
-use crate::model_error::legal;
+use crate::rectilinear::legal;
 use crate::root::{first_sign_change, increasing};
 
 /// A projection by a table.

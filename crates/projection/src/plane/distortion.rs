@@ -15,7 +15,7 @@ use etendue_core::maths::f64::{atan, sin_cos, tan};
 use glam::{DMat2, DVec2};
 
 use super::radial::Rational;
-use crate::model_error::{ModelError, finite_list};
+use crate::rectilinear::{ModelError, finite_list};
 use crate::root::crossing;
 
 /// The coefficients of a distortion; all zero is none.

@@ -6,7 +6,7 @@
 
 use super::pace::{Pace, Rate};
 use crate::film_file::StoredPasses;
-use etendue_core::maths::integer::least_common_multiple;
+use etendue_core::maths::least_common_multiple;
 use etendue_core::observer::{Message, Observer};
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_pipeline::Plan;

@@ -1,6 +1,6 @@
 //! Pictures that are too large to be held: what is known of them without their pixels, and how these are read.
 
-use etendue_core::blocks::BlockStore;
+use etendue_core::storage::BlockStore;
 use std::fmt::Debug;
 use std::sync::Arc;
 

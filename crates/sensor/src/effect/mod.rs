@@ -4,21 +4,19 @@
 //! ([`Action`]). The three quantities are types, so that an effect cannot stand where the picture is something else: only counting makes
 //! charge of mean electrons, and only the response makes voltage of charge ([`RowConversion`]).
 
-mod context;
 mod domain;
-mod row;
 
-pub(crate) use context::{Context, Memory, SensorFacts};
-pub(crate) use domain::domain;
-pub(crate) use row::Row;
+use core::marker::PhantomData;
 
-use crate::charge_account::ChargeAccount;
-use crate::check::Checks;
-use crate::operation::Operation;
-use crate::signal_breakdown::SignalComponent;
-use crate::state::SensorState;
-use etendue_core::quantity::Quantity;
+use etendue_core::quantity::{Charge, MeanElectrons, Quantity, Voltage};
+use etendue_core::random::{NoiseDraw, NoiseKey};
 use etendue_core::{EffectStatus, KeyChange, KnownError, Plane};
+
+use crate::capture::{FrameAddress, Operation, SensorState};
+use crate::check::Checks;
+use crate::signal_breakdown::{ChargeAccount, RowTally, SignalComponent};
+
+pub(crate) use domain::domain;
 
 /// Why randomness is absent.
 pub(crate) const NOISE_OFF: &str = "noise is switched off for this sensor";
@@ -191,4 +189,106 @@ impl<E: EffectOn> Listed for Option<E> {
     fn stage(&self, context: &Context, memory: &mut Memory) -> Option<Stage<E::On>> {
         self.as_ref()?.stage(context, memory)
     }
+}
+
+/// A row of pixels of one quantity, e⁻, in f64.
+pub(crate) struct Row<'a, Q> {
+    /// One number a pixel.
+    pub(crate) values: &'a mut [f64],
+    /// The row's number in its plane.
+    pub(crate) y: u32,
+    /// Charge of the row at the full well; `None` before it, and where it is met on planes.
+    pub(crate) tally: &'a mut Option<RowTally>,
+    quantity: PhantomData<Q>,
+}
+
+impl<'a, Q> Row<'a, Q> {
+    /// The numbers of row `y`, which are of the quantity.
+    pub(crate) fn new(values: &'a mut [f64], y: u32, tally: &'a mut Option<RowTally>) -> Self {
+        Self { values, y, tally, quantity: PhantomData }
+    }
+}
+
+impl<'a> Row<'a, MeanElectrons> {
+    /// The same numbers as charge: they have been counted.
+    pub(crate) fn counted(self) -> Row<'a, Charge> {
+        Row::new(self.values, self.y, self.tally)
+    }
+}
+
+impl<'a> Row<'a, Charge> {
+    /// The same numbers as voltage: they have been put through the response.
+    pub(crate) fn sensed(self) -> Row<'a, Voltage> {
+        Row::new(self.values, self.y, self.tally)
+    }
+}
+
+/// What all captures of a sensor have in common.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SensorFacts {
+    /// Whether randomness from frame to frame is modelled.
+    pub(crate) noise: bool,
+    /// The specimen's seed; `None`: that of the camera's place in the job.
+    pub(crate) specimen: Option<u64>,
+    /// Distance between the centres of neighbours, µm.
+    pub(crate) pitch_um: f64,
+    /// Columns and rows before the first pixel that light reaches.
+    pub(crate) first_lit: [usize; 2],
+    /// Time of collection, as described, s.
+    pub(crate) exposure_s: f64,
+    /// Time from frame to frame, s; `None` where it is not described.
+    pub(crate) frame_period_s: Option<f64>,
+    /// Exposures of a frame, one after the other: captures that do not read the charge of the one before.
+    pub(crate) exposures: usize,
+    /// Whether captures have photodiodes of their own.
+    pub(crate) is_split_pixel: bool,
+    /// The largest full well of all captures, e⁻.
+    pub(crate) max_full_well_e: f64,
+    /// Digital numbers an electron at an analogue gain of 1.
+    pub(crate) gain_dn_e: f64,
+    /// Factor on the voltage before the converter, as described.
+    pub(crate) analogue_gain: f64,
+    /// Digital numbers from black to the converter's largest.
+    pub(crate) converter_range_dn: f64,
+}
+
+/// One capture: the sensor's facts, how it is taken, its random address, the size of the array.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Context {
+    pub(crate) facts: SensorFacts,
+    pub(crate) operation: Operation,
+    pub(crate) address: FrameAddress,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+}
+
+/// Seed of the patterns of cameras that are told apart by their place in the job alone.
+const SPECIMENS: u64 = 0x7061_7474_6572_6e73;
+
+impl Context {
+    /// The key of a draw that differs from capture to capture.
+    pub(crate) fn noise(&self, draw: NoiseDraw) -> NoiseKey {
+        let FrameAddress { seed, camera, frame, capture } = self.address;
+        NoiseKey::new(seed, camera, frame, capture, draw)
+    }
+
+    /// The key of a draw that differs from frame to frame, and is the same in all captures of a frame.
+    pub(crate) fn frame_noise(&self, draw: NoiseDraw) -> NoiseKey {
+        NoiseKey::new(self.address.seed, self.address.camera, self.address.frame, 0, draw)
+    }
+
+    /// The key of a draw of the specimen: the same in every frame and capture of every job.
+    pub(crate) fn pattern(&self, draw: NoiseDraw) -> NoiseKey {
+        match self.facts.specimen {
+            Some(seed) => NoiseKey::new(seed, 0, 0, 0, draw),
+            None => NoiseKey::new(SPECIMENS, self.address.camera, 0, 0, draw),
+        }
+    }
+}
+
+/// What a sensor remembers, as the last frame left it and as this frame leaves it.
+#[derive(Clone, Debug)]
+pub(crate) struct Memory {
+    pub(crate) before: SensorState,
+    pub(crate) after: SensorState,
 }

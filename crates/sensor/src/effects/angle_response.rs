@@ -6,13 +6,10 @@
 //! of the exit pupil (makers state g as "CRA response"; the geometry is that of Catrysse, Liu and El Gamal 2000).
 //! Left out: dependence on wavelength, on the channel, on the azimuth and on the spread of the light's cone.
 
-use crate::check::Checks;
+use etendue_core::{EffectStatus, maths::f64::atan, quantity::MeanElectrons};
+
 use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts};
-use crate::operation::Operation;
-use crate::signal_breakdown::SignalComponent;
-use etendue_core::EffectStatus;
-use etendue_core::maths::f64::atan;
-use etendue_core::quantity::MeanElectrons;
+use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
 /// Response over angle, and where light comes from.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,11 +5,12 @@
 //! Patra and Karttunen 2006). Rounds go on until less than a thousandth of an electron a pixel is too much anywhere; a geometric
 //! series, as b < 1. That rest is clipped. What goes past the array's edge has left it.
 
-use crate::charge_account::ChargeAccount;
-use etendue_core::Plane;
-use etendue_core::quantity::Charge;
-use rayon::prelude::*;
 use std::ops::Range;
+
+use etendue_core::{Plane, quantity::Charge};
+use rayon::prelude::*;
+
+use crate::signal_breakdown::ChargeAccount;
 
 const BESIDE: f32 = 0.2;
 const CORNER: f32 = 0.05;
@@ -137,7 +138,7 @@ fn lost_at_edges(excess: &[f32], width: usize, height: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::charge_account::tests::accounted;
+    use crate::signal_breakdown::tests::accounted;
 
     fn bloomed(plane: &Plane<Charge>, well: f32, overflow_fraction: f64) -> (Plane<Charge>, ChargeAccount) {
         accounted(plane, |out, account| apply(out, well, overflow_fraction, account))

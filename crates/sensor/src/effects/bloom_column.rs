@@ -8,10 +8,10 @@
 //! another, and the mean of both is taken: it conserves charge and holds the well as each of them does, and treats both
 //! directions alike. (Overflow along the column: the charge-coupled model of the e2v and Kodak application notes.)
 
-use crate::charge_account::ChargeAccount;
-use etendue_core::Plane;
-use etendue_core::quantity::Charge;
+use etendue_core::{Plane, quantity::Charge};
 use rayon::prelude::*;
+
+use crate::signal_breakdown::ChargeAccount;
 
 pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64, account: &mut ChargeAccount) {
     let (width, height) = (plane.width(), plane.height());
@@ -79,7 +79,7 @@ impl Column {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::charge_account::tests::accounted;
+    use crate::signal_breakdown::tests::accounted;
 
     fn bloomed(plane: &Plane<Charge>, well: f32, overflow_fraction: f64) -> (Plane<Charge>, ChargeAccount) {
         accounted(plane, |out, account| apply(out, well, overflow_fraction, account))

@@ -10,13 +10,11 @@
 //! al. 2014; Astier et al. 2019, whose a₁₀ is a). Charges above the full well count as a full well.
 //! Left out: neighbours farther away, different borders along rows and columns, colour.
 
-use crate::check::Checks;
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
-use crate::operation::Operation;
-use crate::signal_breakdown::SignalComponent;
-use etendue_core::quantity::Charge;
-use etendue_core::{EffectStatus, Plane};
+use etendue_core::{EffectStatus, Plane, quantity::Charge};
 use rayon::prelude::*;
+
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
+use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
 /// Borders that charge moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -6,11 +6,10 @@
 //! before rounding and clipping, so read noise below zero survives.
 //! Left out: missing codes, integral and differential non-linearity of the converter.
 
-use crate::check::Checks;
+use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Voltage};
+
 use crate::effect::{Effect, Row, SensorFacts, SignalLevels};
-use crate::operation::Operation;
-use etendue_core::quantity::Voltage;
-use etendue_core::{EffectStatus, KeyChange, KnownError};
+use crate::{capture::Operation, check::Checks};
 
 /// The converter at the gain of a capture.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,18 +11,16 @@
 //! Draws: `Dark` of the pixel; of the specimen: `PixelDark`, `RowDark`, `ColumnDark`, `Hot`, `Blinking`; `BlinkingFlip`.
 //! All currents are stated at the reference temperature. Left out: glow of amplifiers, activation energies pixel by pixel.
 
+use etendue_core::maths::f64::{exp, ln_1p};
+use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
+use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Charge};
+
 use super::temperature::Temperature;
 use super::two_level::{self, Draws, Site, TwoLevel, high_in_row};
-use crate::check::Checks;
 use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts, SignalLevels};
-use crate::operation::Operation;
-use crate::random::pattern::{Deviations, Sigmas};
-use crate::random::{Poisson, sparse, standard_normal};
-use crate::signal_breakdown::SignalComponent;
-use etendue_core::maths::f64::{exp, ln_1p};
-use etendue_core::quantity::Charge;
-use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
-use etendue_core::{EffectStatus, KeyChange, KnownError};
+use crate::random::pattern::{self, Deviations, Sigmas};
+use crate::random::{Poisson, standard_normal};
+use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
 /// Shape of the distribution of dark currents over pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -286,7 +284,7 @@ impl DarkPattern {
             }
         }
         if let Some((fraction, hot_e, key)) = self.hot {
-            sparse::each(key, y, fraction, width, |x, stream| means[x] += sparse::exponential(hot_e, stream));
+            pattern::each(key, y, fraction, width, |x, stream| means[x] += pattern::exponential(hot_e, stream));
         }
         for site in high_in_row(&self.dark_current_rts, y) {
             means[site.x as usize] += site.amplitude;
@@ -298,10 +296,10 @@ impl DarkPattern {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capture::{FrameAddress, SensorState};
     use crate::frame::tests::{ADDRESS, covariance, one_dn_an_electron, quiet, run};
     use crate::parameters::SensorParameters;
     use crate::sensor::Sensor;
-    use crate::state::{FrameAddress, SensorState};
     use etendue_core::Plane;
     use etendue_stats::Moments;
 

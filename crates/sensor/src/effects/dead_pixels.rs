@@ -3,14 +3,11 @@
 //! e ← 0 for a fraction of pixels, after the full well: they still drain and pass what overflows. Which ones is the specimen's.
 //! Draw: `Dead`. Left out: pixels stuck at other values, dead rows and columns, clusters.
 
-use crate::check::Checks;
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts, SignalLevels};
-use crate::operation::Operation;
-use crate::random::sparse;
-use crate::signal_breakdown::SignalComponent;
-use etendue_core::quantity::Charge;
 use etendue_core::random::{NoiseDraw, NoiseKey};
-use etendue_core::{EffectStatus, KeyChange, KnownError};
+use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Charge};
+
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts, SignalLevels};
+use crate::{capture::Operation, check::Checks, random::pattern, signal_breakdown::SignalComponent};
 
 /// Dead pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -62,14 +59,14 @@ struct Emptied {
 impl RowEffect<Charge> for Emptied {
     fn apply(&self, row: &mut Row<'_, Charge>) {
         let charges = &mut *row.values;
-        sparse::each(self.key, row.y, self.fraction, charges.len(), |x, _| charges[x] = 0.0);
+        pattern::each(self.key, row.y, self.fraction, charges.len(), |x, _| charges[x] = 0.0);
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use crate::capture::FrameAddress;
     use crate::frame::tests::{ADDRESS, quiet, run};
-    use crate::state::FrameAddress;
     use etendue_core::Plane;
 
     #[test]

@@ -9,15 +9,13 @@
 //! generated = collected + drained + spilt off the edge + clipped ([`ChargeAccount`]).
 //! Left out: the bend of the response before the well is full (see [`response`](super::response)).
 
-use super::{bloom_around, bloom_column};
-use crate::charge_account::{ChargeAccount, RowTally};
-use crate::check::Checks;
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, Row, RowEffect, SensorFacts, Traces};
-use crate::operation::Operation;
-use crate::signal_breakdown::SignalComponent;
-use etendue_core::quantity::Charge;
-use etendue_core::{EffectStatus, KeyChange, Plane};
+use etendue_core::{EffectStatus, KeyChange, Plane, quantity::Charge};
 use rayon::prelude::*;
+
+use super::{bloom_around, bloom_column};
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, Row, RowEffect, SensorFacts, Traces};
+use crate::signal_breakdown::{ChargeAccount, RowTally, SignalComponent};
+use crate::{capture::Operation, check::Checks};
 
 /// The most electrons a pixel holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -10,15 +10,12 @@
 //! Charge is conserved: q + Σ Q_k before is q + Σ Q_k after. (The linear limit of the trap model in Pyxel's `persistence`
 //! and of Smith et al. 2008.) Left out: shot noise of catching and releasing, traps that fill up, dependence on temperature.
 
-use crate::check::Checks;
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
-use crate::operation::Operation;
-use crate::signal_breakdown::SignalComponent;
-use crate::state::SensorState;
-use etendue_core::maths::f64::exp;
-use etendue_core::quantity::Charge;
-use etendue_core::{EffectStatus, Plane};
+use etendue_core::{EffectStatus, Plane, maths::f64::exp, quantity::Charge};
 use rayon::prelude::*;
+
+use crate::capture::{Operation, SensorState};
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
+use crate::{check::Checks, signal_breakdown::SignalComponent};
 
 /// A kind of trap.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,9 +126,9 @@ impl Traps {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capture::{FrameAddress, SensorState};
     use crate::frame::tests::{ADDRESS, quiet};
     use crate::sensor::Sensor;
-    use crate::state::{FrameAddress, SensorState};
 
     fn lagging() -> Sensor {
         let mut p = quiet();

@@ -37,39 +37,33 @@ mod bloom_around;
 mod bloom_column;
 pub mod brighter_fatter;
 pub mod converter;
-pub mod crosstalk;
 pub mod dark_current;
 pub mod dead_pixels;
 pub mod full_well;
-pub mod inter_pixel_capacitance;
 pub mod lag;
 pub mod neighbours;
 pub mod offset_pattern;
 pub mod photo_response;
-pub mod read_noise;
 pub mod response;
-pub mod rts_noise;
 pub mod shot_noise;
 pub mod smear;
 pub mod temperature;
 pub mod two_level;
-mod voltage_deviations;
+
+use etendue_core::quantity::{Charge, MeanElectrons, Voltage};
 
 use crate::effect::domain;
 use angle_response::AngleResponse;
 use brighter_fatter::BrighterFatter;
-use crosstalk::Crosstalk;
 use dark_current::DarkCurrent;
 use dead_pixels::DeadPixels;
-use etendue_core::quantity::{Charge, MeanElectrons, Voltage};
 use full_well::FullWell;
-use inter_pixel_capacitance::InterPixelCapacitance;
 use lag::Lag;
-use offset_pattern::OffsetPattern;
+use neighbours::{Crosstalk, InterPixelCapacitance};
+use offset_pattern::{OffsetPattern, ReadNoise};
 use photo_response::PhotoResponse;
-use read_noise::ReadNoise;
-use rts_noise::RtsNoise;
 use smear::Smear;
+use two_level::RtsNoise;
 
 domain! {
     /// What light meets before it is counted.

@@ -1,18 +1,33 @@
+//! Deviations that the read-out adds to voltages: the offset pattern (DSNU) and read noise.
+//!
 //! Dark-signal non-uniformity (DSNU) of the read-out: offsets that are there after no time at all.
 //!
 //! e ← e + d, d normal with a white, a row and a column part, in electrons (EMVA 1288 release 4). The pattern is the specimen's.
 //! Draws: `PixelOffset`, `RowOffset`, `ColumnOffset`. What grows with the exposure is the spread of the
 //! [dark current](super::dark_current).
+//!
+//! Read noise: what the read-out chain adds, stated in electrons at the input of the converter.
+//!
+//! e ← e + d, d normal with a white, a row and a column part, new in every capture; the result may be negative, which the black
+//! level takes up. Draws: `Read` of the pixel, `RowRead`, `ColumnRead`.
+//! Left out: spread of σ over pixels (see [`rts_noise`](super::two_level) for its tail), correlation along a row (1/f).
 
-use super::voltage_deviations::VoltageDeviations;
-use crate::check::Checks;
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, SensorFacts, SignalLevels};
-use crate::operation::Operation;
+use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::Voltage, random::NoiseDraw};
+
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, NOISE_OFF, Row, RowEffect, SensorFacts, SignalLevels};
 use crate::random::pattern::{Deviations, Sigmas};
-use crate::signal_breakdown::SignalComponent;
-use etendue_core::quantity::Voltage;
-use etendue_core::random::NoiseDraw;
-use etendue_core::{EffectStatus, KeyChange, KnownError};
+use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
+
+/// Voltages that differ by deviations, prepared.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct VoltageDeviations(pub(super) Deviations);
+
+impl RowEffect<Voltage> for VoltageDeviations {
+    fn apply(&self, row: &mut Row<'_, Voltage>) {
+        let voltages = &mut *row.values;
+        self.0.of_row(row.y, voltages.len(), |x, d| voltages[x] += d);
+    }
+}
 
 /// Standard deviations of the offsets, e⁻, 0 or more; 0: none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -71,5 +86,72 @@ impl EffectOn for OffsetPattern {
         let draws = [NoiseDraw::PixelOffset, NoiseDraw::RowOffset, NoiseDraw::ColumnOffset];
         let key = |draw| context.pattern(draw);
         Action::rows(VoltageDeviations(Deviations::new(self.sigmas(), draws, key, context.width)))
+    }
+}
+
+/// Standard deviations, e⁻, 0 or more.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ReadNoise {
+    /// From pixel to pixel; captures may have their own.
+    pub white_e: f64,
+    /// Common to a row.
+    pub row_e: f64,
+    /// Common to a column.
+    pub column_e: f64,
+}
+
+impl ReadNoise {
+    fn sigmas(&self, operation: &Operation) -> Sigmas {
+        Sigmas { white: operation.read_noise_e, row: self.row_e, column: self.column_e }
+    }
+}
+
+impl Effect for ReadNoise {
+    const NAME: &'static str = "read noise";
+    const KEY: &'static str = "sensor.read_noise_e";
+
+    fn check(&self, _: &SensorFacts, checks: &mut Checks) {
+        checks.not_negative("read_noise_e", self.white_e);
+        checks.not_negative("row_noise_e", self.row_e);
+        checks.not_negative("column_noise_e", self.column_e);
+    }
+
+    fn status(&self, facts: &SensorFacts, operation: &Operation) -> EffectStatus {
+        if self.sigmas(operation).is_zero() {
+            EffectStatus::LeftOut("the read noise is 0 e⁻".into())
+        } else if facts.noise {
+            let part = |name, e: f64| if e > 0.0 { format!(", {e} e⁻ common to a {name}") } else { String::new() };
+            let common = part("row", self.row_e) + &part("column", self.column_e);
+            EffectStatus::Modelled(format!("{} e⁻ of standard deviation, normal{common}", operation.read_noise_e))
+        } else {
+            EffectStatus::LeftOut(NOISE_OFF.into())
+        }
+    }
+
+    fn left_out_by(&self) -> Vec<KeyChange> {
+        let common = [("sensor.row_noise_e", self.row_e), ("sensor.column_noise_e", self.column_e)];
+        let common = common.into_iter().filter(|(_, sigma_e)| *sigma_e != 0.0);
+        std::iter::once(KeyChange::zero(Self::KEY)).chain(common.map(|(key, _)| KeyChange::removed(key))).collect()
+    }
+
+    fn errors_without(&self, _: &SensorFacts, levels: &SignalLevels) -> Vec<KnownError> {
+        let SignalLevels { grey_e, dark_variance_e2 } = levels;
+        let variance_e2 = self.white_e * self.white_e + self.row_e * self.row_e + self.column_e * self.column_e;
+        let lost = |quantity, of_e2: f64| KnownError { quantity, value: 100.0 * variance_e2 / of_e2, unit: "%" };
+        vec![
+            lost("variance of grey lost", grey_e + dark_variance_e2),
+            lost("variance of black lost", *dark_variance_e2),
+        ]
+    }
+}
+
+impl EffectOn for ReadNoise {
+    type On = Voltage;
+    const COMPONENT: SignalComponent = SignalComponent::Read;
+
+    fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Voltage> {
+        let draws = [NoiseDraw::Read, NoiseDraw::RowRead, NoiseDraw::ColumnRead];
+        let key = |draw| context.noise(draw);
+        Action::rows(VoltageDeviations(Deviations::new(self.sigmas(&context.operation), draws, key, context.width)))
     }
 }

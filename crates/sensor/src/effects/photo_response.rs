@@ -4,14 +4,11 @@
 //! The pattern is the specimen's: the same in every frame. Draws: `PixelResponse`, `RowResponse`, `ColumnResponse`.
 //! Left out: differences that depend on wavelength; patterns of lower frequency (shading).
 
-use crate::check::Checks;
+use etendue_core::{EffectStatus, KeyChange, KnownError, quantity::MeanElectrons, random::NoiseDraw};
+
 use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts, SignalLevels};
-use crate::operation::Operation;
 use crate::random::pattern::{Deviations, Sigmas};
-use crate::signal_breakdown::SignalComponent;
-use etendue_core::quantity::MeanElectrons;
-use etendue_core::random::NoiseDraw;
-use etendue_core::{EffectStatus, KeyChange, KnownError};
+use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
 /// Standard deviations of the response, as fractions of it, 0 to 1; 0: none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -89,9 +86,9 @@ impl RowEffect<MeanElectrons> for ResponsePattern {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capture::FrameAddress;
     use crate::frame::tests::{ADDRESS, covariance, quiet, run};
     use crate::parameters::SensorParameters;
-    use crate::state::FrameAddress;
     use etendue_core::Plane;
 
     fn patterned() -> SensorParameters {

@@ -7,13 +7,12 @@
 //!
 //! Acts after the well and before read noise, as it happens in the pixel. Left out: differences of knees from pixel to pixel.
 
-use crate::check::Checks;
-use crate::effect::{Effect, Row, RowConversion, SensorFacts};
-use crate::operation::Operation;
-use crate::signal_breakdown::SignalComponent;
 use etendue_core::EffectStatus;
 use etendue_core::maths::f64::{exp, ln};
 use etendue_core::quantity::{Charge, Voltage};
+
+use crate::effect::{Effect, Row, RowConversion, SensorFacts};
+use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
 /// A change of slope.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,14 +3,12 @@
 //! k ~ Poisson(μ), μ the mean photo-electrons of the pixel during the exposure; exact at every mean.
 //! Draw: `NoiseDraw::Shot` of the pixel. Left out: several electrons a photon (below 400 nm).
 
-use crate::check::Checks;
-use crate::effect::{Context, Effect, NOISE_OFF, Row, RowConversion, SensorFacts, SignalLevels};
-use crate::operation::Operation;
-use crate::random::Poisson;
-use crate::signal_breakdown::SignalComponent;
 use etendue_core::quantity::{Charge, MeanElectrons};
 use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
 use etendue_core::{EffectStatus, KeyChange, KnownError};
+
+use crate::effect::{Context, Effect, NOISE_OFF, Row, RowConversion, SensorFacts, SignalLevels};
+use crate::{capture::Operation, check::Checks, random::Poisson, signal_breakdown::SignalComponent};
 
 /// Photon shot noise; it has no parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]

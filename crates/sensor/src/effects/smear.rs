@@ -11,14 +11,11 @@
 //! S is added to the mean before counting, so it has its own shot noise: a sum of Poisson counts is a Poisson count.
 //! Left out: light that changes during the frame; blooming into the register.
 
-use crate::check::Checks;
-use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
-use crate::operation::Operation;
-use crate::signal_breakdown::SignalComponent;
-use etendue_core::maths::f64::pow;
-use etendue_core::quantity::MeanElectrons;
-use etendue_core::{EffectStatus, Plane};
+use etendue_core::{EffectStatus, Plane, maths::f64::pow, quantity::MeanElectrons};
 use rayon::prelude::*;
+
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
+use crate::{capture::Operation, check::Checks, signal_breakdown::SignalComponent};
 
 /// How charge is moved past the light.
 #[derive(Clone, Copy, Debug, PartialEq)]

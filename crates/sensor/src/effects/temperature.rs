@@ -5,8 +5,9 @@
 //!   I ∝ T³ exp(−E_g/(k T)), mixed by their fractions at T₀; E_g(T) = 1.1557 − 7.021e-4 T²/(T + 1108) eV (Varshni 1967; the form of
 //!   Janesick 2001). Generation doubles every 8.5 K at 300 K and every 11.8 K at 358 K; no doubling constant holds for both.
 
-use crate::check::Checks;
 use etendue_core::maths::f64::{exp, exp2, pow};
+
+use crate::check::Checks;
 
 /// How dark current grows with temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]

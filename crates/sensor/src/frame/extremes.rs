@@ -3,10 +3,10 @@
 //! Frames have 256² pixels: a mean is known to σ/256, a variance of normal numbers to √2/256 = 0.55 %, a share s to
 //! √(s (1 − s))/256; four of each are allowed.
 
-use super::tests::{expose, moments, one_dn_an_electron};
-use crate::parameters::SensorParameters;
-use crate::parameters::tests::ideal;
 use etendue_stats::normal;
+
+use super::tests::{expose, moments, one_dn_an_electron};
+use crate::{parameters::SensorParameters, parameters::tests::ideal};
 
 const SIZE: usize = 256;
 const N: f64 = (SIZE * SIZE) as f64;

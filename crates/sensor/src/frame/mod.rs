@@ -2,21 +2,16 @@
 
 mod pass;
 
-use crate::capture_light::CaptureLight;
-use crate::charge_account::ChargeAccount;
-use crate::effect::{Context, Memory};
-use crate::effects::shot_noise::ShotNoise;
-use crate::hdr::merge::Merged;
-use crate::operation::Operation;
-use crate::raw::Raw;
-use crate::sensor::Sensor;
-use crate::signal_breakdown::SignalBreakdown;
-use crate::state::{FrameAddress, OperatingPoint, SensorState};
-use etendue_core::Plane;
-use etendue_core::quantity::{Charge, DigitalNumber, MeanElectrons};
-use etendue_core::random::Pixel;
-use pass::Pass;
 use std::borrow::Cow;
+
+use etendue_core::quantity::{Charge, DigitalNumber, MeanElectrons};
+use etendue_core::{Plane, random::Pixel};
+
+use crate::capture::{CaptureLight, FrameAddress, OperatingPoint, Operation, SensorState};
+use crate::effect::{Context, Memory};
+use crate::signal_breakdown::{ChargeAccount, SignalBreakdown};
+use crate::{effects::shot_noise::ShotNoise, hdr::merge::Merged, raw::Raw, sensor::Sensor};
+use pass::Pass;
 
 /// What a capture's charge has become.
 struct Reading {

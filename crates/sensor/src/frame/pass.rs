@@ -4,18 +4,16 @@
 //! array, also where the picture becomes another quantity between them, and a plane is stored only before an effect on planes, before a
 //! second reading, and never where there is neither: an ordinary sensor goes from means to digital numbers row by row.
 
-use crate::cfa::Cfa;
-use crate::charge_account::{ChargeAccount, RowTally};
-use crate::effect::{Action, Row, RowConversion, Stage, Traces};
-use crate::effects::converter::Converter;
-use crate::layout::Binning;
-use crate::signal_breakdown::{SignalBreakdown, SignalComponent, SignalComponentRow};
-use crate::state::SensorState;
 use core::marker::PhantomData;
+use std::borrow::Cow;
+
 use etendue_core::Plane;
 use etendue_core::quantity::{Charge, DigitalNumber, MeanElectrons, Quantity, Voltage};
 use rayon::prelude::*;
-use std::borrow::Cow;
+
+use crate::effect::{Action, Row, RowConversion, Stage, Traces};
+use crate::signal_breakdown::{ChargeAccount, RowTally, SignalBreakdown, SignalComponent, SignalComponentRow};
+use crate::{capture::SensorState, cfa::Cfa, effects::converter::Converter, layout::Binning};
 
 /// A capture on its way: its picture, and what is noted beside it.
 pub(super) struct Pass<'a, Q> {

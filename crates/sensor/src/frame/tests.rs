@@ -148,10 +148,8 @@ fn bits_are_pinned() {
 const PINNED: [u32; 9] = [404, 399, 400, 400, 408, 417, 416, 418, 421];
 
 /// A camera that has everything.
-pub(crate) fn everything() -> SensorParameters {
-    use crate::effects::{
-        angle_response, crosstalk, dark_current, full_well, inter_pixel_capacitance, lag, rts_noise, smear,
-    };
+fn everything() -> SensorParameters {
+    use crate::effects::{angle_response, dark_current, full_well, lag, neighbours, smear, two_level};
     use crate::effects::{neighbours::Neighbours, two_level::TwoLevel};
     let mut p = ideal();
     (p.charge.full_well.capacity_e, p.read_out.bits) = (20_000.0, 14);
@@ -160,7 +158,7 @@ pub(crate) fn everything() -> SensorParameters {
     p.light.angle_response =
         Some(angle_response::AngleResponse { table, exit_pupil_mm: 2.0, principal_px: [30.0, 20.0] });
     let given = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.002 };
-    p.light.crosstalk = Some(crosstalk::Crosstalk(given));
+    p.light.crosstalk = Some(neighbours::Crosstalk(given));
     p.light.photo_response = crate::effects::photo_response::PhotoResponse { white: 0.01, row: 0.002, column: 0.003 };
     p.voltage.offset = crate::effects::offset_pattern::OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 };
     p.charge.dead_pixels.fraction = 1e-3;
@@ -182,9 +180,9 @@ pub(crate) fn everything() -> SensorParameters {
     p.charge.full_well.blooming = Some(full_well::Blooming::Around { overflow_fraction: 0.6 });
     let knee = crate::effects::response::Knee { at_e: 10_000.0, slope: 0.5 };
     p.read_out.response = crate::effects::response::Response::Knees(vec![knee]);
-    p.voltage.capacitance = Some(inter_pixel_capacitance::InterPixelCapacitance(given));
+    p.voltage.capacitance = Some(neighbours::InterPixelCapacitance(given));
     (p.voltage.noise.row_e, p.voltage.noise.column_e) = (1.0, 1.0);
-    p.voltage.rts_noise = Some(rts_noise::RtsNoise(two(20.0)));
+    p.voltage.rts_noise = Some(two_level::RtsNoise(two(20.0)));
     p
 }
 

@@ -5,10 +5,10 @@
 //! forth is exact on all numbers y. A step of y is 1/s_i of x: it should stay below √12 times the noise there.
 //! Companding acts on the merged number before rounding, and after all noise.
 
-use crate::check::Checks;
-use crate::effect::{Effect, SensorFacts};
-use crate::operation::Operation;
 use etendue_core::EffectStatus;
+
+use crate::effect::{Effect, SensorFacts};
+use crate::{capture::Operation, check::Checks};
 
 /// Straight lines to fewer bits.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,9 +4,9 @@
 //! s_k the product of what the capture lost in time, sensitivity and gain. The value is in numbers of the first capture.
 //! Left out: blending around the switch, weights by noise.
 
+use etendue_core::{Plane, quantity::DigitalNumber};
+
 use crate::signal_breakdown::SignalBreakdown;
-use etendue_core::Plane;
-use etendue_core::quantity::DigitalNumber;
 
 /// Captures merged so far.
 #[derive(Clone, Debug)]

@@ -19,11 +19,11 @@
 pub mod companding;
 pub mod merge;
 
-use crate::check::Checks;
-use crate::effect::{Effect, SensorFacts};
-use crate::operation::Operation;
-use companding::Companding;
 use etendue_core::{EffectStatus, KeyChange};
+
+use crate::effect::{Effect, SensorFacts};
+use crate::{capture::Operation, check::Checks};
+use companding::Companding;
 
 /// A capture after the first, relative to it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,6 @@
 mod normal;
 pub(crate) mod pattern;
 mod poisson;
-pub(crate) mod sparse;
 
 pub use normal::standard_normal;
 pub use poisson::Poisson;

@@ -4,8 +4,7 @@
 //! relative error about 1e-16). Nine in ten draws need no transcendental function. The tails end at ±8.2 standard
 //! deviations, where the probability beyond is 2⁻⁵³.
 
-use etendue_core::maths::f64::ln;
-use etendue_core::random::NoiseStream;
+use etendue_core::{maths::f64::ln, random::NoiseStream};
 
 /// The next standard normal number of a stream.
 #[must_use]

@@ -11,6 +11,7 @@
 //! No normal approximation at any mean: a rounded normal number fails a χ² test far above a mean of 50.
 
 use core::f64::consts::PI;
+
 use etendue_core::maths::f64::{exp, ln};
 use etendue_core::random::NoiseStream;
 

@@ -1,11 +1,14 @@
 //! The radiance of the sky's dome.
 
-use super::continuation::{Mix, sky_spectrum};
-use super::tables::{MEANS, Row, SHAPES};
-use super::{BANDS, SkyError, check_albedo, check_elevation, check_turbidity, continuation, turbidity_step, twilight};
-use crate::Spectrum;
 use core::f64::consts::{FRAC_PI_2, PI};
+
 use etendue_core::maths;
+
+use super::{
+    BANDS, MEANS, Mix, Row, SHAPES, SkyError, check_albedo, check_elevation, check_turbidity, sky_spectrum,
+    turbidity_step,
+};
+use crate::Spectrum;
 
 /// One band of a sky, its radiance a product of functions of one angle each.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +89,7 @@ impl SkyModel {
     }
 
     fn dimmed(mut self, elevation_rad: f64) -> Self {
-        let factor = twilight::factor(self.horizontal_illuminance(), elevation_rad.to_degrees());
+        let factor = super::factor(self.horizontal_illuminance(), elevation_rad.to_degrees());
         self.bands.iter_mut().for_each(|band| band.scale *= factor);
         self
     }
@@ -106,7 +109,7 @@ impl SkyModel {
     /// The mix of bands at a wavelength (nm); the same for all skies.
     #[must_use]
     pub fn mix(nm: f64) -> Mix {
-        continuation::sky(nm)
+        super::sky(nm)
     }
 
     /// Radiance of every band in a direction, W·m⁻²·sr⁻¹·nm⁻¹.
@@ -259,7 +262,7 @@ mod tests {
         assert!((lux(-1e-6) / lux(1e-6) - 1.0).abs() < 0.02, "{} and {}", lux(-1e-6), lux(1e-6));
         assert!((lux(-1e-6) / lux(0.0) - 1.0).abs() < 1e-6);
         for elevation in [-6.0, -9.0, -15.0, -18.0, -50.0, -90.0] {
-            assert!((lux(elevation) / twilight::illuminance(elevation) - 1.0).abs() < 1e-6, "{elevation}°");
+            assert!((lux(elevation) / super::super::illuminance(elevation) - 1.0).abs() < 1e-6, "{elevation}°");
         }
         assert!((0..40).map(|i| lux(-0.5 * f64::from(i))).is_sorted_by(|a, b| b <= a), "it grows dark");
         assert_eq!(model(3.0, 0.2, -4.0).glow_elevation_rad(), 0.0);

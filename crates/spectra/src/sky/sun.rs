@@ -2,7 +2,7 @@
 //!
 //! Radiance at the disc's centre, W·m⁻²·sr⁻¹·nm⁻¹, is a cubic in the elevation above the piece's lower end, in each of
 //! 45 pieces of equal width in the cube root of elevation/90°; linear in turbidity and between bands, continued beyond
-//! them as [`continuation`](super::continuation) says. With µ = √(1 − (sin γ/sin R)²) at the angle γ from the centre of
+//! them as [`continuation`](super) says. With µ = √(1 − (sin γ/sin R)²) at the angle γ from the centre of
 //! a disc of radius R, a point of the disc has that radiance times Σ aₖ µᵏ (k = 0 … 5), which is 1 at the centre; its
 //! mean over the disc is Σ 2aₖ/(k + 2). Outside 320–720 nm the end bands' limb is held.
 //!
@@ -12,12 +12,12 @@
 //! centre's. **Left out:** refraction, the flattened disc, the Earth's distance (±3.4 % over the
 //! year), spots.
 
-use super::continuation::{band_below, sun_spectrum};
-use super::tables::{LIMB, SUN};
-use super::{BANDS, SkyError, check_elevation, check_turbidity, turbidity_step};
-use crate::Spectrum;
 use core::f64::consts::{FRAC_PI_2, PI};
+
 use etendue_core::maths;
+
+use super::{BANDS, LIMB, SUN, SkyError, band_below, check_elevation, check_turbidity, sun_spectrum, turbidity_step};
+use crate::Spectrum;
 
 /// Diameter of the disc at the Earth's mean distance, degrees.
 pub const ANGULAR_DIAMETER_DEG: f64 = 0.5338;

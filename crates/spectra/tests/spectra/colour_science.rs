@@ -4,7 +4,7 @@
 //! in single precision: 6e-8 a value, less in sums.
 
 use etendue_spectra::colour::{Lab, ciede2000, lab};
-use etendue_spectra::{Spectrum, chart, illuminant, observer};
+use etendue_spectra::{Spectrum, illuminant, observer, reflectance};
 use serde_json::Value;
 
 const FIGURES: &str = include_str!("../../../../tests/oracles/figures/colour.json");
@@ -49,8 +49,8 @@ fn colours_of_the_colorchecker_under_d65() {
     let figures = &figures()["colorchecker"];
     let white = triple(&figures["white"]);
     let patches = list(&figures["patches"]);
-    assert_eq!((patches.len(), chart::colorchecker().len()), (24, 24));
-    for (patch, expected) in chart::colorchecker().iter().zip(patches) {
+    assert_eq!((patches.len(), reflectance::colorchecker().len()), (24, 24));
+    for (patch, expected) in reflectance::colorchecker().iter().zip(patches) {
         let xyz = observer::xyz_of_reflectance(&patch.reflectance, illuminant::d65());
         close(xyz, triple(&expected["xyz"]), 2.0 * SINGLE, patch.name);
         let Lab { l, a, b } = lab(xyz, white);

@@ -1,5 +1,6 @@
 //! A mesh's tree, in the mesh's own frame.
 
+use etendue_core::Accelerator;
 use glam::Vec3;
 
 use super::build::over_triangles;
@@ -10,7 +11,6 @@ use super::packet::{BestHit, Half, Names, Packet, RayLanes};
 use super::ray::{LocalRay, SlabRay};
 use super::walk::{Leaves, walk};
 use crate::geometry::Mesh;
-use etendue_core::Accelerator;
 
 /// Triangles a leaf: as many as are met at once.
 const LEAF_SIZE: usize = 8;

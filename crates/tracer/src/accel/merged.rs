@@ -10,11 +10,7 @@
 use etendue_core::{PrimitiveId, TimeInterval};
 use glam::{DVec3, Vec3};
 
-use super::blas::Blas;
-use super::boxes::Box3;
-use super::packet::Names;
-use super::ray::NONE_LEFT;
-use super::world::World;
+use super::{blas::Blas, boxes::Box3, packet::Names, ray::NONE_LEFT, world::World};
 use crate::geometry::{InstanceTransform, MeshPose, Placement, Shape};
 
 /// Triangles written out at most: 32 MB of trees, and less than half a second of one thread to build them for a view.

@@ -1,7 +1,6 @@
 //! Eight-wide nodes.
 
-use super::boxes::Box3;
-use super::lanes::Eight;
+use super::{boxes::Box3, lanes::Eight};
 
 /// What hangs in a node's slot: a node or a leaf, by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,10 +13,11 @@
 //! Spheres are met in f64, and held to the same R in metres, where half a unit in the last place is 0.06 mm: beyond, the
 //! distance of a surface near the camera would be lost.
 
-use super::world::{World, WorldError};
-use crate::geometry::{Instance, InstanceTransform, Mesh, Placement, Shape};
 use etendue_core::{CameraPath, CameraPose, TimeInterval};
 use glam::{DMat3, DVec3};
+
+use super::world::{World, WorldError};
+use crate::geometry::{Instance, InstanceTransform, Mesh, Placement, Shape};
 
 /// R, in units of the mesh's frame; m for spheres.
 const FARTHEST: f64 = 1e12;

@@ -3,8 +3,9 @@
 
 #![allow(unsafe_code, reason = "vector instructions that are chosen at run time")]
 
-use super::lanes::{Eight, Four, Job, Lanes, OfSix};
 use core::arch::x86_64::*;
+
+use super::lanes::{Eight, Four, Job, Lanes, OfSix};
 
 /// Proof that this machine has AVX2, and what came with it: fused multiplication and instructions for single bits.
 #[derive(Clone, Copy, Debug)]

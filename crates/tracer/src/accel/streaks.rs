@@ -2,17 +2,13 @@
 //!
 //! Beside the tree over the world's instances, which does not know of them. Each is one leaf with the box of its way.
 
-use super::Simd;
-use super::boxes::Box3;
-use super::build::over_boxes;
-use super::collapse::collapse;
-use super::lanes::{Job, Lanes};
-use super::node::{Child, Node};
-use super::ray::SlabRay;
-use super::tlas::InstructionSet;
-use super::walk::{Leaves, walk};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
+
+use super::lanes::{Job, Lanes};
+use super::node::{Child, Node};
+use super::walk::{Leaves, walk};
+use super::{Simd, boxes::Box3, build::over_boxes, collapse::collapse, ray::SlabRay, tlas::InstructionSet};
 
 /// A spheroid about an upright axis, in the render frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

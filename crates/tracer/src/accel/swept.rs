@@ -4,19 +4,16 @@
 //! its corners at all of these: the boxes of the tree. A leaf names its triangles, whose corners are found at the ray's own time and
 //! met by the same test as those that stand still. Two triangles that share a vertex find the same bits for it.
 
-use etendue_core::TimeInterval;
+use etendue_core::{Accelerator, TimeInterval};
 
-use super::blas::Blas;
-use super::boxes::Box3;
-use super::build::over_moving;
 use super::collapse::{WideTree, collapse};
 use super::lanes::{Job, Lanes, Visit};
 use super::node::{Child, Node};
 use super::packet::{BestHit, Half, Names, Packet, RayLanes};
 use super::ray::{LocalRay, SlabRay};
 use super::walk::{Leaves, walk};
+use super::{blas::Blas, boxes::Box3, build::over_moving};
 use crate::geometry::{Mesh, MeshPose};
-use etendue_core::Accelerator;
 
 /// Triangles a leaf: as many as are met at once.
 const LEAF_SIZE: usize = 8;

@@ -1,27 +1,21 @@
 //! The tree over the instances of a view.
 
-use super::Simd;
-use super::blas::Blas;
-use super::boxes::Box3;
-use super::build::over_boxes;
-use super::collapse::collapse;
 use super::lanes::{Job, Lanes, Plain, Visit};
-use super::merged::MergedMesh;
 use super::node::{Child, Node};
 use super::packet::{BestHit, Names, PrimitiveHit};
 use super::ray::{LocalRay, NONE_LEFT, SlabRay};
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
-use super::swept::AnimatedTree;
+use super::{Simd, blas::Blas, boxes::Box3, build::over_boxes, collapse::collapse, merged::MergedMesh};
 use core::cell::Cell;
+use std::{collections::BTreeMap, sync::Arc};
+
 use etendue_core::{Ray, TimeInterval};
 use glam::Vec3;
-use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use super::visits::{VisitCounter, Visits};
 use super::walk::{Leaves, walk};
-use super::world::World;
+use super::{swept::AnimatedTree, world::World};
 use crate::geometry::{Hit, Instance, MeshId, Placement, Shape, sphere};
 use crate::is_optional;
 

@@ -1,7 +1,8 @@
 //! What rays visit: how good a tree is, free of a machine's noise.
 
-use super::lanes::{Eight, Four, Job, Lanes, OfSix, Plain, Visit};
 use core::cell::Cell;
+
+use super::lanes::{Eight, Four, Job, Lanes, OfSix, Plain, Visit};
 
 /// How much one or more rays have visited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,11 +1,12 @@
 //! The world: meshes with their trees, and instances of them.
 
-use super::blas::Blas;
-use crate::MaterialId;
-use crate::geometry::{Instance, Mesh, MeshId, Shape, uniform_scale};
 use etendue_core::Accelerator;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
+
+use super::blas::Blas;
+use crate::MaterialId;
+use crate::geometry::{Instance, Mesh, MeshId, Shape, uniform_scale};
 
 /// Why a world is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

@@ -7,8 +7,7 @@
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
-use super::repeats::repeats;
-use super::{MeshError, VertexAnimation};
+use super::{MeshError, VertexAnimation, repeats::repeats};
 
 /// Coordinates beyond this are refused: products of three of them must stay finite in f32.
 const MAX_COORDINATE_M: f32 = 1e12;

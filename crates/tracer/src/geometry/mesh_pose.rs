@@ -3,9 +3,7 @@
 use etendue_core::TimeInterval;
 use glam::{DVec3, Vec2, Vec3};
 
-use super::mesh::Facet;
-use super::vertex_animation::Span;
-use super::{Mesh, VertexAnimation};
+use super::{Mesh, VertexAnimation, mesh::Facet, vertex_animation::Span};
 
 /// A mesh at one moment: its own vertices, or where its animation has them.
 #[derive(Clone, Copy, Debug)]

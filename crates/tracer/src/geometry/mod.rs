@@ -14,10 +14,11 @@ mod surface;
 mod vertex_animation;
 
 pub use instance::{Instance, MeshId, Shape};
-pub(crate) use instance::{InstanceTransform, uniform_scale};
 pub use mesh::{DroppedTriangles, Mesh};
 pub use mesh_error::MeshError;
 pub use mesh_pose::MeshPose;
-pub(crate) use placement::Placement;
 pub use surface::{Footprint, Hit, SurfacePoint};
 pub use vertex_animation::{Repeat, VertexAnimation, VertexFrame};
+
+pub(crate) use instance::{InstanceTransform, uniform_scale};
+pub(crate) use placement::Placement;

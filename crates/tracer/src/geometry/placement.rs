@@ -4,12 +4,12 @@
 //! blended or rounded to steps. Rays are met in its own frame, where its mesh has its tree; only its box in the render frame,
 //! by which rays come to it, is that of the whole interval.
 
-use etendue_core::{Motion, Ray, TimeInterval};
-use glam::{DVec3, Vec3};
 use std::borrow::Cow;
 
-use super::instance::about;
-use super::{Instance, InstanceTransform, Mesh, Shape};
+use etendue_core::{Motion, Ray, TimeInterval};
+use glam::{DVec3, Vec3};
+
+use super::{Instance, InstanceTransform, Mesh, Shape, instance::about};
 
 /// An instance relative to the camera.
 #[derive(Clone, Debug)]

@@ -4,6 +4,7 @@
 //! "Precision improvements for ray/sphere intersection", Ray Tracing Gems, chapter 7).
 
 use core::f64::consts::{PI, TAU};
+
 use etendue_core::maths;
 use glam::{DVec2, DVec3};
 

@@ -4,9 +4,10 @@
 //! found in f64 and rounded to f32, so that a vertex has the same bits for all triangles that share it: bodies that are closed
 //! stay closed. Rounding keeps order, so that a place between two others never leaves their box by more than a unit in the last place.
 
-use super::MeshError;
 use etendue_core::TimeInterval;
 use glam::{DVec3, Vec3};
+
+use super::MeshError;
 
 /// The vertices of a mesh at one time.
 #[derive(Clone, Debug, Default, PartialEq)]

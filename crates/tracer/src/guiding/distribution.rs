@@ -4,6 +4,7 @@
 //! equal angle with eight rings of equal area each. Which bin a direction is in takes comparisons alone.
 
 use core::f32::consts::FRAC_PI_4;
+
 use etendue_core::maths::f32::{cos, sin};
 use glam::{Vec2, Vec3};
 

@@ -19,12 +19,11 @@
 
 mod distribution;
 mod guide;
-mod place;
 
 pub use guide::{Guide, Training};
 
 pub(crate) use distribution::{DirectionDistribution, bin_of};
-pub(crate) use place::Place;
+pub(crate) use guide::Place;
 
 /// Scattering events before which surfaces guide.
 pub(crate) const GUIDED_BOUNCES: u32 = 2;

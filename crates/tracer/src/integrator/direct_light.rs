@@ -1,16 +1,13 @@
 //! Direct light (next-event estimation): light of sampled lights at a surface, and what is left of it on the way.
 
-use etendue_core::random::Draw;
-use etendue_core::{Ray, Spectral};
+use etendue_core::{Integrator, Ray, Spectral, random::Draw};
 use glam::Vec3;
 
 use super::path::{MAX_VERTICES, Path, Vertex};
-use super::path_state::Medium;
-use super::path_tracer::Effects;
+use super::{path_state::Medium, path_tracer::Effects};
 use crate::geometry::SurfacePoint;
 use crate::lights::{LightSample, LightSampleContext};
 use crate::media::{ForwardPeak, MediaRay, RandomCounter};
-use etendue_core::Integrator;
 
 impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     /// Adds light of as many sampled lights as the receiver draws, as far as it comes through.

@@ -5,8 +5,7 @@
 //! by the phase function. For a particle that a pixel does not resolve this is right in the mean; in one that fills pixels, glints of
 //! lamps and of the sun are spread over its disc.
 
-use etendue_core::random::Draw;
-use etendue_core::{Ray, Spectral};
+use etendue_core::{Integrator, Ray, Spectral, random::Draw};
 use glam::Vec3;
 
 use super::path::{Intersection, Path, PathStep};
@@ -14,7 +13,6 @@ use super::path_tracer::Effects;
 use crate::lights::{LightSampleContext, RaySegment};
 use crate::media::{FlightRandom, ForwardPeak, Media, MediaRay, Phase, RandomCounter, RaySpan};
 use crate::precipitation::{NearParticles, ParticleHit};
-use etendue_core::Integrator;
 
 /// Random numbers of a drop.
 const DRAWS_PER_DROP: u32 = 16;

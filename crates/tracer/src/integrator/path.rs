@@ -17,22 +17,18 @@
 //! by the root of a whole path's cost over that of the rest of it (Bolin and Meyer 1997; Rath and others 2022, "EARS").
 
 use core::marker::PhantomData;
-use etendue_core::random::Draw;
-use etendue_core::{FieldRay, Ray, Spectral, TimeInterval, Wavelengths};
+
+use etendue_core::{FieldRay, Integrator, Ray, Spectral, TimeInterval, Wavelengths, random::Draw};
 use glam::Vec3;
 
-use super::PathTracer;
 use super::path_state::{Cone, Medium, RouletteState, ScatteringHistory};
-use super::path_tracer::Effects;
-use crate::MaterialId;
-use crate::geometry::SurfacePoint;
-use crate::guiding::DirectionDistribution;
+use super::{PathTracer, path_tracer::Effects};
 use crate::lights::{LightHit, LightSampleContext};
 use crate::materials::{Bsdf, BsdfSample, EmissionQuery, Event, ShadingFrame};
-use crate::media::Phase;
-use crate::precipitation::ParticleHit;
-use crate::textures::Lookup;
-use etendue_core::Integrator;
+use crate::{
+    MaterialId, geometry::SurfacePoint, guiding::DirectionDistribution, media::Phase, precipitation::ParticleHit,
+    textures::Lookup,
+};
 
 /// Greatest number of surfaces that a path hits, with those that it passes. No scene needs as many; among surfaces closer together
 /// than the step from one to the next a path might go round for ever.
@@ -175,7 +171,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
     }
 
     /// Adds light from infinity, along the ray.
-    pub(super) fn add_distant_light(&mut self) {
+    fn add_distant_light(&mut self) {
         let strategies = self.tracer.settings.strategies;
         for light in self.tracer.lights.distant(self.ray.direction, self.receiver.as_ref(), self.wavelengths) {
             if (light.surrounds || self.includes(self.history.is_caustic())) && !self.sees_only_air() {

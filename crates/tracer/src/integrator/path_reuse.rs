@@ -18,15 +18,13 @@
 //! hit directly, mirrors, glossy second surfaces, cut-outs and panes in between) stays with its own path. Textures at y are
 //! read over the width of the path that continues.
 
-use etendue_core::random::Draw;
-use etendue_core::{FieldRay, Ray, Spectral, TimeInterval, Wavelengths};
+use etendue_core::{FieldRay, Integrator, Ray, Spectral, TimeInterval, Wavelengths, random::Draw};
 use glam::Vec3;
 
 use super::PathTracer;
 use super::path::{Intersection, MAX_VERTICES, Path, PathStep, Vertex};
 use super::path_tracer::{Effects, SceneEffects};
 use crate::materials::Bsdf;
-use etendue_core::Integrator;
 
 /// Number of parts of a group, of which one continues.
 const PARTS: usize = 4;

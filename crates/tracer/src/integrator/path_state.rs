@@ -2,8 +2,8 @@
 //! Russian roulette and the medium that it is in.
 
 use core::f32::consts::FRAC_1_PI;
-use etendue_core::maths::f32::exp;
-use etendue_core::{Spectral, Wavelengths};
+
+use etendue_core::{Spectral, Wavelengths, maths::f32::exp};
 use etendue_spectra::Spectrum;
 use glam::Vec3;
 

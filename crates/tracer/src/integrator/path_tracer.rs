@@ -1,20 +1,15 @@
 //! A path tracer: the view, materials and lights that paths are traced through, and the effects that these paths may encounter.
 
 use core::f32::consts::TAU;
-use etendue_core::Ray;
-use etendue_core::maths::f32::sin_cos;
+
+use etendue_core::{Integrator, Ray, maths::f32::sin_cos};
 use glam::Vec3;
 
-use super::path_state::Medium;
-use super::settings::PathSettings;
-use crate::guiding::Guide;
-use crate::lights::Lights;
-use crate::materials::MaterialTable;
-use crate::media::Media;
-use crate::precipitation::NearParticles;
-use crate::render_space::RenderSpace;
-use crate::{ALL_EFFECTS, MaterialId};
-use etendue_core::Integrator;
+use super::{path_state::Medium, settings::PathSettings};
+use crate::{
+    ALL_EFFECTS, MaterialId, guiding::Guide, lights::Lights, materials::MaterialTable, media::Media,
+    precipitation::NearParticles, render_space::RenderSpace,
+};
 
 /// Traces rays of a view: the result is spectral radiance.
 #[derive(Clone, Copy, Debug)]

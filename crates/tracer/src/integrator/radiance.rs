@@ -1,12 +1,12 @@
 //! What paths are traced for: radiance along rays, alone and in groups, and the training of a guide (`crate::guiding`); by the code that was
 //! compiled for the scene's effects.
 
+use etendue_core::{FieldRay, RadianceField, Spectral, Wavelengths};
+
 use super::path::{Intersection, MAX_VERTICES, Path, PathStep, Vertex};
 use super::path_tracer::{AllEffects, DiffuseOnly, Effects, NoMedia, PathTracer, SceneEffects};
-use crate::ALL_EFFECTS;
 use crate::guiding::{GUIDED_BOUNCES, Place, Training, bin_of};
-use crate::materials::Bsdf;
-use etendue_core::{FieldRay, RadianceField, Spectral, Wavelengths};
+use crate::{ALL_EFFECTS, materials::Bsdf};
 
 /// Paths of `N` wavelengths, where `N` is 1, 4 or 8.
 pub trait SpectralPaths<const N: usize>: RadianceField<N> {

@@ -1,7 +1,6 @@
 //! Settings of a path tracer.
 
-use etendue_core::words::SettingValue;
-use etendue_core::{Integrator, LightSampling, Setting, Word as _};
+use etendue_core::{Integrator, LightSampling, Setting, Word as _, words::SettingValue};
 
 /// Settings of a path tracer.
 #[derive(Clone, Copy, Debug, PartialEq)]

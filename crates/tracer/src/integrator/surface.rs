@@ -12,20 +12,16 @@
 //! widened, and counts. The density is that of reflection: what glass refracts straight on stays up to 36 times as dense (n = 1.5).
 
 use core::f32::consts::PI;
-use etendue_core::maths::f32::cbrt;
-use etendue_core::random::Draw;
+
+use etendue_core::{LightSampling, maths::f32::cbrt, random::Draw};
 use glam::{Vec2, Vec3};
 
 use super::path::{Path, Vertex};
 use super::path_state::{Cone, Medium};
 use super::path_tracer::Effects;
-use crate::MaterialId;
-use crate::geometry::SurfacePoint;
 use crate::guiding::{DirectionDistribution, GUIDED_BOUNCES};
-use crate::lights::ReceiverGloss;
 use crate::materials::{Bsdf, BsdfSample, BsdfValue, DiffuseBsdf, Event, GlossLobe, ShadingFrame};
-use crate::textures::Lookup;
-use etendue_core::LightSampling;
+use crate::{MaterialId, geometry::SurfacePoint, lights::ReceiverGloss, textures::Lookup};
 
 /// Greatest density of a lobe over that of the widest scattering before it. Of 4, 1, 1/2, 0.3 and 0.2, tried on car paint that sees a wet road at 64
 /// samples, the last two leave no speckle.

@@ -3,19 +3,15 @@
 use etendue_core::{Motion, TimeInterval, WavelengthRange};
 use glam::DAffine3;
 
-use super::Light;
 use super::lamp::{Lamp, LampLight};
-use super::light::Primitives;
 use super::moving::{LightMotion, MovingLamp, MovingLight};
-use super::opening::Opening;
-use super::opening_light::OpeningLight;
-use super::sphere::SphereLight;
-use super::tree::LightBounds;
 use super::triangle::{Facets, TriangleLight};
-use crate::MaterialId;
+use super::{
+    Light, light::Primitives, opening::Opening, opening_light::OpeningLight, sphere::SphereLight, tree::LightBounds,
+};
 use crate::geometry::{Instance, Mesh, Shape};
 use crate::materials::{Emission, EmissionSides, MaterialTable};
-use crate::render_space::RenderSpace;
+use crate::{MaterialId, render_space::RenderSpace};
 
 /// Why lights cannot be collected.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

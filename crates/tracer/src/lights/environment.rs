@@ -7,15 +7,14 @@
 //! drawn.
 
 use core::f32::consts::{PI, TAU};
-use etendue_core::distribution::Distribution2;
+
 use etendue_core::maths::f32::{acos, atan2, sin_cos};
-use etendue_core::{Spectral, WavelengthRange, Wavelengths, maths};
+use etendue_core::{Spectral, WavelengthRange, Wavelengths, distribution::Distribution2, maths};
 use etendue_spectra::{Spectrum, upsample};
 use glam::{DVec3, Vec2, Vec3};
 
 use super::patches::{EnvironmentCell, patches};
-use super::sky::SkyEnvironment;
-use super::{BRIGHTEST, LightSample};
+use super::{BRIGHTEST, LightSample, sky::SkyEnvironment};
 
 /// What surrounds the scene.
 #[derive(Clone, Debug)]

@@ -9,6 +9,7 @@
 //! A matt part is never taken for less than [`LEAST`] of what the lobes send back: a floor for lights outside them.
 
 use core::f32::consts::{FRAC_1_PI, PI};
+
 use glam::{Mat3, Vec3};
 
 use crate::materials::{Gloss, GlossLobe, LobeCentre, ShadingFrame, TOLD, schlick};

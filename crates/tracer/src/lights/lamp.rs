@@ -15,11 +15,10 @@ use etendue_core::{Motion, Spectral, TimeInterval, Waveform, WavelengthRange, ma
 use etendue_spectra::Spectrum;
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 
-use super::light_sample::LampIrradiance;
-use super::opening::Opening;
-use super::profile::Profile;
-use super::tree::LightBounds;
-use super::{BRIGHTEST, LightSample, LightSampleContext};
+use super::{
+    BRIGHTEST, LightSample, LightSampleContext, light_sample::LampIrradiance, opening::Opening, profile::Profile,
+    tree::LightBounds,
+};
 use crate::materials::{EmissionQuery, choice_level};
 
 /// Why a lamp is refused.

@@ -7,14 +7,13 @@
 //! lamp by the same at three places.
 
 use core::f32::consts::FRAC_PI_2;
+
 use etendue_core::Ray;
 use etendue_core::maths::f32::{atan, sin_cos};
 use glam::Vec3;
 
-use super::light::Light;
-use super::light_sample::LightSample;
-use super::light_sample::LightSampleContext;
-use super::scene_lights::Lights;
+use super::light_sample::{LightSample, LightSampleContext};
+use super::{light::Light, scene_lights::Lights};
 use crate::materials::EmissionQuery;
 
 /// Minimum lamp-to-ray distance, m.

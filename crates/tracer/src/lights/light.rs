@@ -1,10 +1,7 @@
 //! A light in the scene: the closed list.
 
-use super::lamp::LampLight;
 use super::moving::{MovingLamp, MovingLight};
-use super::opening_light::OpeningLight;
-use super::sphere::SphereLight;
-use super::triangle::TriangleLight;
+use super::{lamp::LampLight, opening_light::OpeningLight, sphere::SphereLight, triangle::TriangleLight};
 
 /// A light in the scene.
 #[derive(Clone, Debug)]

@@ -8,10 +8,8 @@
 //! often as it deserves. A draw that falls on a sun behind the receiver's surface asks nothing, so that surfaces in shade, too, ask the
 //! surroundings no more often than that. Figures are in `docs/decisions/light-choice.md`.
 
-use super::LightSampleContext;
-use super::light_sample::LampIrradiance;
-use super::sun::Sun;
 use super::tree::{LightBounds, LightTree, MATT_SHARE, Start, TreeQuery};
+use super::{LightSampleContext, light_sample::LampIrradiance, sun::Sun};
 use crate::ALL_EFFECTS;
 
 /// Least share of the draws of lights in the scene beside those at infinity, and the other way round.

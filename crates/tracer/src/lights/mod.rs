@@ -47,7 +47,6 @@ pub use collect::LightError;
 pub use environment::{Environment, EnvironmentError, ImageEnvironment};
 pub use gloss::ReceiverGloss;
 pub use lamp::{Lamp, LampError};
-pub(crate) use lamp_along_ray::RaySegment;
 pub use light_sample::{DistantLight, LightHit, LightSample, LightSampleContext};
 pub use opening::{Opening, OpeningBody, OpeningError};
 pub use power::spectral_fluxes;
@@ -58,3 +57,5 @@ pub use profile::{
 pub use scene_lights::{LightCounts, Lights, Sources};
 pub use sky::SkyEnvironment;
 pub use sun::{SUN_ANGULAR_DIAMETER_DEG, Sun, SunError};
+
+pub(crate) use lamp_along_ray::RaySegment;

@@ -4,18 +4,16 @@
 //! everything else, drawn or hit, is that of the light made for the moment.
 
 use core::f32::consts::PI;
+
 use etendue_core::{Motion, Spectral, TimeInterval};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-use super::lamp::LampLight;
 use super::light_sample::{LampIrradiance, LightHit, LightSample, LightSampleContext};
-use super::opening_light::OpeningLight;
 use super::sphere::{SphereLight, SphereLook};
-use super::tree::LightBounds;
 use super::triangle::{Facets, TriangleLight};
-use crate::MaterialId;
-use crate::geometry::SurfacePoint;
+use super::{lamp::LampLight, opening_light::OpeningLight, tree::LightBounds};
 use crate::materials::{EmissionQuery, MaterialTable};
+use crate::{MaterialId, geometry::SurfacePoint};
 
 /// A triangle, a parallelogram or a sphere in motion.
 #[derive(Clone, Debug)]
@@ -327,14 +325,14 @@ impl LightMotion {
     }
 
     /// Least and greatest coordinates, render frame, m, of a box of the world, with room for rounding to f32.
-    pub(super) fn render_box(&self, low: DVec3, high: DVec3) -> [Vec3; 2] {
+    fn render_box(&self, low: DVec3, high: DVec3) -> [Vec3; 2] {
         let box_of = [low, high].map(|corner| (corner - self.origin_m).as_vec3());
         let room = (box_of[0].abs().max(box_of[1].abs()) + Vec3::splat(f32::MIN_POSITIVE)) * f32::EPSILON;
         [box_of[0] - room, box_of[1] + room]
     }
 
     /// A bound of the angle by which directions turn from where they are at the start, rad, with room for rounding.
-    pub(super) fn turning(&self) -> f32 {
+    fn turning(&self) -> f32 {
         self.to_world.turning_over(self.interval) as f32 * (1.0 + 1e-5) + 1e-5
     }
 }

@@ -3,12 +3,11 @@
 use etendue_core::Spectral;
 use glam::{DAffine3, Vec2, Vec3};
 
-use super::lamp::LampLight;
-use super::light_sample::LampIrradiance;
 use super::opening::{FacetSample, Facets, Opening};
-use super::sphere::SphereLight;
-use super::tree::LightBounds;
-use super::{LightHit, LightSample, LightSampleContext, ROUNDING};
+use super::{
+    LightHit, LightSample, LightSampleContext, ROUNDING, lamp::LampLight, light_sample::LampIrradiance,
+    sphere::SphereLight, tree::LightBounds,
+};
 use crate::geometry::{Mesh, SurfacePoint};
 use crate::materials::EmissionQuery;
 

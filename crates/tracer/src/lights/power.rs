@@ -5,17 +5,15 @@
 //! cross-section of a ball about the scene (π r² E, E the irradiance of a surface that faces it; Pharr, Jakob and Humphreys 2016,
 //! 12.6). Strengths that change over time count in the mean. What stands in the way of light is left out: these are estimates.
 
-use super::environment::Environment;
-use super::lamp::Lamp;
-use super::scene_lights::Sources;
-use super::sun::Sun;
-use crate::MaterialId;
-use crate::accel::World;
-use crate::materials::{Emission, EmissionSides, MaterialTable, Modulation};
 use core::f64::consts::PI;
+
 use etendue_core::Waveform;
 use etendue_spectra::{Spectrum, upsample};
 use glam::Vec3;
+
+use super::{environment::Environment, lamp::Lamp, scene_lights::Sources, sun::Sun};
+use crate::materials::{Emission, EmissionSides, MaterialTable, Modulation};
+use crate::{MaterialId, accel::World};
 
 /// Least radius of the ball about a scene, m: surroundings shine also where there is nothing.
 const LEAST_RADIUS_M: f64 = 1e-3;

@@ -3,19 +3,14 @@
 use etendue_core::{Spectral, WavelengthRange, Wavelengths};
 use glam::{Vec2, Vec3};
 
-use super::collect;
-use super::collect::LightError;
-use super::environment::Environment;
-use super::lamp::Lamp;
+use super::collect::{self, LightError};
 use super::light::{Light, Primitives};
 use super::light_sample::{DistantLight, LampIrradiance, LightHit, LightSample, LightSampleContext};
 use super::light_sampler::{LightId, LightSampler, SampledLight, WeightedSun};
-use super::sun::Sun;
 use super::tree::{Start, TreeQuery};
-use crate::geometry::SurfacePoint;
+use super::{environment::Environment, lamp::Lamp, sun::Sun};
 use crate::materials::{EmissionQuery, MaterialTable};
-use crate::render_space::RenderSpace;
-use crate::{ALL_EFFECTS, is_optional};
+use crate::{ALL_EFFECTS, geometry::SurfacePoint, is_optional, render_space::RenderSpace};
 
 /// All lights of a view.
 #[derive(Clone, Debug)]
@@ -280,7 +275,7 @@ impl ReceiverLightSampler<'_> {
 }
 
 /// Weight of the digits that a second number adds to the 24 bits of the first: 2⁻²⁴.
-pub(super) const DIGIT: f64 = 0.5 * 1.192_092_895_507_812_5e-7;
+const DIGIT: f64 = 0.5 * 1.192_092_895_507_812_5e-7;
 
 /// What shines but is no surface that glows by its material.
 #[derive(Clone, Debug, Default)]

@@ -13,9 +13,9 @@
 //! radiance (440–640 nm) and solid angle; each cell has a chance.
 
 use core::f32::consts::{FRAC_PI_2, TAU};
-use etendue_core::distribution::Distribution2;
+
 use etendue_core::maths::f32::{asin, atan2, sin_cos};
-use etendue_core::{Spectral, Wavelengths, maths};
+use etendue_core::{Spectral, Wavelengths, distribution::Distribution2, maths};
 use etendue_spectra::Spectrum;
 use etendue_spectra::sky::{BANDS, FIRST_NM, STEP_NM, SkyModel};
 use glam::{DVec3, Vec2, Vec3};

@@ -6,15 +6,13 @@
 //! render frame and n is the unit sphere's normal.
 
 use core::f32::consts::{PI, TAU};
+
 use etendue_core::Basis;
 use etendue_core::warp::{uniform_cone, uniform_sphere};
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3};
 
-use super::tree::LightBounds;
-use super::{LightHit, ROUNDING, SurfaceEmission, SurfaceSample, solid_angle_pdf};
-use crate::MaterialId;
-use crate::geometry::sphere;
-use crate::materials::MaterialTable;
+use super::{LightHit, ROUNDING, SurfaceEmission, SurfaceSample, solid_angle_pdf, tree::LightBounds};
+use crate::{MaterialId, geometry::sphere, materials::MaterialTable};
 
 /// A glowing sphere in the render frame.
 #[derive(Clone, Debug)]

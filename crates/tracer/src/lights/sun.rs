@@ -7,8 +7,8 @@
 //! Directions are drawn uniformly over the disc in both cases. Left out: refraction, which flattens a low sun; spots.
 
 use core::f32::consts::TAU;
-use etendue_core::warp::uniform_cone;
-use etendue_core::{Basis, Spectral, Wavelengths, maths};
+
+use etendue_core::{Basis, Spectral, Wavelengths, maths, warp::uniform_cone};
 use etendue_spectra::Spectrum;
 use etendue_spectra::sky::{BANDS, FIRST_NM, STEP_NM, sun as model};
 use glam::{DVec3, Vec2, Vec3};

@@ -12,6 +12,7 @@
 //! observer's height.
 
 use core::f64::consts::TAU;
+
 use etendue_core::maths::f64::{asin, atan2, cos, sin, sin_cos};
 
 /// A time of the Gregorian calendar, UTC.

@@ -1,9 +1,10 @@
 //! What lights that are surfaces have in common.
 
+use glam::{Vec2, Vec3};
+
 use super::light_sample::LightSample;
 use crate::materials::{EmissionQuery, MaterialTable};
 use crate::textures::Lookup;
-use glam::{Vec2, Vec3};
 
 /// A point of a light's surface, drawn for a point of the scene.
 pub(super) struct SurfaceSample {

@@ -7,11 +7,8 @@ use etendue_core::warp::uniform_triangle;
 use glam::{DAffine3, DVec3, Mat3, Vec2, Vec3};
 
 use super::near::{FlatLight, NearRegion, NearView};
-use super::tree::LightBounds;
-use super::{LightHit, ROUNDING, SurfaceEmission, SurfaceSample, solid_angle_pdf};
-use crate::MaterialId;
-use crate::geometry::Mesh;
-use crate::materials::MaterialTable;
+use super::{LightHit, ROUNDING, SurfaceEmission, SurfaceSample, solid_angle_pdf, tree::LightBounds};
+use crate::{MaterialId, geometry::Mesh, materials::MaterialTable};
 
 /// A glowing triangle in the render frame, or a parallelogram.
 #[derive(Clone, Debug)]

@@ -7,6 +7,7 @@
 //! function is Hastings' (Abramowitz and Stegun 7.1.26, 1.5e-7).
 
 use core::f32::consts::PI;
+
 use etendue_core::maths::f32::{exp, ln};
 use glam::{Vec2, Vec3};
 

@@ -10,17 +10,17 @@
 //! incidence the lobe loses energy, as it has no Fresnel factor; shadowing is left out.
 
 use core::f32::consts::{FRAC_1_PI, TAU};
+
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use etendue_core::{Spectral, maths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
-use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable, WeightedLobe};
 use super::error::{EnergyGain, MaterialError};
 use super::gloss::{Gloss, GlossLobe, LobeCentre};
 use super::microfacet::{half_vector, mirrored};
-use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, DiscreteSampler, Event, Passage, SurfaceModel};
 use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 
 /// The sharpest lobe: about 0.2° wide.

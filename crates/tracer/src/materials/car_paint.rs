@@ -20,21 +20,19 @@
 //! hardly does), pearl and interference pigments, absorption in the coat.
 
 use core::f32::consts::FRAC_1_PI;
+
 use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use etendue_spectra::Spectrum;
-use etendue_spectra::metal::ComplexIndex;
+use etendue_spectra::{Spectrum, metal::ComplexIndex};
 use glam::{Vec2, Vec3};
 
 use super::coated::{COAT_INDICES, Coat, PlaceInRows};
-use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable};
-use super::error::MaterialError;
-use super::fresnel;
 use super::gloss::{Gloss, GlossLobe, LobeCentre};
 use super::microfacet::{Ggx, half_vector, mirrored};
-use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, DiscreteSampler, Event, Passage, SurfaceModel};
 use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureCheck};
+use super::{error::MaterialError, fresnel};
 
 /// What a metallic paint is made of.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,13 +1,9 @@
 //! What a material_table's materials must be.
 
-use super::Surface;
-use super::emission::Emission;
-use super::error::MaterialError;
-use super::material::Material;
-use super::mix::Mix;
+use super::material::{Material, Mix};
 use super::parameter::{Parameter, TextureCheck};
-use crate::BRIGHTEST;
-use crate::textures::ImageTexture;
+use super::{Surface, emission::Emission, error::MaterialError};
+use crate::{BRIGHTEST, textures::ImageTexture};
 
 /// Checks material `index` of `materials`.
 pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTexture]) -> Result<(), MaterialError> {

@@ -12,19 +12,17 @@
 //! Left out: the weave, threads' highlights and their direction, light through the cloth (see the leaf for that).
 
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
+
 use etendue_core::Spectral;
 use etendue_core::maths::f32::{exp, pow, sin_cos};
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
-use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable};
-use super::error::MaterialError;
-use super::gloss::Gloss;
-use super::microfacet::half_vector;
-use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, DiscreteSampler, Event, Passage, SurfaceModel};
 use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
+use super::{error::MaterialError, gloss::Gloss, microfacet::half_vector};
 
 /// A cloth.
 #[derive(Clone, Debug, PartialEq)]

@@ -13,20 +13,16 @@
 //! Left out: absorption in the coat, dispersion, refraction of the roughness on the way in and out.
 
 use core::f32::consts::FRAC_1_PI;
+
 use etendue_core::Spectral;
 use etendue_core::maths::f32::{exp, ln};
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use glam::{Vec2, Vec3};
 
-use super::energy::CosineTable;
-use super::error::MaterialError;
-use super::fresnel;
-use super::gloss::Gloss;
 use super::microfacet::{Distribution, Ggx, MIRROR_ALPHA, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
 use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureCheck};
-use super::puddles::Puddles;
-use super::slopes::SeenFacets;
+use super::{energy::CosineTable, error::MaterialError, fresnel, gloss::Gloss, puddles::Puddles, slopes::SeenFacets};
 
 /// Refractive indices that a coat may have: from a little above air's, below which the coat would do nothing that f32
 /// and the table resolve, to that of germanium. Scene files state the same range.

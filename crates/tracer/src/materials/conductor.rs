@@ -12,18 +12,16 @@
 //! is asked for: see `interreflection`.
 
 use core::f32::consts::FRAC_1_PI;
+
 use etendue_core::Spectral;
-use etendue_spectra::Spectrum;
-use etendue_spectra::metal::ComplexIndex;
+use etendue_spectra::{Spectrum, metal::ComplexIndex};
 use glam::{Vec2, Vec3};
 
-use super::error::MaterialError;
-use super::fresnel;
-use super::gloss::Gloss;
 use super::interreflection::{self, LossOfAlpha};
 use super::microfacet::{Distribution, Facets, MIRROR_ALPHA, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
 use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureCheck};
+use super::{error::MaterialError, fresnel, gloss::Gloss};
 use crate::textures::TextureId;
 
 /// A metal, or another interface that light does not come out of again.

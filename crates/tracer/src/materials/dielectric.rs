@@ -22,12 +22,10 @@ use etendue_core::{Spectral, maths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
-use super::error::MaterialError;
-use super::fresnel;
-use super::gloss::Gloss;
 use super::microfacet::{Ggx, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
 use super::parameter::{Factor, Parameter, ShadingPoint, TextureCheck};
+use super::{error::MaterialError, fresnel, gloss::Gloss};
 
 /// Refractive indices against air that a solid or a pane may have: from that of a substance which nobody sees.
 pub const DIELECTRIC_INDICES: core::ops::RangeInclusive<f64> = 1.0..=4.0;

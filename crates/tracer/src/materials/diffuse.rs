@@ -3,14 +3,14 @@
 //! f = ρ/π, 1/sr, at every pair of directions; ρ is the reflectance in [0, 1]. Sampled by the cosine.
 
 use core::f32::consts::FRAC_1_PI;
+
 use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use glam::{Vec2, Vec3};
 
-use super::error::MaterialError;
-use super::gloss::Gloss;
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
 use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
+use super::{error::MaterialError, gloss::Gloss};
 
 /// A reflectance alone is Lambert's law.
 impl SurfaceModel for Reflectance {

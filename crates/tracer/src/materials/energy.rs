@@ -6,9 +6,7 @@
 
 use etendue_spectra::Spectrum;
 
-use super::error::EnergyGain;
-use super::gauss::GAUSS;
-use super::parameter::Reflectance;
+use super::{error::EnergyGain, parameter::Reflectance, slopes::GAUSS};
 
 /// Segments of the tables of albedos.
 const SEGMENTS: usize = 128;

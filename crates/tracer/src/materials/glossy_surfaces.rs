@@ -1,7 +1,8 @@
 //! One surface of each model that states lobes, for tests of what is done with them.
 
-use super::*;
 use etendue_spectra::{Spectrum, metal};
+
+use super::*;
 
 /// All with their names.
 pub(crate) fn glossy_surfaces() -> Vec<(&'static str, Surface)> {

@@ -13,14 +13,13 @@
 //! Left out: the direction that light keeps after a few bounces; what leaves is taken independent of where it came from.
 
 use core::f32::consts::{FRAC_1_PI, TAU};
-use etendue_core::maths::f32::{exp, ln, sin_cos};
-use glam::{Vec2, Vec3};
 use std::sync::LazyLock;
 
-use super::MIRROR_ALPHA;
-use super::gauss::GAUSS;
-use super::microfacet::Distribution;
-use super::slopes::SeenFacets;
+use etendue_core::maths::f32::{exp, ln, sin_cos};
+use glam::{Vec2, Vec3};
+
+use super::slopes::{GAUSS, SeenFacets};
+use super::{MIRROR_ALPHA, microfacet::Distribution};
 
 /// Steps over the root of the roughness.
 const ROUGHNESSES: usize = 64;

@@ -14,16 +14,16 @@
 //! lobes were fitted to.
 
 use core::f32::consts::{FRAC_1_PI, TAU};
+
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use etendue_core::{Basis, Spectral, maths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
-use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable, WeightedLobe};
 use super::error::{EnergyGain, MaterialError};
 use super::gloss::{Gloss, GlossLobe, LobeCentre};
-use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, DiscreteSampler, Event, Passage, SurfaceModel};
 use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 
 /// The most lobes that a model may have.

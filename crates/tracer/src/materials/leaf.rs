@@ -6,14 +6,14 @@
 //! Plant Stands*, ch. II.) Left out: the waxy shine of leaves, and that their two sides differ.
 
 use core::f32::consts::FRAC_1_PI;
+
 use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use glam::{Vec2, Vec3};
 
-use super::error::MaterialError;
-use super::gloss::Gloss;
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
 use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck, WHITE};
+use super::{error::MaterialError, gloss::Gloss};
 
 /// A sheet that scatters to both sides.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,14 +5,12 @@ use etendue_spectra::Spectrum;
 use glam::Vec3;
 
 use super::emission::{Emission, EmissionQuery};
-use super::error::MaterialError;
-use super::material::{Material, MaterialFlags, flags};
-use super::model::Passage;
-use super::parameter::ShadingPoint;
-use super::{Bsdf, DiffuseBsdf, Reflectance, Surface, check, mix};
-use crate::MaterialId;
-use crate::geometry::SurfacePoint;
+use super::material::{self, Material, MaterialFlags, flags};
+use super::{
+    Bsdf, DiffuseBsdf, Reflectance, Surface, check, error::MaterialError, model::Passage, parameter::ShadingPoint,
+};
 use crate::textures::{ImageTexture, Lookup};
+use crate::{MaterialId, geometry::SurfacePoint};
 
 /// Materials and textures. Immutable; every texture and part that a material names is here, every reflectance lies in
 /// 0–1. The methods that take a material's id panic on one of another material_table.
@@ -200,7 +198,7 @@ impl MaterialTable {
     #[must_use]
     pub fn resolve(&self, mut id: MaterialId, lookup: &Lookup, mut u: f32) -> MaterialId {
         while let Surface::Mix(parts) = &self.materials[id.0 as usize].surface {
-            (id, u) = mix::choose(parts, parts.weight.at(&self.textures, lookup), u);
+            (id, u) = material::choose(parts, parts.weight.at(&self.textures, lookup), u);
         }
         id
     }

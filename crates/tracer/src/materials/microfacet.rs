@@ -8,6 +8,7 @@
 //! All directions are in the shading frame (z = normal), unit, on the side z > 0.
 
 use core::f32::consts::{PI, TAU};
+
 use etendue_core::maths::f32::sin_cos;
 use glam::{Vec2, Vec3};
 

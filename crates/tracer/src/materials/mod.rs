@@ -28,12 +28,10 @@ mod coated;
 mod conductor;
 mod dielectric;
 mod diffuse;
-mod discrete_sampler;
 mod emission;
 mod energy;
 mod error;
 pub mod fresnel;
-mod gauss;
 mod gloss;
 #[cfg(test)]
 mod glossy_surfaces;
@@ -44,10 +42,7 @@ mod list;
 mod material;
 mod material_table;
 mod microfacet;
-mod mix;
 mod model;
-mod modulation;
-mod normal_map;
 mod parameter;
 mod puddles;
 mod retro;
@@ -66,32 +61,32 @@ pub use dielectric::{DIELECTRIC_INDICES, Dielectric, DielectricBsdf, absorption_
 pub use diffuse::DiffuseBsdf;
 pub use emission::{Emission, EmissionQuery, EmissionSides};
 pub use error::{EnergyGain, MaterialError};
+
+use etendue_core::Spectral;
+use glam::{Vec2, Vec3};
 pub(crate) use gloss::{Gloss, GlossLobe, LobeCentre, TOLD, schlick};
 #[cfg(test)]
 pub(crate) use glossy_surfaces::glossy_surfaces;
+
+use list::surfaces;
+use model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use parameter::{Parameter, ShadingPoint, TextureCheck};
+
+pub use emission::{Modulation, choice_level};
 pub use lafortune::{Lafortune, LafortuneBsdf, LafortuneError, Lobe, MAX_LOBES};
 pub use leaf::{Leaf, LeafBsdf};
-pub use material::Material;
+pub use material::{Material, Mix};
 pub use material_table::MaterialTable;
 pub use microfacet::{Distribution, Ggx, MIRROR_ALPHA};
-pub use mix::Mix;
 pub use model::{BsdfSample, BsdfValue, Event};
-pub use modulation::{Modulation, choice_level};
-pub use normal_map::{Green, NormalMap};
 pub use parameter::{Factor, Reflectance};
 pub use puddles::{GroundRelief, Puddles};
 pub use retro::{
     DayTime, MarkingBsdf, MarkingError, RetroTable, RetroTableError, RoadMarking, SHEETING_CLASSES, SHEETING_COLOURS,
     Sheeting, SheetingBsdf, SheetingError, SheetingPreset, marking_class,
 };
-pub use shading::ShadingFrame;
+pub use shading::{Green, NormalMap, ShadingFrame};
 pub use thin_sheet::{ThinSheet, ThinSheetBsdf};
-
-use etendue_core::Spectral;
-use glam::{Vec2, Vec3};
-use list::surfaces;
-use model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
-use parameter::{Parameter, ShadingPoint, TextureCheck};
 
 surfaces! {
     /// Lambert's law with a reflectance.

@@ -9,8 +9,7 @@
 //! thus hold waves of the energy 3.6e-4 R J/m² = (ρ g + σ k²) ⟨ζ²⟩, of the mean square slope k² ⟨ζ²⟩ = 1.15e-3 R. Measured roughness grows
 //! more slowly in heavy rain, and less in water shallower than the waves are long: it is an upper bound.
 
-use super::error::MaterialError;
-use super::parameter::Factor;
+use super::{error::MaterialError, parameter::Factor};
 
 /// Mean square slope of water by rain, per mm/h.
 const SLOPE2_PER_MM_H: f64 = 1.15e-3;

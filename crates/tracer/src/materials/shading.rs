@@ -5,11 +5,22 @@
 //! its horizon: no black seams. A direction counts only where true surface and shading frame agree on its side: no
 //! light leaks through a wall by an interpolated normal. What a mirror or glass sends to the wrong side leaves along the
 //! true surface instead, so that neither loses light.
+//!
+//! Normal maps: normals of a finer surface than the mesh has, told by colours.
+//!
+//! A texel (r, g, b), linear, 0 to 1, is the vector (2r − 1, 2g − 1, 2b − 1) of the tangent frame: x along ∂p/∂u, y along
+//! ∂p/∂v, z along the surface's own shading normal. Pictures have green up in the texture (OpenGL) or down (DirectX).
+//! The x and y parts are multiplied by the strength, the result is normalised. Filtered texels are shorter than unit
+//! vectors; the spread of normals that their length tells is left out, as is the displacement itself: outlines and
+//! shadows are those of the mesh. Where a picture repeats mirrored, its slopes are not turned about. Bytes of 127 and 128
+//! both stand next to 0: |x| below 1/254 is taken as 0, so that a flat map is flat.
 
 use etendue_core::Basis;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
+use super::MaterialError;
 use crate::geometry::SurfacePoint;
+use crate::textures::{ImageTexture, Lookup, TextureId};
 
 /// Cosine that the viewer has at least in the shading frame.
 const HORIZON: f32 = 1e-4;
@@ -97,4 +108,103 @@ fn facing(normal: Vec3, geometric_normal: Vec3, to_viewer: Vec3) -> Vec3 {
     }
     let bent = (normal + to_viewer * (HORIZON - cos)).normalize_or(geometric_normal);
     if bent.dot(to_viewer) > 0.0 { bent } else { geometric_normal }
+}
+
+/// Which way green points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Green {
+    /// To greater v: y up (OpenGL).
+    #[default]
+    Up,
+    /// To smaller v: y down (DirectX).
+    Down,
+}
+
+/// A normal map on a material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalMap {
+    texture: TextureId,
+    slopes: Vec2,
+}
+
+/// The strongest exaggeration of slopes.
+const STRONGEST: f64 = 10.0;
+
+/// Half the width of a byte's step about 0, of −1 to 1.
+const FLAT: f32 = 1.0 / 254.0;
+
+impl NormalMap {
+    /// The normals of a texture of linear colours, their slopes multiplied by `strength` (0 to 10, 1 as painted).
+    ///
+    /// # Errors
+    /// Where the strength is out of range.
+    pub fn new(texture: TextureId, green: Green, strength: f64) -> Result<Self, MaterialError> {
+        if !(0.0..=STRONGEST).contains(&strength) {
+            return Err(MaterialError::NormalStrength { strength });
+        }
+        let strength = strength as f32;
+        let y = if green == Green::Up { strength } else { -strength };
+        Ok(Self { texture, slopes: Vec2::new(strength, y) })
+    }
+
+    /// The texture that holds the normals.
+    #[must_use]
+    pub fn texture(&self) -> TextureId {
+        self.texture
+    }
+
+    /// The normal about the unit `normal`, with unit tangents along u and v. The answer is unit, and on the side of
+    /// `normal`; it is `normal` itself where the tangents or the texel tell no direction.
+    pub(super) fn at(&self, textures: &[ImageTexture], lookup: &Lookup, normal: Vec3, [u, v]: [Vec3; 2]) -> Vec3 {
+        let [r, g, b] = textures[self.texture.0 as usize].sample(lookup);
+        let slopes = Vec3::new(centred(r) * self.slopes.x, centred(g) * self.slopes.y, centred(b).max(0.0));
+        // Tangents of the shading normal's own plane, so that a flat map changes nothing.
+        let along = |t: Vec3| (t - normal * normal.dot(t)).normalize_or_zero();
+        let bent = along(u) * slopes.x + along(v) * slopes.y + normal * slopes.z;
+        bent.try_normalize().filter(|n| n.dot(normal) > 0.0).unwrap_or(normal)
+    }
+}
+
+fn centred(channel: f32) -> f32 {
+    let x = 2.0 * channel - 1.0;
+    if x.abs() < FLAT { 0.0 } else { x }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::textures::{Sampling, Texels};
+
+    fn bent(byte: [u8; 3], green: Green, strength: f64, normal: Vec3, tangents: [Vec3; 2]) -> Vec3 {
+        let texture = ImageTexture::new(1, 1, Texels::Linear8(vec![byte]), Sampling::default()).expect("a texel");
+        let map = NormalMap::new(TextureId(0), green, strength).expect("a map");
+        map.at(&[texture], &Lookup::point(Vec2::splat(0.5)), normal, tangents)
+    }
+
+    #[test]
+    fn colours_tell_directions_of_the_texture() {
+        let flat = [Vec3::X, Vec3::Y];
+        for byte in [[127, 127, 255], [128, 128, 255], [127, 128, 255]] {
+            assert_eq!(bent(byte, Green::Up, 1.0, Vec3::Z, flat), Vec3::Z);
+        }
+        // (2 · 204/255 − 1, 0, 2 · 230/255 − 1) = (0.6, 0, 0.804).
+        let right = bent([204, 128, 230], Green::Up, 1.0, Vec3::Z, flat);
+        assert!((right - Vec3::new(0.6, 0.0, 0.803_922).normalize()).length() < 1e-5, "{right}");
+        let up = bent([128, 204, 230], Green::Up, 1.0, Vec3::Z, flat);
+        let down = bent([128, 204, 230], Green::Down, 1.0, Vec3::Z, flat);
+        assert!(up.y > 0.5 && (up.y + down.y).abs() < 1e-7 && up.z == down.z);
+        let strong = bent([204, 128, 230], Green::Up, 2.0, Vec3::Z, flat);
+        assert!((strong.x / strong.z - 2.0 * right.x / right.z).abs() < 1e-5);
+        assert_eq!(bent([204, 128, 230], Green::Up, 0.0, Vec3::Z, flat), Vec3::Z);
+    }
+
+    #[test]
+    fn leaning_and_useless_tangents_are_borne() {
+        let normal = Vec3::new(0.6, 0.0, 0.8);
+        let n = bent([204, 128, 230], Green::Up, 1.0, normal, [Vec3::X, Vec3::Y]);
+        assert!((n.length() - 1.0).abs() < 1e-6 && n.dot(Vec3::new(0.8, 0.0, -0.6)) > 0.5, "{n}");
+        assert_eq!(bent([204, 230, 230], Green::Up, 1.0, normal, [normal, Vec3::ZERO]), normal);
+        assert_eq!(bent([0, 0, 0], Green::Up, 1.0, Vec3::Z, [Vec3::X, Vec3::Y]), Vec3::Z, "below the surface");
+        assert!(NormalMap::new(TextureId(0), Green::Up, f64::NAN).is_err());
+    }
 }

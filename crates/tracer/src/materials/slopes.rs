@@ -9,12 +9,12 @@
 //! The error is below 2e-5 at all cosines and α ≥ 1e-4, found beside the same rule of 64 nodes.
 
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2};
+use std::sync::LazyLock;
+
 use etendue_core::maths::f64::{atan, exp, sin_cos};
 use glam::Vec3;
 
-use super::beckmann::Beckmann;
-use super::gauss::GAUSS;
-use super::microfacet::Distribution;
+use super::{beckmann::Beckmann, microfacet::Distribution};
 
 /// Slopes of Beckmann's facets beyond are left out: their share is exp(−30).
 const STEEPEST: f64 = 5.5;
@@ -177,6 +177,34 @@ fn shadow(distribution: Distribution, alpha: f64, cos: f64, sin: f64) -> f64 {
     }
 }
 
+/// Nodes of the rule.
+const NODES: usize = 20;
+
+/// Nodes on [0, 1] and their weights, which sum to 1: exact for polynomials up to degree 39.
+pub(super) static GAUSS: LazyLock<[(f64, f64); NODES]> = LazyLock::new(|| core::array::from_fn(node));
+
+/// Newton's steps from Tricomi's estimate of a root of the Legendre polynomial.
+fn node(i: usize) -> (f64, f64) {
+    let n = NODES as f64;
+    let mut x = etendue_core::maths::f64::cos(core::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5));
+    for _ in 0..8 {
+        let (value, slope) = legendre(x);
+        x -= value / slope;
+    }
+    let slope = legendre(x).1;
+    (0.5 * (1.0 - x), 1.0 / ((1.0 - x * x) * slope * slope))
+}
+
+/// The Legendre polynomial and its derivative, by recurrence.
+fn legendre(x: f64) -> (f64, f64) {
+    let (mut before, mut value) = (1.0, x);
+    for k in 2..=NODES {
+        let k = k as f64;
+        (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+    }
+    (value, NODES as f64 * (x * value - before) / (x * x - 1.0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -212,6 +240,14 @@ mod tests {
                     assert!((sum - 1.0).abs() < 3e-5, "{distribution:?} {alpha} {cos}: {sum}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn powers_are_integrated_exactly() {
+        for power in [0, 1, 2, 11, 39] {
+            let sum: f64 = GAUSS.iter().map(|(x, w)| w * (0..power).map(|_| x).product::<f64>()).sum();
+            assert!((sum * f64::from(power + 1) - 1.0).abs() < 1e-13, "{power}: {sum}");
         }
     }
 }

@@ -14,12 +14,9 @@
 use etendue_core::{Spectral, maths};
 use glam::{Vec2, Vec3};
 
-use super::dielectric::DIELECTRIC_INDICES;
-use super::error::MaterialError;
-use super::fresnel;
-use super::gloss::Gloss;
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
 use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
+use super::{dielectric::DIELECTRIC_INDICES, error::MaterialError, fresnel, gloss::Gloss};
 
 /// A thin pane.
 #[derive(Clone, Debug, PartialEq)]

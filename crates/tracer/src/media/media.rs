@@ -1,13 +1,11 @@
 //! All media of a view.
 
-use etendue_core::maths::f64::exp;
 use etendue_core::random::{Draw, PathStream};
-use etendue_core::{Ray, Spectral, TimeInterval, Wavelengths};
+use etendue_core::{Ray, Spectral, TimeInterval, Wavelengths, maths::f64::exp};
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::medium::{ForwardPeak, Medium, Optics};
-use super::phase::Phase;
-use super::shape::Hollow;
+use super::{phase::Phase, shape::Hollow};
 
 /// What a medium counts for beside the part of a ray that lies in it, where light is drawn by middles of longer parts.
 const BESIDE: f32 = 0.05;

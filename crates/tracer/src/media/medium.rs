@@ -9,9 +9,7 @@ use etendue_core::Motion;
 use etendue_spectra::Spectrum;
 use glam::DVec3;
 
-use super::noise::Noise;
-use super::phase::Phase;
-use super::shape::Shape;
+use super::{noise::Noise, phase::Phase, shape::Shape};
 
 /// Why a medium is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

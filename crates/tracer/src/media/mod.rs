@@ -18,13 +18,14 @@ mod shape;
 mod solid;
 
 pub use collide::{Collision, FlightRandom};
-pub(crate) use media::RaySpan;
 pub use media::{Media, MediaRay, RandomCounter};
 pub use medium::{ForwardPeak, Medium, MediumError, Unevenness};
 pub use noise::Noise;
 pub use phase::Phase;
 pub use phase_table::SpectralTable;
 pub use shape::{Hollow, HollowPart, Shape};
+
+pub(crate) use media::RaySpan;
 #[cfg(test)]
 pub(crate) use solid::cuboid;
 pub use solid::{Solid, SolidError};

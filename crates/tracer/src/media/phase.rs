@@ -4,9 +4,9 @@
 //! given by v = 1 − cos θ, which is 0 straight on, since cosines near 1 have no digits left for narrow forward peaks.
 
 use core::f32::consts::{FRAC_1_PI, TAU};
+
 use etendue_core::maths::f32::{cbrt, sin_cos};
-use etendue_core::maths::f64::sin;
-use etendue_core::{Basis, Wavelengths};
+use etendue_core::{Basis, Wavelengths, maths::f64::sin};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 

@@ -3,12 +3,11 @@
 //! Nodes lie at θ = π t², t even, which is finest in the forward peak; p is linear in v = 1 − cos θ between them and normalised as such,
 //! so that drawing by the table is exact. Between the table's wavelengths p is linear.
 
-use core::f32::consts::TAU;
-use core::f64::consts::PI;
+use core::{f32::consts::TAU, f64::consts::PI};
+
 use etendue_core::maths::f32::atan2;
 use etendue_core::maths::f64::{asin, cos, exp, sin};
-use etendue_spectra::Spectrum;
-use etendue_spectra::mie::Droplets;
+use etendue_spectra::{Spectrum, mie::Droplets};
 use rayon::prelude::*;
 
 use crate::materials::fresnel;

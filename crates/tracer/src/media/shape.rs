@@ -1,7 +1,8 @@
 //! Where a medium is: all over, below a height, in a box, a ball or a closed mesh; in its own frame.
 
-use glam::DVec3;
 use std::sync::Arc;
+
+use glam::DVec3;
 
 use super::solid::Solid;
 

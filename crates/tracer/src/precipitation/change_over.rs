@@ -7,6 +7,7 @@
 //! there by the distance of its centre at the ray's time, the medium by that of the point: together they are the whole class at every distance.
 
 use core::f64::consts::PI;
+
 use etendue_core::maths::f64::{acos, asin, cos};
 use glam::DVec3;
 

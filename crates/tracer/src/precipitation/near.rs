@@ -5,11 +5,11 @@
 //! off, light behind the first matt surface or scattering goes through precipitation unhindered: over the tens of metres between the surfaces
 //! of a scene it turns some per cent of the light, mostly by less than 40°, and takes none.
 
-use etendue_core::maths::f64::cbrt;
-use etendue_core::{Motion, Ray, TimeInterval};
+use std::sync::Arc;
+
+use etendue_core::{Motion, Ray, TimeInterval, maths::f64::cbrt};
 use etendue_spectra::{Spectrum, dielectric};
 use glam::{DAffine3, DVec3, Vec3};
-use std::sync::Arc;
 
 use super::change_over::{ChangeOver, SeenRegion};
 use super::field::{Field, Particle};

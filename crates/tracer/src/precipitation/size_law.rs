@@ -3,6 +3,7 @@
 //! N(d) = N₀ exp(−Λ d): d is a drop's diameter, or the diameter that a flake has when molten. A flake itself is larger, by its density.
 
 use core::f64::consts::PI;
+
 use etendue_core::maths::f64::{cbrt, exp, exp_m1, ln_1p, pow};
 
 /// Why a law is refused.
@@ -197,11 +198,11 @@ fn check_rate(rate_mm_h: f64, range: RateRange) -> Result<(), SizeLawError> {
 }
 
 /// Rates that rain may have, mm/h: from drizzle to a cloudburst. Marshall and Palmer measured up to some 25 mm/h; others have used the law up to 150.
-pub(super) const RAIN_RATES: RateRange = RateRange { low_mm_h: 0.1, high_mm_h: 150.0 };
+const RAIN_RATES: RateRange = RateRange { low_mm_h: 0.1, high_mm_h: 150.0 };
 
 /// N₀, 1/(m³ mm), and Λ, 1/mm, by Marshall and Palmer ("The distribution of raindrops with size", J. Meteorol. 5, 1948) at a rate, mm/h:
 /// N(D) = 8000 exp(−4.1 R^−0.21 D) 1/(m³ mm).
-pub(super) fn marshall_palmer(rate_mm_h: f64) -> [f64; 2] {
+fn marshall_palmer(rate_mm_h: f64) -> [f64; 2] {
     [8000.0, 4.1 * pow(rate_mm_h, -0.21)]
 }
 
@@ -220,7 +221,7 @@ pub fn axis_ratio(diameter_mm: f64) -> f64 {
 }
 
 /// Rates that snow may have, mm/h of water.
-pub(super) const SNOW_RATES: RateRange = RateRange { low_mm_h: 0.1, high_mm_h: 3.0 };
+const SNOW_RATES: RateRange = RateRange { low_mm_h: 0.1, high_mm_h: 3.0 };
 
 /// Density of ice, g/cm³.
 const ICE: f64 = 0.917;
@@ -242,7 +243,7 @@ pub enum Crystals {
 
 /// N₀, 1/(m³ mm), and Λ, 1/mm, by Sekhon and Srivastava ("Snow size spectra and radar reflectivity", J. Atmos. Sci. 27, 1970) at a rate, mm/h of
 /// water: N(D) = 2500 R^−0.94 exp(−2.29 R^−0.45 D) 1/(m³ mm), D the diameter of the molten flake.
-pub(super) fn sekhon_srivastava(rate_mm_h: f64) -> [f64; 2] {
+fn sekhon_srivastava(rate_mm_h: f64) -> [f64; 2] {
     [2500.0 * pow(rate_mm_h, -0.94), 2.29 * pow(rate_mm_h, -0.45)]
 }
 
@@ -258,7 +259,7 @@ impl Crystals {
     }
 
     /// Diameter of a flake, mm, that melts to a drop of `melted_mm`: ρ(D) D³ = d³ g/cm³, but never denser than ice.
-    pub(super) fn flake_mm(self, melted_mm: f64) -> f64 {
+    fn flake_mm(self, melted_mm: f64) -> f64 {
         let cube = melted_mm * melted_mm * melted_mm;
         let by_law = pow(cube / (0.178 * self.density_factor()), 1.0 / 2.078);
         by_law.max(cbrt(cube / ICE))

@@ -9,12 +9,12 @@
 //! anywhere. A plane is believed up to 1e-3 of the triangle beyond its edges (the least barycentric weight is −1e-3 or
 //! more). Beyond that, the answer is that of the accelerator's ray, solved in f64: a point of the triangle's edge.
 
-use super::point::{self, Normals};
-use super::{Hit, RenderSpace};
-use crate::geometry::InstanceTransform;
-use crate::geometry::{MeshPose, Shape, SurfacePoint, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
+
+use super::point::{self, Normals};
+use super::{Hit, RenderSpace};
+use crate::geometry::{InstanceTransform, MeshPose, Shape, SurfacePoint, sphere};
 
 /// How far beyond its triangle, in barycentric weights, a plane is believed.
 const BEYOND: f64 = 1e-3;

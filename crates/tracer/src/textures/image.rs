@@ -6,10 +6,10 @@
 //! places would leave gaps. Longer footprints are read with gaps: nothing is blurred further, and the samples of the pixel
 //! fill them.
 
-use etendue_core::blocks::Blocks;
-use etendue_core::maths::f32::log2;
-use glam::{Vec2, Vec3};
 use std::sync::Arc;
+
+use etendue_core::{maths::f32::log2, storage::Blocks};
+use glam::{Vec2, Vec3};
 
 use super::mipmap::{Level, Resolution, pyramid, weighted_pyramid};
 use super::projection::{Place, Projection};

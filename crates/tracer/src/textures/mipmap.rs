@@ -2,9 +2,10 @@
 //!
 //! Where a picture has an alpha channel, colours are averaged by it too: what cannot be seen gives no colour to what can.
 
-use super::texels::{Store, Texel};
-use super::wrap::Wrap;
 use glam::Vec3;
+
+use super::projection::Wrap;
+use super::texels::{Store, Texel};
 
 /// One resolution of a picture, wherever its texels are.
 pub(super) trait Resolution<T> {

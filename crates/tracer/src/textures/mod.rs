@@ -12,15 +12,13 @@ mod mipmap;
 mod projection;
 mod texels;
 mod tiled;
-mod wrap;
-
-pub use image::{Filter, ImageTexture, Sampling};
-pub use projection::Projection;
-pub use texels::{Channel, TexelEncoding, Texels, TextureError, TiledError};
-pub use tiled::{PyramidWriter, TileMemory};
-pub use wrap::Wrap;
 
 use glam::{DVec3, Vec2, Vec3};
+
+pub use image::{Filter, ImageTexture, Sampling};
+pub use projection::{Projection, Wrap};
+pub use texels::{Channel, TexelEncoding, Texels, TextureError, TiledError};
+pub use tiled::{PyramidWriter, TileMemory};
 
 /// A texture's place in the tracer's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -1,8 +1,8 @@
 //! Texels as files hold them, read as linear light.
 
 use core::ops::{Add, Mul};
-use etendue_spectra::colour;
-use etendue_spectra::colour::XYZ_FROM_SRGB;
+
+use etendue_spectra::colour::{self, XYZ_FROM_SRGB};
 use glam::Vec3;
 
 /// The texels of a picture, row by row from the top.

@@ -1,10 +1,7 @@
 //! The layers of an EXR: spectra, colours, and channels by what stands before their last dot.
 
-use super::facts::SideCar;
-use super::file_layers::FileLayers;
-use super::{names, units};
-use crate::found::FoundFile;
-use crate::layer::{Kind, Layer, NamedPlane, Role, Samples};
+use std::collections::BTreeMap;
+
 use etendue::Error;
 use etendue_core::quantity::{Quantity, Variance};
 use etendue_core::{Bands, Plane, SpectralCube};
@@ -12,7 +9,10 @@ use etendue_io::exr::{
     ExrChannel, ExrFile, Samples as Stored, SpectralImage, WithVariance, band_weights, parse_channel_name, read_exr,
     spectral_of,
 };
-use std::collections::BTreeMap;
+
+use super::facts::{self, FileLayers, SideCar};
+use crate::found::FoundFile;
+use crate::layer::{Kind, Layer, NamedPlane, Role, Samples};
 
 /// Parts of a digital number, in the order of the light's way; others follow as they stand.
 const PARTS: [&str; 10] =
@@ -25,7 +25,7 @@ pub(super) fn layers(file: &FoundFile, side_car: &SideCar) -> Result<FileLayers,
     let exr = read_exr(&file.path).map_err(Error::input)?;
     let facts = facts(&exr);
     let layers = if file.stem == "signal_breakdown" {
-        vec![parts(exr, units::written(side_car.entry(&file.name)[1]))]
+        vec![parts(exr, facts::written(side_car.entry(&file.name)[1]))]
     } else {
         all(file, exr, side_car)?
     };
@@ -66,7 +66,7 @@ fn all(file: &FoundFile, exr: ExrFile, side_car: &SideCar) -> Result<Vec<Layer>,
     let follows = |name: &str| spectral && ["R", "G", "B"].contains(&name);
     let others = exr.channels.into_iter().filter(|channel| !is_spectral(channel)).filter(|c| !follows(&c.name));
     for (name, channels) in grouped(others) {
-        let (unit, more) = units::of_layer(&stated, &name);
+        let (unit, more) = facts::of_layer(&stated, &name);
         let first = name.split('.').next().unwrap_or(&name);
         let own = attributes.get(&format!("etendue:{first}")).cloned();
         let meaning = own.unwrap_or_else(|| if more.is_empty() { of_file.clone() } else { more });
@@ -104,7 +104,7 @@ fn kind(layer: &str, channels: Vec<ExrChannel>, side_car: &SideCar) -> (Kind, Ve
         channels.iter().map(|c| c.name.rsplit_once('.').map_or(c.name.as_str(), |(_, last)| last).to_owned()).collect();
     let letters: Vec<&str> = letters.iter().map(String::as_str).collect();
     let kind = match (&letters[..], &channels[0].samples) {
-        (["ID"], Stored::Uint(ids)) => Kind::Identity { names: names::names(layer, ids, side_car) },
+        (["ID"], Stored::Uint(ids)) => Kind::Identity { names: facts::names(layer, ids, side_car) },
         (["X", "Y", "Z"], _) => Kind::Vector { is_unit: ["N", "direction"].contains(&layer) },
         (["X", "Y"], _) => Kind::Flow,
         (["Z"], _) => Kind::Length,
@@ -156,7 +156,7 @@ fn spectrum(file: &FoundFile, exr: &ExrFile, stated: &str) -> Result<Layer, Erro
         width_nm: bands.width_nm(),
         weights: band_weights(bands),
     };
-    let unit = units::written(if stated.is_empty() { of_quantity } else { stated });
+    let unit = facts::written(if stated.is_empty() { of_quantity } else { stated });
     Ok(Layer { name: file.stem.clone(), kind, unit, meaning, size: (exr.width, exr.height), planes })
 }
 

@@ -1,9 +1,13 @@
-//! What the side-car beside a file says.
+//! What files state of their layers: facts beside them, names, units.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use etendue::Error;
-use etendue_io::sidecar;
+use etendue_io::{exr::VISIBILITY, inspect::identity_colour, sidecar};
 use serde_json::Value;
-use std::path::Path;
+
+use crate::layer::{Layer, Name};
 
 /// A side-car `camera.json`, or nothing.
 #[derive(Clone, Debug, Default)]
@@ -33,5 +37,113 @@ impl SideCar {
     pub(super) fn entry(&self, name: &str) -> [&str; 2] {
         let entry = self.at(&["files", name]);
         ["quantity", "unit"].map(|key| entry[key].as_str().unwrap_or(""))
+    }
+}
+
+/// The identities of a plane of this name, each with its name, where one is known, and its colour.
+pub(super) fn names(layer: &str, ids: &[u32], side_car: &SideCar) -> Vec<Name> {
+    let known = known(layer, side_car);
+    let there: BTreeSet<u32> = ids.iter().copied().collect();
+    let name = |id| Name { id, name: known.get(&id).cloned().unwrap_or_default(), colour: identity_colour(id) };
+    there.into_iter().map(name).collect()
+}
+
+fn known(layer: &str, side_car: &SideCar) -> BTreeMap<u32, String> {
+    let truth = |key: &str| side_car.at(&["ground_truth", key]);
+    match layer.split('.').next().unwrap_or(layer) {
+        "instance" => listed(truth("instances"), |entry| entry["name"].as_str()),
+        "material" => listed(truth("materials"), Value::as_str),
+        "semantic" => classes(truth("classes")),
+        "visibility" => numbered(VISIBILITY, ", ", " "),
+        "ray" => numbered(truth("ray.ID").as_str().unwrap_or(""), "; ", ": "),
+        _ => BTreeMap::new(),
+    }
+}
+
+/// Names in the order of their identities, from 1.
+fn listed(list: &Value, name: impl Fn(&Value) -> Option<&str>) -> BTreeMap<u32, String> {
+    let entries = list.as_array().map_or(&[][..], Vec::as_slice);
+    let named = entries.iter().zip(1..).filter_map(|(entry, id)| Some((id, name(entry)?.to_owned())));
+    std::iter::once((0, "background".to_owned())).chain(named).collect()
+}
+
+fn classes(table: &Value) -> BTreeMap<u32, String> {
+    let entries = table.as_object().into_iter().flatten();
+    let named = entries.filter_map(|(name, id)| Some((u32::try_from(id.as_u64()?).ok()?, name.clone())));
+    std::iter::once((0, "none".to_owned())).chain(named).collect()
+}
+
+/// "0 not known, 1 seen": numbers and their meanings.
+fn numbered(text: &str, between: &str, after: &str) -> BTreeMap<u32, String> {
+    let entry = |entry: &str| {
+        let (number, meaning) = entry.split_once(after)?;
+        Some((number.parse().ok()?, meaning.to_owned()))
+    };
+    text.split(between).filter_map(entry).collect()
+}
+
+/// The unit of a layer, and what else is said of it, in a header's `units`: `depth, P: m; flow: px; velocity: m/s, world`, or one unit for all.
+pub(super) fn of_layer(stated: &str, layer: &str) -> (String, String) {
+    let is_named = |names: &str| {
+        let mut names = names.split(',').map(str::trim);
+        names.any(|name| layer.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')))
+    };
+    let mut of_all = None;
+    for clause in stated.split(';').map(str::trim) {
+        match clause.split_once(':') {
+            Some((names, said)) if is_named(names) => {
+                let (unit, more) = said.split_once(',').unwrap_or((said, ""));
+                return (written(unit.trim()), more.trim().to_owned());
+            }
+            Some(_) => {}
+            // A list is of several layers, and does not say which.
+            None => of_all = of_all.or(Some(clause).filter(|unit| !unit.contains(", "))),
+        }
+    }
+    (written(of_all.unwrap_or("")), String::new())
+}
+
+/// A unit as it is printed: `W.m^-2.sr^-1.nm^-1` is W·m⁻²·sr⁻¹·nm⁻¹, `e` is e⁻, `1` is nothing.
+pub(super) fn written(unit: &str) -> String {
+    match unit {
+        "1" => String::new(),
+        "e" => "e⁻".to_owned(),
+        _ => unit.replace("^-1", "⁻¹").replace("^-2", "⁻²").replace("^2", "²").replace('.', "·"),
+    }
+}
+
+/// The layers of a file.
+pub(crate) struct FileLayers {
+    pub(crate) layers: Vec<Layer>,
+    /// What the file's header says: name and text.
+    pub(crate) facts: BTreeMap<String, String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identities_have_the_names_that_files_state() {
+        let side_car = SideCar::of(std::path::Path::new("")).expect("none");
+        let told =
+            |layer| names(layer, &[3, 1, 1, 0], &side_car).into_iter().map(|n| (n.id, n.name)).collect::<Vec<_>>();
+        let seen = [(0, "not known"), (1, "seen"), (3, "outside the picture")].map(|(id, name)| (id, name.to_owned()));
+        assert_eq!(told("visibility.forward"), seen);
+        assert_eq!(told("instance")[1], (1, String::new()));
+        assert_eq!(numbered("0: no ray; 1: the principal ray", "; ", ": ")[&1], "the principal ray");
+    }
+
+    #[test]
+    fn each_layer_has_its_unit() {
+        let truth = "depth, distance, P: m; N: 1; ID: identity, 0 is the background";
+        assert_eq!(["depth", "P", "N", "instance"].map(|layer| of_layer(truth, layer).0), ["m", "m", "", ""]);
+        let motion = "flow: px; motion_vector: px/s; scene_flow: m, camera frames; velocity: m/s, world; time: s";
+        assert_eq!(of_layer(motion, "flow.forward").0, "px");
+        assert_eq!(of_layer(motion, "scene_flow.forward"), ("m".to_owned(), "camera frames".to_owned()));
+        assert_eq!(of_layer("px; the column here minus that", "disparity").0, "px");
+        assert_eq!(of_layer("W.m^-2.sr^-1.nm^-1", "S0").0, "W·m⁻²·sr⁻¹·nm⁻¹");
+        assert_eq!(of_layer("1, e^2, e^2", "samples").0, "");
+        assert_eq!([written("e"), written("1"), written("DN")], ["e⁻", "", "DN"]);
     }
 }

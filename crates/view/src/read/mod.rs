@@ -1,20 +1,17 @@
 //! The layers of a file, by the readers of `etendue-io`.
 
-mod boxes;
 mod exr;
 mod facts;
-mod file_layers;
-mod flow;
-mod names;
 mod picture;
-mod units;
 
-use crate::found::FoundFile;
+use std::collections::BTreeMap;
+
 use etendue::Error;
 use etendue_io::correspondence::read_flow;
-pub(crate) use facts::SideCar;
-pub(crate) use file_layers::FileLayers;
-use std::collections::BTreeMap;
+
+use crate::found::FoundFile;
+
+pub(crate) use facts::{FileLayers, SideCar};
 
 /// Reads the layers of a file; `side_car` is that of its folder.
 ///
@@ -26,12 +23,12 @@ pub(crate) fn layers(file: &FoundFile, side_car: &SideCar) -> Result<FileLayers,
         return exr::layers(file, side_car);
     }
     let layer = match ending.as_str() {
-        "json" => boxes::layer(file)?,
+        "json" => picture::boxes_layer(file)?,
         "flo" | "png" => match read_flow(&file.path).map_err(Error::input)? {
-            Some(flow) => flow::layer(file, &flow),
-            None => picture::layer(file, side_car)?,
+            Some(flow) => picture::flow_layer(file, &flow),
+            None => picture::picture_layer(file, side_car)?,
         },
-        _ => picture::layer(file, side_car)?,
+        _ => picture::picture_layer(file, side_car)?,
     };
     Ok(FileLayers { layers: vec![layer], facts: BTreeMap::new() })
 }

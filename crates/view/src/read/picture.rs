@@ -1,13 +1,16 @@
 //! Pictures: raws as their side-car states them, others as what their numbers are taken for.
 
-use super::facts::SideCar;
-use super::units;
+use etendue::Error;
+use etendue_core::{Plane, quantity::OpticalFlow};
+use etendue_io::inspect::{ObjectBox, identity_colour, read_boxes};
+use etendue_io::photograph::{Channel, Encoding, Photograph, read_photograph};
+use serde_json::{Value, json};
+
+use super::facts::{self, SideCar};
 use crate::found::FoundFile;
 use crate::layer::{Kind, Layer, NamedPlane, Samples};
-use etendue::Error;
-use etendue_io::photograph::{Channel, Encoding, Photograph, read_photograph};
 
-pub(super) fn layer(file: &FoundFile, side_car: &SideCar) -> Result<Layer, Error> {
+pub(super) fn picture_layer(file: &FoundFile, side_car: &SideCar) -> Result<Layer, Error> {
     let photograph = read_photograph(&file.path).map_err(Error::input)?;
     let size = (photograph.width, photograph.height);
     let [quantity, stated] = side_car.entry(&file.name);
@@ -18,8 +21,8 @@ pub(super) fn layer(file: &FoundFile, side_car: &SideCar) -> Result<Layer, Error
             let kind = Kind::Raw { black: raw.black_level_dn, white: raw.white_level_dn, filters };
             (kind, "DN".to_owned(), format!("exposure {} s", raw.exposure_s))
         }
-        (None, 3.., None) => (Kind::Colour, units::written(stated), quantity.to_owned()),
-        (None, _, None) => (Kind::Number, units::written(stated), quantity.to_owned()),
+        (None, 3.., None) => (Kind::Colour, facts::written(stated), quantity.to_owned()),
+        (None, _, None) => (Kind::Number, facts::written(stated), quantity.to_owned()),
         // Depth and disparity as pictures.
         (None, 1 | 2, Some(_)) if !stated.is_empty() && !stated.ends_with("bits") => {
             (Kind::Number, stated.to_owned(), quantity.to_owned())
@@ -51,4 +54,40 @@ fn planes(photograph: Photograph) -> Vec<NamedPlane> {
         NamedPlane::value(name, samples)
     };
     shown.map(plane).collect()
+}
+
+pub(super) fn flow_layer(file: &FoundFile, flow: &Plane<OpticalFlow>) -> Layer {
+    let component = |axis: usize| Samples::Exact(flow.samples().iter().map(|vector| vector[axis]).collect());
+    Layer {
+        name: file.stem.clone(),
+        kind: Kind::Flow,
+        unit: "px".to_owned(),
+        meaning: "place in the other frame minus place here, x right, y down; NaN: not known".to_owned(),
+        size: (flow.width(), flow.height()),
+        planes: vec![NamedPlane::value("X", component(0)), NamedPlane::value("Y", component(1))],
+    }
+}
+
+pub(super) fn boxes_layer(file: &FoundFile) -> Result<Layer, Error> {
+    let boxes = read_boxes(&file.path).map_err(Error::input)?;
+    Ok(Layer {
+        name: file.stem.clone(),
+        kind: Kind::Boxes { objects: boxes.objects.iter().map(object).collect() },
+        unit: "px".to_owned(),
+        meaning: "full lines about what is seen, broken ones about whole objects".to_owned(),
+        size: (boxes.width_px, boxes.height_px),
+        planes: Vec::new(),
+    })
+}
+
+fn object(object: &ObjectBox) -> Value {
+    json!({
+        "id": object.id,
+        "name": object.name,
+        "class": object.class,
+        "colour": identity_colour(object.id),
+        "visible": object.visible_box_px,
+        "amodal": object.amodal_box_px,
+        "visible_fraction": object.visible_fraction,
+    })
 }

@@ -1,6 +1,6 @@
-//! Against libm in double precision, whose own error (below 1e-8 units of an `f32`) does not count.
-
 use super::*;
+
+// Against libm in double precision, whose own error (below 1e-8 units of an `f32`) does not count.
 
 /// The bound that the module states, in units in the last place.
 const BOUND_ULP: f64 = 0.51;

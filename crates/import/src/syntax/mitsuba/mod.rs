@@ -9,16 +9,14 @@
 
 mod element;
 mod folders;
-mod lines;
-mod names;
 mod parameters;
 mod parse;
 
 use std::path::Path;
 
-pub use element::{MitsubaElement, MitsubaPlace, MitsubaScene};
-
 use etendue_io::{Error, Sandbox};
+
+pub use element::{MitsubaElement, MitsubaPlace, MitsubaScene};
 
 /// Reads a scene file with all files that it includes, which must lie in `sandbox`. Values are given to parameters by their names, as by Mitsuba's `-D`: they
 /// hold in place of what a `<default>` says.

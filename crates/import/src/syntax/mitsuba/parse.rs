@@ -1,19 +1,15 @@
 //! XML to elements.
 
-use std::cell::Cell;
-use std::path::Path;
-use std::rc::Rc;
+use std::{cell::Cell, path::Path, rc::Rc};
 
+use etendue_io::source::{decode_text, read_description_bytes};
+use etendue_io::{Error, Sandbox};
 use etendue_scene::limits;
 use roxmltree::{Document, Node};
 
-use super::element::{MitsubaElement, MitsubaPlace, MitsubaScene};
+use super::element::{Lines, MitsubaElement, MitsubaPlace, MitsubaScene};
 use super::folders::Folders;
-use super::lines::Lines;
-use super::names::{TAGS, modern, shortened};
-use super::parameters::Parameters;
-use etendue_io::source::{decode_text, read_description_bytes};
-use etendue_io::{Error, Sandbox};
+use super::parameters::{Parameters, TAGS, modern, shortened};
 
 /// Files that include one another.
 const MAX_INCLUDES: usize = 16;

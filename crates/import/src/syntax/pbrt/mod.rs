@@ -5,19 +5,18 @@
 //!
 //! Limits: a file has at most `file-mib`, files that include one another go 16 deep, and all text together has at most `mesh-mib`.
 
-mod directive;
 mod parse;
 mod token;
 
 use std::path::{Path, PathBuf};
 
-use etendue_scene::limits;
-
-pub use directive::{PbrtDirective, PbrtParameter, PbrtPlace, PbrtValues};
-
-use self::parse::Parser;
 use etendue_io::source::{decode_text, read_bytes};
 use etendue_io::{Error, Sandbox};
+use etendue_scene::limits;
+
+use self::parse::Parser;
+
+pub use token::{PbrtDirective, PbrtParameter, PbrtPlace, PbrtValues};
 
 /// Files that include one another.
 const MAX_DEPTH: usize = 16;

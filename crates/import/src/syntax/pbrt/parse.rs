@@ -2,8 +2,7 @@
 
 use std::cell::Cell;
 
-use super::directive::{PbrtDirective, PbrtParameter, PbrtValues};
-use super::token::{Fault, Token, Tokens};
+use super::token::{Fault, PbrtDirective, PbrtParameter, PbrtValues, Token, Tokens};
 
 /// The arguments of a directive.
 #[derive(Clone, Copy)]

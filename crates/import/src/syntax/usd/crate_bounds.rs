@@ -5,9 +5,10 @@
 //! bits and LZ4. `openusd` allocates what a count says before it reads, decodes paths along whatever jumps there are, and follows values that hold values
 //! without end; all of that is done here first, on a budget.
 
+use etendue_scene::limits;
+
 use super::bytes::Bytes;
 use super::text_bounds::{check_expression, is_balanced};
-use etendue_scene::limits;
 
 /// LZ4 packs at most so many bytes into one, as its specification has lengths.
 const MAX_RATIO: u64 = 256;

@@ -1,22 +1,20 @@
 //! Layers and packages as `openusd` asks for them: read within limits, and looked at before they are parsed.
 
-use super::arcs::Arcs;
-use super::crate_bounds::check_crate;
-use super::package::{Package, packed};
-use super::text_bounds::check_text;
-use super::tree::UsdFile;
-use etendue_io::source::read_bytes;
-use etendue_io::{Error, Sandbox};
+use std::cell::{Cell, RefCell};
+use std::collections::{HashMap, HashSet};
+use std::path::{Path, PathBuf};
+use std::{io, rc::Rc};
+
+use etendue_io::{Error, Sandbox, source::read_bytes};
 use etendue_scene::limits;
 use openusd::ar::{
     Asset, DefaultResolver, ResolvedPath, Resolver, is_package_relative_path, split_package_relative_path_outer,
 };
 use openusd::usdc::CrateData;
-use std::cell::{Cell, RefCell};
-use std::collections::{HashMap, HashSet};
-use std::io;
-use std::path::{Path, PathBuf};
-use std::rc::Rc;
+
+use super::package::{Package, packed};
+use super::tree::{Arcs, UsdFile};
+use super::{crate_bounds::check_crate, text_bounds::check_text};
 
 /// How a crate begins.
 const CRATE: &[u8] = b"PXR-USDC";

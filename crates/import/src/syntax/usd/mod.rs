@@ -12,7 +12,6 @@
 //! must not inherit from one another in a circle (`arcs`). What layers, and values of the
 //! tree, unpack to is limited by `mesh-mib`; prims are at most 100 000, 64 deep. Where `openusd` panics over what is damaged, the file is refused.
 
-mod arcs;
 mod bytes;
 mod crate_bounds;
 mod crate_values;

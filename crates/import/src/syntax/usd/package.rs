@@ -2,9 +2,9 @@
 //!
 //! Source: "Usdz File Format Specification" (openusd.org), which allows neither compression nor encryption, and PKWARE's APPNOTE 6.3.
 
+use std::{fmt::Write as _, rc::Rc};
+
 use super::bytes::Bytes;
-use std::fmt::Write as _;
-use std::rc::Rc;
 
 const END: [u8; 4] = *b"PK\x05\x06";
 const CENTRAL: u32 = 0x0201_4b50;

@@ -1,16 +1,16 @@
 //! A stage, prim by prim.
 
-use super::layers::Layers;
-use super::tree::{UsdAttribute, UsdAxis, UsdPrim, UsdRelation, UsdStage};
-use super::values::{bytes_of, plain};
-use etendue_io::guard::guarded;
-use etendue_io::{Error, Sandbox};
+use std::{collections::BTreeMap, path::Path};
+
+use etendue_io::{Error, Sandbox, error::guarded};
 use etendue_scene::limits;
 use openusd::sdf::{Specifier, Value};
 use openusd::usd::{Attribute, Prim, Relationship, Stage, TimeCode};
 use openusd::usda::parser::Parser;
-use std::collections::BTreeMap;
-use std::path::Path;
+
+use super::layers::Layers;
+use super::tree::{UsdAttribute, UsdAxis, UsdPrim, UsdRelation, UsdStage};
+use super::values::{bytes_of, plain};
 
 /// Prims of a stage, instances counted each: `openusd` keeps some kilobytes for each.
 const MAX_PRIMS: usize = 100_000;

@@ -1,9 +1,10 @@
 //! Values of `openusd` in plain types.
 
-use super::layers::Layers;
-use super::tree::{UsdAsset, UsdValue};
 use openusd::gf::f16;
 use openusd::sdf::{AssetPath, Value};
+
+use super::layers::Layers;
+use super::tree::{UsdAsset, UsdValue};
 
 /// The number that is meant by one of 32 bits: the shortest decimal that reads as it.
 fn short(v: f32) -> f64 {

@@ -3,12 +3,10 @@
 //! Poses are those of the world in the camera's frame: a quaternion (w, x, y, z; w not below 0) and a translation (m). Pixel centres are at
 //! + 0.5, as in the raster.
 
-use super::number::number;
-use super::quaternion::quaternion;
-use super::{NamedCamera, Refusal, fisheye, no_model, perspective, shortest, without_skew};
 use etendue_core::CameraPose;
-use etendue_projection::Model;
-use etendue_projection::plane::DistortionTerms;
+use etendue_projection::{Model, plane::DistortionTerms};
+
+use super::{NamedCamera, Refusal, fisheye, no_model, number, perspective, quaternion, shortest, without_skew};
 
 const FORMAT: &str = "COLMAP";
 

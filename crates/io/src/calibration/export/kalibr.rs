@@ -12,12 +12,11 @@
 //! `T_cn_cnm1` takes points of the camera before to this one's; `T_cam_imu` those of the frame that carries both, which stands in for the
 //! inertial sensor of Kalibr's own chains, with a `timeshift_cam_imu` of 0: times are the world's. Matrices act on columns (x, y, z, 1), m.
 
-use super::number::{list, number, quoted};
-use super::{NamedCamera, Refusal, fisheye, no_model, perspective, shortest, without_skew};
 use etendue_core::CameraPose;
-use etendue_projection::Model;
-use etendue_projection::plane::DistortionTerms;
+use etendue_projection::{Model, plane::DistortionTerms};
 use glam::{DMat4, DVec3};
+
+use super::{NamedCamera, Refusal, fisheye, list, no_model, number, perspective, quoted, shortest, without_skew};
 
 const FORMAT: &str = "Kalibr";
 

@@ -12,13 +12,10 @@
 
 pub mod colmap;
 pub mod kalibr;
-mod number;
-mod quaternion;
 pub mod ros;
 
-use etendue_projection::model::Ideal;
-use etendue_projection::plane::DistortionTerms;
-use etendue_projection::{Calibration, Model, Sense};
+use etendue_projection::{Calibration, Model, Sense, model::Ideal, plane::DistortionTerms};
+use glam::{DMat3, DQuat};
 
 /// A camera by its name.
 #[derive(Clone, Copy, Debug)]
@@ -84,4 +81,43 @@ fn fisheye(model: &Model) -> Option<[f64; 4]> {
 /// As many of the coefficients as one of these counts holds, the rest being zero; `None` where no count holds them.
 fn shortest(coefficients: &[f64], counts: &[usize]) -> Option<usize> {
     counts.iter().copied().find(|count| coefficients[*count..].iter().all(|c| *c == 0.0))
+}
+
+/// A number in decimal digits that gives the same number when it is read, always with a point: YAML 1.1 takes `1e-7` for a text.
+fn number(value: f64) -> String {
+    let text = format!("{value}");
+    if text.contains('.') { text } else { format!("{text}.0") }
+}
+
+/// `[1.0, 2.0]`.
+fn list(values: &[f64]) -> String {
+    format!("[{}]", values.iter().map(|v| number(*v)).collect::<Vec<_>>().join(", "))
+}
+
+/// A text in double quotes; what would end it is escaped.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.escape_default())
+}
+
+/// w, x, y, z of a rotation, w not below 0.
+fn quaternion(rotation: &DMat3) -> [f64; 4] {
+    let [x, y, z, w] = DQuat::from_mat3(rotation).to_array();
+    let sign = if w < 0.0 { -1.0 } else { 1.0 };
+    [w, x, y, z].map(|q| sign * q)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_a_point_and_come_back() {
+        for value in [0.0, -0.0, 1.0, 1e-7, -2.5e20, 0.1, f64::MIN_POSITIVE] {
+            let text = number(value);
+            assert!(text.contains('.') && !text.contains('e'), "{text}");
+            assert_eq!(text.parse::<f64>().map(f64::to_bits), Ok(value.to_bits()), "{text}");
+        }
+        assert_eq!(list(&[1.0, -0.5]), "[1.0, -0.5]");
+        assert_eq!(quoted("a \"b\""), "\"a \\\"b\\\"\"");
+    }
 }

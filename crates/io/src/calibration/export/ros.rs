@@ -9,11 +9,12 @@
 //! The projection matrix is that of the rectified picture: the camera's own matrix, and in its fourth column −fx b for the right camera of a
 //! rectified pair of base b.
 
-use super::number::{list, number, quoted};
-use super::quaternion::quaternion;
-use super::{NamedCamera, Refusal, fisheye, no_model, perspective, shortest, without_skew};
 use etendue_core::CameraPose;
 use etendue_projection::Model;
+
+use super::{
+    NamedCamera, Refusal, fisheye, list, no_model, number, perspective, quaternion, quoted, shortest, without_skew,
+};
 
 const FORMAT: &str = "ROS";
 

@@ -2,16 +2,13 @@
 
 pub mod passing_beam;
 mod plot;
-mod width;
 
 use std::path::Path;
 
 use etendue_scene::asset::{OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 
-use super::FileReport;
-use super::statistics::ChannelReport;
-use crate::Error;
-use crate::photometry::read_photometry;
+use super::{FileReport, report::ChannelReport};
+use crate::{Error, photometry::read_photometry};
 
 pub(super) fn report(file: &Path) -> Result<FileReport, Error> {
     let lamp = read_photometry(file)?;
@@ -56,7 +53,7 @@ fn light(lamp: &PhotometryAsset, report: &mut FileReport) {
     let flux = lamp.flux_lm();
     report.state("flux of the intensities", format!("{flux:.1} lm"));
     report.state("flux stated", stated(lamp, flux));
-    for (name, [beam, field]) in width::of(lamp) {
+    for (name, [beam, field]) in plot::beam_and_field(lamp) {
         report.state(&format!("beam angle, {name}"), format!("{beam:.1}° at 50 %, field angle {field:.1}° at 10 %"));
     }
 }

@@ -1,10 +1,12 @@
 //! From the bytes of a file to its checked JSON and its binary chunk.
 
-use crate::Problem;
 use etendue_scene::limits;
-use gltf::json::Root;
-use gltf::json::mesh::Semantic;
-use gltf::json::validation::Checked;
+use gltf::json::material::{Material, NormalTexture};
+use gltf::json::{Root, Value};
+use gltf::{json::mesh::Semantic, json::validation::Checked};
+
+use super::picture::{TextureUse, UvLayout};
+use crate::Problem;
 
 const MAGIC: &[u8] = b"glTF";
 const HEAD: usize = 12;
@@ -109,4 +111,115 @@ fn chunks(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
         at += 8 + size.next_multiple_of(4);
     }
     Ok((json.ok_or("a GLB whose first chunk is no JSON; export it again")?, blob))
+}
+
+/// KHR_materials_clearcoat.
+pub(super) struct Clearcoat {
+    pub(super) share: f64,
+    pub(super) roughness: f64,
+    pub(super) has_picture: bool,
+}
+
+/// KHR_materials_sheen.
+pub(super) struct Sheen {
+    pub(super) colour: [f64; 3],
+    pub(super) roughness: f64,
+    pub(super) has_picture: bool,
+}
+
+/// What a material says of an extension.
+pub(super) fn of<'a>(material: &'a Material, name: &str) -> Option<&'a Value> {
+    material.extensions.as_ref()?.others.get(name)
+}
+
+pub(super) fn clearcoat(material: &Material) -> Option<Clearcoat> {
+    let value = of(material, "KHR_materials_clearcoat")?;
+    Some(Clearcoat {
+        share: share(value, "clearcoatFactor"),
+        roughness: share(value, "clearcoatRoughnessFactor"),
+        has_picture: ["clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"]
+            .iter()
+            .any(|k| value.get(k).is_some()),
+    })
+}
+
+pub(super) fn sheen(material: &Material) -> Option<Sheen> {
+    let value = of(material, "KHR_materials_sheen")?;
+    let colour = numbers(value.get("sheenColorFactor"), [0.0; 3]);
+    Some(Sheen {
+        colour: colour.map(|v| v.clamp(0.0, 1.0)),
+        roughness: share(value, "sheenRoughnessFactor"),
+        has_picture: ["sheenColorTexture", "sheenRoughnessTexture"].iter().any(|k| value.get(k).is_some()),
+    })
+}
+
+/// How a normal map lies.
+pub(super) fn normal_texture(texture: &NormalTexture) -> TextureUse {
+    let transform = texture.extensions.as_ref().and_then(|e| e.others.get("KHR_texture_transform"));
+    let mut layout = UvLayout { set: texture.tex_coord, ..UvLayout::PLAIN };
+    if let Some(transform) = transform {
+        layout.offset = numbers(transform.get("offset"), layout.offset);
+        layout.scale = numbers(transform.get("scale"), layout.scale);
+        layout.rotation = transform.get("rotation").and_then(Value::as_f64).unwrap_or(0.0);
+        layout.set = transform.get("texCoord").and_then(Value::as_u64).map_or(layout.set, |set| set as u32);
+    }
+    TextureUse { texture: texture.index.value(), layout }
+}
+
+fn share(value: &Value, key: &str) -> f64 {
+    value.get(key).and_then(Value::as_f64).unwrap_or(0.0).clamp(0.0, 1.0)
+}
+
+fn numbers<const N: usize>(value: Option<&Value>, default: [f64; N]) -> [f64; N] {
+    let list: Option<Vec<f64>> =
+        value.and_then(Value::as_array).map(|list| list.iter().filter_map(Value::as_f64).collect());
+    list.and_then(|list| list.try_into().ok()).unwrap_or(default)
+}
+
+/// Extensions of which something is used, or that change nothing that is read.
+const USED: &[&str] = &[
+    "KHR_lights_punctual",
+    "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
+
+pub(super) fn unused(root: &Root) -> Vec<String> {
+    let lights = root.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()).map_or(0, |l| l.lights.len());
+    let primitives = || root.meshes.iter().flat_map(|m| &m.primitives);
+    let morphed = primitives().filter(|p| p.targets.as_ref().is_some_and(|t| !t.is_empty())).count();
+    let has = |semantic: Semantic| {
+        let key = Checked::Valid(semantic);
+        primitives().filter(|p| p.attributes.contains_key(&key)).count()
+    };
+    let counts = [
+        (lights, "lights", "a mesh has none: `etendue import` writes them as the scene's, or give your own"),
+        (root.cameras.len(), "cameras", "a mesh has none: `etendue import` writes them as the job's, or give your own"),
+        (
+            root.animations.len(),
+            "animations",
+            "the mesh stands as its nodes do: give its object \"keys\", or a \"frame\" that moves",
+        ),
+        (root.skins.len(), "skins", "used as they stand at rest"),
+        (morphed, "primitives with morph targets", "used without them"),
+        (has(Semantic::Colors(0)), "primitives with colours of vertices", "which are not used"),
+        (root.scenes.len().saturating_sub(1), "further scenes", "which are not used"),
+    ];
+    let mut report: Vec<String> = counts
+        .into_iter()
+        .filter(|(count, ..)| *count > 0)
+        .map(|(count, what, told)| format!("{count} {what}: {told}"))
+        .collect();
+    let unknown: Vec<&str> = root.extensions_used.iter().map(String::as_str).filter(|e| !USED.contains(e)).collect();
+    if !unknown.is_empty() {
+        report.push(format!("extensions that are not used: {}", unknown.join(", ")));
+    }
+    report
 }

@@ -1,19 +1,15 @@
 //! Primitives in their places to one mesh.
 
-use crate::Problem;
-use etendue_scene::asset::MeshAsset;
-use etendue_scene::limits;
+use etendue_scene::{asset::MeshAsset, limits};
 use glam::{DAffine3, DMat3, DVec3};
-use gltf::json::Root;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
-use gltf::json::validation::Checked;
+use gltf::{json::Root, json::validation::Checked};
 
 use super::super::vertex::{check_corners, check_range, middle_of_far, relative, unit};
 use super::accessor::{finite, numbers};
-use super::buffers::Buffers;
-use super::material::UvLayout;
-use super::placed::PlacedMesh;
-use super::skin::Weights;
+use super::nodes::{PlacedMesh, Weights};
+use super::{buffers::Buffers, material::UvLayout};
+use crate::Problem;
 
 /// Bytes that a corner and a vertex take on their way.
 const CORNER_BYTES: u64 = 24;

@@ -3,23 +3,20 @@
 //! α is the square of the roughness, as the specification says. What is no metal is Lambert's law under a coat of the stated index, or without one where
 //! the roughness is 1, which exporters write for matt surfaces. docs/gltf.md tells the whole mapping.
 
-use crate::Problem;
 use std::path::{Path, PathBuf};
 
 use etendue_scene::asset::{
     COAT_INDICES, ImageAsset, SlotColour, SlotEmission, SlotLayers, SlotMaterial, SlotNumber, SlotOver, SlotSolid,
     SlotSurface, SlotTransmission,
 };
-use gltf::json::Root;
 use gltf::json::material::{AlphaMode, Material};
-use gltf::json::validation::Checked;
+use gltf::{json::Root, json::validation::Checked};
 
-use super::baked;
-use super::buffers::Buffers;
-use super::extras;
+use super::picture::{self, Pictures, TextureUse};
+use super::{buffers::Buffers, document};
+use crate::{Problem, Sandbox};
+
 pub(super) use super::picture::UvLayout;
-use super::picture::{Pictures, TextureUse};
-use crate::Sandbox;
 
 /// The index of a coat and of clear substances that state none.
 const USUAL_INDEX: f64 = 1.5;
@@ -98,7 +95,7 @@ fn uses(material: &Material) -> Vec<TextureUse> {
         material.emissive_texture.as_ref(),
         transmission.and_then(|t| t.transmission_texture.as_ref()),
     ];
-    let normals = material.normal_texture.as_ref().map(extras::normal_texture);
+    let normals = material.normal_texture.as_ref().map(document::normal_texture);
     infos.into_iter().flatten().map(TextureUse::of).chain(normals).collect()
 }
 
@@ -124,7 +121,7 @@ impl Reader<'_, '_, '_> {
             None => SlotColour::LinearSrgb(colour),
             Some(texture) if colour == [1.0; 3] => SlotColour::Picture(self.pictures.as_it_is(texture, true)?),
             Some(texture) => {
-                let make = |image: &ImageAsset| baked::tinted(image, colour);
+                let make = |image: &ImageAsset| picture::tinted(image, colour);
                 SlotColour::Picture(self.pictures.made(texture, &format!("times {colour:?}"), false, make)?)
             }
         };
@@ -172,8 +169,8 @@ impl Reader<'_, '_, '_> {
         let rule = |v: f32| rule(f64::from(v)) as f32;
         let picture = self
             .pictures
-            .made(texture, &format!("channel {what}"), false, |image| baked::channel(image, channel, rule))?;
-        let only = self.pictures.used.get(&picture.file).and_then(baked::only_value);
+            .made(texture, &format!("channel {what}"), false, |image| picture::channel(image, channel, rule))?;
+        let only = self.pictures.used.get(&picture.file).and_then(picture::only_value);
         Ok(only.map_or(SlotNumber::Picture(picture), SlotNumber::Number))
     }
 
@@ -190,7 +187,7 @@ impl Reader<'_, '_, '_> {
 
     fn over(&mut self, alpha: &SlotNumber) -> SlotOver {
         let index = self.index();
-        if let Some(sheen) = extras::sheen(self.material).filter(|s| s.colour != [0.0; 3]) {
+        if let Some(sheen) = document::sheen(self.material).filter(|s| s.colour != [0.0; 3]) {
             if sheen.has_picture {
                 self.notes.push("the pictures of its sheen are not used".to_owned());
             }
@@ -207,7 +204,7 @@ impl Reader<'_, '_, '_> {
             self.notes.push("the colour and the pictures of its highlights (specular) are not used".to_owned());
         }
         let index = if factor < 1.0 { of_less_reflectance(index, factor) } else { index };
-        let coat = extras::clearcoat(self.material).filter(|coat| coat.share > 0.0);
+        let coat = document::clearcoat(self.material).filter(|coat| coat.share > 0.0);
         if coat.as_ref().is_some_and(|coat| coat.has_picture) {
             self.notes.push("the pictures of its clear coat are not used".to_owned());
         }
@@ -278,7 +275,7 @@ impl Reader<'_, '_, '_> {
         }
         let is_clear = match texture {
             None => false,
-            Some(texture) => baked::has_opacity(self.pictures.image(texture)?),
+            Some(texture) => picture::has_opacity(self.pictures.image(texture)?),
         };
         let opacity = match texture.filter(|_| is_clear) {
             None => SlotNumber::Number(rule(1.0)),
@@ -302,7 +299,7 @@ impl Reader<'_, '_, '_> {
         let material = self.material;
         let used = uses(material);
         let others = used.iter().skip(1).filter(|u| u.layout != used[0].layout).count();
-        let has = |name: &str| extras::of(material, name).is_some();
+        let has = |name: &str| document::of(material, name).is_some();
         let is_metal = layers.metal == SlotNumber::Number(1.0);
         let coated = matches!(layers.over, SlotOver::TwoCoats { .. } | SlotOver::Sheen { .. });
         let mut notes = vec![

@@ -9,36 +9,29 @@
 //! ([`read_gltf_stage`]), and so is what animations move ([`read_gltf_motion`]).
 
 mod accessor;
-mod baked;
-mod base64;
 mod buffers;
 mod document;
-mod extras;
 mod flatten;
 mod material;
 mod motion;
 mod nodes;
 mod parts;
 mod picture;
-mod placed;
-mod report;
-mod skin;
 mod stage;
 mod tracks;
-
-pub use motion::{GltfMotion, GltfMover, read_gltf_motion};
-pub use parts::GltfParts;
-pub use stage::{GltfCamera, GltfLight, GltfLightKind, GltfProjection, GltfStage, read_gltf_stage};
-pub use tracks::{GLTF_CUBIC_KEYS, GLTF_MIN_TURN, GltfTrack};
 
 use std::path::Path;
 
 use etendue_scene::asset::MeshAsset;
 
-use self::buffers::Buffers;
-use self::material::Materials;
+use self::{buffers::Buffers, material::Materials};
 use crate::source::{name_notes, read_bytes};
 use crate::{Error, Problem, Sandbox, hash};
+
+pub use motion::{GltfMotion, GltfMover, read_gltf_motion};
+pub use parts::GltfParts;
+pub use stage::{GltfCamera, GltfLight, GltfLightKind, GltfProjection, GltfStage, read_gltf_stage};
+pub use tracks::{GLTF_CUBIC_KEYS, GLTF_MIN_TURN, GltfTrack};
 
 /// Reads a glTF file with the buffers and pictures that it names, which must lie in `sandbox`.
 pub(super) fn read_gltf(file: &Path, sandbox: &Sandbox) -> Result<MeshAsset, Error> {
@@ -56,7 +49,7 @@ fn read(file: &Path, bytes: &[u8], sandbox: &Sandbox) -> Result<MeshAsset, Probl
     mesh.slot_materials = found.slots;
     mesh.pictures = found.pictures;
     mesh.report.extend(found.report);
-    mesh.report.extend(report::unused(&root));
+    mesh.report.extend(document::unused(&root));
     name_notes(file, &mut mesh.report);
     let parts =
         std::iter::once(bytes).chain(buffers.external_bytes()).chain(found.picture_bytes.iter().map(Vec::as_slice));

@@ -5,19 +5,13 @@
 use std::path::Path;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
-use gltf::json::Root;
 use gltf::json::animation::{Channel, Interpolation, Property, Sampler};
-use gltf::json::scene::Node;
-use gltf::json::validation::Checked;
+use gltf::{json::Root, json::scene::Node, json::validation::Checked};
 
 use super::accessor::{finite, numbers};
-use super::buffers::Buffers;
-use super::document;
-use super::nodes;
-use super::parts::GltfParts;
 use super::tracks::{self, GltfTrack};
-use crate::source::read_bytes;
-use crate::{Error, Problem, Sandbox};
+use super::{buffers::Buffers, document, nodes, parts::GltfParts};
+use crate::{Error, Problem, Sandbox, source::read_bytes};
 
 /// What the animations of a glTF file move, all of them together.
 #[derive(Clone, Debug)]

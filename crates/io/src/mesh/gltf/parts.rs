@@ -1,11 +1,10 @@
 //! A glTF file without the nodes that move, and each of these by itself: the same file with another tree.
 
-use crate::Problem;
 use etendue_scene::limits;
 use serde_json::{Map, Value, json};
 
-use super::base64::unescaped;
-use super::document;
+use super::{buffers::unescaped, document};
+use crate::Problem;
 
 /// A glTF file, of which parts are made.
 #[derive(Clone, Debug)]

@@ -5,13 +5,11 @@
 use std::path::Path;
 
 use glam::DAffine3;
-use gltf::json::Root;
 use gltf::json::extensions::scene::khr_lights_punctual::{Light, Type};
-use gltf::json::validation::Checked;
+use gltf::{json::Root, json::validation::Checked};
 
 use super::{document, nodes};
-use crate::source::read_bytes;
-use crate::{Error, Problem};
+use crate::{Error, Problem, source::read_bytes};
 
 /// The lights and cameras of a glTF file, in its axes (+y up, +z forward; m).
 #[derive(Clone, Debug, Default)]

@@ -1,7 +1,8 @@
 //! Values over time.
 
-use crate::Problem;
 use gltf::json::animation::Interpolation;
+
+use crate::Problem;
 
 /// Keys of a cubic curve from one of the file's to the next, where curves are said by keys between which lines are straight.
 pub const GLTF_CUBIC_KEYS: usize = 16;

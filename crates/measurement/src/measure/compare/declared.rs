@@ -13,22 +13,19 @@
 //!
 //! Left out: what the file does not state but causes (shifts by aberrations, charge that blooms).
 
-use super::super::distortion::centre_words;
-use super::channel::channel;
-use super::curve::Curve;
-use super::light::Light;
-use super::side::{Quantity, Side};
-use super::{response, tone};
+use std::collections::BTreeMap;
+
 use etendue_core::maths::f64::atan;
-use etendue_metrology::Estimate;
-use etendue_metrology::photon_transfer::temperature::ZERO_CELSIUS_K;
+use etendue_metrology::{Estimate, photon_transfer::temperature::ZERO_CELSIUS_K};
 use etendue_pipeline::plan::CameraBody;
 use etendue_projection::Sense;
-use etendue_sensor::SensorParameters;
-use etendue_sensor::effects::dark_current::DarkCurrent;
 use etendue_sensor::effects::temperature::{Temperature, TemperatureLaw};
+use etendue_sensor::{SensorParameters, effects::dark_current::DarkCurrent};
 use glam::DVec2;
-use std::collections::BTreeMap;
+
+use super::super::distortion::centre_words;
+use super::side::{Light, Quantity, Side, channel};
+use super::{mean::Curve, response, tone};
 
 type Quantities = BTreeMap<String, Quantity>;
 

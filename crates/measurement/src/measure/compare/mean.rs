@@ -2,15 +2,23 @@
 //!
 //! At each place where all have a point: means of both sides, uncertainties as of independent curves. What is declared is the same for all
 //! edges of a camera only where its lens is the same over the field.
+//!
+//! Curves of measurements, and how far two of them are apart.
+//!
+//! The second curve is read between its points by straight lines, at the places of the first that it reaches. Of n points the largest
+//! |E_n| of two equal curves passes 1 more often than a single one; the limit is the one that a family of n independent
+//! points passes as often as one point passes 1 (k = 2: 4.55 %), by Šidák's level; n counts the points of all curves of one kind, such as those of all edges. Points of fitted curves share errors: there it errs towards agreement.
 
-use super::curve::{Curve, Gap};
 use etendue_metrology::Estimate;
+use etendue_stats::chi_square::sidak_level;
+use etendue_stats::normal::{quantile, two_sided_p};
+use serde_json::Value;
 
 /// A curve of one side with its gaps to the other.
 pub(crate) type Compared = (Curve, Vec<Gap>);
 
 /// More curves than this are drawn as their mean.
-pub(crate) const FEW: usize = 3;
+const FEW: usize = 3;
 
 /// The mean of the curves of each table that has more than a few.
 pub(crate) fn means(all: &[Compared]) -> Vec<Compared> {
@@ -41,6 +49,122 @@ fn together(gaps: &[&Gap]) -> Gap {
     Gap { x: gaps[0].x, a: of(|g| g.a), b: of(|g| g.b), significant: gaps.iter().all(|g| g.significant) }
 }
 
+/// Tables that are curves: table, abscissa, what is drawn over it, and its words.
+const KNOWN: [(&str, &str, &str, &str); 7] = [
+    ("curve", "field_percent", "ratio", "observed over ideal distance"),
+    ("profile", "field_percent", "illumination_percent", "illumination, % of the centre"),
+    ("rings", "field_percent", "radial_px", "radial displacement, px"),
+    ("response", "cycles_per_px", "response", "response"),
+    ("response", "reading_percent", "light_percent", "light, %"),
+    ("points", "exposure", "reading", "reading"),
+    ("temperatures", "celsius", "dark_current_e_per_s", "dark current, e⁻/s"),
+];
+
+/// A curve of a measurement.
+#[derive(Clone, Debug)]
+pub(crate) struct Curve {
+    /// Table and the words of its rows, such as the channel.
+    pub name: String,
+    /// What lies along x.
+    pub abscissa: &'static str,
+    /// What lies along y, in words.
+    pub ordinate: &'static str,
+    /// By rising x.
+    pub points: Vec<(f64, Estimate)>,
+    /// Standard deviation of single readings at each x, where it is stated.
+    pub noise: Vec<(f64, f64)>,
+}
+
+/// An estimate of a table's cell.
+fn estimate(cell: &Value) -> Option<Estimate> {
+    Some(Estimate::new(cell["value"].as_f64()?, cell["standard_uncertainty"].as_f64()?))
+}
+
+/// The curves of a report's tables.
+pub(crate) fn curves(tables: &Value) -> Vec<Curve> {
+    let mut found: Vec<Curve> = Vec::new();
+    for (table, abscissa, ordinate, words) in KNOWN {
+        for row in tables[table].as_array().into_iter().flatten() {
+            let Some(y) = estimate(&row[ordinate]) else { continue };
+            let Some(x) = row[abscissa].as_f64().or_else(|| row[abscissa]["value"].as_f64()) else { continue };
+            let labels: Vec<&str> =
+                row.as_object().into_iter().flatten().filter_map(|(_, cell)| cell.as_str()).collect();
+            let name = [&[table], labels.as_slice()].concat().join(" ");
+            let place = found.iter().position(|c| c.name == name).unwrap_or_else(|| {
+                found.push(Curve { name, abscissa, ordinate: words, points: Vec::new(), noise: Vec::new() });
+                found.len() - 1
+            });
+            found[place].points.push((x, y));
+            found[place].noise.extend(row["noise"].as_f64().map(|noise| (x, noise)));
+        }
+    }
+    found.iter_mut().for_each(|c| c.points.sort_by(|a, b| a.0.total_cmp(&b.0)));
+    found
+}
+
+impl Curve {
+    /// The table that it comes from.
+    pub(crate) fn kind(&self) -> &str {
+        self.name.split(' ').next().unwrap_or_default()
+    }
+
+    /// The estimate at x, between two points by a straight line; `None` beyond the ends.
+    fn at(&self, x: f64) -> Option<Estimate> {
+        let after = self.points.iter().position(|(there, _)| *there >= x)?;
+        let (x1, y1) = self.points[after];
+        if x1 == x {
+            return Some(y1);
+        }
+        let (x0, y0) = self.points[after.checked_sub(1)?];
+        let t = (x - x0) / (x1 - x0);
+        let mix = |a: f64, b: f64| (1.0 - t) * a + t * b;
+        Some(Estimate::new(mix(y0.value, y1.value), mix(y0.standard_uncertainty, y1.standard_uncertainty)))
+    }
+}
+
+/// Two curves at a place of the first.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gap {
+    pub x: f64,
+    pub a: Estimate,
+    pub b: Estimate,
+    /// Whether the second curve is far enough from nothing for a relative error: 1 % of its largest.
+    pub significant: bool,
+}
+
+impl Gap {
+    pub(crate) fn difference(&self) -> f64 {
+        self.a.value - self.b.value
+    }
+
+    /// Over the second; `None` where that is next to nothing.
+    pub(crate) fn relative(&self) -> Option<f64> {
+        self.significant.then(|| self.difference() / self.b.value.abs())
+    }
+
+    /// E_n where an uncertainty is known.
+    pub(crate) fn normalised(&self) -> Option<f64> {
+        let known = self.a.standard_uncertainty + self.b.standard_uncertainty > 0.0;
+        known.then(|| self.a.normalised_error(self.b))
+    }
+}
+
+/// Where both curves are.
+pub(crate) fn gaps(a: &Curve, b: &Curve) -> Vec<Gap> {
+    let largest = b.points.iter().map(|(_, y)| y.value.abs()).fold(0.0, f64::max);
+    let gap = |(x, a): &(f64, Estimate)| {
+        let b = b.at(*x)?;
+        Some(Gap { x: *x, a: *a, b, significant: b.value.abs() > 0.01 * largest })
+    };
+    a.points.iter().filter_map(gap).collect()
+}
+
+/// The largest |E_n| that so many points may show.
+pub(crate) fn limit(points: usize) -> f64 {
+    let level = sidak_level(two_sided_p(2.0), points.max(1));
+    0.5 * quantile(1.0 - 0.5 * level)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,5 +188,26 @@ mod tests {
         assert_eq!(mean.name, "response, mean of 4");
         // (1 + 2 + 3 + 4)/4 − 1.5, with 0.2/√4.
         assert!((gaps[0].difference() - 1.0).abs() < 1e-12 && (gaps[0].a.standard_uncertainty - 0.1).abs() < 1e-12);
+    }
+
+    fn line(points: &[(f64, f64)]) -> Curve {
+        let points = points.iter().map(|(x, y)| (*x, Estimate::new(*y, 0.1))).collect();
+        Curve { name: "curve".to_owned(), abscissa: "field_percent", ordinate: "ratio", points, noise: Vec::new() }
+    }
+
+    #[test]
+    fn curves_meet_where_both_are() {
+        let a = line(&[(0.0, 1.0), (1.0, 2.0), (5.0, 9.0)]);
+        let b = line(&[(-1.0, 0.0), (3.0, 4.0)]);
+        let gaps = gaps(&a, &b);
+        assert_eq!(gaps.iter().map(|g| (g.x, g.b.value)).collect::<Vec<_>>(), [(0.0, 1.0), (1.0, 2.0)]);
+        assert!(gaps.iter().all(|g| g.difference() == 0.0 && g.normalised() == Some(0.0)));
+    }
+
+    /// 1 − (1 − 0.0455)^(1/20) = 0.002326, two-sided at 3.045 standard deviations.
+    #[test]
+    fn many_points_may_show_more() {
+        assert!((limit(1) - 1.0).abs() < 1e-9);
+        assert!((limit(20) - 1.5225).abs() < 5e-4, "{}", limit(20));
     }
 }

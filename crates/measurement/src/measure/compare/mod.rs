@@ -4,29 +4,25 @@
 //! E_n (ISO 13528) by both standard uncertainties. |E_n| > 1 is a difference; of curves the largest |E_n| with a limit
 //! that allows for their number of points.
 
-mod channel;
-mod curve;
 mod declared;
-mod light;
 mod mean;
-mod measurement;
 mod response;
 mod side;
 mod sides;
 mod tone;
 
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
+use std::path::PathBuf;
+
 use clap::Args;
-use curve::{Curve, Gap, gaps, limit};
 use etendue_arguments::positive;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::Estimate;
-use light::Light;
-use mean::{Compared, means};
-use side::{Quantity, Side};
+
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use mean::{Compared, Curve, Gap, gaps, limit, means};
+use side::{Light, Quantity, Side};
 use sides::sides;
-use std::path::PathBuf;
 
 /// `etendue measure compare`
 #[derive(Args, Clone, Debug)]

@@ -15,17 +15,17 @@
 //! Refused, as nothing here says what they do: lenses other than a thin one or a pinhole, glare, ghosts, glass before the lens, blades,
 //! obstructions and wavefront errors, capacitance between pixels, developed pictures of mosaics.
 
-use super::channel::{channel, place_of};
-use super::curve::Curve;
-use super::light::{spectrum, weighed};
-use super::side::Side;
+use std::f64::consts::{PI, TAU};
+
 use etendue_core::maths::f64::{acos, cos, sin, sin_cos};
 use etendue_metrology::Estimate;
 use etendue_optics::effects::{PointSpread, PsfParameters, SpreadImage};
 use etendue_pipeline::plan::CameraBody;
 use etendue_spectra::Spectrum;
 use glam::DVec2;
-use std::f64::consts::{PI, TAU};
+
+use super::mean::Curve;
+use super::side::{Side, channel, place_of, spectrum, weighed};
 
 /// What the curves of a camera are made of.
 struct Response<'a> {

@@ -1,7 +1,11 @@
 //! One side of a comparison: what is known of a camera, measured or declared.
 
-use super::curve::Curve;
 use std::collections::BTreeMap;
+
+use etendue_sensor::SensorParameters;
+use etendue_spectra::{Spectrum, illuminant};
+
+use super::mean::Curve;
 
 /// A number with its unit; without an uncertainty where the measurement states none.
 #[derive(Clone, Debug)]
@@ -27,4 +31,44 @@ pub(crate) struct Side {
     pub curves: Vec<Curve>,
     /// Angles of slanted edges to rows or columns, degrees, by their place.
     pub angles_deg: BTreeMap<String, f64>,
+}
+
+/// The channel that was measured, by its name or its first letter.
+pub(crate) fn channel(p: &SensorParameters, measured: Option<&str>) -> Result<usize, String> {
+    let names = || p.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ");
+    let Some(name) = measured else {
+        let several = || format!("the pixels have colours ({}): measure one with `channel`", names());
+        return if p.channels.len() == 1 { Ok(0) } else { Err(several()) };
+    };
+    let alike = |own: &str| own.eq_ignore_ascii_case(name) || (name.len() == 1 && own[..1].eq_ignore_ascii_case(name));
+    let found = p.channels.iter().position(|c| alike(&c.name));
+    found.ok_or_else(|| format!("the channel '{name}' was measured; the file has {}", names()))
+}
+
+/// The first place of a channel in the tile, which is the one that measurements take.
+pub(crate) fn place_of(p: &SensorParameters, channel: usize) -> [usize; 2] {
+    let at = p.cfa.channels().iter().position(|c| *c == channel).unwrap_or(0);
+    [at % p.cfa.width(), at / p.cfa.width()]
+}
+
+/// Wavelengths of averages, nm apart.
+const STEP_NM: usize = 5;
+
+/// The light that was measured by, as told.
+pub(crate) struct Light {
+    pub wavelength_nm: Option<f64>,
+    pub illuminant: Option<String>,
+}
+
+/// The light's spectrum.
+pub(crate) fn spectrum(light: &str) -> Result<&'static Spectrum, String> {
+    let unknown = || format!("`illuminant` {light}: give one of {}", illuminant::names().join(", "));
+    illuminant::named(light).ok_or_else(unknown)
+}
+
+/// Light of a spectrum that a pixel sees, by wavelength, nm.
+pub(crate) fn weighed(light: &Spectrum, responsivity: &Spectrum) -> impl Iterator<Item = (f64, f64)> {
+    (300..=1100)
+        .step_by(STEP_NM)
+        .map(move |nm| (f64::from(light.at(nm as f32) * responsivity.at(nm as f32)), f64::from(nm)))
 }

@@ -1,12 +1,14 @@
 //! Both sides of a comparison: of a measurement's file, or of what a camera file declares of the same.
 
-use super::declared;
-use super::light::Light;
-use super::measurement::measurement;
-use super::side::Side;
+use std::{collections::BTreeMap, path::Path};
+
 use etendue_io::failure::{Error, ErrorCode};
+use etendue_io::source::text_of;
 use etendue_plan_report::open_camera;
-use std::path::Path;
+use serde_json::Value;
+
+use super::side::{Light, Quantity, Side};
+use super::{declared, mean::curves};
 
 fn is_camera(file: &Path) -> bool {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
@@ -34,4 +36,37 @@ pub(crate) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result
             Ok([measurement(a)?, measurement(b)?])
         }
     }
+}
+
+/// What a measurement's JSON says of a camera.
+pub(crate) fn measurement(file: &Path) -> Result<Side, Error> {
+    let text = text_of(file)?;
+    let what = "expected the JSON that etendue measure or calibrate prints with `json`, or a camera file (.toml)";
+    let no = |cause: &str| Error::coded(ErrorCode::MalformedFile, format!("{}: {what}: {cause}", file.display()));
+    let report: Value = serde_json::from_str(&text).map_err(|cause| no(&cause.to_string()))?;
+    let kind = report["measurement"].as_str().ok_or_else(|| no("\"measurement\" is missing"))?.to_owned();
+    let figures = report["figures"].as_object().ok_or_else(|| no("\"figures\" is missing"))?;
+    let quantities = figures.iter().filter_map(|(key, figure)| Some((key.clone(), quantity(figure)?))).collect();
+    let settings = report["settings"].as_object().into_iter().flatten();
+    let settings = settings.filter_map(|(key, value)| Some((key.clone(), value.as_str()?.to_owned()))).collect();
+    Ok(Side {
+        kind,
+        settings,
+        quantities,
+        curves: curves(&report["tables"]),
+        angles_deg: angles(&report["tables"]["edges"]),
+    })
+}
+
+fn angles(edges: &Value) -> BTreeMap<String, f64> {
+    let one = |row: &Value| Some((row["at_px"].as_str()?.to_owned(), row["angle_deg"].as_f64()?));
+    edges.as_array().into_iter().flatten().filter_map(one).collect()
+}
+
+fn quantity(figure: &Value) -> Option<Quantity> {
+    Some(Quantity {
+        value: figure["value"].as_f64()?,
+        standard_uncertainty: figure["standard_uncertainty"].as_f64(),
+        unit: figure["unit"].as_str()?.to_owned(),
+    })
 }

@@ -10,21 +10,18 @@
 //! s̄/L of that colour (L its response to the light, s̄ that of the mean pixel of its columns), of a developed picture what white balance w and colour matrix M
 //! make of all of them, Σ_c M_c w_c s̄_c/Σ_c M_c w_c L_c in the row of the channel that was measured.
 //! Readings are the curve of noisy light, and their mean is not the curve of its mean: with the noise of the measured readings (that of rounding taken off) the declared mean
-//! is that of light which scatters so that its readings do ([`noisy_mean`](etendue_metrology::oecf::noisy_mean)). It matters in the dark, where a tone curve bends, and next to saturation.
+//! is that of light which scatters so that its readings do ([`noisy_mean`](etendue_metrology::oecf)). It matters in the dark, where a tone curve bends, and next to saturation.
 //! How bright the surface was is no fact of the camera: s is what brings the readings between 5 % and 95 % of the range nearest
 //! (least squares of s H on the light that the declared curve reads from them). So the form is compared, and its ends, not the sensitivity.
 
-use super::channel::{channel, place_of};
-use super::curve::Curve;
-use super::light::{spectrum, weighed};
-use super::side::Side;
 use etendue_isp::WhiteBalance;
-use etendue_metrology::Estimate;
-use etendue_metrology::oecf::noisy_mean::noisy_mean;
+use etendue_metrology::{Estimate, oecf::noisy_mean};
 use etendue_pipeline::plan::{CameraBody, Development};
-use etendue_sensor::Sensor;
-use etendue_sensor::effects::response::Response;
+use etendue_sensor::{Sensor, effects::response::Response};
 use etendue_spectra::colour::BT709;
+
+use super::mean::Curve;
+use super::side::{Side, channel, place_of, spectrum, weighed};
 
 /// What turns a share of saturation into a reading.
 struct Tone<'a> {

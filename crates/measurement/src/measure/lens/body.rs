@@ -1,20 +1,18 @@
 //! The camera that is measured: that of a camera file, or one about a lens.
 
-use super::request::LensRequest;
+use std::path::{Path, PathBuf};
+
 use etendue_core::maths::f64::sin_cos;
-use etendue_io::failure::Fault;
-use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::load_assets;
-use etendue_io::prescription::read_prescription;
-use etendue_io::source::read_text;
+use etendue_io::failure::{Error, ErrorCode, Fault};
+use etendue_io::{load_assets, prescription::read_prescription, source::read_text};
 use etendue_optics::Lens;
-use etendue_pipeline::compile_camera_with_remarks;
-use etendue_pipeline::plan::CameraBody;
+use etendue_pipeline::{compile_camera_with_remarks, plan::CameraBody};
 use etendue_scene::asset::{LensFields, PrescriptionAsset};
 use etendue_scene::{Overrides, load_camera, named_files};
 use glam::DVec3;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+
+use super::request::LensRequest;
 
 /// Half of a full-frame diagonal, mm.
 const FULL_FRAME_MM: f64 = 21.64;

@@ -1,9 +1,10 @@
 //! The strongest ghosts of each field point.
 
-use crate::report::fixed;
 use etendue_optics::Prescribed;
 use etendue_optics::ghosts::{GhostReport, GhostSettings, strongest};
 use serde_json::{Value, json};
+
+use crate::report::fixed;
 
 /// How many are told of each field point.
 const TOLD: usize = 3;

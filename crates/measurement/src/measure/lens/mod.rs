@@ -4,17 +4,19 @@ mod body;
 mod ghosts;
 mod request;
 
-use crate::report::fixed;
+use std::fmt::Write as _;
+
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
-use etendue_io::failure::{Error, ErrorCode};
-use etendue_io::failure::{check_number, check_whole};
+use etendue_io::failure::{Error, ErrorCode, check_number, check_whole};
 use etendue_optics::lens::{FieldReport, ImageReport, LensReport, OtherBundle};
 use etendue_optics::{Lens, PRINCIPAL_NM, Prescribed};
 use etendue_pipeline::plan::CameraBody;
 use glam::DVec2;
-pub use request::LensRequest;
 use serde_json::{Value, json};
-use std::fmt::Write as _;
+
+use crate::report::fixed;
+
+pub use request::LensRequest;
 
 /// What a lens does by first order and by field heights.
 #[derive(Clone, Debug)]

@@ -1,8 +1,9 @@
 //! What is asked of a lens.
 
+use std::ops::RangeInclusive;
+
 use clap::Args;
 use etendue_arguments::whole;
-use std::ops::RangeInclusive;
 
 /// Range of the number of field heights.
 pub(super) const FIELDS: RangeInclusive<u32> = 2..=1000;

@@ -1,17 +1,54 @@
 //! `measure ptc`: photon transfer after EMVA 1288.
 
-mod defects;
-mod found;
-mod groups;
-mod measurement;
 mod plots;
 mod reading;
 mod report;
 mod request;
 
-pub(crate) use found::Found;
-pub(crate) use groups::{Group, groups, of_groups};
-pub(crate) use measurement::measured;
-pub use measurement::ptc;
-pub(crate) use report::report;
+use std::sync::atomic::AtomicUsize;
+
+use etendue_core::observer::Observer;
+use etendue_io::emva_descriptor::{EmvaDescriptor, read_emva_descriptor};
+use etendue_io::{failure::Error, photograph::Stated};
+use etendue_metrology::photon_transfer::Figures;
+
+use super::{pictures::Pictures, readings::Selection};
+use crate::report::Report;
+use reading::Reading;
+
 pub use request::PtcRequest;
+
+pub(crate) use reading::{Group, groups, of_groups};
+pub(crate) use report::report;
+pub(crate) use request::Found;
+
+/// Photon transfer after EMVA 1288 release 4.0 linear. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where the descriptor or a picture cannot be used, or the series does not determine the figures.
+pub fn ptc(request: &PtcRequest, observer: &dyn Observer) -> Result<Report, Error> {
+    let descriptor = read_emva_descriptor(&request.descriptor).map_err(Error::input)?;
+    let found = measure(request, &descriptor, observer)?;
+    let mut report = report(request, &found);
+    report.encoding(&stated(&request.selection, &descriptor)?);
+    Ok(report)
+}
+
+/// What the numbers of a descriptor's pictures are taken for, by the first of them.
+fn stated(selection: &Selection, descriptor: &EmvaDescriptor) -> Result<Stated, Error> {
+    let first = descriptor.levels.iter().find_map(|level| level.files.first()).expect("a descriptor has pictures");
+    let photograph = selection.encoding.photograph(first)?;
+    Ok(selection.encoding.raw(first, photograph)?.stated)
+}
+
+/// The curve's figures, and what the pictures' numbers are taken for.
+pub(crate) fn measured(request: &PtcRequest, observer: &dyn Observer) -> Result<(Figures, Stated), Error> {
+    let descriptor = read_emva_descriptor(&request.descriptor).map_err(Error::input)?;
+    Ok((measure(request, &descriptor, observer)?.figures, stated(&request.selection, &descriptor)?))
+}
+
+fn measure(request: &PtcRequest, descriptor: &EmvaDescriptor, observer: &dyn Observer) -> Result<Found, Error> {
+    let total = descriptor.levels.iter().map(|level| level.files.len()).sum();
+    let pictures = Pictures { heading: "photon transfer", done: AtomicUsize::new(0), total, observer };
+    Reading { selection: &request.selection, descriptor, pictures }.found()
+}

@@ -1,9 +1,10 @@
 //! Curves of photon transfer.
 
-use super::found::Found;
+use etendue_metrology::photon_transfer::{Stack, TransferData, model_snr, spatial};
+
+use super::request::Found;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::Report;
-use etendue_metrology::photon_transfer::{Stack, TransferData, model_snr, spectrogram};
 
 pub(super) fn draw(report: &mut Report, found: &Found) {
     report.plot(transfer_plot(found));
@@ -77,8 +78,8 @@ fn spectrogram_plot(title: &str, stack: &Stack) -> Plot {
         x: Axis::linear("cycles a pixel"),
         y: Axis::log("amplitude, DN"),
         series: vec![
-            Series::new("along rows", Mark::Line, line(spectrogram::horizontal(&average, stack.width()))),
-            Series::new("along columns", Mark::Line, line(spectrogram::vertical(&average, stack.width()))),
+            Series::new("along rows", Mark::Line, line(spatial::horizontal(&average, stack.width()))),
+            Series::new("along columns", Mark::Line, line(spatial::vertical(&average, stack.width()))),
         ],
     }
 }

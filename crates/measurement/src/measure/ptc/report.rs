@@ -1,11 +1,11 @@
 //! What photon transfer found, in words and as keys of a camera file.
 
-use super::found::Found;
-use super::request::PtcRequest;
-use super::{defects, plots};
-use crate::report::{Cell, Report, Table};
 use etendue_metrology::Estimate;
 use etendue_metrology::photon_transfer::{Figures, Nonuniformity, Parts, TransferData};
+
+use super::plots;
+use super::request::{self, Found, PtcRequest};
+use crate::report::{Cell, Report, Table};
 
 pub(crate) fn report(request: &PtcRequest, found: &Found) -> Report {
     let mut report = Report::new("ptc", "EMVA 1288 release 4.0 linear (± one standard uncertainty)");
@@ -30,7 +30,7 @@ pub(crate) fn report(request: &PtcRequest, found: &Found) -> Report {
     report.camera(camera(found));
     plots::draw(&mut report, found);
     if let Some(fixed) = &found.fixed {
-        defects::tell(&mut report, fixed);
+        request::tell(&mut report, fixed);
     }
     report
 }

@@ -1,8 +1,13 @@
 //! What `measure ptc` is asked.
 
-use crate::measure::readings::Selection;
-use clap::Args;
 use std::path::PathBuf;
+
+use clap::Args;
+use etendue_metrology::photon_transfer::{Deviations, Figures, Nonuniformity, Stack, TransferData};
+
+use crate::measure::readings::Selection;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
 
 /// `etendue measure ptc`
 #[derive(Args, Clone, Debug)]
@@ -30,5 +35,75 @@ impl PtcRequest {
     /// A measurement for its figures alone.
     pub(crate) fn of(descriptor: PathBuf, selection: &Selection) -> Self {
         Self { descriptor, relative_light: true, selection: selection.clone() }
+    }
+}
+
+/// Everything that was found.
+pub(crate) struct Found {
+    pub(crate) data: TransferData,
+    pub(crate) figures: Figures,
+    pub(crate) fixed: Option<Fixed>,
+    /// Notes of clipped images that enter the result.
+    pub(crate) cuts: Vec<String>,
+}
+
+/// Of the stacks.
+pub(crate) struct Fixed {
+    pub(crate) dark: Stack,
+    pub(crate) bright: Stack,
+    pub(crate) patterns: Nonuniformity,
+}
+
+pub(super) fn tell(report: &mut Report, fixed: &Fixed) {
+    let dark = Deviations::of_dark(&fixed.dark);
+    let response = Deviations::of_response(&fixed.dark, &fixed.bright);
+    report.fact("dsnu_sigma_dn", "deviation of most pixels in the dark", "DN", dark.sigma);
+    report.fact("prnu_sigma_percent", "deviation of most pixels' responses", "%", response.sigma);
+    let kinds = [
+        (["dsnu_histogram", "dsnu_accumulated"], "without light", "off the mean, DN", dark),
+        (["prnu_histogram", "prnu_accumulated"], "of the response", "off the mean response, %", response),
+    ];
+    for ([histogram, accumulated], title, axis, found) in kinds {
+        report.table_if(false, counts(histogram, &found));
+        report.table_if(false, shares(accumulated, &found));
+        report.plot(logarithmic(title, axis, &found));
+        report.plot(cumulative(title, axis, &found));
+    }
+}
+
+fn counts(key: &'static str, found: &Deviations) -> Table {
+    let row =
+        |(x, n): &(f64, u64)| vec![Cell::Number(*x, 4), Cell::Number(*n as f64, 0), Cell::Number(found.normal(*x), 2)];
+    let columns = vec![("deviation", "deviation"), ("pixels", "pixels"), ("normal_pixels", "normal")];
+    Table { key, columns, rows: found.bins.iter().map(row).collect() }
+}
+
+fn shares(key: &'static str, found: &Deviations) -> Table {
+    let row = |(x, share): &(f64, f64)| vec![Cell::Number(*x, 4), Cell::Number(100.0 * share, 6)];
+    let columns = vec![("deviation", "deviation"), ("farther_percent", "farther %")];
+    Table { key, columns, rows: found.accumulated.iter().map(row).collect() }
+}
+
+/// Bins without a pixel are not drawn, nor the normal distribution below a tenth of a pixel.
+fn logarithmic(title: &str, axis: &str, found: &Deviations) -> Plot {
+    const LEAST: f64 = 0.1;
+    let counted = found.bins.iter().filter(|(_, n)| *n > 0).map(|(x, n)| (*x, *n as f64));
+    let steps = (-80..=80).map(|i| f64::from(i) * 0.1 * found.sigma);
+    let normal = steps.map(|x| (x, found.normal(x))).filter(|(_, n)| *n > LEAST);
+    Plot {
+        title: format!("pixels by deviation {title}"),
+        x: Axis::linear(axis).showing(&[0.0]),
+        y: Axis::log("pixels a bin"),
+        series: vec![Series::new("counted", Mark::Points, counted), Series::new("normal", Mark::Broken, normal)],
+    }
+}
+
+fn cumulative(title: &str, axis: &str, found: &Deviations) -> Plot {
+    let shares = found.accumulated.iter().filter(|(_, share)| *share > 0.0).map(|(x, share)| (*x, 100.0 * share));
+    Plot {
+        title: format!("pixels farther off {title}"),
+        x: Axis::linear(axis).showing(&[0.0]),
+        y: Axis::log("pixels, %"),
+        series: vec![Series::new("", Mark::Line, shares)],
     }
 }

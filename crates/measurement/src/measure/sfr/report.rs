@@ -1,15 +1,12 @@
 //! What `measure sfr` tells.
 
-use super::found::Found;
-use super::planes::{self, Plane};
-use super::refusal::shading_hint;
-use super::request::SfrRequest;
-use crate::measure::readings::Readings;
-use crate::measure::truth::place::Sought;
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Report, Table};
 use etendue_metrology::Estimate;
 use etendue_metrology::sfr::{Orientation, SfrError, SfrPoint, acutance, crossing};
+
+use super::request::{self, Found, Plane, SfrRequest, shading_hint};
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use crate::{measure::readings::Readings, measure::truth::place::Sought};
 
 pub(super) fn report(
     request: &SfrRequest,
@@ -29,7 +26,7 @@ pub(super) fn report(
     ));
     shading(&mut report, request, found);
     report.table(edges(request, found));
-    let planes = planes::of(found, readings.picture_px.0, readings.picture_px.1);
+    let planes = request::of(found, readings.picture_px.0, readings.picture_px.1);
     if planes.is_empty() {
         report.table(curves(found, "response", twentieths));
         report.table_if(false, curves(found, "curve", every));
@@ -220,7 +217,7 @@ fn edge_plot(found: &[Found<'_>]) -> Plot {
 /// Sagittal as lines, tangential broken.
 fn plane_plot(planes: &[Plane]) -> Plot {
     let of = |plane: &Plane| {
-        let mark = if plane.name == planes::SAGITTAL { Mark::Line } else { Mark::Broken };
+        let mark = if plane.name == request::SAGITTAL { Mark::Line } else { Mark::Broken };
         let named =
             if planes.len() > NAMED { String::new() } else { format!("star at {}, {}", plane.place, plane.name) };
         Series::with_errors(&named, mark, points(&plane.curve))

@@ -1,19 +1,19 @@
 //! What the truth.json of a chart says of a picture of it.
 
-mod orientation;
-mod outline;
 pub(crate) mod place;
 pub(crate) mod points;
 mod truth_file;
 
-use super::readings::{Readings, pixels};
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use etendue_core::maths::f64::sin;
 use etendue_io::failure::{Error, ErrorCode};
 use etendue_metrology::sfr::Strip;
 use glam::DVec2;
+
+use super::readings::{Readings, pixels};
 use place::{Patch, Sought, Spoke, Star, StarPlace, TrapPlace};
-use std::path::{Path, PathBuf};
 use truth_file::{CameraSaid, FeatureSaid, Said};
 
 /// Where the chart's truth lies.
@@ -162,7 +162,7 @@ impl Truth {
 
     /// Refuses a picture that shows these patches mirrored or turned, or does not show them.
     pub(crate) fn shown(&self, picture: &Path, patches: &[Patch], readings: &Readings) -> Result<(), Error> {
-        orientation::wrong(patches, readings).map_or(Ok(()), |what| {
+        place::wrong(patches, readings).map_or(Ok(()), |what| {
             Err(Error::coded(
                 ErrorCode::NotMeasurable,
                 format!("{}: {what} ({})", picture.display(), self.file.display()),
@@ -189,7 +189,7 @@ impl Truth {
         let trap = |places: &Vec<Option<[f64; 2]>>| {
             let outline = whole(places)?;
             let trap = square(&outline, readings)?;
-            let whites = outline::beside(&outline, opening, pitch).into_iter();
+            let whites = place::beside(&outline, opening, pitch).into_iter();
             let whites: Vec<[usize; 4]> = whites.filter_map(|(middle, half)| within(middle, half, readings)).collect();
             (!whites.is_empty()).then_some(TrapPlace { trap, whites })
         };
@@ -261,7 +261,7 @@ fn whole(places: &[Option<[f64; 2]>]) -> Option<Vec<DVec2>> {
 
 /// The pixels of the largest square within an outline, less its margin.
 fn square(outline: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
-    let (middle, half) = outline::largest_square(outline);
+    let (middle, half) = place::largest_square(outline);
     within(middle, half - MARGIN_PX.max(MARGIN_SHARE * half), readings)
 }
 

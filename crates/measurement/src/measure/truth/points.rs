@@ -1,11 +1,13 @@
 //! What the truth of a chart of points says: its kind and pitch, and how far the camera stands from it.
 
-use super::Truth;
+use std::path::Path;
+
 use etendue_charts::design::{Checkerboard, Circles, Dots};
 use etendue_io::failure::Error;
 use etendue_metrology::target::Target;
 use glam::DVec3;
-use std::path::Path;
+
+use super::Truth;
 
 /// Charts of points.
 pub(crate) const CHARTS: [&str; 3] = [Dots::NAME, Checkerboard::NAME, Circles::NAME];

@@ -1,9 +1,10 @@
 //! The parts of a truth.json that measurements read.
 
+use std::path::Path;
+
 use etendue_io::failure::{Error, ErrorCode};
 use serde::Deserialize;
 use serde_json::{Map, Value};
-use std::path::Path;
 
 /// Points of the picture, px; `None` beyond it.
 type Places = Vec<Option<[f64; 2]>>;

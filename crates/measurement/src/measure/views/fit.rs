@@ -1,16 +1,20 @@
 //! A camera fitted to its views.
 
-use super::found::Found;
-use super::request::ViewsRequest;
-use super::{advice, assumed};
-use crate::measure::chart_points::{Seen, WithoutChart, all};
-use etendue_core::maths::f64::ln;
-use etendue_core::observer::Observer;
+use std::{fmt::Display, path::Path};
+
+use etendue_core::{maths::f64::ln, observer::Observer};
 use etendue_io::failure::{Error, ErrorCode};
-use etendue_metrology::calibrate::{CalibrateError, CameraModel, Options, Sightings, calibrate_rejecting_outliers};
+use etendue_metrology::calibrate::{
+    CalibrateError, Calibrated, CameraModel, Family, Options, Radial, Sightings, calibrate, calibrate_as_stated,
+    calibrate_rejecting_outliers,
+};
+use etendue_pipeline::stated_projection;
+use etendue_scene::record::{self, Camera, Lens, Sensor};
+use etendue_scene::{record::lens::calibrated::View, written::File};
 use glam::DVec2;
-use std::fmt::Display;
-use std::path::Path;
+
+use super::{Found, ViewsRequest};
+use crate::measure::point_list::{Seen, WithoutChart, all};
 
 /// An error by its picture.
 fn of_files(error: &CalibrateError, views: &[Seen]) -> String {
@@ -35,8 +39,8 @@ impl ViewsRequest {
         let pitch_mm = self.pitch_mm()?;
         let sightings: Vec<Sightings> = found.views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
         let size = found.camera.calibration.size_px();
-        assumed::widen(&mut found, &sightings, self.model.family(), about(size))?;
-        let px = assumed::MIDDLE * size[0].max(size[1]) as f64;
+        widen(&mut found, &sightings, self.model.family(), about(size))?;
+        let px = MIDDLE * size[0].max(size[1]) as f64;
         found.notes.push(format!(
             "one picture: the principal point is taken for the picture's middle, ± {px:.1} px in each direction, and the lens for one of this \
              model or nearly so, which is in the ±; pixels are taken for square, which is in no ±"
@@ -116,7 +120,7 @@ impl ViewsRequest {
         let pitch_mm = self.pitch_mm()?;
         let sightings: Vec<Sightings> = found.views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
         let sightings: Vec<&Sightings> = sightings.iter().collect();
-        found.notes.extend(advice::unsuited(model, &found.camera, &found.views, &sightings, options));
+        found.notes.extend(unsuited(model, &found.camera, &found.views, &sightings, options));
         Ok(found)
     }
 }
@@ -129,4 +133,147 @@ pub(crate) struct TriedModel {
     pub(crate) information: f64,
     /// Whether it does not fold the picture over.
     pub(crate) whole: bool,
+}
+
+/// Standard uncertainty of a principal point that is taken for the picture's middle, of its wider side.
+pub(crate) const MIDDLE: f64 = 0.01;
+
+/// Takes into a camera's covariance that its principal point is not known, and that its lens may bend beyond its model:
+/// of the first half the change from one standard uncertainty more to one less, and what is left of it to second order
+/// (z² of a normal z has the mean square 3); of the second the change to a model of one term more, where that is more than the noise
+/// which the term lets in.
+fn widen(found: &mut Found, sightings: &[Sightings], family: Family, options: Options) -> Result<(), Error> {
+    let size = found.camera.calibration.size_px();
+    let values = |camera: &Calibrated| camera.parameters.iter().map(|p| p.estimate.value).collect::<Vec<f64>>();
+    let here = values(&found.camera);
+    let fitted = |family, options| {
+        calibrate_as_stated(sightings, size, family, options)
+            .map_err(|error| Error::coded(ErrorCode::NotMeasurable, error.to_string()))
+    };
+    let Some(principal) = options.principal_px else { return Ok(()) };
+    let focal = |camera: &Calibrated| camera.estimate("fx_px");
+    let now = focal(&found.camera);
+    let wider = size[0].max(size[1]) as f64;
+    for step in [DVec2::X, DVec2::Y].map(|axis| MIDDLE * wider * axis) {
+        let moved = |by: DVec2| -> Result<Vec<f64>, Error> {
+            Ok(values(&fitted(family, Options { principal_px: Some(principal + by), ..options })?))
+        };
+        let (more, less) = (moved(step)?, moved(-step)?);
+        add(found, 1.0, |i| 0.5 * (more[i] - less[i]));
+        add(found, 3.0, |i| 0.5 * (more[i] + less[i]) - here[i]);
+    }
+    let Some(family) = richer(family) else { return Ok(()) };
+    if let (Some(now), Ok(other)) = (now, fitted(family, options))
+        && let Some(then) = focal(&other)
+    {
+        let (u, v) = (now.standard_uncertainty, then.standard_uncertainty);
+        let off = then.value - now.value;
+        let beyond = (off * off - (v * v - u * u).max(0.0)).max(0.0).sqrt();
+        add(found, 1.0, |i| if i == 0 { beyond } else { 0.0 });
+    }
+    Ok(())
+}
+
+/// The same with a radial term more.
+fn richer(family: Family) -> Option<Family> {
+    match family {
+        Family::Perspective { radial: Radial::Polynomial(n), tangential } if n < 3 => {
+            Some(Family::Perspective { radial: Radial::Polynomial(n + 1), tangential })
+        }
+        Family::Polynomial(_) => Some(Family::Perspective { radial: Radial::Polynomial(3), tangential: false }),
+        _ => None,
+    }
+}
+
+/// Adds weight · d dᵀ to the covariance.
+fn add(found: &mut Found, weight: f64, d: impl Fn(usize) -> f64) {
+    let count = found.camera.parameters.len();
+    for i in 0..count {
+        for j in 0..count {
+            *found.camera.covariance.at_mut(i, j) += weight * d(i) * d(j);
+        }
+    }
+    for i in 0..count {
+        found.camera.parameters[i].estimate.standard_uncertainty = found.camera.covariance.at(i, i).sqrt();
+    }
+}
+
+impl Found {
+    /// A camera file by a verb; the f-number cannot be told from these pictures.
+    ///
+    /// # Errors
+    /// Where the camera folds over inside its picture.
+    pub(crate) fn camera_file(&self, verb: &str, pixel_pitch_um: f64, f_number: Option<f64>) -> Result<String, Error> {
+        let refused =
+            |folds| Error::coded(ErrorCode::UnusableLens, format!("no camera file of this, figures only: {folds}"));
+        self.camera.calibration.check().map_err(refused)?;
+        let [width, height] = self.camera.calibration.size_px().map(|n| n as u64);
+        let view = View::Projection(Box::new(stated_projection(&self.camera.calibration)));
+        let lens = Lens::Calibrated(Box::new(record::lens::Calibrated::new(view, f_number.unwrap_or(4.0))));
+        let camera = Camera::new(lens, Sensor::new(width, height, pixel_pitch_um));
+        let count = self.views.len();
+        let views = if count == 1 { "view" } else { "views" };
+        let rms_px = self.camera.rms_px();
+        let about =
+            format!("Found by etendue {verb} from {count} {views}; points lie {rms_px:.4} px (rms) from the fit.");
+        let file = File::new(camera.to_table()).head(about);
+        Ok(match f_number {
+            Some(_) => file,
+            None => file.beside("lens.f_number", "a stand-in: not measured"),
+        }
+        .to_string())
+    }
+}
+
+/// A fit that leaves this many times the points' own uncertainty, and this much, is looked into.
+const TIMES: f64 = 5.0;
+const MIN_PX: f64 = 0.05;
+/// It is told where another model leaves less than this share of it, or where it is as many times the uncertainty, and as much, again.
+const SHARE: f64 = 0.5;
+const SURELY: f64 = 4.0;
+/// Models that are tried.
+const OTHERS: [CameraModel; 5] = [
+    CameraModel::Opencv,
+    CameraModel::KannalaBrandt,
+    CameraModel::RadialInverse,
+    CameraModel::ExtendedUnified,
+    CameraModel::Opencv5,
+];
+
+/// A warning where the fit leaves far more than the points' own uncertainties.
+fn unsuited(
+    model: CameraModel,
+    camera: &Calibrated,
+    views: &[Seen],
+    sightings: &[&Sightings],
+    options: Options,
+) -> Option<String> {
+    let nodes = || views.iter().flat_map(|v| &v.grid.nodes);
+    let squares: f64 = nodes().map(|n| n.uncertainty_px * n.uncertainty_px).sum();
+    let own = (squares / nodes().count() as f64).sqrt();
+    let left = camera.sigma_px;
+    if left < MIN_PX || left < TIMES * own {
+        return None;
+    }
+    let sightings: Vec<Sightings> = sightings.iter().map(|s| (*s).clone()).collect();
+    let size = camera.calibration.size_px();
+    let fitted =
+        |other: CameraModel| Some((other, calibrate(&sightings, size, other.family(), options).ok()?.sigma_px));
+    let others = OTHERS.into_iter().filter(|other| *other != model).filter_map(fitted);
+    let better = others.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, sigma)| *sigma < SHARE * left);
+    let times = if own > 0.0 { format!(", {:.0} times their own uncertainty", left / own) } else { String::new() };
+    let than = format!("the points lie {left:.3} px from the fit (standard deviation of a coordinate){times}");
+    let named = model.name();
+    match better {
+        Some((other, sigma)) => {
+            let other = other.name();
+            Some(format!(
+                "warning: {than}: the model {named} does not describe this camera; {other} leaves {sigma:.3} px"
+            ))
+        }
+        None if own > 0.0 && left > SURELY * MIN_PX.max(TIMES * own) => Some(format!(
+            "warning: {than}: the model {named} does not describe this camera, or the chart is not flat; uncertainties are too small"
+        )),
+        None => None,
+    }
 }

@@ -1,14 +1,14 @@
 //! What was found, as figures, tables and plots.
 
-use super::found::Found;
-use super::request::ViewsRequest;
-use crate::measure::chart_points::Seen;
-use crate::plot::{Axis, Mark, Plot, Series};
-use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
 use etendue_core::maths::f64::{acos, atan};
 use etendue_metrology::target::Node;
 use etendue_projection::CalibrationError;
 use glam::DVec2;
+
+use super::{Found, ViewsRequest};
+use crate::measure::point_list::Seen;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
 
 /// Unit of a parameter, by its name.
 fn unit(name: &str) -> &'static str {

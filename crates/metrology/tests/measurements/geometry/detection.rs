@@ -3,7 +3,7 @@
 use super::cameras::{fisheye, perspective};
 use super::paint::{View, checkerboard, dots, noisy};
 use etendue_metrology::Image;
-use etendue_metrology::disc::centroid_shift;
+use etendue_metrology::patch_statistics::centroid_shift;
 use etendue_metrology::target::{Grid, Sought, Target, TargetError, find};
 use glam::{DVec2, DVec3};
 

@@ -10,7 +10,7 @@ use etendue_metrology::noise::measure_noise;
 use etendue_metrology::oecf::ExposurePoint;
 use etendue_metrology::photon_transfer::Stack;
 use etendue_metrology::{Estimate, Image};
-use etendue_spectra::{chart::colorchecker, colour::D65_WHITE, illuminant, observer};
+use etendue_spectra::{colour::D65_WHITE, illuminant, observer, reflectance::colorchecker};
 
 /// Temporal noise 4, fixed pattern 3 in readings of 200 over a black of 40.
 #[test]
@@ -126,7 +126,7 @@ fn contrast() {
 
 /// A camera whose channels are a matrix of XYZ, each to a power: powers of 1 leave no error.
 fn patches(powers: [f64; 3], sigma: f64, side: usize, mut normal: impl FnMut() -> f64) -> Vec<ColourPatch> {
-    let mut patch = |p: &etendue_spectra::chart::Patch| {
+    let mut patch = |p: &etendue_spectra::reflectance::Patch| {
         let [x, y, z] = observer::xyz_of_reflectance(&p.reflectance, illuminant::d65());
         let channels = [0.5 * x + 0.09 * y, 0.04 * x + 0.6 * y + 0.02 * z, 0.07 * y + 0.45 * z];
         let pixels = [0, 1, 2].map(|c| {

@@ -5,7 +5,7 @@ use super::{normals, picture};
 use crate::coverage::covers;
 use etendue_core::maths::f64::pow;
 use etendue_metrology::oecf::ExposurePoint;
-use etendue_metrology::oecf::noisy_mean::noisy_mean;
+use etendue_metrology::oecf::noisy_mean;
 use etendue_metrology::oecf::response::{ResponseSettings, camera_response};
 use etendue_metrology::{Estimate, Image};
 

@@ -5,7 +5,7 @@ use crate::coverage::covers;
 use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::{atan2, exp, hypot, sin_cos};
 use etendue_metrology::texture::leaves::measure_texture;
-use etendue_metrology::texture::star::{Star, measure_star};
+use etendue_metrology::texture::{Star, measure_star};
 
 /// A star behind a Gaussian, sampled in points.
 #[test]

@@ -13,29 +13,23 @@
 //! Left out: the pupil's being cut by rims away from the axis; what the lens's own rays make of a wavefront (a traced lens
 //! has its aberrations already); light beyond the pattern's end, which is shared out over it.
 
-mod outline;
 mod pattern;
 mod patterns;
-mod zernike;
 
-pub use zernike::Zernike;
-
-use super::Canvas;
-use super::band_wavelengths::{MM_PER_NM, NM_PER_UM, mid_wavelengths};
-use super::convolve;
-use super::error::EffectsError;
-use super::film_part::FilmPart;
-use super::operation_counts::{OperationCounts, Uses};
-use super::patches::{Patches, Stand};
-use super::sample_spread::SampleSpread;
-use crate::lens::Lens;
 use etendue_core::{Bands, EffectStatus, WavelengthRange};
 use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
-use outline::Outline;
-use pattern::{CELLS, Pupil};
-use patterns::{Extent, Patch, Patterns};
 use rayon::prelude::*;
+
+use super::convolve::{self, OperationCounts, Uses};
+use super::film_part::{FilmPart, MM_PER_NM, NM_PER_UM, mid_wavelengths};
+use super::patches::{Patches, Stand};
+use super::{Canvas, error::EffectsError, sample_spread::SampleSpread};
+use crate::lens::Lens;
+use pattern::{CELLS, Outline, Pupil};
+use patterns::{Extent, Patch, Patterns};
+
+pub use pattern::Zernike;
 
 pub(super) use patterns::{MAX_PX, Ready};
 

@@ -4,12 +4,24 @@
 //! ray through u lands at x = 2N ∂W/∂u, in the axes of the erect picture. The pupil is sampled on a square lattice, each
 //! cell with the share of it that is open; the pattern then comes at steps of λN/Q, as far as the lattice's number of cells
 //! times half of that. Q is at least 2, so that its sum is its integral.
+//!
+//! The outline of the aperture, in units of the radius that the f-number states.
+//!
+//! A circle, or as many arcs as there are blades: with the curvature c the radius of the arcs is the corners' radius over c,
+//! so 0 is a polygon and 1 the circle. The area is that of the circle of the f-number: the light is the same. A round
+//! obstruction in the middle (a mirror lens) is cut out of it.
+//!
+//! Zernike's circle polynomials, of root mean square one over the unit disc.
+//!
+//! Z = √(n + 1) R_n⁰ for m = 0, else √(2(n + 1)) R_n^|m| times cos mθ (m > 0) or sin |m|θ (m < 0), with the angle from x
+//! towards y. Single indices by Noll (1976), from 1, or by ANSI Z80.28 / OSA, from 0.
 
-use super::outline::Outline;
-use crate::effects::fourier::{Grid, Plan};
-use core::f64::consts::TAU;
-use etendue_core::maths::f64::sin_cos;
+use core::f64::consts::{PI, TAU};
+
+use etendue_core::maths::f64::{asin, atan2, sin_cos};
 use glam::DVec2;
+
+use crate::effects::fourier::{Grid, Plan};
 
 /// Cells of the lattice along a side.
 pub(super) const CELLS: usize = 1024;
@@ -104,11 +116,133 @@ impl Pattern {
     }
 }
 
+/// An aperture.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Outline {
+    edges: Vec<Edge>,
+    /// Radius of the corners, or of the circle.
+    radius: f64,
+    obstruction: f64,
+}
+
+/// The arc of a blade: points within `radius` of `centre`, or below `distance` along `normal` where it is straight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Edge {
+    normal: DVec2,
+    distance: f64,
+    curve: Option<(DVec2, f64)>,
+}
+
+impl Outline {
+    /// `blades` (0 for a circle) of a curvature, the first corner at `rotation_rad` from x towards y.
+    pub(super) fn new(blades: u32, curvature: f64, rotation_rad: f64, obstruction: f64) -> Self {
+        if blades == 0 {
+            return Self { edges: Vec::new(), radius: 1.0, obstruction };
+        }
+        let half = PI / f64::from(blades);
+        let (sine, cosine) = sin_cos(half);
+        // For corners at radius one: triangles, and the segments between chord and arc.
+        let segment = if curvature > 0.0 {
+            let arc = 1.0 / curvature;
+            arc * arc * asin((sine / arc).min(1.0)) - sine * (arc * arc - sine * sine).sqrt()
+        } else {
+            0.0
+        };
+        let radius = (PI / (f64::from(blades) * (sine * cosine + segment))).sqrt();
+        let edge = |i: u32| {
+            let (y, x) = sin_cos(rotation_rad + (2.0 * f64::from(i) + 1.0) * half);
+            let (normal, distance, chord) = (DVec2::new(x, y), radius * cosine, radius * sine);
+            let curve = (curvature > 0.0).then(|| {
+                let arc = radius / curvature;
+                (normal * (distance - (arc * arc - chord * chord).sqrt()), arc)
+            });
+            Edge { normal, distance, curve }
+        };
+        Self { edges: (0..blades).map(edge).collect(), radius, obstruction }
+    }
+
+    /// The radius that holds all of it.
+    pub(super) fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Whether light passes at a point.
+    pub(super) fn passes(&self, point: DVec2) -> bool {
+        let r2 = point.length_squared();
+        let within = |edge: &Edge| match edge.curve {
+            Some((centre, radius)) => (point - centre).length_squared() <= radius * radius,
+            None => point.dot(edge.normal) <= edge.distance,
+        };
+        r2 <= self.radius * self.radius && r2 >= self.obstruction * self.obstruction && self.edges.iter().all(within)
+    }
+}
+
+/// The largest radial order.
+const MAX_ORDER: u32 = 12;
+
+/// A polynomial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Zernike {
+    n: u32,
+    m: i32,
+}
+
+impl Zernike {
+    /// By Noll's index, from 1; `None` beyond the order 12.
+    #[must_use]
+    pub fn noll(index: u32) -> Option<Self> {
+        let n = (0..=MAX_ORDER).find(|n| index >= 1 && index <= (n + 1) * (n + 2) / 2)?;
+        let k = index - n * (n + 1) / 2 - 1;
+        let m = if n.is_multiple_of(2) { 2 * k.div_ceil(2) } else { 2 * (k / 2) + 1 };
+        let m = m.cast_signed();
+        Some(Self { n, m: if index.is_multiple_of(2) { m } else { -m } })
+    }
+
+    /// By the index of OSA and ANSI, from 0; `None` beyond the order 12.
+    #[must_use]
+    pub fn osa(index: u32) -> Option<Self> {
+        let n = (0..=MAX_ORDER).find(|n| index < (n + 1) * (n + 2) / 2)?;
+        Some(Self { n, m: (2 * index).cast_signed() - (n * (n + 2)).cast_signed() })
+    }
+
+    /// Radial and azimuthal order.
+    #[must_use]
+    pub fn radial_and_azimuthal_order(&self) -> (u32, i32) {
+        (self.n, self.m)
+    }
+
+    /// The polynomial at a point of the pupil; beyond the unit disc it goes on.
+    #[must_use]
+    pub fn at(&self, point: DVec2) -> f64 {
+        let m = self.m.unsigned_abs();
+        let norm = f64::from(if m == 0 { self.n + 1 } else { 2 * (self.n + 1) }).sqrt();
+        let (sine, cosine) = sin_cos(f64::from(m) * atan2(point.y, point.x));
+        norm * self.radial(point.length()) * if self.m < 0 { sine } else { cosine }
+    }
+
+    /// R_n^m = Σ (−1)^k (n − k)! / (k! ((n + m)/2 − k)! ((n − m)/2 − k)!) r^(n − 2k).
+    fn radial(&self, r: f64) -> f64 {
+        let m = self.m.unsigned_abs();
+        let term = |k: u32| {
+            let below = factorial(k) * factorial((self.n + m) / 2 - k) * factorial((self.n - m) / 2 - k);
+            let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+            sign * factorial(self.n - k) / below * (0..self.n - 2 * k).map(|_| r).product::<f64>()
+        };
+        (0..=(self.n - m) / 2).map(term).sum()
+    }
+}
+
+fn factorial(n: u32) -> f64 {
+    (1..=n).map(f64::from).product()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::*;
     use core::f64::consts::PI;
+
     use etendue_core::maths::f64::acos;
+
+    use super::*;
 
     fn circle(fineness: f64) -> Pattern {
         Pupil::new(&Outline::new(0, 0.0, 0.0, 0.0), fineness).pattern(None)
@@ -194,6 +328,69 @@ mod tests {
             let threshold = 4.0 * wide.iter().sum::<f64>() / bins as f64;
             let rises = (0..bins).filter(|i| wide[*i] < threshold && wide[(i + 1) % bins] >= threshold).count();
             assert_eq!(rises, spikes, "{blades} blades");
+        }
+    }
+
+    #[test]
+    fn every_outline_has_the_area_of_the_circle() {
+        let cells = 1000;
+        for (blades, curvature) in [(0, 0.0), (3, 0.0), (5, 0.4), (6, 0.0), (7, 0.9), (8, 1.0)] {
+            let outline = Outline::new(blades, curvature, 0.3, 0.0);
+            let side = 2.0 * outline.radius() / f64::from(cells);
+            let centre = |i: i32| (f64::from(i) + 0.5) * side - outline.radius();
+            let inside = |i: i32| (0..cells).filter(|j| outline.passes(DVec2::new(centre(i), centre(*j)))).count();
+            let area = (0..cells).map(inside).sum::<usize>() as f64 * side * side;
+            // Cells at the border: some 1e-4 of the area.
+            assert!((area / PI - 1.0).abs() < 3e-4, "{blades} {curvature}: {area}");
+        }
+    }
+
+    #[test]
+    fn corners_lie_where_they_are_turned_to() {
+        let outline = Outline::new(6, 0.0, 0.2, 0.3);
+        let at = |angle: f64, r: f64| {
+            let (s, c) = sin_cos(angle);
+            outline.passes(DVec2::new(c, s) * r)
+        };
+        let flat = outline.radius() * 3f64.sqrt() / 2.0;
+        assert!(at(0.2, 0.999 * outline.radius()) && !at(0.2, 1.001 * outline.radius()));
+        assert!(at(0.2 + PI / 6.0, 0.999 * flat) && !at(0.2 + PI / 6.0, 1.001 * flat));
+        assert!(!at(1.0, 0.299) && at(1.0, 0.301));
+    }
+
+    #[test]
+    fn indices_are_those_of_the_tables() {
+        // Noll (1976), table I; ANSI Z80.28.
+        let noll =
+            [(1, 0, 0), (2, 1, 1), (3, 1, -1), (4, 2, 0), (5, 2, -2), (6, 2, 2), (7, 3, -1), (8, 3, 1), (11, 4, 0)];
+        for (j, n, m) in noll {
+            assert_eq!(Zernike::noll(j).expect("known").radial_and_azimuthal_order(), (n, m), "Noll {j}");
+        }
+        let osa =
+            [(0, 0, 0), (1, 1, -1), (2, 1, 1), (3, 2, -2), (4, 2, 0), (5, 2, 2), (7, 3, -1), (8, 3, 1), (12, 4, 0)];
+        for (j, n, m) in osa {
+            assert_eq!(Zernike::osa(j).expect("known").radial_and_azimuthal_order(), (n, m), "OSA {j}");
+        }
+        assert!(Zernike::noll(0).is_none() && Zernike::noll(92).is_none() && Zernike::osa(91).is_none());
+    }
+
+    #[test]
+    fn they_are_orthogonal_with_root_mean_square_one() {
+        let all: Vec<_> = (1..=28).filter_map(Zernike::noll).collect();
+        let (rings, angles) = (400, 64);
+        let mut sums = vec![0.0; all.len() * all.len()];
+        for i in 0..rings * angles {
+            let r = ((f64::from(i / angles) + 0.5) / f64::from(rings)).sqrt();
+            let (s, c) = sin_cos(core::f64::consts::TAU * f64::from(i % angles) / f64::from(angles));
+            let values: Vec<f64> = all.iter().map(|z| z.at(DVec2::new(c, s) * r)).collect();
+            for (a, row) in values.iter().zip(sums.chunks_mut(all.len())) {
+                values.iter().zip(row).for_each(|(b, sum)| *sum += a * b / f64::from(rings * angles));
+            }
+        }
+        for (i, sum) in sums.iter().enumerate() {
+            let expected = f64::from(u8::from(i % all.len() == i / all.len()));
+            // Midpoint rule in 400 rings: second order, times the slopes of polynomials of the sixth order.
+            assert!((sum - expected).abs() < 1e-3, "{i}: {sum}");
         }
     }
 }

@@ -1,15 +1,12 @@
 //! The patterns of an aperture on the pixels of a film, patch by patch.
 
-use super::pattern::{CELLS, Pattern, Pupil};
-use crate::effects::Canvas;
-use crate::effects::band_wavelengths::{MM_PER_NM, NM_PER_UM, mid_wavelengths};
-use crate::effects::convolve::Field;
-use crate::effects::core_table::{CORE_PX, CoreBuilder, CoreTable};
-use crate::effects::film_part::{FilmPart, KernelBuilder};
-use crate::effects::kernel::Kernel;
-use crate::effects::patches::Patches;
 use etendue_core::WavelengthRange;
 use glam::{DMat2, DVec2};
+
+use super::pattern::{CELLS, Pattern, Pupil};
+use crate::effects::core_table::{CORE_PX, CoreBuilder, CoreTable};
+use crate::effects::film_part::{FilmPart, KernelBuilder, MM_PER_NM, NM_PER_UM, mid_wavelengths};
+use crate::{effects::Canvas, effects::convolve::Field, effects::kernel::Kernel, effects::patches::Patches};
 
 /// A part of the picture with a function of its own.
 #[derive(Clone, Debug)]

@@ -1,23 +1,20 @@
 //! The table of functions: by wavelength and by distance from the axis.
 
-use super::function::{FieldSpread, Function};
-use super::patch_count::{Shape, keeps_shapes, patches_needed};
-use crate::effects::Canvas;
-use crate::effects::band_wavelengths::mid_wavelengths;
-use crate::effects::convolve;
-use crate::effects::core_table::{CoreBuilder, CoreTable};
-use crate::effects::error::EffectsError;
-use crate::effects::operation_counts::{OperationCounts, Uses};
-use crate::effects::patches::{Patches, Stand};
-use crate::effects::psf::VISIBLE;
-use crate::effects::sample_spread::SampleSpread;
-use crate::effects::spread_width::SpreadWidth;
-use etendue_core::maths::f64::sin_cos;
-use etendue_core::{Bands, EffectStatus, WavelengthRange};
+use std::sync::Arc;
+
+use etendue_core::{Bands, EffectStatus, WavelengthRange, maths::f64::sin_cos};
 use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
-use std::sync::Arc;
+
+use super::function::{FieldSpread, Function, Shape, keeps_shapes, patches_needed};
+use crate::effects::convolve::{self, OperationCounts, Uses};
+use crate::effects::core_table::{CoreBuilder, CoreTable};
+use crate::effects::film_part::{SpreadWidth, mid_wavelengths};
+use crate::effects::patches::{Patches, Stand};
+use crate::{
+    effects::Canvas, effects::error::EffectsError, effects::psf::VISIBLE, effects::sample_spread::SampleSpread,
+};
 
 /// The functions of a wavelength.
 #[derive(Clone, Debug, PartialEq)]

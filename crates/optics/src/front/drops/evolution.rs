@@ -7,13 +7,11 @@
 //! In a step, drops arrive, shrink, slide, join, are wiped, and leave the rectangle, in this order. A drop that dries keeps its contact angle,
 //! and the square of its radius falls evenly with time (R. G. Picknett and R. Bexon, J. Colloid Interface Sci. 61, 1977).
 
-use super::cap::reach_factor;
-use super::coalescence::coalesce;
-use super::course::Course;
-use super::droplet::Droplet;
-use super::parameters::DropsParameters;
-use super::population::{self, Batch};
 use glam::DVec2;
+
+use super::coalescence::{coalesce, reach_factor};
+use super::course::{Course, Droplet};
+use super::population::{self, Batch, DropsParameters};
 
 /// Time of a step, s. Usual drops slide less than their radius in it.
 const STEP_S: f64 = 0.02;
@@ -83,9 +81,9 @@ fn arrive(drops: &mut Vec<Droplet>, p: &DropsParameters, course: &Course, [from_
 
 #[cfg(test)]
 mod tests {
-    use super::super::sliding::Sliding;
+    use super::super::course::Sliding;
+    use super::super::course::Wiper;
     use super::super::tests::parameters;
-    use super::super::wiper::Wiper;
     use super::super::{Cap, Drops};
     use super::*;
     use etendue_core::maths::f64::{atan2, pow};

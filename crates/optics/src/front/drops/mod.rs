@@ -13,29 +13,22 @@
 //!
 //! Ground truth does not see drops: depth, ids and flow are those of dry glass.
 
-mod cap;
 mod coalescence;
 mod course;
-mod droplet;
 mod evolution;
 mod grid;
-mod parameters;
 mod passage;
 mod population;
-mod sliding;
-mod wiper;
 
-pub use cap::Cap;
-pub use course::Course;
-pub use droplet::Droplet;
-pub use parameters::DropsParameters;
-pub use sliding::Sliding;
-pub use wiper::Wiper;
+use glam::{DVec2, DVec3};
 
 use crate::error::FrontError;
-use cap::reach_factor;
-use glam::{DVec2, DVec3};
+use coalescence::reach_factor;
 use grid::Grid;
+
+pub use coalescence::Cap;
+pub use course::{Course, Droplet, Sliding, Wiper};
+pub use population::DropsParameters;
 
 /// Drops as they lie on the glass.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,7 +62,7 @@ impl Drops {
     /// # Errors
     /// Where a number is outside its range, or the glass does not reach as far as the drops.
     pub(super) fn new(parameters: DropsParameters, face: Face<'_>) -> Result<Self, FrontError> {
-        parameters::check(&parameters)?;
+        population::check(&parameters)?;
         let mut droplets = population::first(&parameters);
         coalescence::coalesce(&mut droplets, reach_factor(parameters.contact_angle_rad));
         Self::lying(parameters, droplets, face)

@@ -1,9 +1,10 @@
 //! A ray from the glass through drops into the open air, against the light.
 
+use glam::DVec3;
+
 use super::{Body, Drops};
 use crate::front::Line;
 use crate::prescription::coating::{Coating, Crossing};
-use glam::DVec3;
 
 /// Surfaces of water that a ray meets, at most; what goes on longer is dark.
 const MAX_SURFACES: usize = 16;

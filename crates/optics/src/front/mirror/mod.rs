@@ -12,15 +12,14 @@
 mod mesh;
 mod quadric;
 mod reflectance;
-mod touch;
-mod tree;
 
 use super::{Fate, FrontError, Line, Placement};
 
 pub use mesh::MeshMirror;
 pub use quadric::{Quadric, QuadricKind};
 pub use reflectance::Reflectance;
-pub(super) use touch::Touch;
+
+pub(super) use mesh::Touch;
 
 /// The surface of a mirror: the closed list.
 #[derive(Clone, Debug, PartialEq)]

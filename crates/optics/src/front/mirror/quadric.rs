@@ -5,12 +5,14 @@
 //! outer normal is along (x, y, m z − R). The foci of a hyperboloid are on the axis at R/(1 + e) within the sheet and at
 //! −R/(e − 1) outside: a ray towards the one is reflected as if it came from the other.
 
+use core::f64::consts::PI;
+
+use etendue_core::maths::f64::tan;
+use glam::DVec3;
+
 use super::super::Line;
 use super::Touch;
 use crate::error::front::{FrontError, positive};
-use core::f64::consts::PI;
-use etendue_core::maths::f64::tan;
-use glam::DVec3;
 
 /// Which quadric.
 #[derive(Clone, Copy, Debug, PartialEq)]

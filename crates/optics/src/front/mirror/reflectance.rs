@@ -1,8 +1,9 @@
 //! How much light a mirror reflects.
 
+use etendue_spectra::metal::ComplexIndex;
+
 use super::super::Curve;
 use crate::error::FrontError;
-use etendue_spectra::metal::ComplexIndex;
 
 /// The share of light that a mirror reflects.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,13 +4,14 @@
 //! meridional plane, q.y across it, mm. A far source lights that plane evenly. A near one is taken as an element of the
 //! plane in focus that sends the same radiance everywhere: cos θ dω.
 
-use super::bundles::Cell;
-use crate::prescription::Prescription;
-use crate::prescription::indices::Media;
-use crate::prescription::trace::{LensRay, Rims, Way};
 use core::f64::consts::PI;
+
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
+
+use super::bundles::Cell;
+use crate::prescription::trace::{LensRay, Rims, Way};
+use crate::{prescription::Prescription, prescription::indices::Media};
 
 /// Points of the first surface by which the box of its opening is found: along the radius, and over half a turn.
 const RADII: usize = 16;

@@ -4,15 +4,14 @@
 //! root is found by secant steps inside a bracket. A table over the sensor's heights gives the start,
 //! and the field angle of each height, which is inverted to project a direction.
 
-use super::meridian::Meridian;
-use crate::lens::FieldAngles;
-use crate::prescription::Prescription;
-use crate::prescription::indices::Media;
-use crate::prescription::trace::{LensRay, Rims};
-use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::FRAC_PI_2;
+
 use etendue_core::maths::f64::{atan2, sin_cos};
 use glam::{DVec2, DVec3};
+
+use super::opening::Meridian;
+use crate::prescription::trace::{LensRay, Rims};
+use crate::{lens::FieldAngles, overlap::PRINCIPAL_NM, prescription::Prescription, prescription::indices::Media};
 
 const KNOTS: usize = 128;
 /// Roots are found to this slope: rounding of the tracing itself.

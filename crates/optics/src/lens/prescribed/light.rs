@@ -1,17 +1,15 @@
 //! Samples, weights and special rays of a prescribed lens.
 
-use super::Prescribed;
-use super::meridian::Meridian;
-use super::opening::Opening;
-use super::region::Ellipse;
-use crate::lens::gauss::GAUSS;
-use crate::lens::search::unit;
-use crate::prescription::trace::LensRay;
-use crate::pupil::{MM, concentric};
-use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::PI;
+
 use etendue_core::ray::PupilRay;
 use glam::{DVec2, DVec3};
+
+use super::opening::{Meridian, Opening};
+use super::{Prescribed, region::Ellipse};
+use crate::lens::search::{GAUSS, unit};
+use crate::pupil::{MM, concentric};
+use crate::{overlap::PRINCIPAL_NM, prescription::trace::LensRay};
 
 /// Directions over half a turn of the étendue's quadrature.
 pub(crate) const DIRECTIONS: usize = 96;

@@ -16,29 +16,25 @@ mod beam;
 mod bundles;
 mod chief;
 mod light;
-mod meridian;
 mod opening;
 mod quadrature;
 mod region;
 mod report;
 mod spot;
 
-use crate::error::OpticsError;
-use crate::lens::FieldAngles;
-use crate::lens::focus::Conjugates;
-use crate::prescription::coating::Coating;
-use crate::prescription::filter::InterferenceFilter;
-use crate::prescription::{Prescription, PrescriptionError, Surface};
-use crate::pupil::MM;
-use crate::range::positive;
-use crate::wavelength::PRINCIPAL_NM;
-use chief::Chiefs;
 use glam::{DVec2, DVec3};
+
+use crate::overlap::{PRINCIPAL_NM, positive};
+use crate::prescription::coating::{Coating, InterferenceFilter};
+use crate::prescription::{Prescription, PrescriptionError, Surface};
+use crate::{error::OpticsError, lens::FieldAngles, lens::paraxial_properties::Conjugates, pupil::MM};
+use chief::Chiefs;
 use region::Regions;
 
-pub(crate) use light::DIRECTIONS;
 pub use report::{FieldReport, ImageReport, LateralShift, LensReport};
 pub use spot::{OtherBundle, Spot};
+
+pub(crate) use light::DIRECTIONS;
 
 /// A prescription, focused, with its pupils found for a picture of a given size.
 #[derive(Clone, Debug, PartialEq)]

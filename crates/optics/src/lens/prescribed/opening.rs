@@ -1,18 +1,66 @@
+//! The frame of one sensor point: its meridian, and rays from it by their tangents.
+//!
+//! A lens of revolution is the same for all sensor points at one distance from the axis. With s that distance, a ray that
+//! leaves the sensor is named by its slopes against the axis: t.x in the meridional plane (away from the axis positive),
+//! t.y across it.
+//!
 //! What of the rear pupil is open to a sensor point, found by tracing.
 //!
-//! In slopes (see `meridian.rs`) the open part at one wavelength is nearly an intersection of discs: one for each rim that
+//! In slopes (see [`Meridian`]) the open part at one wavelength is nearly an intersection of discs: one for each rim that
 //! clips. It is symmetric about the meridional plane and, being nearly convex, star-shaped about the middle of the interval
 //! in which it meets that plane. Strong aberrations fold it: a sensor point then sees the scene through several openings, such as a
 //! ring about the pupil.
 
+use glam::{DVec2, DVec3};
+
 use super::bundles::{Cell, bundles};
-use super::meridian::Meridian;
 use super::quadrature::Area;
-use crate::lens::search::last_open;
-use crate::prescription::Prescription;
-use crate::prescription::indices::Media;
-use crate::prescription::trace::{Rims, Way};
-use glam::DVec2;
+use crate::prescription::trace::{LensRay, Rims, Way};
+use crate::{lens::search::last_open, prescription::Prescription, prescription::indices::Media};
+
+/// A sensor point in its meridional frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Meridian {
+    /// Distance from the axis, mm.
+    pub(super) s_mm: f64,
+    /// The unit vector from the axis to the point, in the lens frame.
+    outward: DVec2,
+    sensor_mm: f64,
+}
+
+impl Meridian {
+    /// Of a point of the erect picture: the light itself falls on its negative.
+    pub(super) fn new(point_mm: DVec2, sensor_mm: f64) -> Self {
+        let outward = (-point_mm).normalize_or(DVec2::X);
+        Self { s_mm: point_mm.length(), outward, sensor_mm }
+    }
+
+    /// Of any point at a distance from the axis.
+    pub(super) fn at(s_mm: f64, sensor_mm: f64) -> Self {
+        Self { s_mm, outward: DVec2::X, sensor_mm }
+    }
+
+    /// The ray with slopes `t`, towards the scene.
+    #[inline]
+    pub(super) fn ray(&self, t: DVec2) -> LensRay {
+        let slope = self.outward * t.x + self.outward.perp() * t.y;
+        let point = (self.outward * self.s_mm).extend(self.sensor_mm);
+        let direction = DVec3::new(slope.x, slope.y, -1.0) / (1.0 + t.length_squared()).sqrt();
+        LensRay { point, direction }
+    }
+
+    /// How far outwards a point of the lens frame lies.
+    pub(super) fn height_mm(&self, point: DVec3) -> f64 {
+        point.truncate().dot(self.outward)
+    }
+
+    /// cos⁴ of the angle of slopes `t`: projected solid angle by slope area, for ∫ cos θ dω = ∫ cos⁴ θ dt.
+    #[inline]
+    pub(super) fn cos4(t: DVec2) -> f64 {
+        let secant2 = 1.0 + t.length_squared();
+        1.0 / (secant2 * secant2)
+    }
+}
 
 /// One sensor height and wavelength.
 pub(super) struct Opening<'a> {

@@ -4,11 +4,13 @@
 //! equal steps of an angle whose sine is their height, which takes away the root at the bundle's ends. A smooth edge
 //! converges faster than any power of the rows' number, an edge with corners with its square.
 
-use super::bundles::{Bundle, Cell};
-use crate::overlap::GAUSS;
 use core::f64::consts::PI;
+
 use etendue_core::maths::f64::sin_cos;
 use glam::DVec2;
+
+use super::bundles::{Bundle, Cell};
+use crate::overlap::GAUSS;
 
 /// Steps of the search for edges along a row, at least; twice as many as rows.
 const SCAN: usize = 48;

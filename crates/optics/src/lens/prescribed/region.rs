@@ -10,17 +10,17 @@
 //! A point (ρ, φ) of the unit disc becomes centre + ρ R(φ) (a cos φ, b sin φ): with samples uniform in the disc, slope area
 //! per sample is π a b R², the inverse of the sampling density, which the weight keeps.
 
-use super::bundles::Cell;
-use super::meridian::Meridian;
-use super::opening::Opening;
-use crate::lens::search::{lit_as_far_as, unit};
-use crate::prescription::Prescription;
-use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::PI;
+
 use glam::DVec2;
 
+use super::bundles::Cell;
+use super::opening::{Meridian, Opening};
+use crate::lens::search::{lit_as_far_as, unit};
+use crate::{overlap::PRINCIPAL_NM, prescription::Prescription};
+
 /// Wavelengths whose bundles the region holds, nm; dispersion is monotone, so what passes in between lies in between.
-pub(super) const WAVELENGTHS_NM: [f64; 3] = [PRINCIPAL_NM, 300.0, 1100.0];
+const WAVELENGTHS_NM: [f64; 3] = [PRINCIPAL_NM, 300.0, 1100.0];
 
 const INTERVALS: usize = 40;
 /// Heights looked at in an interval, both ends among them.

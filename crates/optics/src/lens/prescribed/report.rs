@@ -15,14 +15,13 @@
 //!
 //! **Axial colour** is the paraxial image's place at F and C less that at d.
 
-use super::Prescribed;
-use super::beam::Beam;
-use super::spot::{OtherBundle, Pupil, Spot};
-use crate::prescription::paraxial::Paraxial;
-use crate::wavelength::PRINCIPAL_NM;
 use etendue_core::maths::f64::sin_cos;
 use etendue_spectra::glass::{LINE_C_NM, LINE_F_NM};
 use glam::DVec2;
+
+use super::spot::{OtherBundle, Pupil, Spot};
+use super::{Prescribed, beam::Beam};
+use crate::{overlap::PRINCIPAL_NM, prescription::paraxial::Paraxial};
 
 /// A lens, measured.
 #[derive(Clone, Debug, PartialEq)]

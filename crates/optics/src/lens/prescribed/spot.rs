@@ -3,10 +3,11 @@
 //! Rays fill each bundle evenly in light, clipped where its edge is. The number of rows doubles until root-mean-square radius and
 //! centroid stand still; what they moved last is stated as their error. Coatings do not weigh.
 
+use glam::DVec2;
+
 use super::beam::Beam;
 use super::bundles::{Bundle, bundles};
 use super::quadrature::{Area, Node};
-use glam::DVec2;
 
 /// Rows of the first quadrature, and how often they are doubled at most.
 const ROWS: usize = 12;

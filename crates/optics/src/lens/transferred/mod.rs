@@ -16,19 +16,17 @@ mod near_axis;
 mod pupils;
 mod sight;
 
-use crate::error::OpticsError;
-use crate::lens::focus::Conjugates;
-use crate::lens::gauss::GAUSS;
-use crate::lens::paraxial_properties::ParaxialProperties;
-use crate::lens::search::towards;
-use crate::pupil::{MM, concentric_disc};
-use crate::range::positive;
-use crate::ray_transfer::{RayTransfer, RayTransferError, TransferRay};
-use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::TAU;
-use etendue_core::maths::f64::atan2;
-use etendue_core::ray::PupilRay;
+
+use etendue_core::{maths::f64::atan2, ray::PupilRay};
 use glam::{DVec2, DVec3};
+
+use crate::error::OpticsError;
+use crate::lens::paraxial_properties::{Conjugates, ParaxialProperties};
+use crate::lens::search::{GAUSS, towards};
+use crate::overlap::{PRINCIPAL_NM, positive};
+use crate::pupil::{MM, concentric_disc};
+use crate::ray_transfer::{RayTransfer, RayTransferError, TransferRay};
 use near_axis::NearAxis;
 use pupils::{Oval, Pupils};
 use sight::Sight;

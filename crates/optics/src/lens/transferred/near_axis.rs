@@ -1,13 +1,10 @@
 //! First-order numbers of a lens that is known by its ray-transfer functions: least squares over rays near the axis, as fits have errors of their own.
 
-use super::pupils::Oval;
-use super::sight::Sight;
-use crate::lens::focus::Conjugates;
-use crate::lens::search::towards;
-use crate::pupil::MM;
-use crate::ray_transfer::{RayTransfer, RayTransferError};
-use crate::wavelength::PRINCIPAL_NM;
 use glam::{DVec2, DVec3};
+
+use super::{pupils::Oval, sight::Sight};
+use crate::ray_transfer::{RayTransfer, RayTransferError};
+use crate::{lens::paraxial_properties::Conjugates, lens::search::towards, overlap::PRINCIPAL_NM, pupil::MM};
 
 /// First-order numbers for a place of the sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]

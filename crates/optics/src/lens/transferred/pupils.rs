@@ -3,10 +3,12 @@
 //! At equal steps of the distance from the axis an oval is the ellipse about the box of what passes at any of the wavelengths; between them its centre and
 //! semi-axes are linear, and are stretched until the oval holds what passes at the ends of the interval and between them, plus a margin.
 
+use core::f64::consts::PI;
+
+use glam::DVec2;
+
 use super::sight::Sight;
 use crate::lens::search::{lit_as_far_as, towards};
-use core::f64::consts::PI;
-use glam::DVec2;
 
 const INTERVALS: usize = 48;
 /// Distances looked at in an interval, both ends among them.

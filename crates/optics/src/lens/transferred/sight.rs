@@ -3,9 +3,10 @@
 //! A lens of revolution is the same for all points at one distance from the axis. In the frame of such a point a point q of the pupil's plane has q.x along
 //! the meridian, away from the axis on the point's side, and q.y across it.
 
+use glam::DVec2;
+
 use crate::lens::search::last_open;
 use crate::ray_transfer::{RayTransfer, TransferRay};
-use glam::DVec2;
 
 /// A lens with the sensor at its place.
 #[derive(Clone, Copy)]

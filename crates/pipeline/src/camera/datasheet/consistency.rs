@@ -4,7 +4,7 @@ use super::digits::Span;
 use etendue_core::maths::f64::pow;
 use etendue_scene::record::DataSheet;
 use etendue_scene::{ErrorCode, Fault, Placed};
-use etendue_sensor::emva1288::{QUANTISATION_DN2, bit, db, threshold_e};
+use etendue_sensor::figures::{QUANTISATION_DN2, bit, db, threshold_e};
 
 /// What is wrong, and what is doubtful.
 #[derive(Debug, Default)]

@@ -1,6 +1,6 @@
 //! From an EMVA 1288 data sheet to a camera file.
 //!
-//! A data sheet's figures follow from each other (`etendue_sensor::emva1288`), so it can be read wrongly only in ways that show: K·1/K = 1,
+//! A data sheet's figures follow from each other (`etendue_sensor::figures`), so it can be read wrongly only in ways that show: K·1/K = 1,
 //! SNR_max² = μ_e.sat, DR = μ_e.sat/μ_e.min, μ_e.min from σ_d and K, photons times efficiency are electrons, and the saturation
 //! capacity has a digital number. Each pair is compared with the tolerance of its digits: half a unit of the last one, of the figure
 //! and of all that it is computed from (zeros at the end do not count as digits). Data sheets mix means of several specimens, so
@@ -15,7 +15,7 @@ use consistency::{Figures, largest_dn};
 
 use etendue_scene::record::DataSheet;
 use etendue_scene::{ErrorCode, Fault};
-use etendue_sensor::emva1288::{MIN_DARK_DN2, dark_noise_e};
+use etendue_sensor::figures::{MIN_DARK_DN2, dark_noise_e};
 
 /// A camera file made of a data sheet.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use super::lens_file::of_file;
 use super::lens_file::{self, Stated};
 use crate::compile::stated::focus_m;
 use etendue_optics::prescription::coating::Coating;
-use etendue_optics::prescription::filter::InterferenceFilter;
+use etendue_optics::prescription::coating::InterferenceFilter;
 use etendue_optics::prescription::published::{LENSES, named};
 use etendue_optics::prescription::surface::ASPHERE_TERMS;
 use etendue_optics::prescription::{Focus, OtherRims, Surface};

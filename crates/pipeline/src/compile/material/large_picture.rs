@@ -1,7 +1,7 @@
 //! Textures of pictures that are too large to be held: in tiles, which are made once for all runs.
 
 use super::texels::Reading;
-use etendue_core::blocks::{BlockKey, BlockWriter};
+use etendue_core::storage::{BlockKey, BlockWriter};
 use etendue_scene::asset::{LargeImage, TexelStore};
 use etendue_tracer::textures::{ImageTexture, PyramidWriter, Sampling, Texels, TextureError, TileMemory, TiledError};
 use sha2::{Digest as _, Sha256};

@@ -10,7 +10,7 @@ use etendue_scene::record;
 use etendue_scene::record::processing as description;
 use etendue_scene::{Place, Placed};
 use etendue_sensor::Sensor;
-use etendue_spectra::{Spectrum, chart};
+use etendue_spectra::{Spectrum, reflectance};
 
 /// The sensor's filters in the words of development.
 pub(super) fn mosaic(record: &record::Processing, sensor: &Sensor, context: &mut Context<'_>) -> Option<Mosaic> {
@@ -187,7 +187,7 @@ fn colour_matrix(
         }
         Some(description::ColourMatrix::Fit(name)) => {
             let illuminant = named_illuminant(name, context)?;
-            let patches = chart::colorchecker().iter().map(|patch| &patch.reflectance);
+            let patches = reflectance::colorchecker().iter().map(|patch| &patch.reflectance);
             let noise = if is_rgb(mosaic) { 0.0 } else { NOISE_OF_OTHER_CHANNELS };
             context.accept(&name.place, fit_colour_matrix(channels, &illuminant, patches, noise))
         }

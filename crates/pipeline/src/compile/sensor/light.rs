@@ -5,7 +5,7 @@ use etendue_scene::record;
 use etendue_scene::record::sensor::charge as description;
 use etendue_scene::record::sensor::exposure::{self, AutoExposure, Exchange};
 use etendue_sensor::effects::angle_response::AngleResponse;
-use etendue_sensor::effects::crosstalk::Crosstalk;
+use etendue_sensor::effects::neighbours::Crosstalk;
 use etendue_sensor::effects::neighbours::Neighbours;
 use etendue_sensor::effects::photo_response::PhotoResponse;
 use etendue_sensor::effects::smear::Smear;

@@ -4,8 +4,9 @@
 //! number of primitives) is least (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies").
 //! References change places within their range, in the same way whatever the number of threads.
 
-use super::reference::{Extent, Reference};
 use glam::Vec4;
+
+use super::reference::{Extent, Reference};
 
 /// Ranges of fewer references are cut between 8 bins an axis, others between 32.
 const FEW: usize = 64;

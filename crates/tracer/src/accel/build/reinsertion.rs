@@ -4,10 +4,8 @@
 //! bounding volume hierarchy optimization"). Most is won among the largest: below them the tree may stay as it is.
 
 use glam::{DVec3, Vec3};
-use obvhs::aabb::Aabb;
-use obvhs::bvh2::node::Bvh2Node;
-use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::bvh2::{Bvh2, DEFAULT_MAX_STACK_DEPTH};
+use obvhs::{aabb::Aabb, bvh2::node::Bvh2Node, bvh2::reinsertion::ReinsertionOptimizer};
 
 use crate::accel::boxes::{BinaryKind, BinaryNode, Box3};
 

@@ -1,12 +1,12 @@
 //! What an opening is like, and how large it is seen.
 
 use core::f64::consts::{PI, TAU};
+
 use etendue_core::maths::f64::sin_cos;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 use super::mesh::{self, SIDES, polygon_area};
-use crate::geometry::Mesh;
-use crate::lights::profile::Profile;
+use crate::{geometry::Mesh, lights::profile::Profile};
 
 /// Least and greatest extent of an opening, m.
 const EXTENTS_M: [f64; 2] = [1e-4, 100.0];

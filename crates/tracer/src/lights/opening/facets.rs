@@ -4,15 +4,13 @@
 //! plane and the distance d from its middle; of a body only those that face the receiver, which no other part of a convex body hides. A
 //! parallelogram is then drawn by solid angle from near by and by area from afar (`lights/triangle.rs`), a polygon by area.
 
+use etendue_core::warp::uniform_triangle;
 use glam::{DAffine3, Vec2, Vec3};
 
 use super::body::{Opening, OpeningBody};
 use super::mesh::{self, SIDES, corner};
-use crate::MaterialId;
-use crate::geometry::Mesh;
-use crate::lights::triangle::TriangleLight;
 use crate::lights::{LightHit, ROUNDING, SurfaceSample, solid_angle_pdf};
-use etendue_core::warp::uniform_triangle;
+use crate::{MaterialId, geometry::Mesh, lights::triangle::TriangleLight};
 
 /// Facets at most: those of a tube with its two ends.
 const MOST: usize = SIDES as usize + 2;

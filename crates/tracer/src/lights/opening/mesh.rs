@@ -2,6 +2,7 @@
 //! along their axis.
 
 use core::f64::consts::{PI, TAU};
+
 use etendue_core::maths::f64::{sin, sin_cos};
 use glam::{DVec3, Vec3};
 

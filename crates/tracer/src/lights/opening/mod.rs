@@ -19,4 +19,5 @@ mod mesh;
 mod tests;
 
 pub use body::{Opening, OpeningBody, OpeningError};
+
 pub(super) use facets::{FacetSample, Facets};

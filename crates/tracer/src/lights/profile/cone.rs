@@ -5,6 +5,7 @@
 //! sharp edge. Cosines are kept as 1 − c, so that narrow spots keep their digits.
 
 use core::f64::consts::{PI, TAU};
+
 use etendue_core::maths;
 use glam::Vec3;
 

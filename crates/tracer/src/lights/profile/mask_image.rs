@@ -7,6 +7,7 @@
 //! Left out: colours, the blur of a real projector.
 
 use core::f64::consts::PI;
+
 use etendue_core::maths;
 use glam::{DVec3, Vec2, Vec3};
 

@@ -19,11 +19,13 @@ mod spread;
 mod tests;
 
 use glam::Vec3;
+
 use spread::{Node, cap};
 
 pub use cone::{Cone, ConeError};
 pub use mask_image::{MaskImage, MaskImageError};
 pub use photometric_grid::{PhotometricAxes, PhotometricGrid, PhotometricGridError};
+
 pub(in crate::lights) use spread::Spread;
 
 /// The spread of a lamp's intensity.

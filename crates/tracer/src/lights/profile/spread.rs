@@ -1,7 +1,6 @@
 //! What the choice of lamps knows of a profile: how much light, and into which cone.
 
-use etendue_core::maths;
-use etendue_core::maths::f64::sin_cos;
+use etendue_core::{maths, maths::f64::sin_cos};
 use glam::{DVec3, Vec3};
 
 /// Flux, peak and bounding cone of a profile.

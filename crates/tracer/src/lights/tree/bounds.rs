@@ -1,6 +1,7 @@
 //! Where a light or a cluster is, how strong, and into which cone it shines.
 
 use core::f32::consts::{FRAC_PI_2, PI};
+
 use etendue_core::maths;
 use glam::Vec3;
 

@@ -5,10 +5,11 @@
 //! (coincident ones), and those far down, are halved by count, so that the tree is never deeper than
 //! [`DEEP`] + log₂ n.
 
+use core::ops::Range;
+
 use super::bounds::LightBounds;
 use super::light_tree::{LightTree, Slot};
 use super::node::{Child, LANES, Node};
-use core::ops::Range;
 
 /// Bins along an axis.
 const BINS: usize = 12;

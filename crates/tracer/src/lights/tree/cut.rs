@@ -10,8 +10,7 @@
 
 use super::light_tree::{LightTree, Slot, TreeQuery, mix};
 use super::node::{GlossyWeights, LANES, Node};
-use crate::lights::ReceiverGloss;
-use crate::lights::light_sample::LampIrradiance;
+use crate::{lights::ReceiverGloss, lights::light_sample::LampIrradiance};
 
 /// Nodes opened at most.
 const OPENED: usize = 16;
@@ -39,11 +38,7 @@ pub(in crate::lights) struct Cut {
 impl LightTree {
     /// The cut of a glossy receiver.
     #[inline(always)]
-    pub(super) fn glossy_cut<F: Fn(u32) -> LampIrradiance>(
-        &self,
-        question: &TreeQuery<'_, F>,
-        gloss: &ReceiverGloss,
-    ) -> Cut {
+    fn glossy_cut<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, gloss: &ReceiverGloss) -> Cut {
         let greatest =
             |node: &Node, lane: usize, weights: &GlossyWeights| node.greatest(lane, weights, question.receiver, gloss);
         let mut cut = self.cut(MATTERS, |node| self.glossy_weights(node, question, gloss), greatest);
@@ -53,7 +48,7 @@ impl LightTree {
 
     /// The cut of a matt receiver.
     #[inline(always)]
-    pub(super) fn matt_cut<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Cut {
+    fn matt_cut<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Cut {
         let weigh = |node| {
             let plain = self.weights(node, question);
             GlossyWeights { raised: plain, plain, faced: plain }

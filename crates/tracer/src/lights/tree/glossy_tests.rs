@@ -10,7 +10,7 @@ use crate::lights::{Profile, ReceiverGloss};
 use crate::materials::{Bsdf, Material, MaterialTable, ShadingFrame, Surface, glossy_surfaces};
 use crate::textures::Lookup;
 use etendue_core::Wavelengths;
-use etendue_stats::{chi_square, family};
+use etendue_stats::chi_square;
 use glam::{DVec3, Vec2, Vec3};
 
 /// Chance that a set of right tests fails.
@@ -99,7 +99,7 @@ fn frequencies_of_draws_are_the_probabilities_told() {
         p_values.push((test.p, name.to_owned()));
     });
     let (p, name) = p_values.iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("receivers");
-    assert!(family::sidak_p(*p, p_values.len()) > SIGNIFICANCE, "{name}: p = {p}");
+    assert!(chi_square::sidak_p(*p, p_values.len()) > SIGNIFICANCE, "{name}: p = {p}");
 }
 
 #[test]

@@ -28,11 +28,10 @@ mod node;
 #[cfg(test)]
 mod tests;
 
+use crate::lights::light_sample::LampIrradiance;
 use cut::{draw, share};
 use light_tree::Slot;
 use node::LANES;
-
-use crate::lights::light_sample::LampIrradiance;
 
 pub(super) use bounds::LightBounds;
 pub(super) use cut::Start;

@@ -10,10 +10,11 @@
 //! A single point thus counts its irradiance. For a glossy receiver the last cosine grows by what its lobes send of light from
 //! there (`lights/gloss.rs`).
 
+use glam::Vec3;
+
 use super::bounds::LightBounds;
 use crate::lights::gloss::{DirectionCone, Four, at_least, at_most, each};
 use crate::lights::{LightSampleContext, ReceiverGloss};
-use glam::Vec3;
 
 /// Children of a node.
 pub(super) const LANES: usize = 8;

@@ -1,6 +1,7 @@
 //! The lobe of a sheeting: its value, its albedo and how it is drawn.
 
 use core::f32::consts::{PI, TAU};
+
 use etendue_core::Basis;
 use etendue_core::maths::f32::{acos, asin, cos, exp, ln, sin, sin_cos};
 use glam::{Vec2, Vec3};

@@ -18,18 +18,19 @@
 //! Left out: the wet film itself (a wet marking is one of its wet R_L), structure of the marking, beads' wear.
 
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
-use etendue_core::maths::f32::sin_cos;
+
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use etendue_core::{Basis, Spectral, maths};
+use etendue_core::{Basis, Spectral, maths, maths::f32::sin_cos};
 use etendue_spectra::{Spectrum, illuminant, observer};
 use glam::{Vec2, Vec3};
 
 use super::photometric;
-use crate::materials::discrete_sampler::DiscreteSampler;
 use crate::materials::energy::{self, AlbedoTable, WeightedLobe};
 use crate::materials::error::{EnergyGain, MaterialError};
 use crate::materials::gloss::{Gloss, GlossLobe, LobeCentre};
-use crate::materials::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use crate::materials::model::{
+    BsdfFlags, BsdfModel, BsdfSample, BsdfValue, DiscreteSampler, Event, Passage, SurfaceModel,
+};
 use crate::materials::parameter::{Parameter, ShadingPoint, TextureCheck};
 
 /// The 30 m geometry of EN 1436: the lamp's elevation, degrees.

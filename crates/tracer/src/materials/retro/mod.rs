@@ -26,23 +26,23 @@ mod marking;
 mod preset;
 mod table;
 
-pub use marking::{DayTime, MarkingBsdf, MarkingError, RoadMarking, marking_class};
-pub use preset::{SHEETING_CLASSES, SHEETING_COLOURS, SheetingPreset};
-pub use table::{RetroTable, RetroTableError};
-
 use core::f32::consts::FRAC_1_PI;
+
 use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use etendue_spectra::{Spectrum, illuminant, observer};
 use glam::{Vec2, Vec3};
-use lobe::{GRAZING_DEG, RetroLobe, WIDEST_DEG};
 
-use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, WeightedLobe};
 use super::error::{EnergyGain, MaterialError};
 use super::gloss::{Gloss, GlossLobe};
-use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, SurfaceModel};
+use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, DiscreteSampler, Event, Passage, SurfaceModel};
 use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
+use lobe::{GRAZING_DEG, RetroLobe, WIDEST_DEG};
+
+pub use marking::{DayTime, MarkingBsdf, MarkingError, RoadMarking, marking_class};
+pub use preset::{SHEETING_CLASSES, SHEETING_COLOURS, SheetingPreset};
+pub use table::{RetroTable, RetroTableError};
 
 /// A retro-reflective sheeting over a matt base.
 #[derive(Clone, Debug, PartialEq)]

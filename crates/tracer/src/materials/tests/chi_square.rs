@@ -7,7 +7,7 @@
 use super::*;
 use etendue_core::Basis;
 use etendue_core::maths::f32::{atan2, sin_cos};
-use etendue_stats::{chi_square, family};
+use etendue_stats::chi_square;
 
 /// Polar cells about a direction: tan(θ/2) = scale · t/(1 − t), t and φ in equal steps, so that a narrow lobe is
 /// resolved. They cover the whole sphere.
@@ -121,7 +121,7 @@ fn p_of(told: &Bsdf<'_, 4>, drawn: &Bsdf<'_, 4>, wo: Vec3, grid: &Grid, draw: u3
 /// Refuses a family of tests, each named, whose least p-value would come up by chance in less than one of a hundred.
 pub(in crate::materials) fn judge(p_values: &[(f64, String)]) {
     let (least, name) = p_values.iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("cases");
-    let level = family::sidak_level(0.01, p_values.len());
+    let level = chi_square::sidak_level(0.01, p_values.len());
     assert!(*least > level, "{name}: p = {least:e} is below {level:e}");
 }
 

@@ -1,8 +1,8 @@
 //! Pictures in tiles: the same bits as in memory, however much memory the tiles have.
 
 use super::*;
-use etendue_core::blocks::{BlockWriter, Blocks};
 use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
+use etendue_core::storage::{BlockWriter, Blocks};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

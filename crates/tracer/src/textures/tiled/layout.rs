@@ -4,8 +4,9 @@
 //! edges), row by row; the coarser resolutions follow, down to one texel. Texels of bytes stand as in their file, others, and all of coarser
 //! resolutions, as three little-endian floats.
 
-use super::super::texels::TexelEncoding;
 use glam::Vec3;
+
+use super::super::texels::TexelEncoding;
 
 /// Texels along a side of a tile.
 pub(super) const TILE: u32 = 64;

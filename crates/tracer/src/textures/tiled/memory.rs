@@ -4,11 +4,11 @@
 //! 1968) chooses which leaves: one that was not asked for since the hand last passed. Before it comes a short list of each thread's own, of the tiles that it
 //! read last, without a lock. A thread keeps at most 1.5 MB there, beside the limit.
 
-use etendue_core::blocks::Blocks;
-use std::cell::RefCell;
-use std::collections::HashMap;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::{cell::RefCell, collections::HashMap};
+
+use etendue_core::storage::Blocks;
 
 /// Most shards.
 const MAX_SHARDS: u64 = 64;

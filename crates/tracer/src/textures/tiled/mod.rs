@@ -6,17 +6,19 @@
 mod layout;
 mod memory;
 mod writer;
-use etendue_core::blocks::Blocks;
-use glam::Vec3;
-use layout::{FLOAT_TEXEL, LevelLayout, STATISTICS_BYTES, Statistics, TILE, layout};
-pub use memory::TileMemory;
-use memory::Tiles;
 use std::sync::Arc;
-pub use writer::PyramidWriter;
+
+use etendue_core::storage::Blocks;
+use glam::Vec3;
 
 use super::mipmap::{Resolution, neighbours};
+use super::projection::Wrap;
 use super::texels::{Texel as _, TexelEncoding};
-use super::wrap::Wrap;
+use layout::{FLOAT_TEXEL, LevelLayout, STATISTICS_BYTES, Statistics, TILE, layout};
+use memory::Tiles;
+
+pub use memory::TileMemory;
+pub use writer::PyramidWriter;
 
 /// One resolution of a picture.
 #[derive(Clone, Debug)]

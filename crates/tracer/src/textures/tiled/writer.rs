@@ -2,9 +2,10 @@
 //!
 //! Of each resolution, the rows of one row of tiles are in memory, and those that the next row of the next resolution is the mean of.
 
-use etendue_core::blocks::BlockWriter;
-use glam::{DVec3, Vec3};
 use std::collections::VecDeque;
+
+use etendue_core::storage::BlockWriter;
+use glam::{DVec3, Vec3};
 
 use super::super::mipmap::{Share, overlaps};
 use super::super::texels::{Texel as _, TexelEncoding, Texels, TextureError, TiledError};

@@ -1,0 +1,322 @@
+//! Trajectories: places over time, as loggers write them.
+//!
+//! **CSV**: a line of column names, then rows; `#` comments and blank lines allowed; cells divided by commas, or by blanks where a
+//! line has no comma. **JSON**: a list of objects whose keys are the names.
+//!
+//! | names | |
+//! | --- | --- |
+//! | `time_s` | s by the logger's clock, rising, each time once; in JSON a number, or text if a number would be rounded |
+//! | `x_m`, `y_m`, `z_m` | place, m |
+//! | `qw`, `qx`, `qy`, `qz` | rotation, a quaternion of length 1 to a hundredth |
+//! | `yaw_deg`, `pitch_deg`, `roll_deg` | or rotation about z, then y, then x of what turns, degrees |
+//!
+//! Without a rotation nothing turns. Other names are not read, and told.
+
+use std::path::Path;
+
+use etendue_core::ExactTime;
+use etendue_scene::asset::{TrajectoryAsset, TrajectoryRow};
+use etendue_scene::record::transform::yaw_pitch_roll_quaternion;
+use glam::{DQuat, DVec3};
+use serde_json::{Map, Value};
+
+use crate::source::{decode_text, read_bytes, read_description_bytes};
+use crate::table::{number, rows};
+use crate::{Error, ErrorCode, hash};
+
+/// Reads a trajectory.
+///
+/// # Errors
+/// The first fault, with its line.
+pub fn read_trajectory(file: &Path) -> Result<TrajectoryAsset, Error> {
+    let is_json = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+    let bytes = if is_json { read_description_bytes(file, "trajectory") } else { read_bytes(file, "trajectory") }?;
+    let text = decode_text(file, &bytes)?;
+    let (rows, unread) = if is_json { read_json(file, text) } else { read_csv(file, text) }?;
+    if rows.is_empty() {
+        return Err(Error::coded(ErrorCode::Empty, file, "holds no place; expected one at least, with a time"));
+    }
+    for pair in rows.windows(2) {
+        let [(before_line, before), (line, row)] = [pair[0], pair[1]];
+        if row.time <= before.time {
+            let (time, before) = (row.time, before.time);
+            let what = format!(
+                "the time {time} s follows {before} s of line {before_line}: sort the rows by rising time, each once"
+            );
+            return Err(Error::at(file, line, what));
+        }
+    }
+    let rows = rows.into_iter().map(|(_, row)| row).collect();
+    Ok(TrajectoryAsset { rows, unread, hash: hash::of_bytes(&bytes) })
+}
+
+const PLACE: [&str; 4] = ["time_s", "x_m", "y_m", "z_m"];
+const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
+const ANGLES: [&str; 3] = ["yaw_deg", "pitch_deg", "roll_deg"];
+
+/// How far the length of a quaternion may be from 1: loggers write few digits.
+const LENGTH_ERROR: f64 = 0.01;
+
+/// Rows with their lines, and the names that were not read.
+type Read = (Vec<(usize, TrajectoryRow)>, Vec<String>);
+
+/// Where the values of a row stand.
+struct Columns {
+    place: [usize; 4],
+    rotation: Rotation,
+}
+
+enum Rotation {
+    None,
+    Quaternion([usize; 4]),
+    Angles([usize; 3]),
+}
+
+/// Whether a name says something.
+fn is_known(name: &str) -> bool {
+    PLACE.contains(&name) || QUATERNION.contains(&name) || ANGLES.contains(&name)
+}
+
+impl Columns {
+    /// By the names of all columns.
+    fn of(names: &[&str]) -> Result<Self, String> {
+        if let Some(twice) = names.iter().enumerate().find(|(i, name)| is_known(name) && names[..*i].contains(name)) {
+            return Err(format!("two columns are called \"{}\"; leave one out", twice.1));
+        }
+        let place = found(names, PLACE).ok_or_else(|| missing(names, &PLACE))?;
+        let given = |wanted: &[&str]| wanted.iter().any(|name| names.contains(name));
+        let rotation = match (given(&QUATERNION), given(&ANGLES)) {
+            (false, false) => Rotation::None,
+            (true, false) => Rotation::Quaternion(found(names, QUATERNION).ok_or_else(|| missing(names, &QUATERNION))?),
+            (false, true) => Rotation::Angles(found(names, ANGLES).ok_or_else(|| missing(names, &ANGLES))?),
+            (true, true) => {
+                let both = [QUATERNION.join(", "), ANGLES.join(", ")];
+                return Err(format!("rotations are given twice, as {} and as {}; leave one out", both[0], both[1]));
+            }
+        };
+        Ok(Self { place, rotation })
+    }
+
+    /// Builds a row from the values of its columns; `exact` returns the time.
+    fn row(
+        &self,
+        value: impl Fn(usize) -> Result<f64, String>,
+        exact: impl Fn(usize) -> Result<ExactTime, String>,
+    ) -> Result<TrajectoryRow, String> {
+        let [time, x, y, z] = self.place;
+        let rotation = match self.rotation {
+            Rotation::None => DQuat::IDENTITY,
+            Rotation::Angles([yaw, pitch, roll]) => {
+                yaw_pitch_roll_quaternion([value(yaw)?, value(pitch)?, value(roll)?])
+            }
+            Rotation::Quaternion([w, x, y, z]) => {
+                let quaternion = DQuat::from_xyzw(value(x)?, value(y)?, value(z)?, value(w)?);
+                let length = quaternion.length();
+                if (length - 1.0).abs().is_nan() || (length - 1.0).abs() > LENGTH_ERROR {
+                    return Err(format!("a quaternion of length {length}; expected a rotation, of length 1"));
+                }
+                quaternion
+            }
+        };
+        Ok(TrajectoryRow { time: exact(time)?, position_m: DVec3::new(value(x)?, value(y)?, value(z)?), rotation })
+    }
+}
+
+/// Where all of the wanted names stand.
+fn found<const N: usize>(names: &[&str], wanted: [&str; N]) -> Option<[usize; N]> {
+    let at = wanted.map(|wanted| names.iter().position(|name| *name == wanted));
+    at.iter().all(Option::is_some).then(|| at.map(Option::unwrap_or_default))
+}
+
+fn missing(names: &[&str], wanted: &[&str]) -> String {
+    let missing: Vec<&str> = wanted.iter().filter(|name| !names.contains(name)).copied().collect();
+    format!(
+        "nothing is called {}; expected {} and, of what turns, {} or {}",
+        missing.join(", "),
+        PLACE.join(", "),
+        QUATERNION.join(", "),
+        ANGLES.join(", ")
+    )
+}
+
+fn read_csv(file: &Path, text: &str) -> Result<Read, Error> {
+    let mut rows = rows(text);
+    let head = rows
+        .next()
+        .ok_or_else(|| Error::coded(ErrorCode::Empty, file, "holds no row; expected a line of column names first"))?;
+    let columns = Columns::of(&head.cells).map_err(|what| Error::at(file, head.line, what))?;
+    let unread = head.cells.iter().filter(|name| !is_known(name)).map(|name| (*name).to_owned()).collect();
+    let read_csv = rows.map(|row| {
+        let cell = |column: usize| {
+            let cell = row.cells.get(column).copied();
+            cell.ok_or_else(|| format!("the row ends before \"{}\"", head.cells[column]))
+        };
+        let wrong =
+            |column: usize, cell: &str| format!("found \"{cell}\" as \"{}\"; expected a number", head.cells[column]);
+        let value =
+            |column: usize| number(cell(column)?).ok_or_else(|| wrong(column, cell(column).unwrap_or_default()));
+        let exact = |column: usize| cell(column)?.parse().map_err(|_| wrong(column, cell(column).unwrap_or_default()));
+        let found = columns.row(value, exact).map_err(|what| Error::at(file, row.line, what))?;
+        Ok((row.line, found))
+    });
+    Ok((read_csv.collect::<Result<_, _>>()?, unread))
+}
+
+fn read_json(file: &Path, text: &str) -> Result<Read, Error> {
+    let entries: Vec<Map<String, Value>> = serde_json::from_str(text).map_err(|cause| {
+        let what = format!("no list of objects of numbers by name: {cause}");
+        if cause.line() > 0 { Error::at(file, cause.line(), what) } else { Error::new(file, what) }
+    })?;
+    let lines = entry_lines(text);
+    let Some(first) = entries.first() else { return Ok((Vec::new(), Vec::new())) };
+    let names: Vec<&str> = first.keys().map(String::as_str).collect();
+    let columns = Columns::of(&names).map_err(|what| Error::at(file, lines[0], what))?;
+    let unread = names.iter().filter(|name| !is_known(name)).map(|name| (*name).to_owned()).collect();
+    let read_json = entries.iter().zip(&lines).map(|(entry, line)| {
+        let fault = |what: String| Error::at(file, *line, what);
+        if let Some(other) = entry.keys().find(|key| is_known(key) && !names.contains(&key.as_str())) {
+            return Err(fault(format!("gives \"{other}\", which the first does not; give it in all or in none")));
+        }
+        let given = |column: usize| {
+            let name = names[column];
+            entry.get(name).ok_or_else(|| format!("does not give \"{name}\", which the first does"))
+        };
+        let wrong = |column: usize, found: &Value| format!("found {found} as \"{}\"; expected a number", names[column]);
+        let value = |column: usize| {
+            let found = given(column)?;
+            found.as_f64().ok_or_else(|| wrong(column, found))
+        };
+        let exact = |column: usize| {
+            let found = given(column)?;
+            let read_json = found
+                .as_str()
+                .map_or_else(|| found.as_f64().and_then(ExactTime::from_seconds), |text| text.parse().ok());
+            read_json.ok_or_else(|| wrong(column, found))
+        };
+        Ok((*line, columns.row(value, exact).map_err(fault)?))
+    });
+    Ok((read_json.collect::<Result<_, _>>()?, unread))
+}
+
+/// The lines, counted from 1, that the entries of the outermost list begin in; the text is valid.
+fn entry_lines(text: &str) -> Vec<usize> {
+    let (mut lines, mut line, mut depth, mut quoted, mut escaped) = (Vec::new(), 1, 0_u32, false, false);
+    for byte in text.bytes() {
+        match byte {
+            b'\n' => line += 1,
+            _ if quoted => {
+                quoted = escaped || byte != b'"';
+                escaped = !escaped && byte == b'\\';
+            }
+            b'"' => quoted = true,
+            b'{' | b'[' => {
+                if depth == 1 {
+                    lines.push(line);
+                }
+                depth += 1;
+            }
+            b'}' | b']' => depth -= 1,
+            _ => {}
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use glam::{DQuat, DVec3};
+
+    use super::*;
+
+    /// A file of this name and content.
+    fn written(name: &str, content: &str) -> (tempfile::TempDir, PathBuf) {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let file = folder.path().join(name);
+        std::fs::write(&file, content).expect("write");
+        (folder, file)
+    }
+
+    fn read(name: &str, content: &str) -> Result<TrajectoryAsset, String> {
+        let (_folder, file) = written(name, content);
+        read_trajectory(&file).map_err(|error| error.to_string().rsplit_once('/').expect("a path").1.to_owned())
+    }
+
+    #[test]
+    fn columns_are_found_by_their_names() {
+        let csv = "# a drive\nspeed_m_s, z_m, time_s, y_m, x_m, roll_deg, pitch_deg, yaw_deg, note\n\
+               3.5, 0.5, 10.25, -2, 1, 0, 0, 90, start\n\n3.6, 0.5, 11, -2, 4.5, 0, 0, 0, # no note\n";
+        let json = "[{\"time_s\": 10.25, \"x_m\": 1, \"y_m\": -2.0, \"z_m\": 0.5, \"speed_m_s\": {\"a\": 1},\n\"note\": \"}[\\\"{\",\n\
+                \"qw\": 0.70710678118654757, \"qx\": 0, \"qy\": 0, \"qz\": 0.70710678118654757},\n\
+                {\"time_s\": 11, \"x_m\": 4.5, \"y_m\": -2, \"z_m\": 0.5, \"qw\": 1, \"qx\": 0, \"qy\": 0, \"qz\": 0}]";
+        let blanks = "time_s x_m y_m z_m qx qy qz qw\n10.25 1 -2 0.5 0 0 0.70710678118654757 0.70710678118654757\n11 4.5 -2 0.5 0 0 0 1\n";
+        for (name, content) in [("a.csv", csv), ("a.json", json), ("b.csv", blanks)] {
+            let asset = read(name, content).expect("legal");
+            let [first, second] = asset.rows[..] else { panic!("two rows") };
+            assert_eq!((first.time.seconds(), first.position_m), (10.25, DVec3::new(1.0, -2.0, 0.5)));
+            assert_eq!(
+                (second.time.seconds(), second.position_m, second.rotation),
+                (11.0, DVec3::new(4.5, -2.0, 0.5), DQuat::IDENTITY)
+            );
+            assert!((first.rotation * DVec3::X - DVec3::Y).length() < 1e-15);
+            let expected: &[&str] = if name == "b.csv" { &[] } else { &["speed_m_s", "note"] };
+            assert!(
+                asset.unread.len() == expected.len()
+                    && expected.iter().all(|name| asset.unread.iter().any(|n| n == name))
+            );
+        }
+        let unturned = read("c.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n").expect("legal");
+        assert_eq!(unturned.rows[0].rotation, DQuat::IDENTITY);
+    }
+
+    #[test]
+    fn faults_name_file_and_line() {
+        let told = |name: &str, content: &str| read(name, content).expect_err("a fault");
+        assert_eq!(
+            told("a.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n\n2,1,2,3\n1.5,1,2,3\n"),
+            "a.csv:5: the time 1.5 s follows 2 s of line 4: sort the rows by rising time, each once"
+        );
+        assert_eq!(
+            told("a.csv", "time_s,x_m,y_m\n0,1,2\n"),
+            "a.csv:1: nothing is called z_m; expected time_s, x_m, y_m, z_m and, of what turns, qw, qx, qy, qz or yaw_deg, pitch_deg, roll_deg"
+        );
+        assert!(told("a.csv", "0,1,2,3\n").starts_with("a.csv:1: nothing is called time_s, x_m, y_m, z_m;"));
+        assert!(told("a.csv", "time_s,x_m,y_m,z_m,qw,qx\n").starts_with("a.csv:1: nothing is called qy, qz;"));
+        assert!(
+            told("a.csv", "time_s,x_m,y_m,z_m,yaw_deg\n")
+                .starts_with("a.csv:1: nothing is called pitch_deg, roll_deg;")
+        );
+        assert_eq!(
+            told("a.csv", "time_s,x_m,y_m,z_m,x_m\n0,1,2,3,4\n"),
+            "a.csv:1: two columns are called \"x_m\"; leave one out"
+        );
+        assert_eq!(
+            told("a.csv", "time_s,x_m,y_m,z_m\n0,1,nan,3\n"),
+            "a.csv:2: found \"nan\" as \"y_m\"; expected a number"
+        );
+        assert_eq!(told("a.csv", "time_s,x_m,y_m,z_m\n0,1\n"), "a.csv:2: the row ends before \"y_m\"");
+        assert_eq!(
+            told("a.csv", "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,1,2,3,2,0,0,0\n"),
+            "a.csv:2: a quaternion of length 2; expected a rotation, of length 1"
+        );
+        assert_eq!(told("a.csv", "time_s,x_m,y_m,z_m\n"), "a.csv: holds no place; expected one at least, with a time");
+        let entry = |x: &str| format!("{{\"time_s\": 1, \"x_m\": {x}, \"y_m\": 0, \"z_m\": 0}}");
+        assert_eq!(
+            told("a.json", &format!("[{},\n\n{}]", entry("1"), entry("\"one\""))),
+            "a.json:3: found \"one\" as \"x_m\"; expected a number"
+        );
+        assert_eq!(
+            told("a.json", &format!("[{},\n{}]", entry("1"), entry("1, \"qw\": 1"))),
+            "a.json:2: gives \"qw\", which the first does not; give it in all or in none"
+        );
+        assert_eq!(
+            told("a.json", &format!("[{},\n{}]", entry("1"), entry("2"))),
+            "a.json:2: the time 1 s follows 1 s of line 1: sort the rows by rising time, each once"
+        );
+        assert!(
+            told("a.json", "[\n{\"time_s\": 0,,}]").starts_with("a.json:2: no list of objects of numbers by name: ")
+        );
+        assert_eq!(told("a.json", "[]"), "a.json: holds no place; expected one at least, with a time");
+    }
+}

@@ -1,0 +1,303 @@
+//! YAML (and so JSON) as a tree whose nodes know their line.
+//!
+//! Without aliases, tags and several documents, which no program that is read here writes but for OpenCV's `!!opencv-matrix`, and
+//! that one says nothing that its keys do not. OpenCV's own header `%YAML:1.0`, which is not YAML, is passed over.
+
+use std::{borrow::Cow, collections::BTreeSet, path::Path};
+
+use saphyr_parser::{Event, Parser, ScalarStyle, Span, StrInput};
+
+use crate::{Error, ErrorCode, Problem};
+
+/// A node of the tree.
+#[derive(Debug)]
+pub(crate) struct Node {
+    /// Counted from 1.
+    pub(crate) line: usize,
+    value: Value,
+}
+
+#[derive(Debug)]
+enum Value {
+    Scalar(String),
+    List(Vec<Node>),
+    Map(Vec<(String, Node)>),
+}
+
+/// Deeper than any such file.
+const DEEPEST: usize = 32;
+/// More commas and brackets than any such file has: what stands between two takes up to 800 bytes while it is read.
+const MOST_VALUES: usize = 1 << 21;
+
+/// Reads a document whose root is a map.
+pub(crate) fn parse(text: &str) -> Read<Node> {
+    let values = text.bytes().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
+    if values > MOST_VALUES {
+        return Err(Fault::coded(
+            ErrorCode::UnsupportedFile,
+            0,
+            format!("holds {values} commas and brackets; at most {MOST_VALUES} are read"),
+        ));
+    }
+    let header = if text.starts_with("%YAML") { text.find('\n').unwrap_or(text.len()) } else { 0 };
+    let text = as_document(&text[header..]);
+    let mut events = Events { parser: Parser::new_from_str(&text) };
+    loop {
+        match events.next()? {
+            (Event::StreamStart | Event::DocumentStart(_), _) => {}
+            (Event::StreamEnd, _) => {
+                return Err(Fault::coded(ErrorCode::Empty, 0, "holds nothing; expected keys with values"));
+            }
+            (event, span) => {
+                let root = events.node(event, span, 0)?;
+                return match root.value {
+                    Value::Map(_) => Ok(root),
+                    _ => Err(Fault::at(root.line, "expected keys with values (key: value)")),
+                };
+            }
+        }
+    }
+}
+
+/// A document that begins with a brace or bracket, behind the mark of a document on its line: by itself it might be a key, so that the scanner would keep
+/// all tokens of it until its end, some 400 bytes a byte. Others that do the same, as behind a remark, are bounded by [`MOST_VALUES`].
+fn as_document(text: &str) -> Cow<'_, str> {
+    let start = text.len() - text.trim_start().len();
+    if text[start..].starts_with(['{', '[']) {
+        let lines = "\n".repeat(text[..start].matches('\n').count());
+        Cow::Owned(format!("{lines}--- {}", &text[start..]))
+    } else {
+        Cow::Borrowed(text)
+    }
+}
+
+struct Events<'a> {
+    parser: Parser<'a, StrInput<'a>>,
+}
+
+impl<'a> Events<'a> {
+    fn next(&mut self) -> Read<(Event<'a>, Span)> {
+        match self.parser.next_event() {
+            Some(Ok(event)) => Ok(event),
+            Some(Err(cause)) => Err(Fault::at(cause.marker().line(), format!("not YAML or JSON: {}", cause.info()))),
+            None => Err(Fault::at(0, "not YAML or JSON: the file ends too early")),
+        }
+    }
+
+    fn node(&mut self, event: Event<'a>, span: Span, depth: usize) -> Read<Node> {
+        let line = span.start.line();
+        if depth > DEEPEST {
+            return Err(Fault::at(line, format!("nested more than {DEEPEST} deep; no such file is")));
+        }
+        let value = match event {
+            Event::Scalar(text, style, ..) => Value::Scalar(plain(&text, style)),
+            Event::SequenceStart(..) => Value::List(self.list(depth)?),
+            Event::MappingStart(..) => Value::Map(self.map(depth)?),
+            Event::Alias(_) => {
+                return Err(Fault::coded(
+                    ErrorCode::UnsupportedFile,
+                    line,
+                    "aliases (*name) are not read: write the value itself",
+                ));
+            }
+            _ => return Err(Fault::at(line, "expected a value")),
+        };
+        Ok(Node { line, value })
+    }
+
+    fn list(&mut self, depth: usize) -> Read<Vec<Node>> {
+        let mut nodes = Vec::new();
+        loop {
+            match self.next()? {
+                (Event::SequenceEnd, _) => return Ok(nodes),
+                (event, span) => nodes.push(self.node(event, span, depth + 1)?),
+            }
+        }
+    }
+
+    fn map(&mut self, depth: usize) -> Read<Vec<(String, Node)>> {
+        let mut entries: Vec<(String, Node)> = Vec::new();
+        let mut known = BTreeSet::new();
+        loop {
+            let (key, line) = match self.next()? {
+                (Event::MappingEnd, _) => return Ok(entries),
+                (Event::Scalar(key, ..), span) => (key.into_owned(), span.start.line()),
+                (_, span) => return Err(Fault::at(span.start.line(), "expected a key")),
+            };
+            if !known.insert(key.clone()) {
+                return Err(Fault::coded(ErrorCode::Duplicate, line, format!("the key {key} is there twice")));
+            }
+            let (event, span) = self.next()?;
+            entries.push((key, self.node(event, span, depth + 1)?));
+        }
+    }
+}
+
+/// A scalar's text; an empty one that is not quoted is nothing.
+fn plain(text: &str, style: ScalarStyle) -> String {
+    if style == ScalarStyle::Plain && text == "~" { String::new() } else { text.to_owned() }
+}
+
+impl Node {
+    /// The value of a key, where it is there.
+    pub(crate) fn find(&self, key: &str) -> Option<&Node> {
+        self.entries().iter().find(|(name, _)| name == key).map(|(_, node)| node)
+    }
+
+    /// The value of the first of some names of a key.
+    pub(crate) fn any(&self, names: &[&str]) -> Read<&Node> {
+        names.iter().find_map(|name| self.find(name)).ok_or_else(|| {
+            Fault::at(self.line, format!("expected the key {}; found {}", names.join(" or "), list(&self.keys())))
+        })
+    }
+
+    /// The value of a key.
+    pub(crate) fn key(&self, key: &str) -> Read<&Node> {
+        self.any(&[key])
+    }
+
+    /// The keys of a map, as written; none of anything else.
+    pub(crate) fn keys(&self) -> Vec<&str> {
+        self.entries().iter().map(|(name, _)| name.as_str()).collect()
+    }
+
+    /// The keys that are not among these.
+    pub(crate) fn others(&self, known: &[&str]) -> Vec<&str> {
+        self.keys().into_iter().filter(|key| !known.contains(key)).collect()
+    }
+
+    pub(crate) fn entries(&self) -> &[(String, Node)] {
+        match &self.value {
+            Value::Map(entries) => entries,
+            _ => &[],
+        }
+    }
+
+    pub(crate) fn text(&self) -> Read<&str> {
+        match &self.value {
+            Value::Scalar(text) => Ok(text),
+            _ => Err(Fault::at(self.line, "expected one value; found a list or keys")),
+        }
+    }
+
+    pub(crate) fn number(&self) -> Read<f64> {
+        let text = self.text()?;
+        let number = text.parse::<f64>().ok().filter(|x| x.is_finite());
+        number.ok_or_else(|| Fault::at(self.line, format!("found \"{text}\"; expected a finite number")))
+    }
+
+    /// A number of pixels.
+    pub(crate) fn count(&self) -> Read<usize> {
+        let text = self.text()?;
+        let count = text.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
+        count.ok_or_else(|| Fault::at(self.line, format!("found \"{text}\"; expected a number of pixels from 1")))
+    }
+
+    /// The items of a list; `None` of anything else.
+    pub(crate) fn items(&self) -> Option<&[Node]> {
+        match &self.value {
+            Value::List(nodes) => Some(nodes),
+            _ => None,
+        }
+    }
+
+    /// All numbers of a list, of lists in it, or the one number.
+    pub(crate) fn numbers(&self) -> Read<Vec<f64>> {
+        let Some(items) = self.items() else { return Ok(vec![self.number()?]) };
+        let rows: Vec<Vec<f64>> = items.iter().map(Node::numbers).collect::<Read<_>>()?;
+        Ok(rows.concat())
+    }
+
+    /// A list of so many numbers that `what` names.
+    pub(crate) fn exactly<const N: usize>(&self, what: &str) -> Read<[f64; N]> {
+        let numbers = self.numbers()?;
+        let count = numbers.len();
+        numbers.try_into().map_err(|_| Fault::at(self.line, format!("found {count} numbers; expected {N}: {what}")))
+    }
+}
+
+/// Names in a sentence.
+pub(crate) fn list(names: &[&str]) -> String {
+    const SHOWN: usize = 24;
+    let more = if names.len() > SHOWN { ", …" } else { "" };
+    if names.is_empty() { "no keys".to_owned() } else { names[..names.len().min(SHOWN)].join(", ") + more }
+}
+
+/// What is wrong, and in which line (from 1; 0 for the whole file).
+#[derive(Debug)]
+pub(crate) struct Fault {
+    pub(crate) line: usize,
+    pub(crate) what: String,
+    code: ErrorCode,
+}
+
+pub(crate) type Read<T> = Result<T, Fault>;
+
+impl Fault {
+    pub(crate) fn at(line: usize, what: impl Into<Problem>) -> Self {
+        let Problem { code, words } = what.into();
+        Self { line, what: words, code }
+    }
+
+    pub(crate) fn coded(code: ErrorCode, line: usize, what: impl Into<String>) -> Self {
+        Self::at(line, Problem::new(code, what))
+    }
+
+    pub(crate) fn of(self, file: &Path) -> Error {
+        let what = Problem::new(self.code, self.what);
+        if self.line == 0 { Error::new(file, what) } else { Error::at(file, self.line, what) }
+    }
+}
+
+/// A note of keys that say nothing of the camera.
+pub(crate) fn passed_over(keys: &[&str]) -> Vec<String> {
+    if keys.is_empty() { Vec::new() } else { vec![format!("passed over: {}", keys.join(", "))] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn opencv_s_header_and_tags_are_read_and_lines_are_counted_from_one() {
+        let text = "%YAML:1.0\n---\n# remark\nK: !!opencv-matrix\n   rows: 1\n   data: [ 1., 2.5e-1,\n       -3 ]\nname: \"a: b\"\n";
+        let root = parse(text).expect("YAML");
+        let matrix = root.key("K").expect("there");
+        assert_eq!(matrix.key("data").expect("there").numbers().expect("numbers"), [1.0, 0.25, -3.0]);
+        assert_eq!(root.key("name").expect("there").text().expect("text"), "a: b");
+        assert_eq!((matrix.key("data").expect("there").line, root.key("name").expect("there").line), (6, 8));
+    }
+
+    #[test]
+    fn json_is_read_as_well() {
+        let root = parse("{\n\t\"a\":1,\n    \"b\": [[1, 2], [3, 4.0]]\n}\n").expect("JSON");
+        assert_eq!(root.key("b").expect("there").numbers().expect("numbers"), [1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(root.key("a").expect("there").count().expect("count"), 1);
+    }
+
+    #[test]
+    fn lines_of_json_are_those_of_the_file() {
+        let root = parse("\n\n {\"a\": 1,\n\"b\":\n[1,\n2]\n}\n").expect("JSON");
+        assert_eq!((root.line, root.key("a").expect("there").line, root.key("b").expect("there").line), (3, 3, 5));
+        assert_eq!(root.keys(), ["a", "b"]);
+        let tight = parse("{\n\"a\": [1,\n2],\n\t\"b\": \"x\"\n}").expect("JSON without indentation, and with tabs");
+        assert_eq!(tight.key("a").expect("there").numbers().expect("numbers"), [1.0, 2.0]);
+        assert_eq!((tight.key("b").expect("there").line, parse("{\n\"a\":\n\"x\"\n}").expect("JSON").line), (4, 1));
+        assert_eq!(parse("{\"a\": 1,\n\"a\": 2}").expect_err("twice").line, 2);
+        assert!(parse("[1, 2]").expect_err("a list").what.contains("keys"));
+        let many = format!("{{\"a\": [{}0]}}", "0,".repeat(MOST_VALUES));
+        assert!(parse(&many).expect_err("too many").what.contains("at most 2097152"));
+    }
+
+    #[test]
+    fn faults_name_their_line() {
+        let fault = |text: &str| parse(text).expect_err("wrong");
+        assert_eq!(fault("a: 1\nb: [1, 2\nc: 3\n").what.split(':').next(), Some("not YAML or JSON"));
+        assert_eq!(fault("a: 1\na: 2\n").line, 2);
+        assert!(fault("a: &x 1\nb: *x\n").what.contains("alias"));
+        assert!(fault("- 1\n").what.contains("keys"));
+        assert!(fault(&"[".repeat(5000)).line > 0 || !fault(&"[".repeat(5000)).what.is_empty());
+        let root = parse("a: .nan\nb: 1e999\nc: inf\nd: 0x10\n").expect("YAML");
+        assert!(["a", "b", "c", "d"].iter().all(|key| root.key(key).expect("there").number().is_err()));
+    }
+}

@@ -1,0 +1,161 @@
+//! A function that varies over the picture: patches with a function each.
+//!
+//! Each pixel takes a mean of what the functions of the nearest patches make of the film, with weights that are linear between the patches and sum to
+//! one: a uniform irradiance stays uniform. Light of a point is kept where the functions' centroids lie in the middle and the weights are straight across
+//! it. A variance is that mean of what the squared functions make, which is not too small.
+
+use std::borrow::Borrow;
+
+use glam::DVec2;
+
+use super::convolve::{Convolver, Field, Region};
+use super::{canvas::Canvas, kernel::Kernel};
+
+/// Patches over the picture in a film, row by row.
+#[derive(Clone, Debug)]
+pub(super) struct Patches {
+    columns: Vec<Hat>,
+    rows: Vec<Hat>,
+    size: [usize; 2],
+}
+
+impl Patches {
+    /// So many across and down.
+    pub(super) fn new([across, down]: [usize; 2], stand: Stand, canvas: &Canvas) -> Self {
+        let (region, size) = (canvas.picture(), canvas.size());
+        let columns = (0..across).map(|i| Hat::new(stand, i, across, &region.x, size[0])).collect();
+        let rows = (0..down).map(|i| Hat::new(stand, i, down, &region.y, size[1])).collect();
+        Self { columns, rows, size }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.columns.len() * self.rows.len()
+    }
+
+    fn hats(&self, index: usize) -> [&Hat; 2] {
+        [&self.columns[index % self.columns.len()], &self.rows[index / self.columns.len()]]
+    }
+
+    /// Where in the film the function of a patch holds, px.
+    pub(super) fn middle_px(&self, index: usize) -> DVec2 {
+        let [x, y] = self.hats(index);
+        DVec2::new(x.middle, y.middle)
+    }
+
+    /// The pixels of the film that take the function of a patch.
+    pub(super) fn region(&self, index: usize) -> Region {
+        let [x, y] = self.hats(index);
+        Region { x: x.range(), y: y.range() }
+    }
+
+    /// The weights across and down.
+    pub(super) fn into_hats(self) -> [Vec<Hat>; 2] {
+        [self.columns, self.rows]
+    }
+
+    /// The film's light and variance, spread by the kernels of the patches.
+    pub(super) fn apply<K: Borrow<Kernel>>(
+        &self,
+        light: &Field,
+        variance: Option<&Field>,
+        kernel: impl Fn(usize) -> K,
+    ) -> (Field, Option<Field>) {
+        let mut spread = Field::zeros(self.size[0], self.size[1]);
+        let mut spread_variance = variance.map(|_| Field::zeros(self.size[0], self.size[1]));
+        for index in 0..self.count() {
+            let (kernel, region) = (kernel(index), self.region(index));
+            let kernel = kernel.borrow();
+            self.add(&Convolver::new(kernel, self.size, region.clone()).apply(light), index, &mut spread);
+            if let (Some(from), Some(to)) = (variance, &mut spread_variance) {
+                self.add(&Convolver::new(&kernel.squared(), self.size, region).apply(from), index, to);
+            }
+        }
+        (spread, spread_variance)
+    }
+
+    /// Adds a patch's part by its weights.
+    fn add(&self, part: &Field, index: usize, to: &mut Field) {
+        let [x, y] = self.hats(index);
+        for (row, (at, tall)) in y.range().zip(&y.weights).enumerate() {
+            let target = &mut to.row_mut(at)[x.range()];
+            for ((to, from), wide) in target.iter_mut().zip(part.row(row)).zip(&x.weights) {
+                *to += tall * wide * from;
+            }
+        }
+    }
+}
+
+/// Where the functions of patches stand along an axis of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stand {
+    /// In the middles of equal parts; the outermost hold to the edge.
+    Middles,
+    /// On both edges, and evenly between; a single one in the middle.
+    Edges,
+}
+
+/// Weights of a patch along one axis: linear to its neighbours, even outside of the outermost.
+#[derive(Clone, Debug)]
+pub(super) struct Hat {
+    middle: f64,
+    first: usize,
+    weights: Vec<f64>,
+}
+
+impl Hat {
+    /// The patch `index` of `count` over the pixels `picture` of a film of `size`.
+    fn new(stand: Stand, index: usize, count: usize, picture: &core::ops::Range<usize>, size: usize) -> Self {
+        let (start, length, at) = (picture.start as f64, picture.len() as f64, index as f64);
+        let (middle, step) = match stand {
+            Stand::Edges if count > 1 => {
+                let step = length / (count - 1) as f64;
+                (start + at * step, step)
+            }
+            _ => {
+                let step = length / count as f64;
+                (start + (at + 0.5) * step, step)
+            }
+        };
+        let weight = |pixel: usize| {
+            let away = (pixel as f64 + 0.5 - middle) / step;
+            let outer = (index == 0 && away < 0.0) || (index + 1 == count && away > 0.0);
+            if outer { 1.0 } else { (1.0 - away.abs()).max(0.0) }
+        };
+        let first = (0..size).find(|p| weight(*p) > 0.0).unwrap_or(0);
+        let weights = (first..size).map(weight).take_while(|w| *w > 0.0).collect();
+        Self { middle, first, weights }
+    }
+
+    fn range(&self) -> core::ops::Range<usize> {
+        self.first..self.first + self.weights.len()
+    }
+
+    /// The weight at a pixel.
+    pub(super) fn weight(&self, pixel: usize) -> f64 {
+        pixel.checked_sub(self.first).and_then(|i| self.weights.get(i)).copied().unwrap_or(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use etendue_projection::Raster;
+
+    use super::*;
+
+    #[test]
+    fn weights_sum_to_one_wherever_functions_stand() {
+        let canvas = Canvas::new(&Raster::centred(40, 23, 0.01).expect("legal"), [5, 3]);
+        for (stand, counts) in
+            [(Stand::Middles, [5, 3]), (Stand::Edges, [5, 3]), (Stand::Edges, [1, 2]), (Stand::Middles, [1, 1])]
+        {
+            let patches = Patches::new(counts, stand, &canvas);
+            let sum = |hats: &[Hat], pixel: usize| hats.iter().map(|hat| hat.weight(pixel)).sum::<f64>();
+            assert!((0..50).all(|x| (sum(&patches.columns, x) - 1.0).abs() < 1e-12), "{stand:?}");
+            assert!((0..29).all(|y| (sum(&patches.rows, y) - 1.0).abs() < 1e-12), "{stand:?}");
+        }
+        let at = |stand, index| Patches::new([5, 3], stand, &canvas).middle_px(index);
+        assert_eq!(at(Stand::Edges, 0), DVec2::new(5.0, 3.0));
+        assert_eq!(at(Stand::Edges, 14), DVec2::new(45.0, 26.0));
+        assert_eq!(at(Stand::Middles, 7), DVec2::new(25.0, 14.5));
+    }
+}
