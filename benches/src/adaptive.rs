@@ -1,8 +1,8 @@
 //! Samples where the sensor's noise asks for them, against as many everywhere: what is saved at equal quality of the raw picture.
 
-use crate::clock::process_cpu_s;
 use crate::scenes::{camera, shipped};
-use crate::table::Table;
+use etendue_bench_rays::clock::process_cpu_s;
+use etendue_bench_rays::table::Table;
 use etendue_pipeline::render::{Request, light};
 use etendue_pipeline::{Plan, Unobserved};
 

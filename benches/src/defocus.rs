@@ -1,10 +1,10 @@
 //! Depth of field three ways: the blur of a point against the formula of the lens, and the time of a picture.
 
-use crate::clock::timed;
-use crate::runs::Runs;
 use crate::scenes::{camera, plan_of_text};
-use crate::table::Table;
-use crate::threads::pool;
+use etendue_bench_rays::clock::timed;
+use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use etendue_core::SpectralCube;
 use etendue_core::quantity::Radiance;
 use etendue_optics::{DepthOfField, FastBlend, FastParameters};

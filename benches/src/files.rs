@@ -1,9 +1,9 @@
 //! Writing a spectral image.
 
-use crate::runs::{COUNT, Runs};
 use crate::scenes::{STREET, camera};
-use crate::table::Table;
-use crate::threads::{busiest, pool};
+use etendue_bench_rays::runs::{COUNT, Runs};
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::{busiest, pool};
 use etendue_core::SpectralCube;
 use etendue_core::quantity::Radiance;
 use etendue_io::Provenance;

@@ -1,11 +1,11 @@
 //! Films of a hundred megapixels, whose bands are on the disk: peak memory and time, each job in a process of its own.
 
 use crate::child;
-use crate::clock::process_cpu_s;
 use crate::memory::peak_mb;
-use crate::table::Table;
-use crate::threads::pool;
 use etendue::{Existing, FilmMemory, JobRequest, RenderOptions, Unobserved};
+use etendue_bench_rays::clock::process_cpu_s;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use std::path::{Path, PathBuf};
 
 /// The argument that asks a child process for memory and time of a job of a folder.

@@ -1,10 +1,10 @@
 //! The electronics and the development of a frame of two megapixels.
 
-use crate::clock::timed;
-use crate::runs::Runs;
 use crate::scenes::{STREET, camera};
-use crate::table::Table;
-use crate::threads::pool;
+use etendue_bench_rays::clock::timed;
+use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use etendue_core::Plane;
 use etendue_core::quantity::MeanElectrons;
 use etendue_isp::{RawPicture, develop};

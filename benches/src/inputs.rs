@@ -1,12 +1,12 @@
 //! The largest inputs: what reading them takes, each in a process of its own.
 
 use crate::child;
-use crate::clock::process_cpu_s;
 use crate::memory::peak_mb;
-use crate::table::Table;
-use crate::terrain;
-use crate::threads::pool;
 use etendue::JobRequest;
+use etendue_bench_rays::clock::process_cpu_s;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::terrain;
+use etendue_bench_rays::threads::pool;
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
 use etendue_io::Provenance;

@@ -1,11 +1,11 @@
 //! The street with up to a million instances more: what grows with their number.
 
 use crate::child;
-use crate::clock::{clock_s, process_cpu_s};
 use crate::memory::peak_mb;
 use crate::scenes::{STREET, camera, text_of};
-use crate::table::Table;
-use crate::threads::pool;
+use etendue_bench_rays::clock::{clock_s, process_cpu_s};
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use etendue_pipeline::render::light_counts;
 use std::fmt::Write as _;
 

@@ -1,10 +1,10 @@
 //! A street by night under more and more lamps: what a path costs, and how large its error is.
 
-use crate::clock::timed;
-use crate::runs::Runs;
 use crate::scenes::{STREET, camera};
-use crate::table::Table;
-use crate::threads::pool;
+use etendue_bench_rays::clock::timed;
+use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use etendue_pipeline::render::{Request, light, light_counts};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;

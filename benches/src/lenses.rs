@@ -1,8 +1,8 @@
 //! Time of a ray through each kind of lens.
 
-use crate::clock::timed;
-use crate::runs::{COUNT, Runs};
-use crate::table::Table;
+use etendue_bench_rays::clock::timed;
+use etendue_bench_rays::runs::{COUNT, Runs};
+use etendue_bench_rays::table::Table;
 use etendue_core::quantity::Irradiance;
 use etendue_core::{Bands, SpectralCube};
 use etendue_optics::Lens;

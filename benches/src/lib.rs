@@ -25,5 +25,3 @@ pub mod soak;
 pub mod textures;
 pub mod trees;
 pub mod views;
-
-pub use etendue_bench_rays::{clock, flat, machine, runs, table, terrain, threads};

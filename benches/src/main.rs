@@ -32,10 +32,11 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
 
-use etendue_benches::table::Table;
+use etendue_bench_rays::machine;
+use etendue_bench_rays::table::Table;
 use etendue_benches::{
-    adaptive, defocus, files, films, frames, inputs, instances, lamps, lenses, machine, memory, motion, obj, paths,
-    peer, questions, rays, road, sensor, soak, textures, trees, views,
+    adaptive, defocus, files, films, frames, inputs, instances, lamps, lenses, memory, motion, obj, paths, peer,
+    questions, rays, road, sensor, soak, textures, trees, views,
 };
 use std::process::ExitCode;
 

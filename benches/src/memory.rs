@@ -2,8 +2,8 @@
 
 use crate::child;
 use crate::scenes::{ALL, Scene, camera};
-use crate::table::Table;
-use crate::threads::pool;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use etendue_pipeline::Unobserved;
 use etendue_pipeline::render::{Request, light};
 

@@ -1,10 +1,10 @@
 //! The street with fifty objects more that stand, and the same while they move: what motion costs a picture.
 
-use crate::clock::timed;
-use crate::runs::{COUNT, Runs};
 use crate::scenes::{STREET, camera, text_of};
-use crate::table::Table;
-use crate::threads::pool;
+use etendue_bench_rays::clock::timed;
+use etendue_bench_rays::runs::{COUNT, Runs};
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use etendue_pipeline::render::{Request, light, light_counts};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;

@@ -1,10 +1,10 @@
 //! A mesh of a million triangles from its OBJ file to the first ray.
 
-use crate::clock::{clock_s, process_cpu_s};
-use crate::runs::Runs;
-use crate::table::Table;
-use crate::terrain;
-use crate::threads::pool;
+use etendue_bench_rays::clock::{clock_s, process_cpu_s};
+use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::terrain;
+use etendue_bench_rays::threads::pool;
 use etendue_core::{Motion, Ray};
 use etendue_io::mesh::read_mesh;
 use etendue_scene::asset::MeshAsset;
@@ -31,7 +31,7 @@ pub fn table() -> Table {
     let two = pool(2);
     let mut clock: [Runs; STAGES.len() + 1] = Default::default();
     let mut cpu = clock.clone();
-    for _ in 0..crate::runs::COUNT {
+    for _ in 0..etendue_bench_rays::runs::COUNT {
         let times = two.install(|| stages(&file.0));
         let total = times.iter().fold((0.0, 0.0), |sum, time| (sum.0 + time.0, sum.1 + time.1));
         for (i, time) in times.into_iter().chain([total]).enumerate() {

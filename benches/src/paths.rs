@@ -1,10 +1,10 @@
 //! Paths a second of the scenes that ship with the project: all of the way from the sensor to the film.
 
-use crate::clock::{clock_s, timed};
-use crate::runs::Runs;
 use crate::scenes::{ALL, Scene, camera};
-use crate::table::Table;
-use crate::threads::{busiest, pool};
+use etendue_bench_rays::clock::{clock_s, timed};
+use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::{busiest, pool};
 use etendue_pipeline::render::{Request, light, light_counts};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;

@@ -7,10 +7,10 @@
 //! together; the first, after a `#`, the instruction set of the accelerator. Reading files and compiling the scene, its tree of boxes included, are not in them; placing the world
 //! about the camera and collecting the lights are.
 
-use crate::clock::cpu_s;
-use crate::machine;
 use crate::scenes::{camera, plan_of};
-use crate::threads::pool;
+use etendue_bench_rays::clock::cpu_s;
+use etendue_bench_rays::machine;
+use etendue_bench_rays::threads::pool;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::render::{Request, light};
 use etendue_pipeline::{Plan, Unobserved};

@@ -2,9 +2,9 @@
 
 pub use etendue_bench_rays::questions::{Questions, about};
 
-use crate::flat;
 use crate::scenes::{STREET, camera};
 use etendue_bench_rays::contest_file::ContestFile;
+use etendue_bench_rays::flat;
 use etendue_core::Ray;
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::CameraPlan;

@@ -1,11 +1,11 @@
 //! Rays a second in the street.
 
-use crate::clock::timed;
-use crate::flat;
 use crate::questions::{Questions, questions};
-use crate::runs::{COUNT, Runs};
 use crate::scenes::{STREET, camera};
-use crate::table::Table;
+use etendue_bench_rays::clock::timed;
+use etendue_bench_rays::flat;
+use etendue_bench_rays::runs::{COUNT, Runs};
+use etendue_bench_rays::table::Table;
 use etendue_core::TimeInterval;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::render_space::RenderSpace;

@@ -1,10 +1,10 @@
 //! The road ahead by night, dry and wet: lamps' images in a film of water are what paths find by luck.
 
-use crate::clock::timed;
-use crate::runs::Runs;
 use crate::scenes::{camera, shipped};
-use crate::table::Table;
-use crate::threads::pool;
+use etendue_bench_rays::clock::timed;
+use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use etendue_pipeline::render::{Request, light, light_counts};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;

@@ -2,9 +2,9 @@
 
 use crate::child;
 use crate::memory::resident_mb;
-use crate::table::Table;
-use crate::threads::pool;
 use etendue::{Existing, JobRequest, RenderOptions, Unobserved};
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use std::path::{Path, PathBuf};
 
 /// The argument that asks a child process to render a job this often.

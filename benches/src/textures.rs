@@ -1,11 +1,11 @@
 //! Textures that need more memory than they may take: peak memory and time, each run in a process of its own.
 
 use crate::child;
-use crate::clock::process_cpu_s;
 use crate::memory::peak_mb;
 use crate::scenes::{camera, plan_within};
-use crate::table::Table;
-use crate::threads::pool;
+use etendue_bench_rays::clock::process_cpu_s;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
 use etendue_io::TextureMemory;

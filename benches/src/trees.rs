@@ -1,11 +1,11 @@
 //! Time to build the accelerator.
 
-use crate::clock::timed;
-use crate::flat;
-use crate::runs::Runs;
 use crate::scenes::{STREET, camera};
-use crate::table::Table;
-use crate::threads::pool;
+use etendue_bench_rays::clock::timed;
+use etendue_bench_rays::flat;
+use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use etendue_tracer::accel::{World, WorldBuilder};
 
 const NOTE: &str = "The street: once as it is (the triangles of each mesh once, and a tree over the instances for each \

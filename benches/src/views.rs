@@ -1,10 +1,10 @@
 //! A wide picture by six views and through its lens.
 
-use crate::clock::timed;
-use crate::runs::Runs;
 use crate::scenes::STREET;
-use crate::table::Table;
-use crate::threads::pool;
+use etendue_bench_rays::clock::timed;
+use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use etendue_optics::PupilProjection;
 use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::{CameraPlan, Plan, Route};
@@ -51,7 +51,7 @@ pub fn table() -> Table {
         let radiance = film.radiance().expect("a cube").mean;
         let stored = Stored { projection, radiance: &radiance, distance: None };
         let (mut lens, mut views, mut last) = (Runs::default(), Runs::default(), Runs::default());
-        for _ in 0..crate::runs::COUNT {
+        for _ in 0..etendue_bench_rays::runs::COUNT {
             lens.add(one.install(|| timed(|| std::hint::black_box(shot(&plan, &direct))).1));
             views.add(one.install(|| timed(|| std::hint::black_box(shot(&plan, &pupil))).1));
             last.add(one.install(|| {

@@ -3,7 +3,7 @@
 use super::sensors::kinds;
 use super::{PIXELS, expose, scene};
 use crate::child;
-use crate::threads::pool;
+use etendue_bench_rays::threads::pool;
 use etendue_sensor::Sensor;
 
 /// The argument that makes this program a child that measures the sensor named next.

@@ -4,10 +4,10 @@ mod frame;
 mod memory;
 mod sensors;
 
-use crate::clock::{clock_s, cpu_s, timed};
-use crate::runs::Runs;
-use crate::table::Table;
-use crate::threads::pool;
+use etendue_bench_rays::clock::{clock_s, cpu_s, timed};
+use etendue_bench_rays::runs::Runs;
+use etendue_bench_rays::table::Table;
+use etendue_bench_rays::threads::pool;
 use etendue_core::Plane;
 use etendue_core::quantity::MeanElectrons;
 use etendue_sensor::Sensor;
@@ -64,7 +64,7 @@ struct Measured {
 impl Measured {
     fn of(sensor: &Sensor, bare: &Sensor, means: &Plane<MeanElectrons>, [one, two]: &[ThreadPool; 2]) -> Self {
         let mut measured = Self::default();
-        for _ in 0..crate::runs::COUNT {
+        for _ in 0..etendue_bench_rays::runs::COUNT {
             let alone = |sensor| one.install(|| timed(|| std::hint::black_box(expose(sensor, means))).1);
             let (before, own, after) = (alone(bare), alone(sensor), alone(bare));
             measured.one.add(own);

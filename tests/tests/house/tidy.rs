@@ -17,7 +17,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("isp", &["core", "spectra"]),
     ("pipeline", &["core", "stats", "spectra", "projection", "scene", "tracer", "optics", "sensor", "isp"]),
     ("io", &["core", "spectra", "projection", "scene"]),
-    ("arguments", &["scene"]),
+    ("arguments", &["core", "scene"]),
     ("import", &["core", "spectra", "scene", "io"]),
     ("charts", &["core", "spectra", "scene"]),
     ("metrology", &["core", "stats", "spectra", "projection"]),

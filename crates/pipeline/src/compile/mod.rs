@@ -31,6 +31,7 @@ mod picture;
 mod point_spread_files;
 mod precipitation;
 mod processing;
+mod products;
 mod row_exposure;
 mod samples;
 mod scale;
@@ -200,7 +201,7 @@ fn camera_plan(
     context: &mut Context<'_>,
 ) -> Option<CameraPlan> {
     let body = camera::body(&setup.camera, context)?;
-    let mut products = settings::products(&setup.output, &body, context);
+    let mut products = products::products(&setup.output, &body, context);
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
     camera::remark_reach(&setup.name, &depth_of_field, &body, context);
     let (settings, passes) =

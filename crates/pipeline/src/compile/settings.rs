@@ -1,18 +1,15 @@
-//! `[render]` and `[output]`: what is delivered, and how the light is found.
+//! `[render]`: how the light is found.
 
 use super::camera::remark_margin;
 use super::choices::{Choices, max_bounces};
 use super::context::{Context, ErrorCode};
 use super::samples::{Samples, has_variance, samples};
-use crate::plan::raw_colour::RawColour;
-use crate::plan::rectified::RectifiedCamera;
-use crate::plan::{CameraBody, Passes, Products, Route, Settings, WavelengthSampling, usual_raw_format};
+use crate::plan::{CameraBody, Passes, Products, Route, Settings, WavelengthSampling};
 use crate::sizes::block::Blocks;
 use crate::sizes::film::Layout;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
-use etendue_core::{Bands, Integrator, LightSampling, Quality, RawFormat, WavelengthRange};
+use etendue_core::{Bands, Integrator, LightSampling, Quality, WavelengthRange};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters, PupilProjection};
-use etendue_scene::record::output::DepthScale;
 use etendue_scene::record::render::{self, Accumulate, DepthMethod};
 use etendue_scene::record::{Output, Render};
 use etendue_scene::{Place, Placed};
@@ -22,176 +19,6 @@ use etendue_tracer::integrator::PathSettings;
 const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
 const BAND_WIDTH_NM: f64 = 5.0;
 const TILE_PX: u64 = 32;
-
-/// What a camera delivers: what it asks for, and what its sensor makes possible where it is silent.
-pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> Products {
-    let electronics = body.sensor.is_some();
-    let said = |key: &Option<Placed<bool>>, default: bool| key.as_ref().map_or(default, |v| v.value);
-    for (key, name) in
-        [(&output.electrons, "electrons"), (&output.raw, "raw"), (&output.signal_breakdown, "signal_breakdown")]
-    {
-        need(key, electronics, name, "the sensor has no electronics", "add them to [sensor]", context);
-    }
-    let ghosts = body.effects.ghosts().is_some();
-    need(&output.ghosts, ghosts, "ghosts", "the camera makes none", "add ghosts = true to its [effects]", context);
-    let truth = said(&output.ground_truth, true);
-    need(
-        &output.camera_space_position,
-        truth,
-        "camera_space_position",
-        "it is a layer of the ground truth",
-        "ask for it",
-        context,
-    );
-    let development = body.development.is_some();
-    need(&output.picture, development, "picture", "the camera has no [isp]", "add it", context);
-    let boxes = said(&output.boxes, false);
-    need(&output.tracks, boxes, "tracks", "they are made of boxes", "add boxes = true", context);
-    let depth_png = said(&output.depth_png, false);
-    if let (Some(scale), false) = (&output.depth_png_scale, depth_png) {
-        let place = match scale {
-            DepthScale::PerMetre(number) => &number.place,
-            DepthScale::Named(name) => &name.place,
-        };
-        let problem = "\"depth_png_scale\" has no effect without depth_png = true";
-        let cause = output.depth_png.as_ref().map(|key| &key.place);
-        context.idle(ErrorCode::NoEffect, "depth_png_scale", place, cause, problem, "add it, or remove the scale");
-    }
-    let products = Products {
-        radiance: said(&output.radiance, !electronics),
-        irradiance: said(&output.irradiance, false),
-        ghosts: said(&output.ghosts, false),
-        variance: said(&output.variance, false),
-        sampling: said(&output.sampling, false),
-        electrons: said(&output.electrons, false),
-        raw: said(&output.raw, electronics),
-        raw_format: raw_format(output, body, context),
-        signal_breakdown: said(&output.signal_breakdown, false),
-        picture: said(&output.picture, development),
-        ground_truth: said(&output.ground_truth, true),
-        camera_space_position: said(&output.camera_space_position, false),
-        weather: said(&output.weather, false),
-        cover: false,
-        depth_png_per_m: depth_png.then(|| output.depth_png_scale.as_ref().map_or(256.0, |s| s.per_metre())),
-        rays: said(&output.rays, false),
-        undistorted: None,
-        video: output.video.is_some(),
-        annotations: super::annotations::asked(output),
-        calibration_files: said(&output.calibration_files, false),
-    };
-    remark_depth(&products, body, context);
-    let products = Products { undistorted: undistorted(output, &products, body, context), ..products };
-    if products.is_empty() {
-        context.fault(
-            ErrorCode::Empty,
-            &output.place,
-            "the camera delivers nothing",
-            "ask for at least one product in [output]",
-        );
-    }
-    products
-}
-
-/// Where depth along the axis means nothing, and what to take there.
-fn remark_depth(products: &Products, body: &CameraBody, context: &mut Context<'_>) {
-    let asked = products.ground_truth && !products.camera_space_position || products.depth_png_per_m.is_some();
-    if asked && body.depth_has_gaps() {
-        context.remark(
-            "depth along the axis is NaN (0 in depth.png) where the camera looks sideways, back or at a mirror: take distance.Z along the \
-             directions of rays = true, or the signed z of camera_space_position = true"
-                .to_owned(),
-        );
-    }
-}
-
-/// The scale of the undistorted twin, where one is asked for and can be.
-fn undistorted(output: &Output, products: &Products, body: &CameraBody, context: &mut Context<'_>) -> Option<f64> {
-    let scale = &output.undistorted_scale;
-    let Some(key) = output.undistorted.as_ref().filter(|key| key.value) else {
-        if let Some(scale) = scale {
-            let problem = "\"undistorted_scale\" has no effect without undistorted = true";
-            let cause = output.undistorted.as_ref().map(|key| &key.place);
-            context.idle(
-                ErrorCode::NoEffect,
-                "undistorted_scale",
-                &scale.place,
-                cause,
-                problem,
-                "add it, or remove the scale",
-            );
-        }
-        return None;
-    };
-    if !(products.ground_truth || products.rays || products.picture) {
-        let problem =
-            "\"undistorted\" has no effect without \"ground_truth\", \"rays\" or \"picture\", of which it makes twins";
-        context.fault(ErrorCode::NoEffect, &key.place, problem, "ask for one of them, or remove the key");
-    }
-    let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
-    if products.picture && layout.is_some_and(|l| !l.is_whole()) {
-        let problem =
-            "pictures of a region, of binned pixels or without some that are skipped have no undistorted twins";
-        context.fault(
-            ErrorCode::NotModelled,
-            &key.place,
-            problem,
-            "remove the key, or \"roi_px\", \"binning\" and \"skipping\" of the sensor",
-        );
-    }
-    let scale = scale.as_ref().map_or(1.0, |scale| scale.value);
-    context.accept(&key.place, RectifiedCamera::of(body, scale)).map(|_| scale)
-}
-
-/// The raw's file format; what cannot hold it is refused.
-fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> RawFormat {
-    let usual = usual_raw_format(body.sensor.as_ref());
-    let Some(key) = &output.raw_format else { return usual };
-    if body.sensor.is_none() || output.raw.as_ref().is_some_and(|raw| !raw.value) {
-        let cause = output.raw.as_ref().map(|raw| &raw.place);
-        let problem = "\"raw_format\" has no effect without raw";
-        context.idle(ErrorCode::NoEffect, "raw_format", &key.place, cause, problem, "ask for \"raw\", or remove it");
-    }
-    let format = key.value;
-    if format == RawFormat::Png && usual != RawFormat::Png {
-        context.fault(
-            ErrorCode::UnsupportedOutput,
-            &key.place,
-            "the digital numbers have more than 16 bits, which PNG does not hold",
-            "give \"tiff\"",
-        );
-    }
-    if format == RawFormat::Dng
-        && let Some(sensor) = body.sensor.as_ref().filter(|s| RawColour::of(s).is_none())
-    {
-        let names: Vec<&str> = sensor.parameters().channels.iter().map(|c| c.name.as_str()).collect();
-        let problem = format!("a DNG holds one channel, or red, green and blue, and a sensor has {}", names.join(", "));
-        context.fault(ErrorCode::UnsupportedOutput, &key.place, problem, "give \"png\" or \"tiff\"");
-    }
-    if format == RawFormat::Dng && body.sensor.as_ref().is_some_and(|s| s.parameters().hdr.companding.is_some()) {
-        let problem = "the numbers are companded, and raw readers would take a DNG's for linear";
-        context.fault(
-            ErrorCode::UnsupportedOutput,
-            &key.place,
-            problem,
-            "give \"png\" or \"tiff\", or remove \"companding\"",
-        );
-    }
-    format
-}
-
-fn need(key: &Option<Placed<bool>>, possible: bool, name: &str, lack: &str, remedy: &str, context: &mut Context<'_>) {
-    if let Some(key) = key
-        && key.value
-        && !possible
-    {
-        context.fault(
-            ErrorCode::UnavailableOutput,
-            &key.place,
-            format!("\"{name}\" is asked for, but {lack}"),
-            format!("{remedy}, or remove the key"),
-        );
-    }
-}
 
 /// How a camera's light is found.
 pub(super) fn settings(

@@ -4,6 +4,9 @@
 //! Examples are run by tests of the program (`explain.rs`): keys stand in the small job of its tests, under the name `job.toml`.
 
 use super::code::{Example, Explanation};
+use crate::suggest::nearest;
+use std::fmt;
+use std::str::FromStr;
 
 /// Makes the enum of codes, their words and their explanations of one table.
 macro_rules! error_codes {
@@ -206,4 +209,69 @@ error_codes! {
         "The run needs more memory than is free, or than it may take.",
         "Free memory, render fewer pixels, bands or cameras at once, or raise `memory`.",
         Example::command("render job.toml `output` out `memory` 1", "render job.toml `output` out `memory` 0");
+}
+
+/// An error whose place the caller knows: its kind, and what is wrong in words.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{words}")]
+pub struct Problem {
+    /// Its kind.
+    pub code: ErrorCode,
+    /// What is wrong, and what to do.
+    pub words: String,
+}
+
+impl Problem {
+    /// A problem of this kind.
+    pub fn new(code: ErrorCode, words: impl Into<String>) -> Self {
+        Self { code, words: words.into() }
+    }
+}
+
+impl Problem {
+    /// The same, with words before it: "WORDS: …".
+    #[must_use]
+    pub fn within(self, words: impl fmt::Display) -> Self {
+        Self { words: format!("{words}: {}", self.words), ..self }
+    }
+}
+
+/// Words about the content of a file.
+impl From<String> for Problem {
+    fn from(words: String) -> Self {
+        Self::new(ErrorCode::MalformedFile, words)
+    }
+}
+
+/// Words about the content of a file.
+impl From<&str> for Problem {
+    fn from(words: &str) -> Self {
+        Self::new(ErrorCode::MalformedFile, words)
+    }
+}
+
+impl fmt::Display for ErrorCode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+/// A word that is no code.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no error code \"{word}\"{}", .nearest.map_or_else(|| "; explain without a code lists all".to_owned(), |code| format!("; did you mean \"{code}\"?")))]
+pub struct UnknownCode {
+    word: String,
+    nearest: Option<ErrorCode>,
+}
+
+impl FromStr for ErrorCode {
+    type Err = UnknownCode;
+
+    fn from_str(word: &str) -> Result<Self, UnknownCode> {
+        let code_of = |word: &str| Self::ALL.iter().copied().find(|code| code.word() == word);
+        code_of(word).ok_or_else(|| {
+            let words: Vec<&str> = Self::ALL.iter().map(|code| code.word()).collect();
+            UnknownCode { word: word.to_owned(), nearest: nearest(word, &words).and_then(code_of) }
+        })
+    }
 }

@@ -7,8 +7,8 @@ use crate::place::{Place, Placed};
 mod catalogue;
 mod code;
 
-pub use catalogue::ErrorCode;
-pub use code::{Example, ExampleContext, Explanation, Problem};
+pub use catalogue::{ErrorCode, Problem};
+pub use code::{Example, ExampleContext, Explanation};
 
 /// One fault: where it stands, what is wrong with what was expected, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]

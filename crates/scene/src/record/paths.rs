@@ -1,10 +1,8 @@
 //! The keys of `[render]` that only integrator = "path" needs.
 
-use super::Render;
 use crate::fault::{ErrorCode, Faults};
-use crate::place::{Place, Placed};
+use crate::place::Placed;
 use crate::reader::{among, flag, record, whole};
-use etendue_core::Integrator;
 
 record! {
     /// What only paths need.
@@ -78,30 +76,6 @@ impl PathKeys {
             problem,
             "give one of the two, or 1 for the other",
         );
-    }
-}
-
-/// Checks the records of all cameras, into which the job's has been merged: what only paths need must serve a camera that
-/// traces them.
-pub(crate) fn check_path_keys<'r>(cameras: impl Iterator<Item = &'r Render> + Clone, faults: &mut Faults) {
-    let traces = |render: &Render| render.integrator.as_ref().is_none_or(|key| key.value == Integrator::Path);
-    let serves = |place: &Place| {
-        let mut tracing = cameras.clone().filter(|render| traces(render));
-        tracing.any(|render| render.paths.to_table().entries().any(|(_, item)| item.place == *place))
-    };
-    for render in cameras.clone().filter(|render| !traces(render)) {
-        let cause = render.integrator.as_ref().map(|integrator| &integrator.place);
-        for (key, item) in render.paths.to_table().entries().filter(|(_, item)| !serves(&item.place)) {
-            let problem = format!("\"{key}\" has no effect here, it belongs to integrator = \"path\"");
-            faults.add_idle(
-                ErrorCode::NoEffect,
-                key,
-                &item.place,
-                cause,
-                problem,
-                "remove it, or change the integrator",
-            );
-        }
     }
 }
 
