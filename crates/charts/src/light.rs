@@ -1,4 +1,4 @@
-//! The light that a chart stands in, and what a camera makes of it.
+//! The light that a chart stands in, the panel (a sheet in its place in the world), and what a camera makes of it.
 
 use etendue_spectra::observer::{with_luminance, xyz_of_reflectance};
 use etendue_spectra::{Spectrum, illuminant};

@@ -1,4 +1,4 @@
-//! What is asked for.
+//! The request of a data set, and what varies in it: changes of keys at places of a file.
 
 use std::{ops::Range, path::PathBuf};
 

@@ -2,9 +2,9 @@
 //!
 //! | order | step | module |
 //! | --- | --- | --- |
-//! | 1 | black level off, white level to 1 | [`black_level`] |
-//! | 2 | defective pixels | [`defects`] |
-//! | 3 | shading | [`shading`] |
+//! | 1 | black level off, white level to 1 | [`raw`] |
+//! | 2 | defective pixels | [`correction`] |
+//! | 3 | shading | [`correction`] |
 //! | 4 | white balance, highlights clipped at what is shown as white | [`white_balance`] |
 //! | 5 | demosaic | [`demosaic`] |
 //! | 6 | noise reduction | [`detail`] |

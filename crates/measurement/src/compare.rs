@@ -1,4 +1,4 @@
-//! Two results side by side: errors A − B, of the first against the second, with their uncertainty.
+//! Two results side by side: errors A − B, of the first against the second, with their uncertainty, and pictures of both.
 //!
 //! Channels that carry a variance (`variance.NAME` beside `NAME`) are compared by a Z test with a family-wise
 //! significance over all channels; identities and everything without variance must be equal.

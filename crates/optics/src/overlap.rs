@@ -1,4 +1,4 @@
-//! Mechanical vignetting: what a pupil sends to a sensor point where rims cut it.
+//! Mechanical vignetting: what a pupil sends to a sensor point where rims cut it; ranges and the wavelength that several lenses share.
 //!
 //! In the plane of the pupil (its radius taken as 1) the pupil and the projections of the rims are discs whose centres lie
 //! on one line, the direction of the sensor point. Along that line the integrand z²/d⁴ has a closed antiderivative;

@@ -22,7 +22,7 @@
 //!
 //! The first radius at which dr′/dr = 1 + 3 k₁ r² + 5 k₂ r⁴ vanishes is the fold: beyond it two radii would share one
 //! image. Only the branch from 0 to the fold exists here; beyond it every function answers `None`.
-//! r is dimensionless: its unit is the caller's ([`RadialDistortion`](crate::RadialDistortion) states it).
+//! r is dimensionless: its unit is the caller's ([`RadialDistortion`] states it).
 
 #[cfg(test)]
 mod tests;

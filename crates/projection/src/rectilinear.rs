@@ -1,4 +1,4 @@
-//! The rectilinear (perspective, gnomonic) projection: straight lines stay straight.
+//! The rectilinear (perspective, gnomonic) projection, in which straight lines stay straight, and why a model cannot be.
 //!
 //! x = c · X / Z, y = c · Y / Z, with c the principal distance: the focal length of a lens focused at infinity, longer
 //! where it is focused nearer. Covers less than 180°: directions with Z ≤ 0 have no image.

@@ -14,7 +14,7 @@
 //! Luminance of linear colours and luma of encoded ones, by the weights of ITU-R BT.709 (those of IEC 61966-2-1 too).
 //!
 //! The standards state four digits. Y of linear sRGB with this crate's own white is the middle row of
-//! [`XYZ_FROM_SRGB`](XYZ_FROM_SRGB), which differs by less than 1e-4.
+//! [`XYZ_FROM_SRGB`], which differs by less than 1e-4.
 //!
 //! CIE 1976 L*a*b* (CIE 15:2018).
 //!

@@ -4,10 +4,10 @@
 //! | --- | --- |
 //! | [`special`] | Γ, erf, incomplete Γ and B |
 //! | [`normal`], [`student`], [`chi_square`] | distribution functions, p-values, critical values |
-//! | [`family`] | many tests at once (Šidák) |
-//! | [`median`] | the middle of numbers |
+//! | [`sidak_level`](chi_square::sidak_level) | many tests at once (Šidák) |
+//! | [`upper_median`] | the middle of numbers |
 //! | [`moments`] | mean and variance of a stream of numbers (Welford) |
-//! | [`replicates`] | mean and honest variance of randomised quasi-Monte Carlo |
+//! | [`ReplicateEstimate`] | mean and honest variance of randomised quasi-Monte Carlo |
 //! | [`planes`] | do two estimated pictures differ? |
 //! | [`error`] | by how much do two pictures differ? |
 //!

@@ -1,4 +1,4 @@
-//! Mean and variance of a stream of numbers.
+//! Mean, variance and median of numbers, and the variance of replicates.
 //!
 //! Mean and honest variance of randomised quasi-Monte Carlo.
 //!

@@ -3,11 +3,9 @@
 //! | module | answers |
 //! | --- | --- |
 //! | [`judge`] | is an estimated picture what a closed form says? |
-//! | [`quadrature`] | integrals by plain sums |
-//! | [`form_factor`] | irradiance from spheres and polygons |
+//! | [`form_factor`] | irradiance from spheres and polygons, and behind a round, perhaps clipped, pupil; integrals by plain sums |
 //! | [`page`] | docs/extremes.md: what stands in it, and whether it holds |
 //! | [`skip`] | tests whose files are missing, counted |
-//! | [`pupil`] | irradiance behind a round, perhaps clipped, pupil |
 //!
 //! Nothing here shares code with what it judges, but for the vocabulary and the elementary functions of `core`.
 

@@ -1,4 +1,4 @@
-//! Where the page goes: a folder of `index.html` and `data`, or one file.
+//! The page: a folder of `index.html` and `data`, or one file with the data in its scripts.
 //!
 //! Bytes as text (RFC 4648, section 4).
 

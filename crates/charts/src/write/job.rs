@@ -1,4 +1,4 @@
-//! What is asked for when a drawing becomes files.
+//! A drawing as files: what is asked for, files in memory, the print of a texture, the job and its cameras.
 
 use etendue_core::Integrator;
 use etendue_scene::record::{Output, Pose, Render};

@@ -1,4 +1,4 @@
-//! A panel's mesh: Wavefront OBJ, metres, axes of the world about the panel's middle, one `usemtl` an ink.
+//! A panel's mesh, Wavefront OBJ, and its print, SVG. Of the mesh: metres, axes of the world about the panel's middle, one `usemtl` an ink.
 
 use std::{collections::BTreeMap, fmt::Write as _};
 

@@ -1,8 +1,8 @@
 //! ASAM OSI 3.8.0: `osi/SPLIT/TIME_gt_380_6302_FRAMES_NNNNNN.osi`, a trace a sample: for each frame a `GroundTruth` behind its length (four bytes, little-endian).
 //!
-//! - Names follow OSI's convention ([`name`]): the time of the first frame, counted from 1970 as the messages' own, so that no clock is in them; the version of the messages; 6.30.2, the
+//! - Names follow OSI's convention: the time of the first frame, counted from 1970 as the messages' own, so that no clock is in them; the version of the messages; 6.30.2, the
 //!   version of protobuf that osi-python 3.8.0 is made with and asks for; how many frames; and the sample's number as the name of the trace.
-//! - Objects are all of the world with a class, seen or not, by their identities: those that a class or their motion makes movers as `moving_object`, others as `stationary_object`, by the lists of [`kind`];
+//! - Objects are all of the world with a class, seen or not, by their identities: those that a class or their motion makes movers as `moving_object`, others as `stationary_object`, by the lists below;
 //!   `source_reference` has their names. Surfaces (road, terrain …) and the sky have no box.
 //! - The frame of the ground truth is the scene's (x forward, y left, z up, m); position is the middle of the object's box, whose length, width and height are along the object's own x, y and z; orientation turns
 //!   about z (yaw), then y (pitch), then x (roll), rad.

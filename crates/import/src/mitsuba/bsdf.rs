@@ -1,4 +1,4 @@
-//! Surfaces.
+//! Surfaces, Disney's principled one (approximately) among them.
 
 use std::rc::Rc;
 

@@ -1,4 +1,4 @@
-//! Transforms, step by step.
+//! Transforms, step by step, and what textures are for.
 
 use etendue_core::maths::f64 as maths;
 use etendue_io::Error;

@@ -1,4 +1,4 @@
-//! Attributes by what is expected of them.
+//! Prims and properties by their paths, and attributes by what is expected of them.
 
 use std::collections::HashMap;
 

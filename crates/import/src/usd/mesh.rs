@@ -1,4 +1,4 @@
-//! Meshes: polygons as triangles, with what lies on them.
+//! Meshes: polygons as triangles, with the values that lie on them.
 
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};

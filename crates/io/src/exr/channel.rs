@@ -1,4 +1,4 @@
-//! Where the samples of an EXR file come from: planes in memory, bands on the disk, or strips of rows that are made when they are written.
+//! Where the samples of an EXR file come from: planes in memory, bands on the disk, or strips of rows that are made when they are written; why values cannot be stored.
 
 use std::{borrow::Cow, ops::Range};
 

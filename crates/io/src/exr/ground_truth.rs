@@ -1,4 +1,4 @@
-//! Ground truth as an EXR: point-sampled on the principal ray, never filtered.
+//! Ground truth and rays as an EXR: point-sampled on the principal ray, never filtered.
 //!
 //! Lengths and positions are in metres; the sky is at +∞; identity 0 is the background.
 

@@ -1,4 +1,4 @@
-//! Writing spectral images.
+//! Writing spectral images, with their colour preview.
 //!
 //! Each channel `S0.<centre>nm` holds the **mean over its band** per nm, as the cube does. `etendue:units` states the
 //! true unit; `emissiveUnits` is the literal string that readers of the layout expect. R, G, B are a preview in linear

@@ -2,11 +2,11 @@
 //!
 //! | plane | drawn as |
 //! | --- | --- |
-//! | optical flow, image velocity | colour wheel of Baker et al. 2011 ([`mod@flow_wheel`]): hue by direction, saturation by length; black: not known |
-//! | identities | a colour each, the same in every file ([`mod@identity_colour`]); black: 0, the background |
-//! | depth, distance, disparity | viridis ([`viridis`]) by the logarithm of lengths, evenly for disparity; white: infinite, magenta: NaN |
+//! | optical flow, image velocity | colour wheel of Baker et al. 2011 ([`flow_wheel`]): hue by direction, saturation by length; black: not known |
+//! | identities | a colour each, the same in every file ([`identity_colour`]); black: 0, the background |
+//! | depth, distance, disparity | viridis ([`VIRIDIS`]) by the logarithm of lengths, evenly for disparity; white: infinite, magenta: NaN |
 //! | vectors | x, y and z as red, green and blue about grey; magenta: NaN |
-//! | boxes | outlines in the objects' identity colours ([`outline`]) |
+//! | boxes | outlines in the objects' identity colours ([`draw_boxes`]) |
 //!
 //! Vectors of the image as colours: the wheel of Baker et al. 2011, "A database and evaluation methodology for optical flow" (IJCV 92), as
 //! their program colorcode.cpp has it. Hue is the direction (right red, down yellow, left cyan, up violet), white is no motion, full

@@ -1,4 +1,4 @@
-//! What is told of one file, and its lines of text.
+//! What is told of one file: its lines of text, statistics of its channels, and a picture for looking at.
 //!
 //! Pictures for looking at, 8 bits, sRGB-encoded.
 //!

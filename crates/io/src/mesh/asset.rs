@@ -1,4 +1,4 @@
-//! Polygons as tobj reads them to triangles.
+//! Polygons as tobj reads them to triangles, and a file of a mesh whose vertices move, corner by corner.
 
 use std::{cell::LazyCell, path::Path};
 

@@ -105,7 +105,7 @@ fn kind_of_picture(bytes: &[u8], big: bool) -> Option<(usize, u16)> {
     Some((entry + 8, short(entry + 8)?))
 }
 
-/// Room for what [`unpacked::check`] lets through, in numbers of up to 64 bits.
+/// Room for what [`texture_memory::check`] lets through, in numbers of up to 64 bits.
 fn limits(packed: usize) -> Limits {
     let mut limits = Limits::default();
     limits.decoding_buffer_size = usize::try_from(2 * texture_memory::most(packed)).unwrap_or(usize::MAX);

@@ -1,4 +1,4 @@
-//! PNG, JPEG and Radiance HDR.
+//! PNG, JPEG and Radiance HDR, and pictures of floats.
 
 use std::io::{BufRead, Cursor, Seek};
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What was found of a camera, number by number, and what was not.
+//! What was found of a camera, number by number, and what was not; the kinds of pictures that it is found from, a folder each.
 
 use etendue_io::failure::Error;
 

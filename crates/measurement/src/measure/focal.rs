@@ -1,4 +1,4 @@
-//! `measure focal`: focal length and principal point.
+//! `measure focal`, focal length and principal point, and `etendue calibrate`, a camera file from several views of a chart.
 
 use clap::Args;
 use etendue_arguments::positive;

@@ -1,4 +1,4 @@
-//! Counting the pictures that a measurement reads.
+//! Pictures that a measurement reads: what all measurements ask for, how pictures are counted, and which readings are clipped.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{fmt::Display, path::Path};

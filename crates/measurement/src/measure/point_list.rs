@@ -1,4 +1,4 @@
-//! Points of a chart from a list (CSV), in place of a picture.
+//! Points of a chart: from picture files, or from a list (CSV) in place of a picture.
 //!
 //! The first line names the columns, in any order: `column` and `row`, whole numbers from 0, the point's place on the chart in steps;
 //! `x_px` and `y_px`, where it is seen, raster coordinates (pixel centres at + 0.5); `uncertainty_px`, the standard uncertainty of each of

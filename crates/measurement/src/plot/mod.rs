@@ -1,4 +1,4 @@
-//! Plots as SVG: one pair of axes, lines, points, error bars, a legend.
+//! Plots as SVG: one pair of axes with ranges and ticks, lines, points, error bars, a legend.
 //!
 //! Ranges follow from the data unless stated. The text of a plot depends on its data alone.
 

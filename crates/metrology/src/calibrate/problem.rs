@@ -1,4 +1,4 @@
-//! All numbers of a camera and its views, and what they leave of the sightings.
+//! All numbers of a camera and its views, what they leave of the sightings, and the first guess.
 
 use etendue_core::maths::f64::exp2;
 use etendue_projection::{Calibration, CameraMatrix};

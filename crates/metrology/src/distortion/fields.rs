@@ -1,4 +1,4 @@
-//! Fields of displacement over the picture, by which one map of a plane differs from another.
+//! Fields of displacement over the picture, by which one map of a plane differs from another; why a picture has no distortion to tell.
 //!
 //! Those of a homography near the identity are eight: two of place, four of slope, two of tilt, v (t · v). A distortion is
 //! described by fields that have no place, slope and tilt at the centre, so that none of them is taken for a homography: four

@@ -11,7 +11,7 @@
 //! | [`TransferData`] | saturation, K, η, dark noise, thresholds, dynamic range, linearity, dark current: [`Figures`] |
 //! | [`nonuniformity()`] | DSNU and PRNU |
 //! | [`temperature`] | how the dark current grows with temperature |
-//! | [`spectrogram`] | power spectra of rows and columns |
+//! | [`spatial`] | power spectra of rows and columns |
 //! | [`Deviations`] | histograms of defect pixels |
 //! | [`Outliers`] | hot and dead pixels: places, share, mean current |
 //!

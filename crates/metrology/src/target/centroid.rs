@@ -6,7 +6,7 @@
 //! pixels' own scatter does to the centroid: a variance that goes from that of the background to that of the dot's middle as w
 //! does (bright dots have more of it, from their own photons, dark dots less).
 //!
-//! That, less what the pixels' raster shifts it by ([`sampling`]), is where the disc's centre of area is seen. Perspective and distortion shift it from where the disc's centre is
+//! That, less what the pixels' raster shifts it by (below), is where the disc's centre of area is seen. Perspective and distortion shift it from where the disc's centre is
 //! seen; [`disc`](crate::patch_statistics) says by how much, once the map from the chart to the picture is known.
 //!
 //! What sampling by square pixels does to the centroid of a disc.

@@ -1,7 +1,7 @@
 //! Checkerboards: the corners of four squares.
 //!
 //! Candidates come from [`chess`], in the picture and in copies of half, a quarter and an eighth of its size
-//! (defocused corners look sharp there); they are refined ([`saddle`]), joined where the line between two has
+//! (defocused corners look sharp there); they are refined ([`chess::refined`]), joined where the line between two has
 //! a dark side and a bright one all along, and grown to a lattice. The copy that gives the most corners is taken, and
 //! each corner is found again in the picture itself by a model of it ([`crossing`]), over a disc of 0.4 of the distance
 //! to its nearest neighbour, 3 to 12 px.

@@ -1,9 +1,9 @@
 //! Dots: grids of discs, dark on bright or bright on dark.
 //!
-//! Dark regions ([`components`]) under a threshold that follows the light ([`threshold`](super::threshold)), at least four
+//! Dark regions under a threshold that follows the light ([`threshold`]), at least four
 //! pixels across, not cut by the border, and as large as the ellipse of their own second moments (to 4 %, small ones to 12 %; a
 //! rectangle has 4.5 % less), are dots, put
-//! in rows and columns by where they are ([`lattice`]). Then each is measured ([`centroid`]), and what the pixels' raster does to all is taken off ([`sampling`]).
+//! in rows and columns by where they are ([`lattice`]). Then each is measured ([`centroid`]), and what the pixels' raster does to all is taken off.
 
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! Points put in rows and columns.
+//! Points by place, and put in rows and columns.
 //!
 //! From a point and two steps to neighbours, the lattice grows by one place at a time: the next point is looked for where
 //! the last steps in that direction lead, so that rows may bend and spacings shrink as far as they do so gradually (up to

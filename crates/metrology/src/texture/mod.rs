@@ -1,6 +1,6 @@
 //! Texture: how much of fine structure a camera keeps.
 //!
-//! [`star`]: modulation of a Siemens star over frequency. [`leaves`]: response to a texture with all frequencies, as dead leaves are, against
+//! [`measure_star`]: modulation of a Siemens star over frequency. [`leaves`]: response to a texture with all frequencies, as dead leaves are, against
 //! its reference.
 //!
 //! Modulation of a Siemens star.

@@ -1,4 +1,4 @@
-//! Convolution of a picture with a kernel: nothing comes from outside the picture.
+//! Convolution of a picture with a kernel, and its cost: nothing comes from outside the picture.
 //!
 //! Few taps are summed directly. Many go through the Fourier transform, by blocks of the result, two blocks at once as real
 //! and imaginary part; the number of blocks is the one that costs least.

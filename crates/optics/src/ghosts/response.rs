@@ -1,4 +1,4 @@
-//! The footprints of a lens by field angle, pair and wavelength.
+//! The footprints of a lens by field angle, pair and wavelength, and how many operations a layer of ghosts takes.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! What makes a list of surfaces a lens.
+//! From what a maker states to a checked prescription, open and in focus: what makes a list of surfaces a lens.
 
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_spectra::glass::Dispersion;

@@ -12,7 +12,7 @@
 //! | effect | on | acts on |
 //! | --- | --- | --- |
 //! | [angle response](angle_response) | mean electrons | rows |
-//! | [optical crosstalk](crosstalk) | mean electrons | plane |
+//! | [optical crosstalk](neighbours::Crosstalk) | mean electrons | plane |
 //! | [photo-response non-uniformity](photo_response) | mean electrons | rows |
 //! | [smear] | adds to mean electrons | plane |
 //! | [shot noise](shot_noise) | mean electrons → charge | rows |
@@ -23,10 +23,10 @@
 //! | [dead pixels](dead_pixels) | charge: emptied | rows |
 //! | binning of charge ([`layout`](crate::layout)) | charge: pixels are added | plane |
 //! | [response] | charge → voltage | rows |
-//! | [inter-pixel capacitance](inter_pixel_capacitance) | voltage: moved | plane |
+//! | [inter-pixel capacitance](neighbours::InterPixelCapacitance) | voltage: moved | plane |
 //! | [offset non-uniformity](offset_pattern) | voltage: added | rows |
-//! | [read noise](read_noise) | voltage: added | rows |
-//! | [RTS noise](rts_noise) | voltage: added | rows |
+//! | [read noise](offset_pattern::ReadNoise) | voltage: added | rows |
+//! | [RTS noise](two_level::RtsNoise) | voltage: added | rows |
 //! | [converter] | voltage → DN: gain, black level, rounding, range | rows |
 //! | merging and companding ([`hdr`](crate::hdr)) | DN | plane |
 //!

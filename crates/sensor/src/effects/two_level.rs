@@ -8,7 +8,7 @@
 //! Random RTS noise: a trap at a pixel's transistor makes its voltage jump between two levels.
 //!
 //! e ← e ± a/2 for a fraction of pixels, a exponential of a stated mean, the level from a two-level state over frames
-//! ([`two_level`]). The mean of both levels is the pixel's own. Draws: `Telegraph` (specimen), `TelegraphFlip`.
+//! ([`TwoLevel`]). The mean of both levels is the pixel's own. Draws: `Telegraph` (specimen), `TelegraphFlip`.
 
 use etendue_core::random::{NoiseDraw, Pixel};
 use etendue_core::{EffectStatus, quantity::Voltage};

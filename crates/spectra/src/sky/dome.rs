@@ -67,7 +67,7 @@ pub struct SkyModel {
 
 impl SkyModel {
     /// The sky at a turbidity of 1 to 10, over ground of an albedo of 0 to 1, with the Sun at an elevation of −π/2 to
-    /// π/2; below the horizon see [`twilight`].
+    /// π/2; below the horizon see [`sky`](super).
     ///
     /// # Errors
     /// Where a number is out of range.

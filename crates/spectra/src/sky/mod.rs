@@ -7,10 +7,10 @@
 //! the Sun's elevation quintic Bézier curves over the cube root of elevation/90°. Radiance is linear in wavelength
 //! between bands. The fit dips below zero in some directions low over the horizon at a low Sun: there it is zero.
 //!
-//! **Ranges.** Turbidity 1 to 10, albedo 0 to 1, elevation −90° to 90°; 300 to 1 100 nm, see [`continuation`]. The
+//! **Ranges.** Turbidity 1 to 10, albedo 0 to 1, elevation −90° to 90°; 300 to 1 100 nm, continued below. The
 //! albedo is one number for all bands. Directions below the horizon have no sky: zero.
 //!
-//! **Below the horizon** the model ends. See [`twilight`] for the sky, [`sun`] for the Sun.
+//! **Below the horizon** the model ends. See below for the sky, [`mod@sun`] for the Sun.
 //!
 //! **Left out.** Clouds, refraction, altitude, polarisation, ozone and water vapour that vary, the blue hour's colour,
 //! city light, Moon and stars but for the floor of the night.

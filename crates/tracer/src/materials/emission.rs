@@ -1,4 +1,4 @@
-//! Emission of surfaces.
+//! Emission of surfaces, and how it goes up and down over time.
 //!
 //! Radiance is the same in every direction of a glowing side (Lambert): a surface of radiance L sends π L per area.
 //!

@@ -1,4 +1,4 @@
-//! What facets send back after one reflection, by quadrature over their slopes.
+//! What facets send back after one reflection, by quadrature over their slopes (the rule of Gauss and Legendre).
 //!
 //! A facet's normal is (−α x, −α y, 1) normalised; slopes have the density P(x, y), exp(−x² − y²)/π of Beckmann's and
 //! 1/(π (1 + x² + y²)²) of GGX. A viewer at the cosine μ, in the plane of x, sees each by (μ − α x s)₊/(μ (1 + Λₒ)),

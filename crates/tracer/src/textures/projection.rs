@@ -1,4 +1,4 @@
-//! How a picture is laid over a surface.
+//! How a picture is laid over a surface, and what lies beyond its edge.
 //!
 //! - By texture coordinates.
 //! - From three sides, where a shape has none or they are poor: the picture is projected along each axis of the shape's

@@ -1,4 +1,4 @@
-//! Pictures: raws as their side-car states them, others as what their numbers are taken for.
+//! Layers of pictures, of optical flow and of boxes: raws as their side-car states them, others as what their numbers are taken for.
 
 use etendue::Error;
 use etendue_core::{Plane, quantity::OpticalFlow};

@@ -1,4 +1,4 @@
-//! From the bytes of a file to its checked JSON and its binary chunk.
+//! From the bytes of a file to its checked JSON, its extensions and its binary chunk, and what of it has no place in a mesh.
 
 use etendue_scene::limits;
 use gltf::json::material::{Material, NormalTexture};

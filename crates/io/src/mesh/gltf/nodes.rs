@@ -1,4 +1,4 @@
-//! The tree of nodes, and what of it the scene shows.
+//! The tree of nodes, what of it the scene shows, and skins as they stand at rest.
 
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf::json::mesh::{Primitive, Semantic};

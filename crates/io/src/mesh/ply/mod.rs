@@ -1,4 +1,4 @@
-//! Meshes of PLY files: text, and binary of either byte order.
+//! Meshes of PLY files, text and binary of either byte order, and triangles written as PLY or OBJ.
 //!
 //! Source: G. Turk, "The PLY Polygon File Format", 1994, with the names that writers gave to properties since. Read: places and normals of
 //! `vertex`, texture coordinates of its vertices (`u v`, `s t`, `texture_u texture_v`, `texture_s texture_t`) or of the corners of its faces

@@ -1,4 +1,4 @@
-//! One side of a comparison: what is known of a camera, measured or declared.
+//! One side of a comparison: what is known of a camera, measured or declared, of which channel and by which light.
 
 use std::collections::BTreeMap;
 

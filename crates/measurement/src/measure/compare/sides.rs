@@ -1,4 +1,4 @@
-//! Both sides of a comparison: of a measurement's file, or of what a camera file declares of the same.
+//! Both sides of a comparison: of a measurement's JSON, or of what a camera file declares of the same.
 
 use std::{collections::BTreeMap, path::Path};
 

@@ -1,4 +1,4 @@
-//! `measure ptc`: photon transfer after EMVA 1288.
+//! `measure ptc`: photon transfer after EMVA 1288, from a descriptor's pictures to a report.
 
 mod plots;
 mod reading;

@@ -1,4 +1,4 @@
-//! `measure sfr`: the response of slanted edges.
+//! `measure sfr`: the response of slanted edges, which are sought in a picture.
 
 mod report;
 mod request;

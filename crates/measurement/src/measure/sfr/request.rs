@@ -1,4 +1,4 @@
-//! What `measure sfr` is asked.
+//! Request and findings of `measure sfr`, the planes that it measures, and why an edge is not measured.
 //!
 //! Sagittal and tangential responses of slanted stars (after ISO 12233:2023): the means of a star's edges that lie within 22.5° of the radius
 //! from the picture's middle (sagittal: structure across the radius is told by edges along it), and within 22.5° of its perpendicular (tangential).

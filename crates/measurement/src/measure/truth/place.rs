@@ -1,4 +1,4 @@
-//! What a chart's truth finds in a picture, and where.
+//! Places of a chart's truth in a picture: patches and spokes, squares in and beside outlines, and which way the chart is seen.
 //!
 //! Whether a picture shows a chart as its camera sees it, or mirrored, turned, or another chart.
 //!

@@ -1,4 +1,4 @@
-//! A camera fitted to its views.
+//! A camera fitted to its views: what is assumed, whether the model suits the points, and the result as a camera file.
 
 use std::{fmt::Display, path::Path};
 

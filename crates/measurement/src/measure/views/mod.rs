@@ -1,4 +1,4 @@
-//! Cameras from views of a chart: what `measure focal` and `calibrate` share.
+//! Cameras from views of a chart, what `measure focal` and `calibrate` share: request, findings, and stated lengths.
 
 mod fit;
 mod report;
