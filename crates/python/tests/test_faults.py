@@ -19,6 +19,8 @@ def test_faults_of_a_job_have_file_line_and_key(tmp_path):
     assert (error.file, error.line) == (str(file), 3) and "mesh" in str(error)
     by_line = {fault.line: fault for fault in error.faults}
     assert by_line[5].key == "render.spp" and by_line[5].column == 7 and "-1" in by_line[5].message
+    assert by_line[5].code == "out-of-range" and error.code == error.faults[0].code and by_line[5].problem == "found -1"
+    assert etendue.explain("out-of-range").startswith("out-of-range: ") and "out-of-range" in etendue.explain()
     again = pickle.loads(pickle.dumps(error))
     assert again.faults == error.faults and str(again) == str(error)
 

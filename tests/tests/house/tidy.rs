@@ -130,7 +130,7 @@ fn crates_use_only_what_the_architecture_allows() {
     let listed: BTreeSet<&str> = ARROWS
         .iter()
         .map(|(name, _)| *name)
-        .chain(["tests", "benches", "instructions", "validation", "fuzz"])
+        .chain(["tests", "benches", "bench-rays", "instructions", "validation", "fuzz"])
         .collect();
     assert!(workspace.is_subset(&listed), "crates missing from the table: {:?}", &workspace - &listed);
 }

@@ -10,6 +10,9 @@ fn edits(code: ErrorCode) -> &'static [(&'static str, &'static str)] {
     match code {
         ErrorCode::WrongCount => &[("white_balance = \"D65\"", "white_balance = [1.9, 1, 1.4]")],
         ErrorCode::ImpossibleTiming => &[("[render]", "[sequence]\nframe_rate_hz = 30\n\n[render]")],
+        ErrorCode::NotEnoughMemory => {
+            &[("width_px = 46", "width_px = 460"), ("height_px = 30", "height_px = 300"), ("um = 120", "um = 12")]
+        }
         _ => &[],
     }
 }
@@ -23,7 +26,6 @@ fn prepare(code: ErrorCode, folder: &Path) -> Option<File> {
     match code {
         ErrorCode::WrongFileKind => copy("scenes/cameras/web.toml", "camera.toml"),
         ErrorCode::UnreadableFile => fs::create_dir(folder.join("scenes")).expect("made"),
-        ErrorCode::UnsupportedFile => write("tower.stl", "solid tower\nendsolid tower\n"),
         ErrorCode::UnsuitableFile => write("defects.csv", "x,y\n3,4\n46,4\n"),
         ErrorCode::OutsideFolder => {
             let job = fs::read_to_string(folder.join("job.toml")).expect("the job");
@@ -31,7 +33,9 @@ fn prepare(code: ErrorCode, folder: &Path) -> Option<File> {
         }
         ErrorCode::OutputExists => drop(etendue_in(folder, ["rig", "job.toml", "-o", "done"]).ok()),
         ErrorCode::OtherRun => {
-            drop(etendue_in(folder, ["render", "job.toml", "-o", "shard", "--shard", "0/2"]).ok());
+            for (index, name) in [("0/2", "shard"), ("1/2", "shard2")] {
+                etendue_in(folder, ["render", "job.toml", "-o", name, "--shard", index]).ok();
+            }
         }
         ErrorCode::NotComparable => copy("scenes/import/letter.png", "letter.png"),
         ErrorCode::FolderInUse => {
@@ -45,8 +49,8 @@ fn prepare(code: ErrorCode, folder: &Path) -> Option<File> {
     None
 }
 
-/// Commands whose mended form needs files that no test makes here.
-const NOT_RUN: [ErrorCode; 2] = [ErrorCode::NotMeasurable, ErrorCode::NotStated];
+/// Commands whose mended form needs files that no test makes here, or long.
+const NOT_RUN: [ErrorCode; 3] = [ErrorCode::NotMeasurable, ErrorCode::NotStated, ErrorCode::NotEnoughMemory];
 
 fn replaced(path: &Path, from: &str, to: &str) {
     let text = fs::read_to_string(path).expect("text");

@@ -62,7 +62,7 @@ error_codes! {
         "Add the key.",
         Example::keys("type = \"thin\"\nf_number = 2", "type = \"thin\"\nfocal_length_mm = 6\nf_number = 2");
     WrongType "wrong-type":
-        "A value is of another type than its key takes: a text for a number, a table for a list, a list of another length.",
+        "A value is of another type or form than its key takes: a text for a number, a table for a list, a list of another length.",
         "Give a value of the type that the message names.",
         Example::keys("f_number = \"two\"", "f_number = 2");
     OutOfRange "out-of-range":
@@ -180,7 +180,7 @@ error_codes! {
     OtherRun "other-run":
         "The folder holds results, shards or the state of another run: of another job, of other settings, or of one that was interrupted.",
         "Give the folders of one run, resume it with `resume`, or begin in another folder.",
-        Example::command("render job.toml `output` shard `shard` 1/2", "render job.toml `output` out `shard` 1/2");
+        Example::command("merge shard `output` out", "merge shard shard2 `output` out");
     NotComparable "not-comparable":
         "Two results cannot be compared: they are of other kinds, sizes or channels.",
         "Give two results of the same kind and size.",
@@ -192,7 +192,7 @@ error_codes! {
     NotStated "not-stated":
         "Neither the file nor an argument states a quantity that is needed.",
         "State it by the argument or key that the message names.",
-        Example::command("measure texture checker.png", "measure texture leaves.png `truth` truth.json");
+        Example::command("measure oecf checker.png", "measure oecf checker.png `exposures` 1");
     UnknownArgument "unknown-argument":
         "The verb has no such argument, or there is no such verb.",
         "Correct the spelling; the help of the verb lists its arguments.",
@@ -217,7 +217,7 @@ error_codes! {
 pub struct Problem {
     /// Its kind.
     pub code: ErrorCode,
-    /// What is wrong, and what to do.
+    /// Problem and remedy, in words.
     pub words: String,
 }
 

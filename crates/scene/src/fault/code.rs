@@ -1,11 +1,11 @@
 //! What explains a code of an error: cause, remedy and an example.
 
-/// What `etendue explain` says of a code.
+/// Explanation of a code, which `etendue explain` prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Explanation {
-    /// What is wrong, in one or two sentences.
+    /// Cause, in one or two sentences.
     pub cause: &'static str,
-    /// What to do.
+    /// Remedy, in one sentence.
     pub remedy: &'static str,
     /// An input with the error, and the same without it.
     pub example: Example,
@@ -14,7 +14,7 @@ pub struct Explanation {
 /// A fragment that has the error, and the fragment in its place that has not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Example {
-    /// Where the fragments stand.
+    /// Context of the fragments.
     pub context: ExampleContext,
     /// The fragment with the error.
     pub wrong: &'static str,
@@ -22,7 +22,7 @@ pub struct Example {
     pub right: &'static str,
 }
 
-/// Where the fragments of an example stand.
+/// Context of the fragments of an example.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExampleContext {
     /// Keys of a job, scene or camera, as TOML.

@@ -51,17 +51,21 @@ pub(crate) trait Rule {
     /// The value as it is written, so that [`Rule::read`] gives it back; `None` where another rule reads such values.
     fn write(&self, value: &Self::Out) -> Option<Item>;
 
+    /// The code of a node that is not what the rule expects.
+    fn code(&self, node: &Node) -> ErrorCode {
+        match Kind::of(node) {
+            Kind::Number if self.takes(Kind::Number) => ErrorCode::OutOfRange,
+            _ => ErrorCode::WrongType,
+        }
+    }
+
     /// Notes that the node is not what the rule expects.
     fn refuse<T>(&self, node: &Node, faults: &mut Faults) -> Option<T> {
         if matches!(node.value, Value::Unreadable) {
             return None;
         }
         let expected = self.expected();
-        let code = match self.takes(Kind::of(node)) {
-            true => ErrorCode::OutOfRange,
-            false => ErrorCode::WrongType,
-        };
-        faults.add(code, &node.place, format!("found {}", node.describe()), format!("give {expected}"));
+        faults.add(self.code(node), &node.place, format!("found {}", node.describe()), format!("give {expected}"));
         None
     }
 }

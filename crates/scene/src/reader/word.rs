@@ -195,6 +195,9 @@ impl Rule for FilePath {
             None => self.refuse(node, faults),
         }
     }
+    fn code(&self, node: &Node) -> ErrorCode {
+        if node.as_text().is_some() { ErrorCode::UnsupportedFile } else { ErrorCode::WrongType }
+    }
     fn write(&self, value: &Placed<PathBuf>) -> Option<Item> {
         Some(value.clone().into())
     }
