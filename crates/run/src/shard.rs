@@ -90,7 +90,7 @@ impl Job {
         names
     }
 
-    /// Renders one shard of a run into a folder, or some of its films, for [`merge`](crate::merge::merge), and answers with the paths of its files. Films
+    /// Renders one shard of a run into a folder, or some of its films, for [`merge`], and answers with the paths of its files. Films
     /// that were rendered each by itself go to one folder. Runs on the caller's thread pool.
     ///
     /// # Errors
