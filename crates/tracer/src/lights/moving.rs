@@ -1,7 +1,7 @@
-//! Lights that move: emitting surfaces and lamps. Each is evaluated as the light that it is at the receiver's time.
+//! Lights that move: emitting surfaces and lamps. Each is evaluated at the receiver's time.
 //!
-//! What the choice among lights knows of one holds for the whole interval of the view, and so does the probability of its choice;
-//! everything else, drawn or hit, is that of the light made for the moment.
+//! The bounds of a light in light selection hold for the whole interval of the view, and so does the probability of its choice. All other values,
+//! sampled or hit, are those of the light at that time.
 
 use core::f32::consts::PI;
 
@@ -43,7 +43,7 @@ impl MovingLight {
         Self { shape: Shape::Sphere { radius_m, look: SphereLook::of(material, material_table) }, motion, material }
     }
 
-    /// How many triangles it is.
+    /// Number of its triangles.
     pub(super) fn triangles(&self) -> usize {
         match &self.shape {
             Shape::Facets(facets) => facets.triangles(),
@@ -51,8 +51,8 @@ impl MovingLight {
         }
     }
 
-    /// For the choice among lights, at a mean radiance, `both` sides of triangles glow or only the front; `None` where it has no
-    /// area at any moment.
+    /// Bounds for light selection at a mean radiance. If `both`, both sides of triangles emit, else only the front; `None` if it has no
+    /// area at any time.
     pub(super) fn bounds(&self, radiance: f64, both: bool) -> Option<LightBounds> {
         let LightMotion { to_world, interval, .. } = &self.motion;
         match &self.shape {
@@ -72,7 +72,7 @@ impl MovingLight {
         }
     }
 
-    /// The point drawn for a receiver, without the probability of the choice.
+    /// Samples a point for a receiver, without the probability of the choice.
     pub(super) fn sample<const N: usize>(
         &self,
         receiver: &LightSampleContext,
@@ -89,7 +89,7 @@ impl MovingLight {
         emission.towards(&sample, from, spread_rad, query)
     }
 
-    /// Density of what was hit, without the probability of the choice, 1/sr.
+    /// Density of the point hit, without the probability of the choice, 1/sr.
     pub(super) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
         match self.at(hit.point.time_s) {
             Some(Moment::Triangle(light)) => light.pdf(hit),
@@ -109,7 +109,7 @@ impl MovingLight {
     }
 }
 
-/// The light at a moment.
+/// The light at one time.
 enum Moment {
     Triangle(TriangleLight),
     Sphere(SphereLight),
@@ -117,41 +117,41 @@ enum Moment {
 
 // Lamps that move, as points or with an opening.
 //
-// A lamp moves without changing its shape, so that its light of a moment is that of the lamp at the interval's start, asked for
-// from where the receiver would be had it moved back with the lamp: nothing of the lamp is made anew. The surface of an opening
-// is an instance of the world and moves as such. What the choice among clusters of lights knows of a lamp holds for the whole
-// interval; what the lamp by itself counts is that of the receiver's time.
+// A lamp moves without changing its shape. Its light at a time is therefore that of the lamp at the interval's start, for a receiver that
+// is moved back with the lamp: no part of the lamp is rebuilt. The surface of an opening is an instance of the world and moves as such.
+// Bounds of a lamp in the choice among clusters of lights hold for the whole interval; the weight of the lamp itself is that of the
+// receiver's time.
 
 /// A lamp in motion.
 #[derive(Clone, Debug)]
 pub(super) struct MovingLamp {
     motion: LightMotion,
-    /// To the render frame at the interval's start, from the lamp's.
+    /// Transform from the lamp's frame to the render frame at the interval's start.
     start: DAffine3,
     lamp: LampAtStart,
 }
 
-/// The lamp where it is at the interval's start.
+/// The lamp at its place at the interval's start.
 #[derive(Clone, Debug)]
 enum LampAtStart {
     Point(LampLight),
     Opening(OpeningLight),
 }
 
-/// A rigid motion of the render frame, and back.
+/// A rigid motion of the render frame, and its inverse.
 struct RigidMotion {
     forward: DAffine3,
     back: DAffine3,
 }
 
 impl MovingLamp {
-    /// A lamp made for the interval's start.
+    /// A point lamp built for the interval's start.
     pub(super) fn of_point(motion: LightMotion, lamp: LampLight) -> Self {
         let start = motion.at(motion.interval.start_s());
         Self { motion, start, lamp: LampAtStart::Point(lamp) }
     }
 
-    /// A lamp with an opening made for the interval's start.
+    /// A lamp with an opening built for the interval's start.
     pub(super) fn of_opening(motion: LightMotion, opening: OpeningLight) -> Self {
         let start = motion.at(motion.interval.start_s());
         let reach = DVec3::splat(f64::from(opening.bounds().radius));
@@ -161,12 +161,13 @@ impl MovingLamp {
         Self { motion, start, lamp: LampAtStart::Opening(opening.carried_within(farthest_m)) }
     }
 
-    /// Whether it has an opening.
+    /// True if it has an opening.
     pub(super) fn is_open(&self) -> bool {
         matches!(self.lamp, LampAtStart::Opening(_))
     }
 
-    /// Where a lamp without an opening is at a time, render frame, m, and its greatest intensity, W·sr⁻¹·nm⁻¹; of one with an opening 0.
+    /// Position of a lamp without an opening at a time, render frame, m, and its maximum intensity, W·sr⁻¹·nm⁻¹ (0 for one with an
+    /// opening).
     pub(super) fn point(&self, time_s: f32) -> (Vec3, f32) {
         let at = self.motion.at(self.motion.interval.moment(time_s)).translation.as_vec3();
         match &self.lamp {
