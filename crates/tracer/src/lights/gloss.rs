@@ -1,10 +1,10 @@
 //! A receiver's gloss in light selection.
 //!
 //! The weight of a light is its irradiance times 1 + the lobes' values relative to the diffuse part. For a light or cluster seen under a half angle
-//! with sine r, the mean of a lobe over it is estimated. The estimate is the kernel of `materials::gloss` with its width w increased to √(w² +
-//! (r/2)²) (half a disc's radius is its root mean square along one axis) and its peak lowered so that the reflected light stays the same. In the
-//! plane of incidence, half vectors move by half of the motion of the light; across it, by 1/(cos θₒ + cos θᵢ) of it. The two widths are distinct, as
-//! towards grazing they differ by orders of magnitude.
+//! with sine r, the mean of a lobe over it is estimated. The estimate is the kernel of `materials::gloss` with its width w increased to
+//! √(w² + (r/2)²) and its peak lowered so that the reflected light stays the same. (Half a disc's radius is its root mean square along one axis.) In
+//! the plane of incidence, half vectors move by half of the motion of the light; across it, by 1/(cos θₒ + cos θᵢ) of it. The two widths are
+//! distinct, as towards grazing they differ by orders of magnitude.
 //!
 //! The diffuse part counts as at least [`LEAST`] of the light that the lobes reflect: a floor for lights outside them.
 

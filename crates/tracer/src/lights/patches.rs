@@ -1,6 +1,6 @@
-//! Which part of surroundings is worth drawing: bright patches, which scattered rays seldom meet.
+//! The part of surroundings that is worth sampling: bright patches, which scattered rays rarely hit.
 
-/// How many times as bright as the mean of all directions bright patches are.
+/// Minimum radiance of a bright patch over the mean of all directions.
 const BRIGHT: f64 = 8.0;
 
 /// A cell of surroundings.
@@ -9,8 +9,8 @@ pub(super) struct EnvironmentCell {
     pub(super) solid_angle: f64,
 }
 
-/// Share of light that comes from bright patches beyond [`BRIGHT`] times the mean: of cells of a weight in proportion to radiance and solid angle, and
-/// of a solid angle in units of the whole sphere.
+/// Fraction of light that comes from bright patches beyond [`BRIGHT`] times the mean. The weight of a cell is proportional to radiance and
+/// solid angle; its solid angle is in units of the whole sphere.
 pub(super) fn patches(cells: impl Iterator<Item = EnvironmentCell> + Clone) -> f64 {
     let all: f64 = cells.clone().map(|cell| cell.weight).sum();
     cells.map(|cell| (cell.weight - BRIGHT * all * cell.solid_angle).max(0.0)).sum::<f64>() / all
@@ -35,7 +35,7 @@ mod tests {
         assert!((sphere(weights, shares) - (bright - 8.0 * 0.025)).abs() < 1e-12);
     }
 
-    /// Surroundings without suns are drawn by all their light, beside suns by their patches and what is beyond the suns'.
+    /// Surroundings without suns are sampled by all their light; next to suns, by their patches and the part beyond the suns' irradiance.
     #[test]
     fn surroundings_are_drawn_by_what_suns_and_scattered_rays_leave() {
         let mut texels = vec![[1.0; 3]; 64 * 32];
