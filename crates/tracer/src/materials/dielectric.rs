@@ -3,8 +3,8 @@
 //! A surface is one interface. Its geometric normal points out of the solid; η is the index of the far side over that of the viewer's: n from
 //! outside, 1/n from inside. A fraction F (exact Fresnel, total reflection included) is reflected at the facet m, the rest refracted at it:
 //!
-//! reflection    f = F · D(m) · G₂(wo, wi) / (4 cos θₒ cos θᵢ), m = (wo + wi) normalised transmission  f = (1 − F) · D(m) · G₁(wo) G₁(wi) · |wo·m|
-//! |wi·m| / (cos θₒ |cos θᵢ| (η wi·m + wo·m)²), m = ±(wo + η wi)
+//! reflection    f = F · D(m) · G₂(wo, wi) / (4 cos θₒ cos θᵢ), m = (wo + wi) normalised
+//! transmission  f = (1 − F) · D(m) · G₁(wo) G₁(wi) · |wo·m| |wi·m| / (cos θₒ |cos θᵢ| (η wi·m + wo·m)²), m = ±(wo + η wi)
 //!               normalised, in terms of radiance: with the factor 1/η² of radiance from a denser medium
 //!
 //! (Walter, Marschner, Li & Torrance 2007, equations 16, 20, 21; there the second has η_o², here divided through. Factor 1/η²: Veach 1997, section
