@@ -73,7 +73,7 @@ fn normal_bits(normal: Vec3) -> u64 {
 
 /// Fraction of the cosine in the mixture (defensive sampling): no weight is more than five times that without a guide.
 const UNGUIDED: f64 = 0.2;
-/// Number of paths per bin for which the expected value counts.
+/// Weight, in paths, of the expected value of a bin.
 const EXPECTED_PATHS: f64 = 4.0;
 /// Weight of a path of a neighbouring bin.
 const NEIGHBOUR: f64 = 0.5;
