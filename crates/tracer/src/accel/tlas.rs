@@ -148,7 +148,7 @@ fn targets<'w>(world: &'w World, placed: &[Placement], interval: TimeInterval) -
     world.instances().iter().zip(placed).map(target).collect()
 }
 
-/// True for a ray that can hit something: finite, with a direction.
+/// True for a ray with a direction and finite coordinates; others hit nothing.
 #[inline(always)]
 fn is_traceable(ray: &Ray) -> bool {
     let length = |v: Vec3| v.x.abs() + v.y.abs() + v.z.abs();
