@@ -3,7 +3,7 @@
 //! Triangles are tested in f32 by products of three coordinates relative to the ray's origin, sheared along the ray. With coordinates of mesh and
 //! origin up to R, those along the ray are up to 2R. The corners of a triangle that is hit lie around the ray, and the mesh is 2R wide, so that
 //! across the ray, with shears of 1 at most, they are up to 4R. Edge functions are up to 32R². They sum to twice the projected area, 16R² at most,
-//! and their sum with the depths is up to 32R³. At R = 1e12 that is 3.2e37, a tenth of the greatest f32. Meshes are limited to the same R when they
+//! and their sum with the depths is up to 32R³. At R = 1e12 that is 3.2e37, a tenth of the largest f32. Meshes are limited to the same R when they
 //! are built.
 //!
 //! The start of a ray is rounded to f32 in the mesh's frame. If that moves the camera by half its distance from the box that holds the mesh, rays

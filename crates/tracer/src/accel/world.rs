@@ -65,7 +65,7 @@ pub enum WorldError {
     Rounding {
         /// Index of the instance, from 0.
         instance: usize,
-        /// Distance from the box that holds the mesh, along the axis of the greatest distance, in units of the mesh's frame.
+        /// Distance from the box that holds the mesh, along the axis of the largest distance, in units of the mesh's frame.
         away: f64,
         /// Displacement of the camera by rounding, in the same units.
         moved: f64,

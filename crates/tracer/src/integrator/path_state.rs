@@ -69,7 +69,7 @@ impl Cone {
 const SMOOTH_PER_SR: f32 = 4.0;
 
 /// Minimum ratio of a scattering density to that of a glossy surface before it, from which the glossy surface finds light sources by chance
-/// only: the density of an eighth to a quarter of its α.
+/// only: it corresponds to an eighth to a quarter of its α.
 const MIN_CAUSTIC_RATIO: f32 = 16.0;
 
 /// The kinds of scattering that a path has undergone.

@@ -5,7 +5,7 @@ use etendue_core::{Integrator, LightSampling, Setting, Word as _, words::Setting
 /// Settings of a path tracer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
-    /// Which light paths are simulated.
+    /// Simulated light paths.
     pub integrator: Integrator,
     /// Maximum number of scattering events; 1 if no paths are traced.
     pub max_bounces: u32,
@@ -26,7 +26,7 @@ pub struct PathSettings {
     pub caustics: bool,
     /// Path-space regularisation (biased): widens microfacet lobes that the path would find by chance only (`surface.rs`).
     pub regularize: bool,
-    /// Includes only airlight: light that media scatter into camera rays before these meet a surface, a drop or a flake.
+    /// Includes only airlight: light that media scatter into camera rays before these hit a surface, a drop or a flake.
     pub only_airlight: bool,
 }
 

@@ -26,7 +26,7 @@ pub enum LightError {
         /// Number of materials.
         materials: usize,
     },
-    /// The surface of a lamp's opening does not meet the requirements of the opening.
+    /// The surface of a lamp's opening does not match the opening.
     #[error(
         "instance {instance} is not the surface of a lamp's opening, which its lamp takes it for; place the opening's own mesh, or a \
          sphere, of one material that does not glow"

@@ -52,7 +52,7 @@ mod tests {
         let patchy = picture(texels);
         let all = drawn(&patchy, 0.0);
         let patches = drawn(&patchy, all) / all;
-        // The texel has 1.0e-3 of the sphere and so half of the light, of which eight times the mean is left out.
+        // The texel has 1.0e-3 of the sphere and thus half of the light; eight times the mean is subtracted from it.
         assert!(patches > 0.4 && patches < 0.6, "{patches}");
         assert!((drawn(&patchy, 0.1 * all) / all - 0.9).abs() < 1e-6);
     }

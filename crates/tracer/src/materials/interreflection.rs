@@ -53,8 +53,7 @@ fn row_alpha(row: usize) -> f32 {
     (t * t).max(2e-4)
 }
 
-/// Ratio of the steps of the slant at 0, where the loss falls like μ ln μ, to uniform ones: the slant is (q² + c q)/(1 + c) at q =
-/// step/[`SLANTS`].
+/// c, for finer steps of the slant towards 0, where the loss falls like μ ln μ: the slant is (q² + c q)/(1 + c) at q = step/[`SLANTS`].
 const GRAZING: f32 = 0.25;
 
 /// The cosine at a step of the slant.

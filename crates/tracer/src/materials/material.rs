@@ -13,7 +13,7 @@ use crate::{MaterialId, textures::TextureId};
 /// A material: scattering and emission of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// How it scatters.
+    /// Scattering of the surface.
     pub surface: Surface,
     /// Emission; `None` if it does not emit.
     pub emission: Option<Emission>,

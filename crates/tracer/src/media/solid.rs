@@ -181,7 +181,7 @@ impl Node {
 /// A line in axes of its own: across it, and along it in lengths of its direction.
 struct Line {
     origin: DVec3,
-    /// The direction's greatest axis, and the two others.
+    /// Axis of the direction's largest component, and the two others.
     axes: [usize; 3],
     /// Slopes of the other two to that, and the length of that.
     shear: DVec3,

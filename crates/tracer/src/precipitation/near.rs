@@ -156,7 +156,7 @@ impl<'a> NearParticles<'a> {
         self.streaks.closest(ray, end).map(|(t, particle)| ParticleHit { t, particle })
     }
 
-    /// The ray that leaves a drop, from its centre; `None` for a flake. `drawn` as numbers in [0, 1).
+    /// The ray that leaves a drop, from its centre; `None` for a flake. `drawn` are numbers in [0, 1).
     pub(crate) fn refracted(
         &self,
         ray: &Ray,

@@ -5,7 +5,7 @@ use crate::lights::{Lamp, Profile};
 use etendue_core::Integrator;
 use glam::DMat3;
 
-/// A white floor under a sky of radiance 1 and a lamp at 2 m, with a black block between lamp and origin; seen beside it.
+/// A white floor under a sky of radiance 1 and a lamp at 2 m, with a black block between lamp and origin; seen next to it.
 fn floor(integrator: Integrator, x: f32) -> ReplicateEstimate {
     let lamp = Lamp::new(DVec3::Z * 2.0, DMat3::IDENTITY, Spectrum::constant(8.0), Profile::Isotropic).expect("a lamp");
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));

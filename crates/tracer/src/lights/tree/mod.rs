@@ -79,7 +79,7 @@ impl LightTree {
         if above > 0.0 { above * share(&self.shares(slot.node, question), usize::from(slot.lane)) } else { 0.0 }
     }
 
-    /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer if the greatest cluster is near.
+    /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer if the largest cluster is near.
     pub(super) fn irradiance<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f64 {
         let mut weights = match start {
             Start::Cut(cut) => return self.scale * f64::from(cut.total()),

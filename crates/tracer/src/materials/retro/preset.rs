@@ -12,10 +12,10 @@ use etendue_spectra::{Spectrum, illuminant, observer};
 
 use super::{RetroTable, Sheeting, SheetingError};
 
-/// The classes that [`SheetingPreset::named`] knows.
+/// The classes that [`SheetingPreset::named`] accepts.
 pub const SHEETING_CLASSES: &[&str] = &["ra1", "ra2", "d4956-ix"];
 
-/// The colours that [`SheetingPreset::named`] knows.
+/// The colours that [`SheetingPreset::named`] accepts.
 pub const SHEETING_COLOURS: &[&str] = &["white", "yellow", "red", "blue", "green"];
 
 /// A standard's class.
