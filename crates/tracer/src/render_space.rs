@@ -164,7 +164,6 @@ impl<'w> RenderSpace<'w> {
         point::tangents_to_render(local, placed)
     }
 
-    /// An instance's placement.
     pub(crate) fn placed(&self, instance: u32) -> &Placement {
         &self.top.placed()[instance as usize]
     }

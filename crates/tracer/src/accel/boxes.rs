@@ -45,12 +45,10 @@ impl Box3 {
         Self { low: self.low - by, high: self.high + by }
     }
 
-    /// The middle.
     pub(crate) fn centre(&self) -> Vec3 {
         self.low * 0.5 + self.high * 0.5
     }
 
-    /// The box about both.
     pub(crate) fn union(&self, other: &Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }

@@ -45,7 +45,7 @@ pub(super) fn collapse(binary: &[BinaryNode], leaf_size: usize, place: impl FnMu
 #[derive(Clone, Copy, Debug)]
 struct Plan(u32);
 
-/// Use of some slots.
+/// Use of one or more slots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Slots {
     /// One slot, a leaf.

@@ -93,7 +93,6 @@ pub(crate) enum Visit {
 
 /// A task that can be compiled for any lanes.
 pub(crate) trait Job {
-    /// Result.
     type Output;
     /// Runs the task. Mark it `#[inline(always)]`, so that it is compiled with the lanes' instructions.
     fn work<L: Lanes>(self, lanes: L) -> Self::Output;

@@ -133,7 +133,6 @@ pub(crate) struct LocalRay {
 pub(super) const NONE_LEFT: u32 = u32::MAX;
 
 impl LocalRay {
-    /// Prepares a ray.
     #[inline(always)]
     pub(crate) fn new(origin: Vec3, direction: Vec3) -> Self {
         let first = first_axis(direction);

@@ -86,7 +86,7 @@ pub enum WorldError {
     Radius {
         /// Index of the instance, from 0.
         instance: usize,
-        /// The radius, m.
+        /// Radius given, m.
         radius_m: f64,
     },
 }

@@ -298,7 +298,6 @@ const FLAT_RAD: f64 = 1e-5;
 pub(crate) struct Facet {
     /// Unit normal in the mesh's frame, by the winding.
     pub(crate) normal: Vec3,
-    /// The material slot.
     pub(crate) slot: u16,
     /// True if normals interpolated between the vertices' are all along the triangle's own.
     pub(crate) is_flat: bool,

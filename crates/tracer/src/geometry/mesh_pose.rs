@@ -47,7 +47,6 @@ impl<'m> MeshPose<'m> {
         Self { mesh, moved: Some((animation, span)) }
     }
 
-    /// The mesh.
     pub(crate) fn mesh(&self) -> &'m Mesh {
         self.mesh
     }

@@ -15,7 +15,7 @@ const NORMALS: f32 = 1.8;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Place(u64);
 
-/// Bits of a coordinate.
+/// Bits per coordinate.
 const BITS: u32 = 10;
 /// Half of the range of a coordinate.
 const HALF: i32 = 1 << (BITS - 1);
@@ -86,7 +86,6 @@ pub struct Guide {
     distributions: Vec<DirectionDistribution>,
 }
 
-/// Index of no density.
 const EMPTY: u32 = u32::MAX;
 
 impl Guide {
@@ -169,7 +168,6 @@ fn distribution(squares: &[f64; BINS]) -> DirectionDistribution {
 pub(super) struct BinStatistics {
     /// Sum of squares of radiance.
     pub(super) squares: f64,
-    /// Paths.
     pub(super) paths: f64,
 }
 

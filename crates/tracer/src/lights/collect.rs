@@ -40,7 +40,6 @@ pub enum LightError {
     TooMany,
 }
 
-/// Lights of the scene.
 #[derive(Default)]
 pub(super) struct SceneLights {
     pub(super) lights: Vec<Light>,

@@ -96,7 +96,7 @@ pub enum EnvironmentError {
     Bright {
         /// Maximum component of a texel.
         texel: f32,
-        /// The scale.
+        /// Luminance scale, cd/m².
         scale: f64,
     },
     /// The scale or the rotation is not a usable number.

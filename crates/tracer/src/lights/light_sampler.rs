@@ -31,7 +31,6 @@ pub(super) enum LightId {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SampledLight {
     pub(super) id: LightId,
-    /// Probability of its choice.
     pub(super) probability: f32,
 }
 

@@ -122,7 +122,6 @@ enum Moment {
 // Bounds of a lamp in the choice among clusters of lights hold for the whole interval; the weight of the lamp itself is that of the
 // receiver's time.
 
-/// A lamp in motion.
 #[derive(Clone, Debug)]
 pub(super) struct MovingLamp {
     motion: LightMotion,

@@ -178,7 +178,7 @@ mod tests {
 
     /// Cells along each edge.
     const CELLS: usize = 6;
-    /// Samples along each number.
+    /// Samples along each dimension.
     const DRAWS: usize = 300;
 
     fn flat(corner: Vec3, along: Vec3, across: Vec3, doubled: bool) -> FlatLight {

@@ -3,7 +3,6 @@
 /// Minimum radiance of a bright patch over the mean of all directions.
 const BRIGHT: f64 = 8.0;
 
-/// A cell of surroundings.
 pub(super) struct EnvironmentCell {
     pub(super) weight: f64,
     pub(super) solid_angle: f64,

@@ -45,7 +45,7 @@ type Bands = [f32; BANDS];
 /// The sky above an endless ground. Its `Debug` text leaves out the tables, which follow from the printed values.
 #[derive(Clone)]
 pub struct SkyEnvironment {
-    /// Origin of γ: the sun, or the horizon below it after sunset.
+    /// Origin of γ: the sun, or the point of the horizon above a sun that is below it.
     glow: Vec3,
     azimuth_turns: f32,
     gradient: Vec<Bands>,

@@ -10,10 +10,8 @@ use core::f32::consts::PI;
 use etendue_core::maths::f32::{exp, ln};
 use glam::{Vec2, Vec3};
 
-/// 1/√π.
 const FRAC_1_SQRT_PI: f32 = 0.564_189_6;
 
-/// A Beckmann distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Beckmann {
     pub(super) alpha: f32,

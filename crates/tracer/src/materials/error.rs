@@ -166,7 +166,7 @@ pub enum MaterialError {
     Part {
         /// Index of the mix.
         material: usize,
-        /// The part.
+        /// Index of the part.
         part: u32,
         /// The property, with its article if it needs one.
         what: &'static str,

@@ -193,7 +193,7 @@ pub enum LafortuneError {
          0 or more; mirror lobes have C_t = −C_n, retro lobes C_t = C_n"
     )]
     Factors {
-        /// The lobe.
+        /// Index of the lobe.
         lobe: usize,
         /// C_t.
         tangential: f64,
@@ -203,7 +203,7 @@ pub enum LafortuneError {
     /// An exponent is out of range.
     #[error("lobe {lobe} has the exponent {exponent}, but it must lie between 0 and {MAX_EXPONENT}; correct it")]
     Exponent {
-        /// The lobe.
+        /// Index of the lobe.
         lobe: usize,
         /// Value given.
         exponent: f64,
@@ -211,7 +211,7 @@ pub enum LafortuneError {
     /// A weight is negative or not a number.
     #[error("lobe {lobe} has a weight that is negative or not finite at some wavelength; weights must be 0 or more")]
     Weight {
-        /// The lobe.
+        /// Index of the lobe.
         lobe: usize,
     },
     /// The model reflects more than arrives.

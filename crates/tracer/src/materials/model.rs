@@ -46,7 +46,7 @@ pub(super) enum Passage<'a> {
 
 /// A model at one point, for the wavelengths of one path: the contract is that of [`super::Bsdf`].
 pub(super) trait BsdfModel<const N: usize>: Copy {
-    /// Properties of all directions.
+    /// Direction-independent properties.
     fn flags(&self) -> BsdfFlags;
 
     /// Value and density of a pair of directions, wo.z > 0; wi.z > 0 too unless the flags say `transmits`.
@@ -60,7 +60,7 @@ pub(super) trait BsdfModel<const N: usize>: Copy {
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>>;
 }
 
-/// Properties of all directions at a point. There is no default: a model states each.
+/// Direction-independent properties at a point. There is no default: a model states each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct BsdfFlags {
     /// Light continues in exact directions only, so that light sampling is useless.

@@ -17,7 +17,6 @@ pub(super) enum Parameter<'a> {
 }
 
 impl Parameter<'_> {
-    /// A roughness α.
     pub(super) fn alpha(alpha: Factor) -> Self {
         Self::Factor(alpha, "a roughness α")
     }

@@ -18,7 +18,6 @@ use super::{beckmann::Beckmann, microfacet::Distribution};
 /// Slopes of Beckmann's facets beyond are left out: their fraction is exp(−30).
 const STEEPEST: f64 = 5.5;
 
-/// 1/√π.
 const FRAC_1_SQRT_PI: f64 = 0.564_189_583_547_756_3;
 
 /// Facets of one roughness as a viewer at one cosine sees them.

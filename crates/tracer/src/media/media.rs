@@ -59,7 +59,6 @@ pub(super) struct PlacedMedium<'a> {
 /// A part of a ray, in lengths of its direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
-    /// End.
     pub(super) end: f64,
     /// Maximum extinction of all media in it, 1/m.
     pub(super) majorant_per_m: f64,

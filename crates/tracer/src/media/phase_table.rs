@@ -131,7 +131,6 @@ impl PhaseTable {
         ((1.0 - kept).max(0.0), Self::new(&cut))
     }
 
-    /// The cell of v.
     #[inline]
     fn cell(&self, v: f32) -> usize {
         // θ/2 by its sine and cosine.

@@ -89,7 +89,6 @@ fn build_top_down(references: &mut [Reference]) -> Vec<BinaryNode> {
 struct Growth {
     /// Index of the first child.
     first: u32,
-    /// Number of splits above.
     depth: u32,
 }
 

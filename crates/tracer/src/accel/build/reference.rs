@@ -47,7 +47,6 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// The empty box.
     pub(super) const NOTHING: Self = Self { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
 
     #[inline(always)]
@@ -78,7 +77,6 @@ impl Extent {
         self.low
     }
 
-    /// Edges of the box.
     pub(super) fn size(&self) -> Vec4 {
         self.high - self.low
     }

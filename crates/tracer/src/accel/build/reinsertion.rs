@@ -13,7 +13,6 @@ use crate::accel::boxes::{BinaryKind, BinaryNode, Box3};
 /// negligible.
 const CROWD: usize = 2000;
 
-/// Effort of the optimisation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
     /// Fraction of the inner nodes, the largest first, that are opened.
@@ -72,7 +71,6 @@ fn top(binary: &[BinaryNode], least_area: f32) -> Bvh2 {
     Bvh2 { nodes, primitive_indices: primitives, max_depth, ..Bvh2::default() }
 }
 
-/// Source of a node.
 #[derive(Clone, Copy)]
 enum Source {
     Top(u32),

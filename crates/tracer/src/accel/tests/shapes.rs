@@ -46,7 +46,6 @@ impl Random {
         }
     }
 
-    /// A rotation.
     pub(crate) fn rotation(&mut self) -> DMat3 {
         let z = self.direction();
         let x = z.cross(self.direction()).normalize();

@@ -62,7 +62,6 @@ impl AngleInterval {
     }
 }
 
-/// A cell of a grid.
 #[derive(Clone, Copy)]
 struct GridCell {
     vertical: AngleInterval,
@@ -204,7 +203,6 @@ impl PhotometricGrid {
         self.cells().into_iter().map(|cell| self.cell_flux_sr(cell)).sum()
     }
 
-    /// Flux of one cell.
     fn cell_flux_sr(&self, cell: GridCell) -> f64 {
         let GridCell { vertical: v, horizontal: h } = cell;
         let at = |v: f64, h: f64| f64::from(self.at_deg(v as f32, h as f32));

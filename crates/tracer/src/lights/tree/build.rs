@@ -28,7 +28,7 @@ struct Builder {
 }
 
 impl LightTree {
-    /// A tree over lights; `None` if none of them emits.
+    /// Builds a tree over lights; `None` if none of them emits.
     pub(in crate::lights) fn new(lights: &[LightBounds]) -> Option<Self> {
         tree(lights)
     }

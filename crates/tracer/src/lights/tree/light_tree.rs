@@ -47,7 +47,6 @@ fn of_leaf(node: &Node, lane: usize, own: f32, weight: f32) -> f32 {
 }
 
 impl LightTree {
-    /// Number of lights.
     pub(in crate::lights) fn len(&self) -> usize {
         self.leaves.len()
     }

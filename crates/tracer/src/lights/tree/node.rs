@@ -33,7 +33,6 @@ pub(super) struct Node {
     sin_o: Lanes,
     cos_e: Lanes,
     children: [u32; LANES],
-    /// Number of children.
     used: u8,
     /// Bit masks: children that are nodes, and children that are lamps.
     nodes: u8,

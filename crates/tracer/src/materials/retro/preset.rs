@@ -18,7 +18,6 @@ pub const SHEETING_CLASSES: &[&str] = &["ra1", "ra2", "d4956-ix"];
 /// The colours that [`SheetingPreset::named`] accepts.
 pub const SHEETING_COLOURS: &[&str] = &["white", "yellow", "red", "blue", "green"];
 
-/// A standard's class.
 struct Class {
     observation_deg: &'static [f64],
     entrance_deg: &'static [f64],

@@ -73,7 +73,6 @@ pub(super) fn lengths(levels: &[LevelLayout]) -> Vec<u32> {
 pub(in super::super) struct Statistics {
     /// Minimum and maximum of each channel.
     pub(in super::super) ranges: [(f32, f32); 3],
-    /// Mean.
     pub(in super::super) mean: Vec3,
 }
 

@@ -10,7 +10,6 @@ use std::{cell::RefCell, collections::HashMap};
 
 use etendue_core::storage::Blocks;
 
-/// Maximum number of shards.
 const MAX_SHARDS: u64 = 64;
 
 /// Minimum bytes of a shard: two tiles of floats.
