@@ -1,7 +1,7 @@
-//! Geometry, accelerator, materials, lights and integrators: rays in, spectral radiance out.
+//! Geometry, accelerator, materials, lights and integrators: from rays to spectral radiance.
 //!
-//! The tracer knows no lens, no pixel and no file. A world is built once; a render space places it about a camera; a path
-//! tracer answers rays of the render frame with spectral radiance.
+//! The tracer has no lenses, pixels or files. A world is built once; a render space places it relative to a camera; a path tracer returns spectral
+//! radiance along rays of the render frame.
 
 pub mod accel;
 pub mod geometry;
@@ -14,15 +14,15 @@ pub mod precipitation;
 pub mod render_space;
 pub mod textures;
 
-/// Whether the program has the effects that a closed box of diffuse triangles does not need. The feature `minimal` makes a tracer without
-/// them, which refuses by a panic what it cannot show: it serves to count what they cost where they are not used.
+/// True if the program has the effects that a closed box of diffuse triangles does not need. The feature `minimal` builds a tracer without
+/// them, which panics on scenes that need them. It serves to measure the cost of these effects where they are not used.
 pub(crate) const ALL_EFFECTS: bool = !cfg!(feature = "minimal");
 
-/// The greatest radiance, irradiance or intensity of a light at any wavelength, in its unit: products of it with weights and
-/// sums over many lights stay finite in f32.
+/// Maximum radiance, irradiance or intensity of a light at any wavelength, in its unit: products of it with weights and sums over many
+/// lights stay finite in f32.
 pub const BRIGHTEST: f32 = 1e30;
 
-/// Panics in a tracer without optional effects: what follows is one.
+/// Panics in a tracer without optional effects: the code that follows is one.
 #[inline(always)]
 pub(crate) fn is_optional() {
     if !ALL_EFFECTS {
@@ -30,6 +30,6 @@ pub(crate) fn is_optional() {
     }
 }
 
-/// A material's place in the tracer's list.
+/// Index of a material in the tracer's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MaterialId(pub u32);

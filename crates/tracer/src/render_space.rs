@@ -1,9 +1,9 @@
-//! The world about one camera.
+//! The world relative to one camera.
 //!
-//! A [`RenderSpace`] places every instance relative to the camera's entrance pupil in f64 and only then goes to f32, so that
-//! precision is best near the camera wherever in the world it stands. So are times: rays count theirs from the start of the view's
-//! interval. What moves is where it is at a ray's own time. Rays and answers are in the render frame (axes of
-//! the world, origin at the entrance pupil, m). Nothing about a mesh is rebuilt but the trees of those whose vertices move.
+//! A [`RenderSpace`] places every instance relative to the camera's entrance pupil in f64 and only then converts to f32, so that precision is best
+//! near the camera wherever in the world it is. The same holds for times: rays count theirs from the start of the view's interval. Moving objects are
+//! evaluated at a ray's own time. Rays and results are in the render frame (axes of the world, origin at the entrance pupil, m). No part of a mesh is
+//! rebuilt except the trees of those whose vertices move.
 
 mod point;
 mod truth;
@@ -20,21 +20,21 @@ use crate::{accel::tlas::Tlas, is_optional};
 pub use truth::Truth;
 
 impl World {
-    /// The world placed about a camera whose entrance pupil is at `origin_m` (world, m), at the time 0.
+    /// The world placed relative to a camera whose entrance pupil is at `origin_m` (world, m), at the time 0.
     #[must_use]
     pub fn render_space(&self, origin_m: DVec3) -> RenderSpace<'_> {
         self.render_space_with(origin_m, TimeInterval::default(), Simd::Auto)
     }
 
-    /// As [`World::render_space`], during an interval of time and with a choice of instruction set. The rays of the view have
-    /// times in that interval, which count from its start; a ray of a time outside sees the world at the nearer end.
+    /// As [`World::render_space`], during an interval of time and with a choice of instruction set. The rays of the view have times in that
+    /// interval, which count from its start; a ray of a time outside sees the world at the nearer end.
     #[must_use]
     pub fn render_space_with(&self, origin_m: DVec3, interval: TimeInterval, simd: Simd) -> RenderSpace<'_> {
         let placed = self.placed(origin_m, interval);
         RenderSpace { world: self, origin_m, interval, top: Tlas::merging(self, placed, interval, simd) }
     }
 
-    /// As [`World::render_space_with`], made in less time for few rays, which take longer: no instance is written out.
+    /// As [`World::render_space_with`], built faster but slower to trace, for few rays: no instance is merged.
     #[must_use]
     pub fn render_space_for_few(&self, origin_m: DVec3, interval: TimeInterval) -> RenderSpace<'_> {
         let placed = self.placed(origin_m, interval);
@@ -46,7 +46,7 @@ impl World {
     }
 }
 
-/// A world placed about a camera during an interval of time, ready to be asked by rays.
+/// A world placed relative to a camera during an interval of time, ready for ray queries.
 #[derive(Clone, Debug)]
 pub struct RenderSpace<'w> {
     world: &'w World,
@@ -56,7 +56,7 @@ pub struct RenderSpace<'w> {
 }
 
 impl<'w> RenderSpace<'w> {
-    /// The world that is seen.
+    /// The world of the view.
     #[must_use]
     pub fn world(&self) -> &'w World {
         self.world
@@ -68,33 +68,33 @@ impl<'w> RenderSpace<'w> {
         self.origin_m
     }
 
-    /// The interval of time that is seen; rays' times count from its start.
+    /// The view's interval of time; rays' times count from its start.
     #[must_use]
     pub fn interval(&self) -> TimeInterval {
         self.interval
     }
 
-    /// The first surface that a ray meets, with t > 0 and t < `ray.t_max`. Surfaces are met from both sides. Of several
-    /// at the same t, the one of the least instance, then the least primitive.
+    /// The first surface that a ray hits, with t > 0 and t < `ray.t_max`. Surfaces are hit from both sides. Of several at the same t, the
+    /// one of the least instance, then the least primitive.
     #[must_use]
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
         self.top.closest(ray)
     }
 
-    /// Whether a ray meets anything, with t > 0 and t < `ray.t_max`.
+    /// True if a ray hits anything, with t > 0 and t < `ray.t_max`.
     #[must_use]
     pub fn occluded(&self, ray: &Ray) -> bool {
         self.top.occluded(ray)
     }
 
-    /// What `ray` visits in the accelerator until its first hit is found, or any; for benchmarks of trees. Slower than the
-    /// question itself.
+    /// Counts the visits of `ray` in the accelerator until its first hit, or any hit, is found; for benchmarks of trees. Slower than the
+    /// query itself.
     #[must_use]
     pub fn visits(&self, ray: &Ray, any: bool) -> Visits {
         self.top.visits(ray, any)
     }
 
-    /// The point of the surface that `ray` met at `hit`.
+    /// The point of the surface that `ray` hit at `hit`.
     #[must_use]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let instance = &self.world.instances()[hit.instance as usize];
@@ -108,7 +108,7 @@ impl<'w> RenderSpace<'w> {
         self.surface_of_other(ray, hit)
     }
 
-    /// The same of what moves, and of spheres.
+    /// The same for moving instances and for spheres.
     #[cold]
     #[inline(never)]
     fn surface_of_other(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
@@ -120,7 +120,7 @@ impl<'w> RenderSpace<'w> {
         }
     }
 
-    /// How large texture and shape are about a point of this view's surfaces.
+    /// Scales of texture and shape at a point of this view's surfaces.
     #[must_use]
     pub fn footprint(&self, point: &SurfacePoint) -> Footprint {
         let placed = &*self.placed_at(point.instance, point.time_s);
@@ -130,7 +130,7 @@ impl<'w> RenderSpace<'w> {
         }
     }
 
-    /// What is to be added to [`SurfacePoint::local`] of an instance's points for the coordinates of its shape's file.
+    /// The offset from [`SurfacePoint::local`] of an instance's points to the coordinates of its shape's file.
     #[must_use]
     pub fn local_origin(&self, instance: u32) -> DVec3 {
         match self.world.instances()[instance as usize].shape {
@@ -139,8 +139,8 @@ impl<'w> RenderSpace<'w> {
         }
     }
 
-    /// How texture coordinates and the place in the own frame of the shape change along a `vector` (render frame, m) in
-    /// the surface at a point.
+    /// Change of texture coordinates and of the position in the own frame of the shape along a `vector` (render frame, m) in the surface at
+    /// a point.
     #[must_use]
     pub fn change_along(&self, point: &SurfacePoint, vector: Vec3) -> (Vec2, Vec3) {
         let local = self.placed_at(point.instance, point.time_s).vector_to_local(vector.as_dvec3());
@@ -151,9 +151,9 @@ impl<'w> RenderSpace<'w> {
         (uv.as_vec2(), local.as_vec3())
     }
 
-    /// The directions in which the two texture coordinates grow at a point of this view's surfaces, in its plane: unit,
-    /// in the render frame, neither perpendicular to each other nor to the shading normal. `None` where there are none:
-    /// without texture coordinates, where they do not span the triangle, at the poles of a sphere.
+    /// The directions in which the two texture coordinates increase at a point of this view's surfaces, in its plane: unit, in the render
+    /// frame, neither perpendicular to each other nor to the shading normal. `None` if there are none: without texture coordinates, if they
+    /// do not span the triangle, at the poles of a sphere.
     #[must_use]
     pub fn tangents(&self, point: &SurfacePoint) -> Option<[Vec3; 2]> {
         let placed = &*self.placed_at(point.instance, point.time_s);
@@ -164,7 +164,6 @@ impl<'w> RenderSpace<'w> {
         point::tangents_to_render(local, placed)
     }
 
-    /// An instance's place.
     pub(crate) fn placed(&self, instance: u32) -> &Placement {
         &self.top.placed()[instance as usize]
     }
@@ -190,8 +189,8 @@ impl<'w> RenderSpace<'w> {
         }
     }
 
-    /// The corners of a triangle in the render frame at a ray's time, m, anticlockwise about its geometric normal: in the mesh's order,
-    /// but vertices 1 and 2 exchanged in an instance that mirrors. Panics where the instance is a sphere.
+    /// The corners of a triangle in the render frame at a ray's time, m, anticlockwise about its geometric normal: in the mesh's order, but
+    /// vertices 1 and 2 exchanged in an instance that mirrors. Panics if the instance is a sphere.
     #[must_use]
     pub fn triangle(&self, instance: u32, primitive: u32, time_s: f32) -> [Vec3; 3] {
         let Shape::Mesh(id) = self.world.instances()[instance as usize].shape else {
@@ -203,8 +202,8 @@ impl<'w> RenderSpace<'w> {
         if placed.mirrors() { [a, c, b] } else { [a, b, c] }
     }
 
-    /// Centre (render frame, m) and radius (m) of an instance that is a sphere there too, at a ray's time; `None` for meshes and
-    /// for spheres that their instance stretches unevenly.
+    /// Centre (render frame, m) and radius (m) of an instance that is a sphere there too, at a ray's time; `None` for meshes and for
+    /// spheres that their instance stretches non-uniformly.
     #[must_use]
     pub fn sphere(&self, instance: u32, time_s: f32) -> Option<(Vec3, f32)> {
         let Shape::Sphere { radius_m } = self.world.instances()[instance as usize].shape else { return None };
@@ -213,7 +212,7 @@ impl<'w> RenderSpace<'w> {
         Some((placed.point_to_render(DVec3::ZERO).as_vec3(), (radius_m * scale) as f32))
     }
 
-    /// Centre (render frame, m) and radius (m) of a sphere about everything during the interval; both zero in an empty world.
+    /// Centre (render frame, m) and radius (m) of a sphere about all instances during the interval; both zero in an empty world.
     #[must_use]
     pub fn bounds(&self) -> (Vec3, f32) {
         let boxes = self.top.placed().iter().zip(self.world.instances());
@@ -221,7 +220,7 @@ impl<'w> RenderSpace<'w> {
         let Some((low, high)) = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
             return (Vec3::ZERO, 0.0);
         };
-        // Room for the rounding of centre and radius.
+        // Margin for the rounding of centre and radius.
         (((low + high) * 0.5).as_vec3(), ((high - low).length() * 0.5 * (1.0 + 1e-6)) as f32)
     }
 }

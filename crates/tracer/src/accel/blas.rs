@@ -12,28 +12,28 @@ use super::ray::{LocalRay, SlabRay};
 use super::walk::{Leaves, walk};
 use crate::geometry::Mesh;
 
-/// Triangles a leaf: as many as are met at once.
+/// Triangles per leaf: as many as are tested at once.
 const LEAF_SIZE: usize = 8;
 
 /// A tree over the triangles of a mesh.
 #[derive(Clone, Debug)]
 pub(crate) struct Blas {
     nodes: Vec<Node>,
-    /// The leaves' triangles; a leaf's index is twice that of its first half, and one more where it has two.
+    /// The leaves' triangles; a leaf's index is twice that of its first half, plus one if it has two halves.
     halves: Vec<Half>,
     root: Option<Child>,
 }
 
 impl Blas {
-    /// Builds the tree. The same mesh and quality give the same tree; every quality gives the same answers.
+    /// Builds the tree. The same mesh and quality give the same tree; every quality gives the same hits.
     pub(crate) fn new(mesh: &Mesh, quality: Accelerator) -> Self {
         Self::over(mesh.triangles().len(), |p| mesh.corners(p), quality)
     }
 
-    /// A tree over so many triangles with the given corners.
+    /// A tree over `count` triangles with the given corners.
     pub(super) fn over(count: usize, corners: impl Fn(u32) -> [Vec3; 3] + Sync, quality: Accelerator) -> Self {
         let binary = over_triangles(count, &corners, quality);
-        // What even meshes need; others get room by and by, since memory is short just now.
+        // Enough for uniform meshes; for others the vector grows, since memory is short at this point.
         let mut halves = Vec::with_capacity(count * 9 / 32 + 2);
         let WideTree { nodes, root } = collapse(&binary, LEAF_SIZE, |leaf| {
             let first = halves.len();
@@ -57,8 +57,8 @@ impl Blas {
         Packet::new(&self.halves, leaf / 2, leaf / 2 + leaf % 2)
     }
 
-    /// Offers the triangles that the ray meets with 0 < t ≤ `limit` to `best`, by their `names`; near ones come
-    /// first by and by, and `limit` is lowered to the best.
+    /// Offers the triangles that the ray hits with 0 < t ≤ `limit` to `best`, by their `names`; near ones tend to come first, and `limit`
+    /// is lowered to the best.
     #[inline(always)]
     pub(super) fn closest<L: Lanes>(
         &self,
@@ -71,14 +71,14 @@ impl Blas {
         l.run(ClosestQuery { tree: self, ray, names, best, limit });
     }
 
-    /// Whether the ray meets a triangle with 0 < t < `t_max`.
+    /// True if the ray hits a triangle with 0 < t < `t_max`.
     #[inline(always)]
     pub(super) fn occluded<L: Lanes>(&self, l: L, ray: &LocalRay, t_max: f32) -> bool {
         l.run(OcclusionQuery { tree: self, ray, t_max })
     }
 }
 
-/// A task of its own, so that the compiler keeps what a walk needs at hand.
+/// A separate job, so that the compiler keeps the data of a traversal in registers.
 struct ClosestQuery<'a> {
     tree: &'a Blas,
     ray: &'a LocalRay,

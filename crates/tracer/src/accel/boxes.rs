@@ -1,18 +1,18 @@
-//! Axis-parallel boxes, and binary trees over them as their builders leave them.
+//! Axis-aligned boxes, and binary trees over them as their builders leave them.
 
 use glam::{DVec3, Vec3};
 
-/// An axis-parallel box.
+/// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Box3 {
-    /// Least coordinates.
+    /// Minimum coordinates.
     pub(crate) low: Vec3,
-    /// Greatest coordinates.
+    /// Maximum coordinates.
     pub(crate) high: Vec3,
 }
 
 impl Box3 {
-    /// A box of f64 in f32. Rounding to f32 is within the padding that is to follow.
+    /// A box of f64 in f32. Rounding to f32 is within the padding that is added later.
     pub(crate) fn from_f64(low: DVec3, high: DVec3) -> Self {
         Self { low: low.as_vec3(), high: high.as_vec3() }
     }
@@ -22,20 +22,19 @@ impl Box3 {
         Self { low: a.min(*b).min(*c), high: a.max(*b).max(*c) }
     }
 
-    /// Whether there is a point in it; not so with coordinates that are no numbers.
+    /// True if it contains a point; false if a coordinate is NaN.
     pub(crate) fn is_valid(&self) -> bool {
         self.low.cmple(self.high).all()
     }
 
-    /// By how much a primitive's box is enlarged on all sides so that no rounding of a box test loses a hit that the
-    /// primitive's own test grants: 6e-7 · (greatest coordinate + greatest extent), some ten roundings.
+    /// Enlargement of a primitive's box on all sides so that no rounding of a box test loses a hit that the primitive's own test finds:
+    /// 6e-7 · (maximum coordinate + maximum extent), some ten roundings.
     pub(crate) fn padding(&self) -> Vec3 {
         Vec3::splat(self.padding_by_axis().max_element())
     }
 
-    /// As [`Box3::padding`], where both tests are of the same ray: along each axis by 6e-7 · (its greatest coordinate +
-    /// the greatest extent of all), for the rounding of a sheared corner is that of its own coordinate and of the
-    /// primitive's length along the ray.
+    /// As [`Box3::padding`], if both tests are of the same ray: along each axis by 6e-7 · (its maximum coordinate + the maximum extent of
+    /// all), for the rounding of a sheared corner is that of its own coordinate and of the primitive's length along the ray.
     pub(crate) fn padding_by_axis(&self) -> Vec3 {
         let extent = (self.high - self.low).max_element();
         6e-7 * (self.low.abs().max(self.high.abs()) + Vec3::splat(extent))
@@ -46,12 +45,10 @@ impl Box3 {
         Self { low: self.low - by, high: self.high + by }
     }
 
-    /// The middle.
     pub(crate) fn centre(&self) -> Vec3 {
         self.low * 0.5 + self.high * 0.5
     }
 
-    /// The box about both.
     pub(crate) fn union(&self, other: &Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
@@ -68,9 +65,8 @@ const LEAF: u32 = 1 << 31;
 
 /// A node of a binary tree: the parent of two nodes, or a leaf of one primitive. 28 bytes.
 ///
-/// A tree's nodes stand in one order: its root; below an inner node its two children, one after the other, then all that is
-/// below the first, then all that is below the second. So parents come before their children, and everything below a node
-/// stands together.
+/// A tree's nodes are stored in one order: its root; below an inner node its two children, one after the other, then all nodes below the
+/// first, then all below the second. Parents thus come before their children, and the subtree below a node is contiguous.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BinaryNode {
     pub(super) bounds: Box3,

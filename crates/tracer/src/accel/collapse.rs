@@ -1,9 +1,9 @@
-//! Binary trees to eight-wide ones, at the least expected cost of a ray.
+//! Conversion of binary trees to eight-wide ones, at the least expected cost of a ray.
 //!
-//! For every binary node and every number of slots from one to seven, the cheapest way to stand in that many slots of a
-//! wide node is found from the leaves upwards; the wide tree is then read off from the root (Ylitie, Karras, Laine 2017,
-//! "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", section 3). The cost of a node is the
-//! area of its box, that of a leaf somewhat more, whatever the number of its primitives: they are tested at once.
+//! For every binary node and every number of slots from one to seven, the cheapest use of that many slots of a wide node is computed from the leaves
+//! upwards. The wide tree is then written from the root (Ylitie, Karras, Laine 2017, "Efficient incoherent ray traversal on GPUs through compressed
+//! wide BVHs", section 3). The cost of a node is the area of its box, that of a leaf somewhat more, whatever the number of its primitives: they are
+//! tested at once.
 
 use core::cmp::Reverse;
 
@@ -17,12 +17,12 @@ const LEAF_COST: f32 = 1.3;
 #[derive(Clone, Debug)]
 pub(super) struct WideTree {
     pub(super) nodes: Vec<Node>,
-    /// Where rays begin; `None` for an empty tree.
+    /// The root node; `None` for an empty tree.
     pub(super) root: Option<Child>,
 }
 
-/// Makes a binary tree eight wide, with at most `leaf_size` primitives a leaf. `place` takes the primitives of each leaf, in
-/// ascending order and each once, and says by which index its node names it.
+/// Converts a binary tree to an eight-wide one, with at most `leaf_size` primitives per leaf. `place` receives the primitives of each leaf,
+/// in ascending order and each once, and returns the index by which its node names it.
 pub(super) fn collapse(binary: &[BinaryNode], leaf_size: usize, place: impl FnMut(&[u32]) -> usize) -> WideTree {
     if binary.is_empty() {
         return WideTree { nodes: Vec::new(), root: None };
@@ -41,29 +41,28 @@ pub(super) fn collapse(binary: &[BinaryNode], leaf_size: usize, place: impl FnMu
     WideTree { nodes, root }
 }
 
-/// How a binary node best stands in one to seven slots, and in the eight of a wide node of its own, in 32 bits.
+/// The best use of one to seven slots by a binary node, and of the eight of its own wide node, in 32 bits.
 #[derive(Clone, Copy, Debug)]
 struct Plan(u32);
 
-/// What to do with some slots.
+/// Use of one or more slots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Slots {
     /// One slot, a leaf.
     Leaf,
     /// One slot, a wide node.
     Wide,
-    /// As many for the first child, the rest for the second.
+    /// This many for the first child, the rest for the second.
     Split(u8),
-    /// One is better left empty.
+    /// It is cheaper to leave one empty.
     Fewer,
 }
 
 impl Plan {
-    /// A leaf, however many slots there are.
+    /// A leaf, for any number of slots.
     const LEAF: Self = Self(1);
 
-    /// A leaf or a wide node in one slot; in two to eight slots as many for the first child, 0 where one is better left
-    /// empty.
+    /// A leaf or a wide node in one slot; in two to eight slots the number for the first child, 0 if it is cheaper to leave one empty.
     #[inline(always)]
     fn new(is_leaf: bool, first: [u8; 7]) -> Self {
         let word = first.iter().rev().fold(0, |word, share| word << 3 | u32::from(*share));
@@ -82,24 +81,24 @@ impl Plan {
         }
     }
 
-    /// Slots for the first child, of two to eight.
+    /// Slots for the first child, from two to eight.
     #[inline(always)]
     fn first(self, slots: u8) -> u8 {
         (self.0 >> (3 * slots - 5) & 7) as u8
     }
 }
 
-/// What a binary node costs.
+/// Cost of a binary node.
 #[derive(Clone, Copy, Debug)]
 struct Cost {
-    /// By number of slots, less one.
+    /// By number of slots, minus one.
     slots: [f32; 7],
     /// Primitives below, capped.
     primitives: u32,
 }
 
-/// Plans of a tree, its last nodes first. What is below a pair of children stands after it, that of the first before that of
-/// the second: so the costs that are still needed are a stack.
+/// Plans of a tree, from its last nodes to the first. The subtrees of a pair of children follow it, that of the first before that of the
+/// second: so the costs that are still needed form a stack.
 fn plan(binary: &[BinaryNode], leaf_size: u32) -> Vec<Plan> {
     let mut plans = vec![Plan::LEAF; binary.len()];
     let mut pending: Vec<[Cost; 2]> = Vec::with_capacity(128);
@@ -141,7 +140,7 @@ fn plan_inner(area: f32, children: &[Cost; 2], leaf_size: u32) -> (Plan, Cost) {
     (Plan::new(leaf <= wide, first), cost)
 }
 
-/// The least cost of two children that share `slots`, and how many the first gets.
+/// The minimum cost of two children that share `slots`, and the number for the first.
 #[inline(always)]
 fn best_split(children: &[Cost; 2], slots: usize) -> (f32, u8) {
     let mut best = (f32::INFINITY, 1);
@@ -158,7 +157,7 @@ fn best_split(children: &[Cost; 2], slots: usize) -> (f32, u8) {
 #[derive(Clone, Copy, Debug)]
 struct Subtree {
     root: u32,
-    /// Where the binary nodes below it end.
+    /// End of the binary nodes below it.
     end: u32,
 }
 
@@ -167,12 +166,12 @@ struct Writer<'a, F> {
     plans: &'a [Plan],
     nodes: Vec<Node>,
     place: F,
-    /// Those of the leaf at hand.
+    /// Primitives of the current leaf.
     primitives: Vec<u32>,
 }
 
 impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
-    /// Writes the tree, parents before children and near relatives near each other; returns its root.
+    /// Writes the tree, parents before children and related nodes close together; returns its root.
     fn write(&mut self) -> Child {
         let whole = Subtree { root: 0, end: self.binary.len() as u32 };
         let root = self.child(whole.root);
@@ -181,7 +180,7 @@ impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
         while let Some((subtree, node)) = pending.pop() {
             slots.clear();
             self.spread_wide(subtree, &mut slots);
-            // Rays that ask for any hit take the last slots first: leaves, then what holds few of them, which is decided soonest.
+            // Queries for any hit visit the last slots first: leaves, then nodes with few of them, which are decided soonest.
             slots.sort_by_key(|subtree| Reverse(self.size(*subtree)));
             for (slot, subtree) in slots.iter().enumerate() {
                 let child = self.child(subtree.root);
@@ -192,7 +191,7 @@ impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
         root
     }
 
-    /// Makes room for a binary node that stands in one slot.
+    /// Reserves a place for a binary node that takes one slot.
     fn child(&mut self, binary: u32) -> Child {
         if self.plans[binary as usize].of(1) == Slots::Leaf {
             self.gather(binary);
@@ -232,7 +231,7 @@ impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
         }
     }
 
-    /// What stands in the slots given to a subtree. At most seven calls deep.
+    /// The contents of the slots of a subtree. At most seven calls deep.
     fn spread(&self, subtree: Subtree, slots: u8, out: &mut Vec<Subtree>) {
         let root = subtree.root as usize;
         match (self.plans[root].of(slots), self.binary[root].kind()) {
@@ -247,7 +246,7 @@ impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
         }
     }
 
-    /// Takes the primitives below a binary node, in ascending order, each once.
+    /// Collects the primitives below a binary node, in ascending order, each once.
     fn gather(&mut self, binary: u32) {
         self.primitives.clear();
         self.add_below(binary);
@@ -255,7 +254,7 @@ impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
         self.primitives.dedup();
     }
 
-    /// At most as deep as a leaf has primitives.
+    /// Recursion at most as deep as a leaf has primitives.
     fn add_below(&mut self, binary: u32) {
         match self.binary[binary as usize].kind() {
             BinaryKind::Leaf(primitive) => self.primitives.push(primitive),

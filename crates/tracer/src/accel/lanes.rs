@@ -1,8 +1,8 @@
-//! Eight numbers at once.
+//! Arithmetic on eight numbers at once.
 //!
-//! The accelerator's arithmetic is written once over [`Lanes`]. [`Plain`] does it lane by lane, with the operand order
-//! of the x86 instructions where that shows (minimum and maximum of zeros and NaN); the AVX2 form does the same
-//! operations eight at a time. No operation is fused but [`Lanes::mul_sub`], on which no answer depends.
+//! The accelerator's arithmetic is written once over [`Lanes`]. [`Plain`] computes lane by lane, with the operand order of the x86 instructions where
+//! it matters (minimum and maximum of zeros and NaN). The AVX2 form does the same operations eight at a time. No operation is fused except
+//! [`Lanes::mul_sub`], on which no result depends.
 
 /// Eight f32, aligned for one load.
 #[derive(Clone, Copy, Debug)]
@@ -14,36 +14,36 @@ pub(crate) struct Eight(pub(crate) [f32; 8]);
 #[repr(C, align(16))]
 pub(crate) struct Four(pub(crate) [f32; 4]);
 
-/// Where one of six times eight numbers stands, as the processor counts.
+/// Index of one of six times eight numbers, as a byte offset.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OfSix(usize);
 
 impl OfSix {
-    /// The place of a number below six.
+    /// Index of a number below six.
     #[inline(always)]
     pub(crate) fn new(index: usize) -> Self {
         Self(index.min(5) * size_of::<Eight>())
     }
 
-    /// From the first of the six, bytes: less than six times the size of [`Eight`], of which it is a multiple.
+    /// Byte offset from the first of the six: less than six times the size of [`Eight`], and a multiple of it.
     #[inline(always)]
     pub(crate) fn bytes(self) -> usize {
         self.0
     }
 }
 
-/// A way to compute with eight numbers at once. Every way gives the same bits.
+/// An implementation of arithmetic on eight numbers at once. All implementations give the same bits.
 pub(crate) trait Lanes: Copy {
     /// Eight numbers.
     type V: Copy;
-    /// Eight truths.
+    /// Eight booleans.
     type M: Copy;
 
-    /// Eight numbers of six times as many.
+    /// Loads eight numbers of six times as many.
     fn load_of(self, six: &[Eight; 6], at: OfSix) -> Self::V;
-    /// Four numbers from memory and four from elsewhere.
+    /// Loads four numbers from one place and four from another.
     fn load_halves(self, low: &Four, high: &Four) -> Self::V;
-    /// Eight numbers to memory.
+    /// Stores eight numbers to memory.
     fn store(self, v: Self::V) -> Eight;
     /// The same number eight times.
     fn splat(self, x: f32) -> Self::V;
@@ -53,7 +53,7 @@ pub(crate) trait Lanes: Copy {
     fn sub(self, a: Self::V, b: Self::V) -> Self::V;
     /// a · b
     fn mul(self, a: Self::V, b: Self::V) -> Self::V;
-    /// a · b − c, rounded once or twice: where no answer depends on the last bit
+    /// a · b − c, rounded once or twice: only where no result depends on the last bit
     fn mul_sub(self, a: Self::V, b: Self::V, c: Self::V) -> Self::V;
     /// a / b
     fn div(self, a: Self::V, b: Self::V) -> Self::V;
@@ -73,14 +73,14 @@ pub(crate) trait Lanes: Copy {
     fn or(self, a: Self::M, b: Self::M) -> Self::M;
     /// Lane i in bit i.
     fn bits(self, m: Self::M) -> u32;
-    /// Told of every visit of a walk; only lanes that count do anything with it.
+    /// Called at every visit of a traversal; only counting lanes use it.
     #[inline(always)]
     fn note(self, _visit: Visit) {}
     /// Runs a task, compiled for these lanes.
     fn run<J: Job>(self, job: J) -> J::Output;
 }
 
-/// What a ray visits.
+/// A visit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Visit {
     /// A node, whose eight boxes are tested at once.
@@ -93,9 +93,8 @@ pub(crate) enum Visit {
 
 /// A task that can be compiled for any lanes.
 pub(crate) trait Job {
-    /// What it answers.
     type Output;
-    /// Does it. To be marked `#[inline(always)]`, so that it is compiled with the lanes' instructions.
+    /// Runs the task. Mark it `#[inline(always)]`, so that it is compiled with the lanes' instructions.
     fn work<L: Lanes>(self, lanes: L) -> Self::Output;
 }
 

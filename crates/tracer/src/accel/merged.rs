@@ -1,11 +1,12 @@
-//! Instances written out as one mesh in the render frame, under one tree.
+//! Instances merged into one mesh in the render frame, under one tree.
 //!
-//! Entering an instance costs a ray as much as several nodes, and where boxes of instances overlap it enters many in vain. So a
-//! view writes out what is small enough: its rays then need no other frame, and walk one tree.
+//! Entering an instance costs a ray as much as several nodes, and where boxes of instances overlap a ray enters many without a hit. A view therefore
+//! merges small instances: its rays then need no other frame, and traverse one tree.
 //!
-//! Corners are rounded to f32 in the render frame, by half a unit in the last place of their coordinates. A point of such a
-//! triangle is off the true surface by no more than its corners are, and [`InstanceTransform::merged`] has it in its error bound.
-//! An instance that moves, or whose vertices do, has no one place to be written out at, and one with a triangle that is not [`STEEP`] times as high as that is left as it is too: its plane would tilt.
+//! Corners are rounded to f32 in the render frame, by half a unit in the last place of their coordinates. A point of such a triangle is off the true
+//! surface by no more than its corners are, and [`InstanceTransform::merged`] includes this in its error bound. Two kinds of instances are not
+//! merged. One that moves, or whose vertices do, has no single place. One with a triangle less than [`STEEP`] times as high as that rounding would
+//! have a tilted plane.
 
 use etendue_core::{PrimitiveId, TimeInterval};
 use glam::{DVec3, Vec3};
@@ -13,15 +14,15 @@ use glam::{DVec3, Vec3};
 use super::{blas::Blas, boxes::Box3, packet::Names, ray::NONE_LEFT, world::World};
 use crate::geometry::{InstanceTransform, MeshPose, Placement, Shape};
 
-/// Triangles written out at most: 32 MB of trees, and less than half a second of one thread to build them for a view.
+/// Maximum number of merged triangles: 32 MB of trees, and less than half a second of one thread to build them for a view.
 const MOST: usize = 1 << 19;
-/// Triangles of an instance at most: what is larger is entered by rays that stay in it for long.
+/// Maximum number of triangles of an instance: rays that enter a larger one stay in it for long.
 const MOST_OF_ONE: usize = 1 << 16;
-/// Least height of a triangle, in roundings of its corners: the plane then tilts by a sixteenth at most.
+/// Minimum height of a triangle, in roundings of its corners: the plane then tilts by a sixteenth at most.
 const STEEP: f64 = 32.0;
-/// Least height of a triangle, m: products of three lengths stay well within f32.
+/// Minimum height of a triangle, m: products of three lengths stay well within f32.
 const LEAST_HEIGHT_M: f64 = 1e-9;
-/// Greatest coordinate of an instance, m: rays that leave it are pushed off it by a tenth of a millimetre at most.
+/// Maximum coordinate of an instance, m: rays that leave it are pushed off it by a tenth of a millimetre at most.
 const FARTHEST_M: f32 = 1000.0;
 /// Half a unit in the last place of f32, of a coordinate.
 const HALF_ULP: f64 = 1.0 / (1 << 24) as f64;
@@ -30,7 +31,7 @@ const HALF_ULP: f64 = 1.0 / (1 << 24) as f64;
 #[derive(Clone, Debug)]
 pub(crate) struct MergedMesh {
     pub(super) tree: Blas,
-    /// The box about all triangles.
+    /// The box of all triangles.
     pub(super) bounds: Box3,
     /// Instance and primitive of each triangle, in ascending order.
     names: Vec<(u32, u32)>,
@@ -39,7 +40,7 @@ pub(crate) struct MergedMesh {
 }
 
 impl MergedMesh {
-    /// Writes out instances of `world` as they are `placed`, and tells these so; `None` where there are none to write out.
+    /// Merges instances of `world` as they are `placed`, and marks these as merged; `None` if there are none to merge.
     pub(super) fn new(world: &World, placed: &mut [Placement], interval: TimeInterval) -> Option<Self> {
         let (mut corners, mut names) = (Vec::new(), Vec::new());
         let mut first = vec![NONE_LEFT; placed.len()];
@@ -60,7 +61,7 @@ impl MergedMesh {
         Some(Self { tree, bounds, names, first })
     }
 
-    /// The number in the tree of a triangle that a ray leaves; [`NONE_LEFT`] where it is not in it.
+    /// The number in the tree of a triangle that a ray leaves; [`NONE_LEFT`] if it is not in it.
     #[inline(always)]
     pub(super) fn number(&self, left: Option<PrimitiveId>) -> u32 {
         let first = |left: PrimitiveId| self.first.get(left.instance as usize).filter(|first| **first != NONE_LEFT);
@@ -73,8 +74,8 @@ impl MergedMesh {
     }
 }
 
-/// Instances of meshes that stand still, those of few triangles chosen first, that have [`MOST`] triangles together at most, in ascending order;
-/// none where there is one only.
+/// Static instances of meshes with [`MOST`] triangles together at most, those of few triangles chosen first, in ascending order; none if
+/// there is only one.
 fn few(world: &World, placed: &[Placement], interval: TimeInterval) -> Vec<usize> {
     let triangles = |instance: &usize| match world.instances()[*instance].shape {
         Shape::Mesh(id) => world.mesh(id).triangles().len(),
@@ -95,14 +96,14 @@ fn few(world: &World, placed: &[Placement], interval: TimeInterval) -> Vec<usize
     instances
 }
 
-/// The mesh of an instance as it is all through an interval; `None` where its vertices move, and for spheres.
+/// The mesh of an instance if it is constant during an interval; `None` if its vertices move, and for spheres.
 fn pose(world: &World, instance: usize, interval: TimeInterval) -> Option<MeshPose<'_>> {
     let Shape::Mesh(id) = world.instances()[instance].shape else { return None };
     world.mesh(id).still_over(interval)
 }
 
-/// Adds the corners of an instance's triangles in the render frame; their greatest coordinates by axis, m, or `None` where some
-/// are too far or some triangles too low.
+/// Adds the corners of an instance's triangles in the render frame. Returns their maximum coordinates by axis, m, or `None` if some are too
+/// far or some triangles too low.
 fn write_out(mesh: &MeshPose<'_>, placed: &InstanceTransform, corners: &mut Vec<[Vec3; 3]>) -> Option<Vec3> {
     let mut greatest = Vec3::ZERO;
     for primitive in 0..mesh.mesh().triangles().len() as u32 {
@@ -117,7 +118,7 @@ fn write_out(mesh: &MeshPose<'_>, placed: &InstanceTransform, corners: &mut Vec<
     Some(greatest)
 }
 
-/// Whether the least height of a triangle is large beside the rounding of its corners.
+/// True if the minimum height of a triangle is large compared with the rounding of its corners.
 fn is_steep([a, b, c]: [DVec3; 3]) -> bool {
     let edges = [b - a, c - b, a - c];
     let longest = edges.iter().map(|edge| edge.length_squared()).fold(0.0, f64::max).sqrt();

@@ -1,19 +1,19 @@
-//! The accelerator: which primitive a ray meets first.
+//! The accelerator: finds the primitive that a ray hits first.
 //!
-//! A [`World`] holds meshes, each with a tree in its own frame, and instances of them. It is built once; a
-//! [`crate::render_space::RenderSpace`] places the instances about one camera and adds a tree over them.
+//! A [`World`] holds meshes, each with a tree in its own frame, and instances of them. It is built once; a [`crate::render_space::RenderSpace`]
+//! places the instances relative to one camera and adds a tree over them.
 //!
 //! - `build`: trees from the top down by the surface area heuristic, in blocks.
 //! - `collapse`: binary to eight-wide, at least cost.
-//! - `node`, `packet`: what is tested eight at a time: boxes and triangles.
+//! - `node`, `packet`: boxes and triangles, tested eight at a time.
 //! - `swept`: meshes whose vertices move.
-//! - `merged`: small instances written out as one mesh.
-//! - `reach`: how far rays may start from a mesh.
+//! - `merged`: small instances merged into one mesh.
+//! - `reach`: maximum distance of a ray's start from a mesh.
 //! - `streaks`: drops and flakes about a camera, with a tree of their own.
-//! - `walk`: near to far through a tree for the first hit, or through the largest boxes for any.
+//! - `walk`: tree traversal, near to far for the first hit, or largest boxes first for any hit.
 //!
-//! Everything is written once over eight lanes (`lanes`) and compiled twice, with AVX2 and without: the same
-//! operations in the same order, so the same bits.
+//! Everything is written once over eight lanes (`lanes`) and compiled twice, with AVX2 and without: the same operations in the same order, so the
+//! same bits.
 
 mod blas;
 pub(crate) mod boxes;
@@ -38,10 +38,10 @@ pub use streaks::{Streak, Streaks};
 pub use visits::Visits;
 pub use world::{World, WorldBuilder, WorldError};
 
-/// Which instruction set the accelerator uses. Every choice gives the same bits.
+/// Instruction set of the accelerator. Every choice gives the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Simd {
-    /// The fastest that this machine has.
+    /// The fastest of this machine.
     #[default]
     Auto,
     /// Plain code without vector intrinsics.

@@ -2,7 +2,7 @@
 
 use super::{boxes::Box3, lanes::Eight};
 
-/// What hangs in a node's slot: a node or a leaf, by index.
+/// Content of a node's slot: a node or a leaf, by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Child(u32);
 
@@ -40,11 +40,11 @@ impl Child {
     }
 }
 
-/// Eight boxes and what is in them; four cache lines.
+/// Eight boxes and their contents; four cache lines.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    /// For each axis, the boxes' least coordinates, then their greatest.
+    /// For each axis, the boxes' minimum coordinates, then their maximum.
     pub(super) planes: [Eight; 6],
     pub(super) children: [Child; 8],
 }
@@ -56,7 +56,7 @@ impl Node {
         Self { planes: [low, high, low, high, low, high], children: [Child(LEAF); 8] }
     };
 
-    /// Hangs a child into a slot.
+    /// Puts a child into a slot.
     pub(super) fn set(&mut self, slot: usize, bounds: &Box3, child: Child) {
         for axis in 0..3 {
             self.planes[2 * axis].0[slot] = bounds.low[axis];

@@ -1,13 +1,12 @@
-//! Up to eight triangles, met at once.
+//! Up to eight triangles, tested at once.
 //!
-//! The test is watertight: two triangles that share an edge agree, bit by bit, on which side of it a ray passes. Corners
-//! are taken relative to the ray's origin and sheared along the ray, the same way for every triangle; the sign of an
-//! edge function is then that of the difference of two rounded products, which is never the wrong one, and where it is
-//! zero it is found again in f64, where those products are exact (Woop, Benthin, Wald 2013). Edges count as inside.
+//! The test is watertight: two triangles that share an edge agree, bit by bit, on the side on which a ray passes. Corners are taken relative to the
+//! ray's origin and sheared along the ray, the same way for every triangle. The sign of an edge function is then that of the difference of two
+//! rounded products, which is never the wrong one. If it is zero it is computed again in f64, where those products are exact (Woop, Benthin, Wald
+//! 2013). Edges count as inside.
 //!
-//! Whether the surface lies before or behind the origin matters for rays that leave it: t is a mean of the corners'
-//! depths, so its sign is certain where those have one sign, or where it exceeds its error bound (Pharr, Jakob,
-//! Humphreys 2023, section 6.8.7); else t is found again in f64 from the triangle's plane.
+//! The sign of t matters for rays that leave a surface: t is a mean of the corners' depths, so its sign is certain if those have one sign, or if it
+//! exceeds its error bound (Pharr, Jakob, Humphreys 2023, section 6.8.7). Otherwise t is computed again in f64 from the triangle's plane.
 
 use glam::{DVec3, Vec3};
 
@@ -15,11 +14,10 @@ use super::lanes::{Eight, Four, Lanes};
 use super::ray::LocalRay;
 use crate::geometry::Hit;
 
-/// Triangles a half.
+/// Triangles per half.
 const HALF: usize = 4;
 
-/// Half of what is met at once: four triangles, corner by corner and axis by axis. Lanes without a triangle hold NaN,
-/// which no ray meets.
+/// Half of a packet: four triangles, corner by corner and axis by axis. Lanes without a triangle hold NaN, which no ray hits.
 #[derive(Clone, Debug)]
 #[repr(C, align(32))]
 pub(super) struct Half {
@@ -30,13 +28,13 @@ pub(super) struct Half {
 /// Up to eight triangles: one half or two.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Packet<'a> {
-    /// The same half twice where there is only one.
+    /// The same half twice if there is only one.
     halves: [&'a Half; 2],
-    /// The lanes that count.
+    /// The lanes in use.
     lanes: u32,
 }
 
-/// Where a ray meets the triangles of a packet, for the lanes it meets. Iterates over them.
+/// Hits of a ray with the triangles of a packet, for the lanes it hits. Iterates over them.
 pub(super) struct LaneHits<'a> {
     lanes: u32,
     t: Eight,
@@ -45,7 +43,7 @@ pub(super) struct LaneHits<'a> {
     packet: Packet<'a>,
 }
 
-/// A primitive that a ray meets.
+/// A primitive hit by a ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PrimitiveHit {
     pub(super) t: f32,
@@ -90,7 +88,7 @@ impl<L: Lanes> RayLanes<L> {
             origin: [l.splat(x), l.splat(y), l.splat(z)],
             shear: [l.splat(ray.shear[0]), l.splat(ray.shear[1])],
             scale: l.splat(ray.scale),
-            // What the compiler sees here spares it to look at every use.
+            // This tells the compiler that indices are in range, so that it omits later checks.
             axes: ray.axes().map(|axis| axis.min(2)),
         }
     }
@@ -104,9 +102,9 @@ struct Triple<V> {
     z: V,
 }
 
-/// What f32 says of a packet's triangles.
+/// Result of the f32 test for a packet's triangles.
 struct Test<L: Lanes> {
-    /// Lanes that are met with 0 < t ≤ limit.
+    /// Lanes hit with 0 < t ≤ limit.
     hit: u32,
     /// Lanes that f32 cannot decide.
     doubtful: u32,
@@ -116,7 +114,7 @@ struct Test<L: Lanes> {
 }
 
 impl Half {
-    /// Triangles that it holds at most.
+    /// Maximum number of triangles that it holds.
     pub(super) const SIZE: usize = HALF;
 
     /// Halves, one or two, of at most eight triangles by their numbers.
@@ -152,7 +150,7 @@ impl<'a> Packet<'a> {
         self.halves[(lane / HALF) & 1].primitives[lane % HALF]
     }
 
-    /// Which triangles the ray meets with 0 < t ≤ `limit`, and where.
+    /// Hits of the ray with triangles at 0 < t ≤ `limit`.
     #[inline(always)]
     pub(super) fn meet<L: Lanes>(
         &self,
@@ -171,7 +169,7 @@ impl<'a> Packet<'a> {
         Some(meeting)
     }
 
-    /// Whether the ray meets a triangle with 0 < t < `limit`.
+    /// True if the ray hits a triangle with 0 < t < `limit`.
     #[inline(always)]
     pub(super) fn blocks<L: Lanes>(&self, l: L, spread: &RayLanes<L>, ray: &LocalRay, limit: f32) -> bool {
         let Some(met) = self.test(l, spread, ray, limit) else { return false };
@@ -179,7 +177,7 @@ impl<'a> Packet<'a> {
         certain != 0 || met.doubtful != 0 && self.any_settled(ray, limit, met.doubtful)
     }
 
-    /// What f32 says of a packet; `None` where no triangle is met or may be.
+    /// Result of the f32 test for a packet; `None` if no triangle is hit or may be.
     #[inline(always)]
     fn test<L: Lanes>(&self, l: L, spread: &RayLanes<L>, ray: &LocalRay, limit: f32) -> Option<Test<L>> {
         let zero = l.splat(0.0);
@@ -195,7 +193,7 @@ impl<'a> Packet<'a> {
         }
         let astride = self.lanes & l.bits(l.and(inside, astride(l, corners)));
         if astride != 0 {
-            // Most often the surface that the ray has just left.
+            // Usually the surface that the ray has just left.
             candidates &= !self.behind(ray, astride);
             if candidates == 0 {
                 return None;
@@ -205,7 +203,7 @@ impl<'a> Packet<'a> {
         let depth = l.add(l.add(l.mul(edges.x, a.z), l.mul(edges.y, b.z)), l.mul(edges.z, c.z));
         let t = l.mul(l.div(depth, sum), spread.scale);
         let hit = candidates & l.bits(l.and(l.lt(zero, t), l.le(t, l.splat(limit))));
-        // An edge function that is zero is the least magnitude there is.
+        // A zero edge function has the least possible magnitude.
         let smallest = l.min(l.min(l.abs(edges.x), l.abs(edges.y)), l.abs(edges.z));
         let mut doubtful = candidates & l.bits(l.le(smallest, zero));
         if candidates & astride != 0 {
@@ -214,21 +212,21 @@ impl<'a> Packet<'a> {
         (hit | doubtful != 0).then_some(Test { hit, doubtful, edges, sum, t })
     }
 
-    /// Those of `lanes` that the ray leaves, or whose planes f64 finds not before the ray's origin.
+    /// Those of `lanes` that the ray leaves, or whose planes are, in f64, not in front of the ray's origin.
     #[inline(always)]
     fn behind(&self, ray: &LocalRay, lanes: u32) -> u32 {
         let (mut pending, mut behind) = (lanes, 0);
         while pending != 0 {
             let lane = pending.trailing_zeros() as usize & 7;
             pending &= pending - 1;
-            // What a ray leaves is flat and lies behind it.
+            // The triangle that a ray leaves is flat and lies behind it.
             let is_behind = self.primitive(lane) == ray.left || self.is_behind(ray, lane);
             behind |= u32::from(is_behind) << lane;
         }
         behind
     }
 
-    /// Whether f64 finds a triangle's plane not before the ray's origin.
+    /// True if a triangle's plane is, in f64, not in front of the ray's origin.
     #[inline(always)]
     fn is_behind(&self, ray: &LocalRay, lane: usize) -> bool {
         let (height, slope) = height_and_slope(self.triangle(lane).map(Vec3::as_dvec3), ray);
@@ -260,7 +258,7 @@ impl<'a> Packet<'a> {
         }
     }
 
-    /// Whether one of the doubtful lanes is met before `limit`, decided in f64.
+    /// True if one of the doubtful lanes is hit before `limit`, decided in f64.
     #[cold]
     #[inline(never)]
     fn any_settled(&self, ray: &LocalRay, limit: f32, doubtful: u32) -> bool {
@@ -275,7 +273,7 @@ impl<'a> Packet<'a> {
     }
 }
 
-/// p × q of two sheared corners. Exchanging them changes the sign and nothing else.
+/// p × q of two sheared corners. Exchanging them only changes the sign.
 #[inline(always)]
 fn edge<L: Lanes>(l: L, p: Triple<L::V>, q: Triple<L::V>) -> L::V {
     l.sub(l.mul(p.x, q.y), l.mul(p.y, q.x))
@@ -290,10 +288,10 @@ fn astride<L: Lanes>(l: L, [a, b, c]: [Triple<L::V>; 3]) -> L::M {
     l.and(l.le(low, zero), l.le(zero, high))
 }
 
-/// Lanes where the sign of the depth is not certain, of those whose corners' depths are not of one sign: their mean is
-/// within its error. With e = 2⁻²⁴ and greatest magnitudes x, y, z of the corners' coordinates, a sheared coordinate errs
-/// by 5e(x + z), an edge function by 2(2e·xy + 5e(x + z)y + 5e(y + z)x) and is at most 2xy, the sum of the three
-/// products by 3z·(error of an edge function + 4e·2xy): less than e·z·(96·xy + 30·z(x + y)).
+/// Lanes with an uncertain sign of the depth, among those whose corners' depths are not of one sign: their mean is within its error. With e
+/// = 2⁻²⁴ and maximum magnitudes x, y, z of the corners' coordinates, a sheared coordinate errs by 5e(x + z), an edge function by 2(2e·xy +
+/// 5e(x + z)y + 5e(y + z)x) and is at most 2xy, the sum of the three products by 3z·(error of an edge function + 4e·2xy): less than
+/// e·z·(96·xy + 30·z(x + y)).
 #[inline(always)]
 fn uncertain_depth<L: Lanes>(l: L, [a, b, c]: [Triple<L::V>; 3], depth: L::V) -> L::M {
     const E: f32 = f32::EPSILON / 2.0;
@@ -303,7 +301,7 @@ fn uncertain_depth<L: Lanes>(l: L, [a, b, c]: [Triple<L::V>; 3], depth: L::V) ->
     l.le(l.abs(depth), l.mul(z, l.add(square, cross)))
 }
 
-/// The greatest magnitude.
+/// The maximum magnitude.
 #[inline(always)]
 fn greatest<L: Lanes>(l: L, p: L::V, q: L::V, r: L::V) -> L::V {
     l.max(l.max(l.abs(p), l.abs(q)), l.abs(r))
@@ -331,22 +329,22 @@ fn sheared(p: Vec3, ray: &LocalRay) -> DVec3 {
     Vec3::new(x - ray.shear[0] * z, y - ray.shear[1] * z, z).as_dvec3()
 }
 
-/// Where the ray meets the triangle's plane; `None` where it runs along it.
+/// Ray parameter at the triangle's plane; `None` if the ray is parallel to it.
 fn plane(corners: [DVec3; 3], ray: &LocalRay) -> Option<f64> {
     let (height, slope) = height_and_slope(corners, ray);
     let t = height / slope;
     t.is_finite().then_some(t)
 }
 
-/// How far the triangle's plane is from the ray's origin, and how much of that the ray covers in a length of its
-/// direction, in lengths of the plane's normal.
+/// Distance of the triangle's plane from the ray's origin, and the part of it that the ray covers in one length of its direction, in
+/// lengths of the plane's normal.
 #[inline(always)]
 fn height_and_slope([a, b, c]: [DVec3; 3], ray: &LocalRay) -> (f64, f64) {
     let normal = (b - a).cross(c - a);
     (normal.dot(a - ray.origin.as_dvec3()), normal.dot(ray.direction.as_dvec3()))
 }
 
-/// Whose primitives a tree holds.
+/// Owner of the primitives of a tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Names<'a> {
     /// Those of one instance.
@@ -373,7 +371,7 @@ pub(super) struct BestHit {
 }
 
 impl BestHit {
-    /// Takes a hit that is nearer than `limit`, or as near as the best and of lesser identity; lowers the limit.
+    /// Accepts a hit that is nearer than `limit`, or as near as the best and of lesser identity; lowers the limit.
     #[inline(always)]
     pub(super) fn offer(&mut self, names: Names<'_>, hit: PrimitiveHit, limit: &mut f32) {
         let (instance, primitive) = names.of(hit.primitive);

@@ -1,25 +1,25 @@
-//! A ray as boxes and triangles want it.
+//! A ray prepared for box and triangle tests.
 
 use glam::Vec3;
 
 use super::lanes::{Eight, Lanes, OfSix};
 use super::node::Node;
 
-/// Below this a component of a direction counts as this small: its reciprocal stays finite, and the ray strays by less
-/// than any coordinate's rounding.
+/// Minimum magnitude of a component of a direction; smaller ones are raised to it. Its reciprocal stays finite, and the ray deviates by
+/// less than any coordinate's rounding.
 const MIN_COMPONENT: f32 = 1e-18;
-/// Shrinks the entry into a box by more than the rounding of the operations that made it, and of those that made the
-/// exit: 2·3 roundings of 2⁻²⁴ (after Ize 2013, "Robust BVH ray traversal"), and as many for the triangle's. What the
-/// difference of two products errs by more, two roundings of the plane's coordinate, the boxes' padding covers; being
-/// monotonic in that coordinate, it never places a plane before one that lies farther along the ray.
+/// Shrinks the entry into a box by more than the rounding of the operations that computed it, and of those that computed the exit: 2·3
+/// roundings of 2⁻²⁴ (after Ize 2013, "Robust BVH ray traversal"), and as many for the triangle's. The additional error of the difference
+/// of two products, two roundings of the plane's coordinate, is covered by the boxes' padding. The difference is monotonic in that
+/// coordinate, so it never places a plane before one that lies farther along the ray.
 const ENTRY_SHRINK: f32 = 1.0 - 1e-6;
 
-/// A ray prepared for boxes.
+/// A ray prepared for box tests.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SlabRay {
     origin: [f32; 3],
     inverse: [f32; 3],
-    /// For each axis, whether the ray meets the greatest planes first.
+    /// For each axis, true if the ray hits the maximum planes first.
     is_backward: [bool; 3],
 }
 
@@ -29,7 +29,7 @@ impl SlabRay {
         Self::with_inverse(origin, direction.recip())
     }
 
-    /// Of an origin and the reciprocals of a direction's components; those of zeros, of either sign, become finite.
+    /// From an origin and the reciprocals of a direction's components; those of zeros, of either sign, become finite.
     #[inline(always)]
     pub(super) fn with_inverse(origin: Vec3, inverse: Vec3) -> Self {
         const MOST: f32 = 1.0 / MIN_COMPONENT;
@@ -38,7 +38,7 @@ impl SlabRay {
     }
 }
 
-/// A slab ray spread over lanes. Where it meets a plane is found as plane · inverse − origin · inverse.
+/// A slab ray spread over lanes. Its intersection with a plane is plane · inverse − origin · inverse.
 #[derive(Clone, Copy)]
 pub(super) struct SlabLanes<L: Lanes> {
     inverse: [L::V; 3],
@@ -47,7 +47,7 @@ pub(super) struct SlabLanes<L: Lanes> {
     /// The same, shrunk, for entries.
     entry_inverse: [L::V; 3],
     entry_start: [L::V; 3],
-    /// Which of a node's planes the ray meets first and last, by axis.
+    /// The planes of a node that the ray hits first and last, by axis.
     first: [OfSix; 3],
     last: [OfSix; 3],
 }
@@ -67,7 +67,7 @@ impl<L: Lanes> SlabLanes<L> {
         }
     }
 
-    /// Which of a node's boxes the ray enters at or before `limits` or a little after, and where.
+    /// The boxes of a node that the ray enters at or before `limits` or a little after, and the entries.
     #[inline(always)]
     pub(super) fn enter(&self, l: L, node: &Node, limits: L::V) -> (u32, Eight) {
         let [nx, ny, nz] = [self.entry(l, node, 0), self.entry(l, node, 1), self.entry(l, node, 2)];
@@ -77,20 +77,20 @@ impl<L: Lanes> SlabLanes<L> {
         (l.bits(l.le(near, far)), l.store(near))
     }
 
-    /// Where the ray meets the first planes of an axis, or a little before.
+    /// Intersection of the ray with the first planes of an axis, or a little before.
     #[inline(always)]
     fn entry(&self, l: L, node: &Node, axis: usize) -> L::V {
         l.mul_sub(l.load_of(&node.planes, self.first[axis]), self.entry_inverse[axis], self.entry_start[axis])
     }
 
-    /// Where the ray meets the last planes of an axis.
+    /// Intersection of the ray with the last planes of an axis.
     #[inline(always)]
     fn exit(&self, l: L, node: &Node, axis: usize) -> L::V {
         l.mul_sub(l.load_of(&node.planes, self.last[axis]), self.inverse[axis], self.start[axis])
     }
 }
 
-/// The planes that the ray meets first, or last.
+/// The planes that the ray hits first, or last.
 #[inline(always)]
 fn planes(ray: &SlabRay, is_last: bool) -> [OfSix; 3] {
     let [x, y, z] = ray.is_backward.map(|is_backward| usize::from(is_backward != is_last));
@@ -103,10 +103,10 @@ fn splat<L: Lanes>(l: L, [x, y, z]: [f32; 3]) -> [L::V; 3] {
     [l.splat(x), l.splat(y), l.splat(z)]
 }
 
-// A ray in a mesh's frame, prepared for triangles.
+// A ray in a mesh's frame, prepared for triangle tests.
 //
-// Space is sheared so that the ray runs along one axis: the one where its direction is greatest becomes the third
-// (Woop, Benthin, Wald 2013, "Watertight ray/triangle intersection", JCGT 2(1)).
+// Space is sheared so that the ray runs along one axis: the axis of the largest component of its direction becomes the third (Woop,
+// Benthin, Wald 2013, "Watertight ray/triangle intersection", JCGT 2(1)).
 
 /// The axes that become x, y and z, by the first of them; an even or odd order makes no difference to a two-sided test.
 const AXES: [[usize; 3]; 3] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
@@ -116,7 +116,7 @@ const AXES: [[usize; 3]; 3] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]];
 pub(crate) struct LocalRay {
     pub(super) origin: Vec3,
     pub(super) direction: Vec3,
-    /// Reciprocals of the direction's components; infinite where they are zero.
+    /// Reciprocals of the direction's components; infinite for zeros.
     pub(super) inverse: Vec3,
     /// The axis that becomes x.
     first: usize,
@@ -125,7 +125,7 @@ pub(crate) struct LocalRay {
     /// Shears of x and y along z, and the length of z: t = z · scale.
     pub(super) shear: [f32; 2],
     pub(super) scale: f32,
-    /// Number in the tree of the triangle that the ray leaves; [`NONE_LEFT`] where it leaves none.
+    /// Number in the tree of the triangle that the ray leaves; [`NONE_LEFT`] if it leaves none.
     pub(super) left: u32,
 }
 
@@ -133,7 +133,6 @@ pub(crate) struct LocalRay {
 pub(super) const NONE_LEFT: u32 = u32::MAX;
 
 impl LocalRay {
-    /// Prepares a ray.
     #[inline(always)]
     pub(crate) fn new(origin: Vec3, direction: Vec3) -> Self {
         let first = first_axis(direction);
@@ -152,7 +151,7 @@ impl LocalRay {
         }
     }
 
-    /// The same ray, which leaves a triangle, by its number in the tree, or [`NONE_LEFT`].
+    /// Sets the triangle that the ray leaves, by its number in the tree, or [`NONE_LEFT`].
     #[inline(always)]
     pub(super) fn leaving(self, left: u32) -> Self {
         Self { left, ..self }
@@ -165,7 +164,7 @@ impl LocalRay {
     }
 }
 
-/// The axis after the one where a direction is greatest. Without branches, which nobody could foresee.
+/// The axis after that of the largest component of a direction. Without branches, which would be unpredictable.
 #[inline(always)]
 fn first_axis(direction: Vec3) -> usize {
     let [x, y, z] = direction.abs().to_array();

@@ -1,17 +1,16 @@
-//! How far rays may start from a mesh.
+//! Maximum distance of a ray's start from a mesh.
 //!
-//! Triangles are met in f32 by products of three coordinates relative to the ray's origin, sheared along the ray. With
-//! coordinates of mesh and origin up to R, those along the ray are up to 2R. The corners of a triangle that is met lie
-//! around the ray, and the mesh is 2R wide, so that across the ray, with shears of 1 at most, they are up to 4R: edge
-//! functions are up to 32R², sum to twice the area seen, 16R² at most, and their sum with the depths is up to 32R³. At
-//! R = 1e12 that is 3.2e37, a tenth of the greatest f32. Meshes are held to the same R when they are made.
+//! Triangles are tested in f32 by products of three coordinates relative to the ray's origin, sheared along the ray. With coordinates of mesh and
+//! origin up to R, those along the ray are up to 2R. The corners of a triangle that is hit lie around the ray, and the mesh is 2R wide, so that
+//! across the ray, with shears of 1 at most, they are up to 4R. Edge functions are up to 32R². They sum to twice the projected area, 16R² at most,
+//! and their sum with the depths is up to 32R³. At R = 1e12 that is 3.2e37, a tenth of the largest f32. Meshes are limited to the same R when they
+//! are built.
 //!
-//! The start of a ray is rounded to f32 in the mesh's frame. Where that moves the camera by half its distance from the
-//! box that holds the mesh, rays start behind surfaces that stand before it: such a mesh is refused too. Seen from
-//! inside its box nothing can be told.
+//! The start of a ray is rounded to f32 in the mesh's frame. If that moves the camera by half its distance from the box that holds the mesh, rays
+//! start behind surfaces in front of it: such a mesh is refused too. From inside its box nothing can be checked.
 //!
-//! Spheres are met in f64, and held to the same R in metres, where half a unit in the last place is 0.06 mm: beyond, the
-//! distance of a surface near the camera would be lost.
+//! Spheres are tested in f64, and limited to the same R in metres, where half a unit in the last place is 0.06 mm: beyond, the distance of a surface
+//! near the camera would be lost.
 
 use etendue_core::{CameraPath, CameraPose, TimeInterval};
 use glam::{DMat3, DVec3};
@@ -23,19 +22,20 @@ use crate::geometry::{Instance, InstanceTransform, Mesh, Placement, Shape};
 const FARTHEST: f64 = 1e12;
 
 impl World {
-    /// Whether rays that start near `origin_m` (world, m) or on any surface can be met with every mesh at any time of an interval.
-    /// Of a mesh that moves, the camera's rounding in its frame is checked at seventeen even moments, all else by bounds.
+    /// Checks that rays that start near `origin_m` (world, m) or on any surface can be tested against every mesh at any time of an
+    /// interval. For a moving mesh, the camera's rounding in its frame is checked at seventeen equidistant times, everything else by
+    /// bounds.
     ///
     /// # Errors
-    /// Where a mesh is so far away from a ray's start, in units of its own frame, that products of three coordinates
-    /// leave f32: such a ray would pass it unseen.
+    /// If a mesh is so far from a ray's start, in units of its own frame, that products of three coordinates overflow f32: such a ray would
+    /// miss it.
     pub fn check_reach(&self, origin_m: DVec3, interval: TimeInterval) -> Result<(), WorldError> {
         let rotation = DMat3::IDENTITY;
         check(self, &CameraPath::still(CameraPose { position_m: origin_m, rotation }), interval)
     }
 
-    /// As [`World::check_reach`], of rays that start near a camera wherever it is during the interval. Of one that moves, rounding
-    /// is checked at those moments too.
+    /// As [`World::check_reach`], for rays that start near a camera anywhere on its path during the interval. For a moving camera, rounding
+    /// is checked at those times too.
     ///
     /// # Errors
     /// As [`World::check_reach`].
@@ -44,10 +44,10 @@ impl World {
     }
 }
 
-/// Moments of an interval for which is checked what no bound tells of what moves.
+/// Times of an interval at which the conditions without a bound are checked for moving objects.
 const MOMENTS: u32 = 16;
 
-/// Whether every mesh can be met from the camera, wherever it is, and from every surface.
+/// Checks that every mesh can be hit from the camera, anywhere on its path, and from every surface.
 fn check(world: &World, camera: &CameraPath, interval: TimeInterval) -> Result<(), WorldError> {
     let instances = world.instances();
     let origin_m = camera.at(interval.start_s()).position_m;
@@ -77,21 +77,21 @@ fn check(world: &World, camera: &CameraPath, interval: TimeInterval) -> Result<(
     Ok(())
 }
 
-/// Even moments of an interval, both its ends among them.
+/// Equidistant times of an interval, including both its ends.
 fn moments(interval: TimeInterval) -> Vec<f64> {
     let part = |i: u32| f64::from(i) / f64::from(MOMENTS);
     (0..=MOMENTS).map(|i| interval.start_s() + interval.length_s() * part(i)).collect()
 }
 
-/// Whether the camera's place in the frame of a mesh stays before the box that holds the mesh when it is rounded to f32. The camera is
-/// at `from` in the render frame, m.
+/// Checks that the camera's position in the frame of a mesh stays in front of the box that holds the mesh when it is rounded to f32. The
+/// camera is at `from` in the render frame, m.
 fn check_rounding(instance: usize, placed: &InstanceTransform, mesh: &Mesh, from: DVec3) -> Result<(), WorldError> {
     let Some((low, high)) = mesh.bounds() else { return Ok(()) };
     let (camera, _) = placed.line_to_local(from, DVec3::X);
     let away = (low.as_dvec3() - camera).max(camera - high.as_dvec3());
     let moved = (camera.as_vec3().as_dvec3() - camera).abs();
     let outside: Vec<usize> = (0..3).filter(|&axis| away[axis] > 0.0).collect();
-    // Less than a millimetre carries it to a surface that it touches.
+    // Less than a millimetre moves it to a surface that it touches.
     let moved_m = (placed.point_to_render(camera.as_vec3().as_dvec3()) - from).length();
     let carries = outside.iter().all(|&axis| moved[axis] > 0.5 * away[axis]);
     if moved_m > 1e-3 && !outside.is_empty() && carries {

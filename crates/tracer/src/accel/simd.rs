@@ -1,5 +1,5 @@
-//! Eight lanes by AVX2, where the machine has it. The only file with unsafe code: the instructions exist only on some
-//! machines, and a value of [`Avx2`] is the proof that they exist on this one.
+//! Eight lanes by AVX2, if the machine has it. The only file with unsafe code: the instructions exist only on some machines, and a value of [`Avx2`]
+//! is the proof that they exist on this one.
 
 #![allow(unsafe_code, reason = "vector instructions that are chosen at run time")]
 
@@ -7,12 +7,12 @@ use core::arch::x86_64::*;
 
 use super::lanes::{Eight, Four, Job, Lanes, OfSix};
 
-/// Proof that this machine has AVX2, and what came with it: fused multiplication and instructions for single bits.
+/// Proof that this machine has AVX2 with fused multiplication and bit-manipulation instructions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(());
 
 impl Avx2 {
-    /// The lanes, where this machine has them.
+    /// The lanes, if this machine has them.
     pub(crate) fn detect() -> Option<Self> {
         let has_all = is_x86_feature_detected!("avx2")
             && is_x86_feature_detected!("fma")

@@ -1,6 +1,6 @@
-//! Small spheroids in straight and even motion: drops and flakes about a camera, under one tree.
+//! Small spheroids in uniform motion: drops and flakes about a camera, under one tree.
 //!
-//! Beside the tree over the world's instances, which does not know of them. Each is one leaf with the box of its way.
+//! Separate from the tree over the world's instances. Each spheroid is one leaf with the box of its path.
 
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
@@ -19,7 +19,7 @@ pub struct Streak {
     pub velocity_mps: Vec3,
     /// Half of its width and half of its height, m.
     pub half_m: [f32; 2],
-    /// It is there while its centre is farther than this from the origin, m,
+    /// It exists while its centre is farther than this from the origin, m,
     pub from_m: f32,
     /// and nearer than this, m.
     pub to_m: f32,
@@ -32,7 +32,7 @@ impl Streak {
         self.start_m + self.velocity_mps * time_s
     }
 
-    /// The box of its way.
+    /// The box of its path.
     fn bounds(&self, length_s: f32) -> Box3 {
         let [wide, high] = self.half_m;
         let (a, b) = (self.start_m, self.centre(length_s));
@@ -40,7 +40,7 @@ impl Streak {
         bounds.grown(bounds.padding())
     }
 
-    /// Where a ray enters it, in lengths of the direction; `None` where the ray passes by, begins inside, or the spheroid is not there.
+    /// The entry of a ray, in lengths of the direction; `None` if the ray misses, begins inside, or the spheroid does not exist there.
     #[inline(always)]
     fn enter(&self, ray: &Ray) -> Option<f32> {
         let centre = self.centre(ray.time_s);
@@ -48,7 +48,7 @@ impl Streak {
         if away2 < self.from_m * self.from_m || away2 >= self.to_m * self.to_m {
             return None;
         }
-        // In a frame where it is a ball of radius 1.
+        // In a frame in which it is a ball of radius 1.
         let scale = DVec3::new(self.half_m[0].into(), self.half_m[0].into(), self.half_m[1].into()).recip();
         let origin = (ray.origin - centre).as_dvec3() * scale;
         let direction = ray.direction.as_dvec3() * scale;
@@ -68,7 +68,7 @@ pub struct Streaks {
 }
 
 impl Streaks {
-    /// Those of a view whose interval is `length_s` long.
+    /// The spheroids of a view whose interval is `length_s` long.
     #[must_use]
     pub fn new(streaks: Vec<Streak>, length_s: f32, simd: Simd) -> Self {
         let boxes: Vec<_> = streaks.iter().map(|streak| streak.bounds(length_s)).collect();
@@ -86,7 +86,7 @@ impl Streaks {
         &self.streaks
     }
 
-    /// Where a ray first enters one before `end`, and which.
+    /// The first entry of a ray before `end`, and the index of the spheroid.
     #[must_use]
     pub fn closest(&self, ray: &Ray, end: f32) -> Option<(f32, u32)> {
         self.chosen.run(ClosestQuery { all: self, ray, end })

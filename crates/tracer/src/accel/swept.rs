@@ -1,8 +1,8 @@
 //! The tree of a mesh whose vertices move during a view's interval.
 //!
-//! Between the interval's ends and the times of frames inside it every vertex goes straight, so that a triangle stays within the box about
-//! its corners at all of these: the boxes of the tree. A leaf names its triangles, whose corners are found at the ray's own time and
-//! met by the same test as those that stand still. Two triangles that share a vertex find the same bits for it.
+//! Between the interval's ends and the times of frames inside it every vertex moves straight, so that a triangle stays within the box of its corners
+//! at all of these times: the boxes of the tree. A leaf names its triangles, whose corners are computed at the ray's own time and tested like static
+//! ones. Two triangles that share a vertex compute the same bits for it.
 
 use etendue_core::{Accelerator, TimeInterval};
 
@@ -15,7 +15,7 @@ use super::walk::{Leaves, walk};
 use super::{blas::Blas, boxes::Box3, build::over_moving};
 use crate::geometry::{Mesh, MeshPose};
 
-/// Triangles a leaf: as many as are met at once.
+/// Triangles per leaf: as many as are tested at once.
 const LEAF_SIZE: usize = 8;
 
 /// The tree of a mesh in motion.
@@ -24,7 +24,7 @@ pub(super) struct SweptTree<'w> {
     mesh: &'w Mesh,
     interval: TimeInterval,
     nodes: Vec<Node>,
-    /// Where the triangles of each leaf begin and end in `primitives`.
+    /// Start and end of the triangles of each leaf in `primitives`.
     leaves: Vec<[u32; 2]>,
     primitives: Vec<u32>,
     root: Option<Child>,
@@ -49,7 +49,7 @@ impl<'w> SweptTree<'w> {
         Self { mesh, interval, nodes, leaves, primitives, root }
     }
 
-    /// Offers the triangles that a ray of this time ([`etendue_core::Ray::time_s`]) meets with 0 < t ≤ `limit` to `best`, which lowers it.
+    /// Offers the triangles that a ray of this time ([`etendue_core::Ray::time_s`]) hits with 0 < t ≤ `limit` to `best`, which lowers it.
     pub(super) fn closest<L: Lanes>(
         &self,
         l: L,
@@ -63,13 +63,13 @@ impl<'w> SweptTree<'w> {
         l.run(ClosestQuery { tree: self, pose, ray, names, best, limit });
     }
 
-    /// Whether a ray of this time meets a triangle with 0 < t < `t_max`.
+    /// True if a ray of this time hits a triangle with 0 < t < `t_max`.
     pub(super) fn occluded<L: Lanes>(&self, l: L, ray: &LocalRay, time_s: f32, t_max: f32) -> bool {
         let pose = self.mesh.at(self.interval.moment(time_s));
         l.run(OcclusionQuery { tree: self, pose, ray, t_max })
     }
 
-    /// The triangles of a leaf as they are in a pose; the second half is the first where there are four at most.
+    /// The triangles of a leaf in a pose; the second half is the first if there are four at most.
     #[inline(always)]
     fn halves(&self, pose: &MeshPose<'_>, leaf: usize) -> ([Half; 2], usize) {
         let [begin, end] = self.leaves[leaf];
@@ -167,9 +167,9 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, L> {
 /// The tree of a mesh whose vertices move.
 #[derive(Clone, Debug)]
 pub(super) enum AnimatedTree<'w> {
-    /// Nothing moves during the interval.
+    /// No vertex moves during the interval.
     Posed(Blas),
-    /// Something does.
+    /// Vertices move during the interval.
     Swept(SweptTree<'w>),
 }
 
@@ -182,7 +182,7 @@ impl<'w> AnimatedTree<'w> {
         }
     }
 
-    /// Offers the triangles that a ray in the mesh's frame, of this time, meets with 0 < t ≤ `limit` to `best`, which lowers it.
+    /// Offers the triangles that a ray in the mesh's frame, of this time, hits with 0 < t ≤ `limit` to `best`, which lowers it.
     pub(super) fn closest<L: Lanes>(
         &self,
         l: L,
@@ -198,7 +198,7 @@ impl<'w> AnimatedTree<'w> {
         }
     }
 
-    /// Whether a ray in the mesh's frame, of this time, meets a triangle with 0 < t < `t_max`.
+    /// True if a ray in the mesh's frame, of this time, hits a triangle with 0 < t < `t_max`.
     pub(super) fn occluded<L: Lanes>(&self, l: L, ray: &LocalRay, time_s: f32, t_max: f32) -> bool {
         match self {
             Self::Posed(tree) => tree.occluded(l, ray, t_max),

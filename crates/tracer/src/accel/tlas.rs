@@ -19,18 +19,18 @@ use super::{swept::AnimatedTree, world::World};
 use crate::geometry::{Hit, Instance, MeshId, Placement, Shape, sphere};
 use crate::is_optional;
 
-/// A shape with what is needed to meet it.
+/// A shape with the data of its intersection test.
 #[derive(Clone, Debug)]
 enum Target<'w> {
     Mesh(&'w Blas),
     Sphere(f64),
     /// A mesh whose vertices move.
     Animated(Arc<AnimatedTree<'w>>),
-    /// A mesh whose vertices move and that is written out.
+    /// An instance that is merged.
     Written,
 }
 
-/// The lanes chosen when the view was made.
+/// The lanes chosen when the view was built.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum InstructionSet {
     Plain,
@@ -59,7 +59,7 @@ impl InstructionSet {
     }
 }
 
-/// What a leaf holds that is no single instance.
+/// A leaf that is no single instance.
 const MERGED: u32 = u32::MAX;
 
 /// The instances of a view, with a tree over them.
@@ -76,13 +76,13 @@ pub(crate) struct Tlas<'w> {
 }
 
 impl<'w> Tlas<'w> {
-    /// Builds the tree over instances placed in the render frame, small ones written out.
+    /// Builds the tree over instances placed in the render frame; small ones are merged.
     pub(crate) fn merging(world: &'w World, mut placed: Vec<Placement>, interval: TimeInterval, simd: Simd) -> Self {
         let merged = MergedMesh::new(world, &mut placed, interval);
         Self::new(world, placed, merged, interval, simd)
     }
 
-    /// Builds the tree over instances placed in the render frame, of which some may be written out.
+    /// Builds the tree over instances placed in the render frame, of which some may be merged.
     pub(crate) fn new(
         world: &'w World,
         placed: Vec<Placement>,
@@ -106,17 +106,17 @@ impl<'w> Tlas<'w> {
         Self { nodes: wide.nodes, root: wide.root, leaves, merged, targets, placed, chosen: InstructionSet::new(simd) }
     }
 
-    /// The instances' places, by their index.
+    /// The instances' placements, by their index.
     pub(crate) fn placed(&self) -> &[Placement] {
         &self.placed
     }
 
-    /// The first primitive that a ray meets.
+    /// The first primitive that a ray hits.
     pub(crate) fn closest(&self, ray: &Ray) -> Option<Hit> {
         self.chosen.run(ClosestQuery { top: self, ray })
     }
 
-    /// What a ray visits on its way to the first primitive that it meets, or to any.
+    /// Visits of a ray until the first primitive that it hits, or any.
     pub(crate) fn visits(&self, ray: &Ray, any: bool) -> Visits {
         let visits = Cell::new(Visits::default());
         if any {
@@ -127,13 +127,13 @@ impl<'w> Tlas<'w> {
         visits.get()
     }
 
-    /// Whether a ray meets anything.
+    /// True if a ray hits anything.
     pub(crate) fn occluded(&self, ray: &Ray) -> bool {
         self.chosen.run(OcclusionQuery { top: self, ray })
     }
 }
 
-/// What is needed to meet each instance.
+/// The data of the intersection test of each instance.
 fn targets<'w>(world: &'w World, placed: &[Placement], interval: TimeInterval) -> Vec<Target<'w>> {
     let mut animated: BTreeMap<MeshId, Arc<AnimatedTree<'w>>> = BTreeMap::new();
     let target = |(instance, placed): (&Instance, &Placement)| match instance.shape {
@@ -148,7 +148,7 @@ fn targets<'w>(world: &'w World, placed: &[Placement], interval: TimeInterval) -
     world.instances().iter().zip(placed).map(target).collect()
 }
 
-/// A ray that is nothing or nowhere meets nothing.
+/// True for a ray with a direction and finite coordinates; others hit nothing.
 #[inline(always)]
 fn is_traceable(ray: &Ray) -> bool {
     let length = |v: Vec3| v.x.abs() + v.y.abs() + v.z.abs();
@@ -246,7 +246,7 @@ impl Job for OcclusionQuery<'_, '_> {
     }
 }
 
-/// The triangle that a ray leaves, of an instance's own tree; [`NONE_LEFT`] where it is another's.
+/// The triangle that a ray leaves, in an instance's own tree; [`NONE_LEFT`] if it belongs to another.
 #[inline(always)]
 fn left_of(ray: &Ray, instance: u32) -> u32 {
     match ray.left {
@@ -288,8 +288,8 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
     }
 }
 
-/// A mesh in motion as a ray enters it. Apart from what stands still, whose code it would slow down: everything comes and goes by
-/// value, so that the rest stays in registers.
+/// A moving mesh at the entry of a ray. Separate from static meshes, whose code it would slow down: all arguments and results are passed by
+/// value, so that the others stay in registers.
 struct MovingEntry<'a, L> {
     l: L,
     tree: &'a Blas,
@@ -298,7 +298,7 @@ struct MovingEntry<'a, L> {
 }
 
 impl<L: Lanes> MovingEntry<'_, L> {
-    /// The best hit and the limit, from those so far.
+    /// The best hit and the limit, updated.
     #[cold]
     #[inline(never)]
     fn closest(self, instance: u32, hit: Option<Hit>, mut limit: f32) -> (Option<Hit>, f32) {
@@ -309,7 +309,7 @@ impl<L: Lanes> MovingEntry<'_, L> {
         (best.hit, limit)
     }
 
-    /// Whether the ray meets a triangle before the limit.
+    /// True if the ray hits a triangle before the limit.
     #[cold]
     #[inline(never)]
     fn occluded(self, limit: f32) -> bool {
@@ -318,7 +318,7 @@ impl<L: Lanes> MovingEntry<'_, L> {
     }
 }
 
-/// A mesh whose vertices move as a ray enters it, likewise.
+/// A mesh whose vertices move, at the entry of a ray; separate for the same reason.
 struct AnimatedEntry<'a, L> {
     l: L,
     tree: &'a AnimatedTree<'a>,
@@ -327,7 +327,7 @@ struct AnimatedEntry<'a, L> {
 }
 
 impl<L: Lanes> AnimatedEntry<'_, L> {
-    /// The best hit and the limit, from those so far.
+    /// The best hit and the limit, updated.
     #[cold]
     #[inline(never)]
     fn closest(self, instance: u32, hit: Option<Hit>, mut limit: f32) -> (Option<Hit>, f32) {
@@ -337,7 +337,7 @@ impl<L: Lanes> AnimatedEntry<'_, L> {
         (best.hit, limit)
     }
 
-    /// Whether the ray meets a triangle before the limit.
+    /// True if the ray hits a triangle before the limit.
     #[cold]
     #[inline(never)]
     fn occluded(self, limit: f32) -> bool {
@@ -350,7 +350,7 @@ impl<L: Lanes> AnimatedEntry<'_, L> {
     }
 }
 
-/// Where a ray meets a sphere first.
+/// The first intersection of a ray with a sphere.
 #[inline(always)]
 fn meet_sphere(radius: f64, placed: &Placement, ray: &Ray) -> Option<f32> {
     let Some(still) = placed.still() else { return meet_moving_sphere(radius, placed, ray) };

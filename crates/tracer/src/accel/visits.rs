@@ -1,10 +1,10 @@
-//! What rays visit: how good a tree is, free of a machine's noise.
+//! Visits of rays: a measure of a tree's quality, free of a machine's noise.
 
 use core::cell::Cell;
 
 use super::lanes::{Eight, Four, Job, Lanes, OfSix, Plain, Visit};
 
-/// How much one or more rays have visited.
+/// Number of visits of one or more rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Visits {
     /// Nodes, of the trees over instances and over triangles; eight boxes are tested at each.
@@ -19,7 +19,7 @@ pub struct Visits {
 #[derive(Clone, Copy)]
 pub(super) struct VisitCounter<'a>(pub(super) &'a Cell<Visits>);
 
-/// Methods that go to [`Plain`].
+/// Methods that forward to [`Plain`].
 macro_rules! plain {
     ($(fn $name:ident($($argument:ident: $type:ty),*) -> $result:ty;)*) => {
         $(#[inline(always)]

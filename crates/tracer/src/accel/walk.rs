@@ -1,18 +1,18 @@
-//! Through an eight-wide tree.
+//! Traversal of an eight-wide tree.
 
 use super::lanes::{Eight, Lanes, Visit};
 use super::node::{Child, Node};
 use super::ray::{SlabLanes, SlabRay};
 
-/// What happens at a tree's leaves.
+/// Action at a tree's leaves.
 pub(super) trait Leaves {
-    /// Visits a leaf; may lower the limit. Whether to stop. To be marked `#[inline(always)]`, like all that it calls,
-    /// so that it is compiled with the lanes' instructions (closures would not be).
+    /// Visits a leaf; may lower the limit. Returns true to stop. Mark it `#[inline(always)]`, like everything it calls, so that it is
+    /// compiled with the lanes' instructions (closures would not be).
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool;
 }
 
-/// Visits the leaves that a ray enters at or before `limit`, until a leaf says stop. With
-/// `SORTED`, near leaves come before far ones. Whether it was stopped.
+/// Visits the leaves that a ray enters at or before `limit`, until a leaf returns true. With `SORTED`, near leaves come before far ones.
+/// Returns true if it was stopped.
 #[inline(always)]
 pub(super) fn walk<L: Lanes, const SORTED: bool>(
     l: L,
@@ -66,7 +66,7 @@ fn descend<L: Lanes, const SORTED: bool>(
     Some(Child::from_word(best as u32))
 }
 
-/// What a ray enters of a node, from the second lane on.
+/// Children of a node that a ray enters, from the second lane on.
 struct PendingQueue<'a> {
     node: &'a Node,
     lanes: u32,
@@ -74,7 +74,7 @@ struct PendingQueue<'a> {
 }
 
 impl PendingQueue<'_> {
-    /// The nearest, `first` included; the others are left pending, the nearer to be taken earlier.
+    /// The nearest, including `first`; the others are left pending, the nearer to be taken earlier.
     #[inline(always)]
     fn nearest(mut self, first: u64, pending: &mut PendingNodes) -> u64 {
         let (mut best, mut count) = (first, 0);
@@ -102,7 +102,7 @@ impl PendingQueue<'_> {
     }
 }
 
-/// Takes the lowest lane out of `lanes`: where the ray enters it, if that matters, and the child.
+/// Removes the lowest lane from `lanes`: the ray's entry, if it matters, and the child.
 #[inline(always)]
 fn take<const SORTED: bool>(node: &Node, lanes: &mut u32, near: &Eight) -> u64 {
     let lane = lanes.trailing_zeros() as usize & 7;
@@ -110,13 +110,13 @@ fn take<const SORTED: bool>(node: &Node, lanes: &mut u32, near: &Eight) -> u64 {
     entry(if SORTED { near.0[lane] } else { 0.0 }, node.children[lane])
 }
 
-/// Entries at hand; those of deeper trees than usual go to the heap.
+/// Entries on the stack; those of unusually deep trees go to the heap.
 const AT_HAND: usize = 32;
-/// Entries that a node adds at most.
+/// Maximum number of entries that a node adds.
 const A_NODE: usize = 7;
 
-/// A stack of entries. An entry is where the ray enters a child (as bits, which order like the numbers, none being
-/// negative) above the child's word.
+/// A stack of entries. An entry is the ray's entry into a child (as bits, which order like the numbers, none being negative) above the
+/// child's word.
 pub(super) struct PendingNodes {
     at_hand: [u64; AT_HAND],
     count: usize,
@@ -137,7 +137,7 @@ pub(super) fn entry(near: f32, child: Child) -> u64 {
 }
 
 impl PendingNodes {
-    /// Makes room for a node's entries.
+    /// Reserves space for a node's entries.
     #[inline(always)]
     pub(super) fn reserve(&mut self) {
         if self.count > AT_HAND - A_NODE {
@@ -152,7 +152,7 @@ impl PendingNodes {
         self.count = 0;
     }
 
-    /// Adds an entry, for which there is room.
+    /// Adds an entry, for which there is space.
     #[inline(always)]
     pub(super) fn push(&mut self, entry: u64) {
         self.at_hand[self.count % AT_HAND] = entry;
@@ -172,7 +172,7 @@ impl PendingNodes {
         }
     }
 
-    /// Takes the entries added last until one begins at or before `limit`.
+    /// Takes entries, the last first, until one begins at or before `limit`.
     #[inline(always)]
     pub(super) fn pop(&mut self, limit: f32) -> Option<Child> {
         loop {

@@ -8,33 +8,33 @@ use super::blas::Blas;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, MeshId, Shape, uniform_scale};
 
-/// Why a world is refused.
+/// Error of a world.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum WorldError {
-    /// An instance names a mesh that is not there.
+    /// An instance names a mesh that does not exist.
     #[error("instance {instance} shows mesh {mesh}, but the world has {meshes} meshes; add the mesh first")]
     UnknownMesh {
-        /// The instance, counted from 0.
+        /// Index of the instance, from 0.
         instance: usize,
-        /// The mesh it names.
+        /// The mesh that it names.
         mesh: u32,
-        /// Meshes of the world.
+        /// Number of meshes of the world.
         meshes: usize,
     },
     /// An instance has fewer materials than its shape has slots.
     #[error("instance {instance} has {found} materials, but its shape uses {expected} slots; give one material a slot")]
     MissingMaterials {
-        /// The instance, counted from 0.
+        /// Index of the instance, from 0.
         instance: usize,
-        /// Materials of the instance.
+        /// Number of materials of the instance.
         found: usize,
-        /// Slots of the shape.
+        /// Number of slots of the shape.
         expected: usize,
     },
     /// An instance's transform cannot be inverted or is not finite.
     #[error("instance {instance} has a transform that is not finite or flattens its shape; correct its scale")]
     Transform {
-        /// The instance, counted from 0.
+        /// Index of the instance, from 0.
         instance: usize,
     },
     /// The motion of an instance takes a scale to zero or through it.
@@ -43,7 +43,7 @@ pub enum WorldError {
          keys near zero so close in time that smooth interpolation does not pass through it"
     )]
     Flattened {
-        /// The instance, counted from 0.
+        /// Index of the instance, from 0.
         instance: usize,
     },
     /// A mesh's own unit is too small for the distances of the scene.
@@ -52,41 +52,41 @@ pub enum WorldError {
          scale it less, give its mesh a larger unit, or bring camera and objects nearer to each other"
     )]
     Reach {
-        /// The instance, counted from 0.
+        /// Index of the instance, from 0.
         instance: usize,
-        /// Greatest coordinate of a ray's start in the mesh's frame, in its units.
+        /// Maximum coordinate of a ray's start in the mesh's frame, in its units.
         reach: f64,
     },
-    /// A mesh is so large that the camera before it is rounded into it.
+    /// A mesh is so large that rounding moves the camera in front of it into it.
     #[error(
         "the camera is {away:.3} units before the box of instance {instance} and moves by {moved:.3} units when it is rounded \
          to the 32 bits of the mesh's frame; make the mesh smaller, cut it, or put its origin near the camera"
     )]
     Rounding {
-        /// The instance, counted from 0.
+        /// Index of the instance, from 0.
         instance: usize,
-        /// Distance from the box that holds the mesh, along the axis where it is greatest, in units of the mesh's frame.
+        /// Distance from the box that holds the mesh, along the axis of the largest distance, in units of the mesh's frame.
         away: f64,
-        /// What rounding moves the camera by, likewise.
+        /// Displacement of the camera by rounding, in the same units.
         moved: f64,
     },
-    /// A sphere reaches farther than distances can be told.
+    /// A sphere is farther away than distances can be resolved.
     #[error(
         "instance {instance} is a sphere that reaches {reach_m:e} m from the camera, but at most 1e12 m can be traced; bring \
          it nearer or make it smaller"
     )]
     Sphere {
-        /// The instance, counted from 0.
+        /// Index of the instance, from 0.
         instance: usize,
-        /// Greatest coordinate of the sphere relative to the camera, m.
+        /// Maximum coordinate of the sphere relative to the camera, m.
         reach_m: f64,
     },
     /// A sphere's radius is not a positive number.
     #[error("instance {instance} is a sphere of radius {radius_m} m; a radius must be positive and finite")]
     Radius {
-        /// The instance, counted from 0.
+        /// Index of the instance, from 0.
         instance: usize,
-        /// The radius, m.
+        /// Radius given, m.
         radius_m: f64,
     },
 }
@@ -100,13 +100,13 @@ pub struct WorldBuilder {
 }
 
 impl WorldBuilder {
-    /// An empty world to be filled.
+    /// An empty builder.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The same with another quality of its meshes' trees.
+    /// Sets the quality of its meshes' trees.
     #[must_use]
     pub fn with_tree_quality(self, tree_quality: Accelerator) -> Self {
         Self { tree_quality, ..self }
@@ -124,8 +124,8 @@ impl WorldBuilder {
         (self.instances.len() - 1) as u32
     }
 
-    /// Area of one side of an instance's surfaces of a material, m² in the world; `None` where it changes over time because
-    /// the instance's scale does or its vertices move, and for a sphere that it stretches unevenly, of whose area no closed form is known.
+    /// Area of one side of an instance's surfaces of a material, m² in the world. `None` if it changes over time because the instance's
+    /// scale does or its vertices move, and for a sphere that it stretches non-uniformly, whose area has no closed form.
     #[must_use]
     pub fn area_m2(&self, instance: &Instance, material: MaterialId) -> Option<f64> {
         let to_world = instance.to_world.keeps_areas().then(|| instance.to_world.at(0.0).matrix3)?;
@@ -148,7 +148,7 @@ impl WorldBuilder {
         }
         let tree = |mesh: &Mesh| match mesh.animation() {
             None => Blas::new(mesh, self.tree_quality),
-            // A view makes one for its own interval.
+            // A view builds one for its own interval.
             Some(_) => Blas::over(0, |_| unreachable!("no triangles"), Accelerator::Fast),
         };
         let trees = self.meshes.par_iter().map(tree).collect();
@@ -221,13 +221,13 @@ impl World {
         meshes + trees + size_of_val(self.instances.as_slice())
     }
 
-    /// What was spent on the trees.
+    /// Quality of the trees.
     #[must_use]
     pub fn tree_quality(&self) -> Accelerator {
         self.tree_quality
     }
 
-    /// Of a mesh whose vertices do not move.
+    /// The tree of a mesh whose vertices do not move.
     pub(crate) fn tree(&self, id: MeshId) -> &Blas {
         &self.trees[id.0 as usize]
     }
@@ -238,8 +238,8 @@ impl World {
         &self.instances
     }
 
-    /// Area of one side of an instance's surfaces of a material at the time 0, m²; of a stretched sphere that of one whose squared
-    /// radius is the mean of its squared half axes.
+    /// Area of one side of an instance's surfaces of a material at the time 0, m²; for a stretched sphere that of one whose squared radius
+    /// is the mean of its squared half axes.
     #[must_use]
     pub fn area_at_start_m2(&self, instance: &Instance, material: MaterialId) -> f64 {
         let to_world = instance.to_world.at(0.0).matrix3;
@@ -254,7 +254,7 @@ impl World {
         }
     }
 
-    /// Radius of a ball about all instances at the time 0, m; 0 where there are none.
+    /// Radius of a ball about all instances at the time 0, m; 0 if there are none.
     #[must_use]
     pub fn radius_at_start_m(&self) -> f64 {
         let ends = self.instances.iter().flat_map(|instance| self.corners_at_start_m(instance));
@@ -265,7 +265,7 @@ impl World {
         bounds.map_or(0.0, |(low, high)| 0.5 * (high - low).length())
     }
 
-    /// Corners of the box about an instance's shape in its own frame, in the world at the time 0.
+    /// Corners of the box of an instance's shape in its own frame, in the world at the time 0.
     fn corners_at_start_m(&self, instance: &Instance) -> [DVec3; 8] {
         let (low, high) = match instance.shape {
             Shape::Sphere { radius_m } => (DVec3::splat(-radius_m), DVec3::splat(radius_m)),

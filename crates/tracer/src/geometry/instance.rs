@@ -6,11 +6,11 @@ use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 use super::Mesh;
 use crate::MaterialId;
 
-/// A mesh's place in the world's list.
+/// Index of a mesh in the world's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MeshId(pub u32);
 
-/// What an instance shows.
+/// Shape of an instance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// A triangle mesh.
@@ -25,9 +25,9 @@ pub enum Shape {
 /// A shape placed in the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instance {
-    /// What is placed.
+    /// The shape.
     pub shape: Shape,
-    /// From the shape's own frame to the world.
+    /// Transform from the shape's own frame to the world.
     pub to_world: Motion,
     /// The material of each slot of the shape; a sphere has one slot.
     pub materials: Vec<MaterialId>,
@@ -42,14 +42,14 @@ pub struct Instance {
 pub(crate) struct InstanceTransform {
     to_render: DAffine3,
     to_local: DAffine3,
-    /// Takes normals to the render frame, up to their length.
+    /// Transforms normals to the render frame, up to their length.
     normals: Mat3,
-    /// Whether it keeps their length.
+    /// True if it preserves their length.
     keeps_length: bool,
     mean_scale: f64,
-    /// Whether the instance is only moved, neither turned nor scaled.
+    /// True if the instance is only translated, neither rotated nor scaled.
     is_shifted: bool,
-    /// Where the corners of its triangles are rounded in the render frame: their greatest coordinates by axis, m.
+    /// For an instance whose triangle corners are rounded in the render frame: their maximum coordinates by axis, m.
     merged: Option<DVec3>,
 }
 
@@ -58,7 +58,7 @@ impl InstanceTransform {
     pub(crate) fn new(to_world: DAffine3, origin_m: DVec3) -> Self {
         let (to_render, to_local) = about(to_world, origin_m);
         let scale = uniform_scale(&to_render.matrix3);
-        // Not by the matrix itself: of very large and very small instances f32 could not hold it.
+        // Not by the matrix itself: for very large and very small instances f32 could not hold it.
         let turned = to_local.matrix3.transpose();
         let largest = turned.to_cols_array().into_iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
         Self {
@@ -72,13 +72,13 @@ impl InstanceTransform {
         }
     }
 
-    /// Notes that the corners of its triangles, with coordinates up to `greatest` (by axis, m), are rounded to f32 in the
-    /// render frame, where rays then meet them.
+    /// Records that the corners of its triangles, with coordinates up to `greatest` (by axis, m), are rounded to f32 in the render frame,
+    /// where rays then hit them.
     pub(crate) fn merge(&mut self, greatest: DVec3) {
         self.merged = Some(greatest);
     }
 
-    /// Whether the corners of its triangles are rounded in the render frame.
+    /// True if the corners of its triangles are rounded in the render frame.
     pub(crate) fn is_merged(&self) -> bool {
         self.merged.is_some()
     }
@@ -104,7 +104,7 @@ impl InstanceTransform {
         self.line_to_local(ray.origin.as_dvec3(), ray.direction.as_dvec3())
     }
 
-    /// As [`InstanceTransform::ray_to_local`], rounded to f32; quick where the instance is only moved.
+    /// As [`InstanceTransform::ray_to_local`], rounded to f32; fast if the instance is only translated.
     #[inline(always)]
     pub(crate) fn rounded_ray_to_local(&self, ray: &Ray) -> (Vec3, Vec3) {
         if self.is_shifted {
@@ -120,8 +120,8 @@ impl InstanceTransform {
         (self.to_local.transform_point3(origin), self.to_local.transform_vector3(direction))
     }
 
-    /// A unit normal of the instance's frame, in the render frame: unit, and on the same side of its surface.
-    /// `None` where it has no direction.
+    /// A unit normal of the instance's frame, in the render frame: unit, and on the same side of its surface. `None` if it has no
+    /// direction.
     pub(crate) fn normal_to_render(&self, normal: DVec3) -> Option<DVec3> {
         (self.to_local.matrix3.transpose() * normal).try_normalize()
     }
@@ -132,27 +132,28 @@ impl InstanceTransform {
         if self.keeps_length { turned } else { turned.normalize_or(Vec3::Z) }
     }
 
-    /// A normal of the instance's frame, of whatever length, in the render frame, likewise.
+    /// A normal of the instance's frame, of any length, in the render frame: unit, to some roundings of f32.
     pub(crate) fn long_normal_to_render(&self, normal: Vec3) -> Vec3 {
         self.normals * normal
     }
 
-    /// Whether the instance turns right-handed shapes into left-handed ones.
+    /// True if the instance turns right-handed shapes into left-handed ones.
     pub(crate) fn mirrors(&self) -> bool {
         self.to_render.matrix3.determinant() < 0.0
     }
 
-    /// By how much the instance enlarges, where it is the same in all directions.
+    /// Scale of the instance, if it is the same in all directions.
     pub(crate) fn uniform_scale(&self) -> Option<f64> {
         uniform_scale(&self.to_render.matrix3)
     }
 
-    /// By how much the instance enlarges on average: the third root of its enlargement of volumes.
+    /// Mean scale of the instance: the third root of its scale of volumes.
     pub(crate) fn mean_scale(&self) -> f64 {
         self.mean_scale
     }
 
-    /// Least and greatest coordinates in the render frame, m, of the instance's shape among the world's `meshes`; `None` for a mesh without triangles.
+    /// Minimum and maximum coordinates in the render frame, m, of the instance's shape among the world's `meshes`; `None` for a mesh
+    /// without triangles.
     pub(crate) fn bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
         let (low, high) = match instance.shape {
             Shape::Mesh(id) => meshes[id.0 as usize].bounds().map(|(low, high)| (low.as_dvec3(), high.as_dvec3()))?,
@@ -169,18 +170,18 @@ impl InstanceTransform {
         (self.to_render.translation - half, self.to_render.translation + half)
     }
 
-    /// The greatest coordinate, in the instance's frame, of a box of the render frame.
+    /// The maximum coordinate, in the instance's frame, of a box of the render frame.
     pub(crate) fn greatest_local(&self, low: DVec3, high: DVec3) -> f64 {
         let corner = |i: u32| DVec3::select(glam::BVec3::new(i & 1 == 0, i & 2 == 0, i & 4 == 0), low, high);
         let local = (0..8).map(|i| self.to_local.transform_point3(corner(i)).abs().max_element());
         local.fold(0.0, |most: f64, x| if x > most || x.is_nan() { x } else { most })
     }
 
-    /// How far, per axis of the render frame (m), rounding may move a surface point or a ray's origin made from it off
-    /// the surface: the point and the pushed origin are each rounded to f32 in the render frame (half a unit in the last
-    /// place each, ≤ 2⁻²⁴ of the coordinate), and the origin once more in the instance's frame. The factors 3 and 2 for
-    /// 2 and 1 make room for the push itself and for the f64 arithmetic, which is 2²⁹ times finer. Of a merged instance the
-    /// corners are rounded in the place of the origin, and with them all points between.
+    /// Maximum distance, per axis of the render frame (m), by which rounding may move a surface point or a ray's origin computed from it
+    /// off the surface. The point and the pushed origin are each rounded to f32 in the render frame (half a unit in the last place each, ≤
+    /// 2⁻²⁴ of the coordinate), and the origin once more in the instance's frame. The factors 3 and 2 instead of 2 and 1 leave a margin for
+    /// the push itself and for the f64 arithmetic, which is 2²⁹ times finer. For a merged instance the corners are rounded instead of the
+    /// origin, and with them all points between.
     #[inline]
     pub(crate) fn position_error(&self, position: Vec3, local: DVec3) -> Vec3 {
         let carried = self.merged.unwrap_or_else(|| self.abs_matrix() * local.abs());
@@ -194,7 +195,7 @@ impl InstanceTransform {
     }
 }
 
-/// To the render frame of a camera at `origin_m`, and back.
+/// Transform to the render frame of a camera at `origin_m`, and its inverse.
 pub(super) fn about(mut to_world: DAffine3, origin_m: DVec3) -> (DAffine3, DAffine3) {
     to_world.translation -= origin_m;
     (to_world, to_world.inverse())
@@ -202,11 +203,11 @@ pub(super) fn about(mut to_world: DAffine3, origin_m: DVec3) -> (DAffine3, DAffi
 
 pub(crate) fn uniform_scale(m: &DMat3) -> Option<f64> {
     let square = m.x_axis.length_squared();
-    // M Mᵀ is a multiple of one; descriptions are written with some ten digits.
+    // M Mᵀ is a multiple of the identity; descriptions are written with some ten digits.
     let gram = m.transpose() * *m;
     let deviation = (gram - DMat3::from_diagonal(DVec3::splat(square))).to_cols_array();
     deviation.iter().all(|x| x.abs() <= 1e-9 * square).then_some(square.sqrt())
 }
 
-/// Greatest relative error of rounding to f32: 2⁻²⁴.
+/// Maximum relative error of rounding to f32: 2⁻²⁴.
 const HALF_ULP: f64 = 5.960_464_477_539_063e-8;

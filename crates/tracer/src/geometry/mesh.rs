@@ -1,15 +1,15 @@
 //! Triangle meshes.
 //!
-//! A mesh is checked once, when it is made: after that every index is in range, every coordinate finite, every
-//! triangle has an area, and no two triangles are the same. What cannot be intersected (triangles of zero area) or
-//! cannot be told apart (exact duplicates, in any order of their corners) is dropped and counted.
+//! A mesh is checked once, when it is built: after that every index is in range, every coordinate finite, every triangle has an area, and no two
+//! triangles are the same. Triangles that cannot be intersected (zero area) or distinguished (exact duplicates, in any order of their corners) are
+//! dropped and counted.
 
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::{MeshError, VertexAnimation, repeats::repeats};
 
-/// Coordinates beyond this are refused: products of three of them must stay finite in f32.
+/// Maximum coordinate of a mesh: products of three coordinates must stay finite in f32.
 const MAX_COORDINATE_M: f32 = 1e12;
 /// Trees name leaves by 30 bits, and have no more of them than pieces of triangles.
 const MAX_TRIANGLES: usize = (1 << 29) - 1;
@@ -23,20 +23,20 @@ pub struct Mesh {
     triangles: Vec<[u32; 3]>,
     slots: Vec<u16>,
     facets: Vec<Facet>,
-    /// Told for every instance, so found once.
+    /// Needed for every instance, so computed once.
     bounds: Option<(Vec3, Vec3)>,
     slot_count: usize,
     origin: DVec3,
-    /// Where its vertices are over time, where they move.
+    /// Vertex animation, if its vertices move.
     animation: Option<Box<VertexAnimation>>,
 }
 
-/// How many triangles were left out of a mesh, and why.
+/// Number of triangles left out of a mesh, by reason.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DroppedTriangles {
     /// Triangles whose corners lie on one line or point.
     pub zero_area: usize,
-    /// Triangles with the same three corners as an earlier one, in whatever order.
+    /// Triangles with the same three corners as an earlier one, in any order.
     pub duplicate: usize,
 }
 
@@ -50,9 +50,8 @@ impl Mesh {
         vertices + size_of_val(self.uvs.as_slice()) + triangles + size_of_val(self.facets.as_slice()) + frames
     }
 
-    /// A checked mesh. `normals` and `uvs` are one a vertex or empty; `slots` (material slots) one a triangle, or empty
-    /// for slot 0 throughout. Triangles kept stay in their order; a primitive is counted among those kept. Runs on the caller's
-    /// thread pool.
+    /// A checked mesh. `normals` and `uvs` are one per vertex or empty; `slots` (material slots) one per triangle, or empty for slot 0
+    /// throughout. Remaining triangles stay in their order; primitives are counted among them. Runs on the caller's thread pool.
     pub fn new(
         positions: Vec<Vec3>,
         normals: Vec<Vec3>,
@@ -72,8 +71,8 @@ impl Mesh {
         Ok((mesh, dropped))
     }
 
-    /// A checked mesh whose vertices move; its own are those of the first frame. As [`Mesh::new`], but triangles are dropped only
-    /// where they have no area in any frame, or the same three vertices as an earlier one.
+    /// A checked mesh whose vertices move; its own are those of the first frame. As [`Mesh::new`], but triangles are dropped only if they
+    /// have no area in any frame, or the same three vertices as an earlier one.
     pub fn animated(
         animation: VertexAnimation,
         uvs: Vec<Vec2>,
@@ -104,45 +103,45 @@ impl Mesh {
         Ok((mesh, dropped))
     }
 
-    /// Finds what is told of the triangles that are kept.
+    /// Computes the facets and bounds of the remaining triangles.
     fn complete(&mut self) {
         self.facets = (0..self.triangles.len()).into_par_iter().map(|i| self.new_facet(i)).collect();
         self.bounds = self.find_bounds();
         self.slot_count = self.slots.iter().max().map_or(0, |s| usize::from(*s) + 1);
     }
 
-    /// Where its vertices are over time; `None` where they do not move.
+    /// Vertex animation; `None` if its vertices do not move.
     #[must_use]
     pub fn animation(&self) -> Option<&VertexAnimation> {
         self.animation.as_deref()
     }
 
-    /// The same mesh, told that its file's own coordinates are those of this mesh plus `origin`: projected textures stay where
-    /// the file has them.
+    /// Sets the offset `origin` from this mesh's coordinates to those of its file: projected textures stay in place in the file's
+    /// coordinates.
     #[must_use]
     pub fn with_origin(self, origin: DVec3) -> Self {
         Self { origin, ..self }
     }
 
-    /// What is to be added to this mesh's coordinates for those of its file.
+    /// The offset from this mesh's coordinates to those of its file.
     #[must_use]
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
 
-    /// Vertex positions, m; of vertices that move, those of the first frame.
+    /// Vertex positions, m; for vertices that move, those of the first frame.
     #[must_use]
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
     }
 
-    /// Vertex normals, as given; empty where there are none.
+    /// Vertex normals, as given; empty if there are none.
     #[must_use]
     pub fn normals(&self) -> &[Vec3] {
         &self.normals
     }
 
-    /// Texture coordinates, one a vertex; empty where there are none.
+    /// Texture coordinates, one per vertex; empty if there are none.
     #[must_use]
     pub fn uvs(&self) -> &[Vec2] {
         &self.uvs
@@ -165,12 +164,12 @@ impl Mesh {
         Facet::new(self.corners(i as u32), normals, self.slots[i])
     }
 
-    /// What is known beforehand of a triangle.
+    /// Precomputed data of a triangle.
     pub(crate) fn facet(&self, primitive: u32) -> &Facet {
         &self.facets[primitive as usize]
     }
 
-    /// The corners of a triangle, of vertices that move in the first frame.
+    /// The corners of a triangle; for vertices that move, in the first frame.
     #[must_use]
     pub fn corners(&self, primitive: u32) -> [Vec3; 3] {
         self.triangles[primitive as usize].map(|v| self.positions[v as usize])
@@ -182,7 +181,7 @@ impl Mesh {
         self.slot_count
     }
 
-    /// Least and greatest coordinates of the triangles, of vertices that move at any time; `None` without triangles.
+    /// Minimum and maximum coordinates of the triangles, for vertices that move at any time; `None` without triangles.
     #[must_use]
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
         self.bounds
@@ -270,7 +269,7 @@ fn check_indices(vertices: usize, triangles: &[[u32; 3]]) -> Result<(), MeshErro
     Ok(())
 }
 
-/// Whether the corners lie on one line, as f64 sees it.
+/// True if the corners are collinear, in f64.
 fn is_flat(corners: [Vec3; 3]) -> bool {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     (b - a).cross(c - a) == DVec3::ZERO
@@ -290,8 +289,8 @@ fn unordered_vertices(mut vertices: [u32; 3]) -> [[u32; 3]; 3] {
     vertices.map(|vertex| [vertex, 0, 0])
 }
 
-/// Angle, rad, by which vertices' normals may lean for their triangle to be taken for flat: files give places and normals
-/// in some six digits.
+/// Maximum angle, rad, of the vertices' normals to their triangle for it to count as flat: files give positions and normals in some six
+/// digits.
 const FLAT_RAD: f64 = 1e-5;
 
 /// A triangle's own normal and material.
@@ -299,14 +298,13 @@ const FLAT_RAD: f64 = 1e-5;
 pub(crate) struct Facet {
     /// Unit normal in the mesh's frame, by the winding.
     pub(crate) normal: Vec3,
-    /// The material slot.
     pub(crate) slot: u16,
-    /// Whether normals between the vertices' are all along the triangle's own.
+    /// True if normals interpolated between the vertices' are all along the triangle's own.
     pub(crate) is_flat: bool,
 }
 
 impl Facet {
-    /// Of a triangle's corners, its vertices' normals where they have any, and its material slot.
+    /// From a triangle's corners, its vertices' normals if they have any, and its material slot.
     pub(super) fn new([a, b, c]: [Vec3; 3], normals: Option<[Vec3; 3]>, slot: u16) -> Self {
         let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
         let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
@@ -314,7 +312,7 @@ impl Facet {
     }
 }
 
-/// Whether vertices' normals all lie along a triangle's own: on either side, but all on one.
+/// True if vertices' normals all lie along a triangle's own: on either side, but all on one.
 fn are_along(normals: [Vec3; 3], normal: DVec3) -> bool {
     let along = normals.map(|own| {
         let own = own.as_dvec3().normalize_or_zero();

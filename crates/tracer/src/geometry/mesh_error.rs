@@ -1,22 +1,22 @@
-//! Why a mesh is refused.
+//! Errors of meshes.
 
-/// Why a mesh is refused.
+/// Error of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MeshError {
-    /// A triangle names a vertex that is not there.
+    /// A triangle names a vertex that does not exist.
     #[error("triangle {triangle} names vertex {vertex}, but the mesh has {vertices} vertices; correct its indices")]
     IndexOutOfRange {
-        /// The triangle, counted from 0.
+        /// Index of the triangle, from 0.
         triangle: usize,
-        /// The vertex it names.
+        /// The vertex that it names.
         vertex: u32,
-        /// Vertices of the mesh.
+        /// Number of vertices of the mesh.
         vertices: usize,
     },
     /// A coordinate is NaN or infinite.
     #[error("vertex {vertex} has a coordinate that is not a finite number; correct its position")]
     NonFinitePosition {
-        /// The vertex, counted from 0.
+        /// Index of the vertex, from 0.
         vertex: usize,
     },
     /// A coordinate is beyond what single precision can intersect.
@@ -24,29 +24,29 @@ pub enum MeshError {
         "vertex {vertex} is more than 1e12 m from the mesh's origin; give the mesh a smaller unit or place it by its instance"
     )]
     TooFar {
-        /// The vertex, counted from 0.
+        /// Index of the vertex, from 0.
         vertex: usize,
     },
     /// A texture coordinate is NaN or infinite.
     #[error("vertex {vertex} has a texture coordinate that is not a finite number; correct it")]
     NonFiniteUv {
-        /// The vertex, counted from 0.
+        /// Index of the vertex, from 0.
         vertex: usize,
     },
     /// Normals or texture coordinates do not match the vertices, or slots the triangles.
     #[error("the mesh has {found} {what}, but {expected} are needed (or none)")]
     Count {
-        /// What is counted.
+        /// The counted quantity.
         what: &'static str,
-        /// How many there are.
+        /// Number found.
         found: usize,
-        /// How many there should be.
+        /// Number expected.
         expected: usize,
     },
-    /// More triangles than the tree can name.
+    /// More triangles than the tree can index.
     #[error("the mesh has {triangles} triangles, but at most 536870911 are possible; split it")]
     TooManyTriangles {
-        /// How many there are.
+        /// Number of triangles.
         triangles: usize,
     },
     /// Vertices that move have too few frames, or times that do not fit them.
@@ -54,15 +54,15 @@ pub enum MeshError {
         "{frames} frames of vertices at {times} times; give two frames or more, rising finite times, one a frame, and of a loop one more"
     )]
     FrameTimes {
-        /// How many frames there are.
+        /// Number of frames.
         frames: usize,
-        /// How many times.
+        /// Number of times.
         times: usize,
     },
     /// Frames of moving vertices differ in their numbers of vertices or normals.
     #[error("frame {frame} has other numbers of vertices or normals than frame 0; all must be of one mesh")]
     UnequalFrames {
-        /// The frame, counted from 0.
+        /// Index of the frame, from 0.
         frame: usize,
     },
 }

@@ -1,11 +1,11 @@
-//! A mesh as it is at one moment.
+//! A mesh at one time.
 
 use etendue_core::TimeInterval;
 use glam::{DVec3, Vec2, Vec3};
 
 use super::{Mesh, VertexAnimation, mesh::Facet, vertex_animation::Span};
 
-/// A mesh at one moment: its own vertices, or where its animation has them.
+/// A mesh at one time: its own vertices, or those of its animation.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshPose<'m> {
     mesh: &'m Mesh,
@@ -22,13 +22,13 @@ impl Mesh {
         }
     }
 
-    /// The mesh as it is all through an interval; `None` where some vertex moves.
+    /// The mesh during a whole interval; `None` if some vertex moves.
     pub(crate) fn still_over(&self, interval: TimeInterval) -> Option<MeshPose<'_>> {
         let Some(animation) = self.animation() else { return Some(MeshPose::still(self)) };
         animation.still_over(interval).map(|span| MeshPose::moved(self, animation, span))
     }
 
-    /// Poses between which all vertices go straight during an interval, in no order.
+    /// Poses between which all vertices move straight during an interval, in no order.
     pub(crate) fn poses_of(&self, interval: TimeInterval) -> Vec<MeshPose<'_>> {
         let Some(animation) = self.animation() else { return vec![MeshPose::still(self)] };
         let spans = animation.corners_of(interval).into_iter();
@@ -47,7 +47,6 @@ impl<'m> MeshPose<'m> {
         Self { mesh, moved: Some((animation, span)) }
     }
 
-    /// The mesh.
     pub(crate) fn mesh(&self) -> &'m Mesh {
         self.mesh
     }
@@ -71,7 +70,7 @@ impl<'m> MeshPose<'m> {
         }
     }
 
-    /// What every hit on a triangle asks of it.
+    /// Data of a triangle that every hit needs.
     #[inline(always)]
     pub(crate) fn facet(&self, primitive: u32) -> Facet {
         match self.moved {
@@ -104,7 +103,7 @@ impl<'m> MeshPose<'m> {
         (!uvs.is_empty()).then(|| self.vertices(primitive).map(|v| uvs[v as usize]))
     }
 
-    /// Least and greatest coordinates of the triangles; `None` without triangles.
+    /// Minimum and maximum coordinates of the triangles; `None` without triangles.
     #[must_use]
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
         if self.moved.is_none() {

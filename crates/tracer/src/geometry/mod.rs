@@ -1,7 +1,6 @@
-//! What stands in the world: triangle meshes and analytic spheres, instances of them, and points on their surfaces.
+//! Geometry of the world: triangle meshes and analytic spheres, instances of them, and points on their surfaces.
 //!
-//! A mesh keeps its own f32 frame; an instance places it in the world by an f64 transform. Two instances of one mesh
-//! share its vertices and its tree.
+//! A mesh keeps its own f32 frame; an instance places it in the world by an f64 transform. Two instances of one mesh share its vertices and its tree.
 
 mod instance;
 mod mesh;

@@ -1,8 +1,8 @@
 //! An instance relative to the camera, during an interval of time.
 //!
-//! What stands still has one transform. What moves has that of a ray's own time, made when a ray comes to it: nothing between is
-//! blended or rounded to steps. Rays are met in its own frame, where its mesh has its tree; only its box in the render frame,
-//! by which rays come to it, is that of the whole interval.
+//! A static instance has one transform. A moving one has that of a ray's own time, computed for each ray: there is no interpolation or rounding to
+//! steps. Rays are intersected in its own frame, which holds the tree of its mesh. Only its box in the render frame, by which rays reach it, is that
+//! of the whole interval.
 
 use std::borrow::Cow;
 
@@ -47,7 +47,7 @@ impl Placement {
         }
     }
 
-    /// The transforms of what does not move.
+    /// The transforms of a static instance.
     #[inline(always)]
     pub(crate) fn still(&self) -> Option<&InstanceTransform> {
         match self {
@@ -56,7 +56,7 @@ impl Placement {
         }
     }
 
-    /// As [`Placement::still`], to be changed.
+    /// As [`Placement::still`], mutable.
     pub(crate) fn still_mut(&mut self) -> Option<&mut InstanceTransform> {
         match self {
             Self::Still(transform) => Some(transform),
@@ -64,7 +64,7 @@ impl Placement {
         }
     }
 
-    /// Whether the corners of its triangles are rounded in the render frame.
+    /// True if the corners of its triangles are rounded in the render frame.
     pub(crate) fn is_merged(&self) -> bool {
         self.still().is_some_and(InstanceTransform::is_merged)
     }
@@ -85,8 +85,8 @@ impl Placement {
         (origin.as_vec3(), direction.as_vec3())
     }
 
-    /// Least and greatest coordinates in the render frame, m, of the instance's shape among the world's `meshes` at any time of
-    /// the interval; `None` for a mesh without triangles.
+    /// Minimum and maximum coordinates in the render frame, m, of the instance's shape among the world's `meshes` at any time of the
+    /// interval; `None` for a mesh without triangles.
     pub(crate) fn bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
         match self {
             Self::Still(transform) => transform.bounds(instance, meshes),
@@ -94,7 +94,7 @@ impl Placement {
         }
     }
 
-    /// As [`Placement::bounds`]; of what moves looser, and quick for intervals of many keys.
+    /// As [`Placement::bounds`]; for moving instances looser, and fast for intervals of many keys.
     pub(crate) fn rough_bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
         match self {
             Self::Still(transform) => transform.bounds(instance, meshes),
@@ -102,7 +102,7 @@ impl Placement {
         }
     }
 
-    /// The greatest coordinate, in the instance's frame, of a box of the render frame, or a bound of it.
+    /// The maximum coordinate, in the instance's frame, of a box of the render frame, or an upper bound of it.
     pub(crate) fn greatest_local(&self, low: DVec3, high: DVec3) -> f64 {
         match self {
             Self::Still(transform) => transform.greatest_local(low, high),

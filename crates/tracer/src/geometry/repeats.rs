@@ -1,7 +1,7 @@
-//! Which triangles are there already.
+//! Search for duplicate triangles.
 //!
-//! A hash of each triangle is sorted together with its number, so that equal triangles stand side by side; equal hashes are
-//! believed only where the triangles themselves are equal.
+//! A hash of each triangle is sorted together with its number, so that equal triangles are adjacent. Equal hashes count only if the triangles
+//! themselves are equal.
 
 use rayon::prelude::*;
 
@@ -26,7 +26,7 @@ pub(super) fn repeats(kept: &[bool], corners: impl Fn(u32) -> Corners + Sync) ->
     runs.flat_map(|run| repeats_of_run(run, &corners)).collect()
 }
 
-/// The same of triangles of one hash, in increasing order: nearly always one triangle, over and over.
+/// The same for triangles of one hash, in increasing order: nearly always copies of one triangle.
 fn repeats_of_run(run: &[HashedTriangle], corners: &impl Fn(u32) -> Corners) -> Vec<u32> {
     let mut first: Vec<Corners> = Vec::new();
     let mut repeats = Vec::new();

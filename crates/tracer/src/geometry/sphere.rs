@@ -8,8 +8,8 @@ use core::f64::consts::{PI, TAU};
 use etendue_core::maths;
 use glam::{DVec2, DVec3};
 
-/// The two parameters at which a line meets a sphere of radius `radius` about the origin, lesser first; `direction`
-/// need not be of unit length. `None` where it passes by.
+/// The two parameters at which a line hits a sphere of radius `radius` about the origin, lesser first; `direction` need not be of unit
+/// length. `None` if it misses.
 pub(crate) fn roots(radius: f64, origin: DVec3, direction: DVec3) -> Option<[f64; 2]> {
     let a = direction.length_squared();
     let b = -origin.dot(direction);
@@ -25,7 +25,7 @@ pub(crate) fn roots(radius: f64, origin: DVec3, direction: DVec3) -> Option<[f64
     Some(if t0 <= t1 { [t0, t1] } else { [t1, t0] })
 }
 
-/// The lesser positive parameter at which a ray meets the sphere.
+/// The lesser positive parameter at which a ray hits the sphere.
 pub(crate) fn nearest(radius: f64, origin: DVec3, direction: DVec3) -> Option<f64> {
     roots(radius, origin, direction)?.into_iter().find(|t| *t > 0.0)
 }
@@ -38,7 +38,7 @@ pub(crate) fn uv(unit: DVec3) -> DVec2 {
     DVec2::new(if turn < 0.0 { turn + 1.0 } else { turn }, latitude + 0.5)
 }
 
-/// Texture units a metre covers on a sphere, as the root of the ratio of the whole areas.
+/// Texture units per metre on a sphere, as the root of the ratio of the whole areas.
 pub(crate) fn uv_per_m(radius_m: f64) -> f64 {
     1.0 / (radius_m * (2.0 * TAU).sqrt())
 }

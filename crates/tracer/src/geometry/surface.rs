@@ -10,16 +10,16 @@ use crate::MaterialId;
 pub struct SurfacePoint {
     /// The point, m.
     pub position: Vec3,
-    /// How far the stored point, and a ray's origin made from it, may be from the true surface, per axis, m.
+    /// Maximum distance of the stored point, and of a ray's origin computed from it, from the true surface, per axis, m.
     pub position_error: Vec3,
     /// Unit normal of the surface itself: by the winding of a mesh's triangles in their own frame (anticlockwise seen
     /// from its tip), outwards for spheres.
     pub geometric_normal: Vec3,
     /// Unit normal for shading: the vertices' normals interpolated, on the same side as the geometric one.
     pub shading_normal: Vec3,
-    /// Texture coordinates; zero where the mesh has none.
+    /// Texture coordinates; zero if the mesh has none.
     pub uv: Vec2,
-    /// The point in the own frame of the shape, in its units, less the mesh's [`super::Mesh::origin`].
+    /// The point in the own frame of the shape, in its units, minus the mesh's [`super::Mesh::origin`].
     pub local: Vec3,
     /// The normal for shading in the own frame of the shape; unit, on either side.
     pub local_normal: Vec3,
@@ -27,25 +27,24 @@ pub struct SurfacePoint {
     pub instance: u32,
     /// Primitive within the instance's shape.
     pub primitive: u32,
-    /// When it is there: the time of the ray that met it, s ([`etendue_core::Ray::time_s`]).
+    /// Time of the point: that of the ray that hit it, s ([`etendue_core::Ray::time_s`]).
     pub time_s: f32,
     /// The material here.
     pub material: MaterialId,
 }
 
-/// How large things are about a point of a surface, for filtering textures.
+/// Scales of texture and shape at a point of a surface, for filtering textures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Footprint {
-    /// Texture units a metre of the surface covers; 0 without texture coordinates.
+    /// Texture units per metre of the surface; 0 without texture coordinates.
     pub uv_per_m: f32,
-    /// Units of the shape's own frame a metre covers, on average over all directions.
+    /// Units of the shape's own frame per metre, on average over all directions.
     pub local_per_m: f32,
 }
 
 impl SurfacePoint {
-    /// An origin for a ray that leaves the surface along `direction`: the point, pushed off the surface along its
-    /// normal, to the side of `direction`, by the error bound. The surface's own plane then lies behind the ray
-    /// (Pharr, Jakob, Humphreys 2023, section 6.8.6).
+    /// An origin for a ray that leaves the surface along `direction`: the point, pushed off the surface along its normal, to the side of
+    /// `direction`, by the error bound. The surface's own plane then lies behind the ray (Pharr, Jakob, Humphreys 2023, section 6.8.6).
     #[must_use]
     pub fn spawn(&self, direction: Vec3) -> Vec3 {
         let normal = self.geometric_normal;
@@ -70,7 +69,7 @@ impl SurfacePoint {
 /// First hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Where, in lengths of the ray's direction.
+    /// Ray parameter, in lengths of the ray's direction.
     pub t: f32,
     /// Index of the instance in the world.
     pub instance: u32,

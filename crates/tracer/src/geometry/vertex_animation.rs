@@ -1,8 +1,8 @@
 //! Vertices that move within their mesh: positions and normals at several times, straight lines between them.
 //!
-//! A vertex goes from its place at one time to that at the next along a straight line at an even speed, at any time in between. Places are
-//! found in f64 and rounded to f32, so that a vertex has the same bits for all triangles that share it: bodies that are closed
-//! stay closed. Rounding keeps order, so that a place between two others never leaves their box by more than a unit in the last place.
+//! A vertex moves from its position at one time to that at the next along a straight line at constant speed. Positions are computed in f64 and
+//! rounded to f32, so that a vertex has the same bits for all triangles that share it: closed bodies stay closed. Rounding preserves order, so that a
+//! position between two others leaves their box by at most a unit in the last place.
 
 use etendue_core::TimeInterval;
 use glam::{DVec3, Vec3};
@@ -14,11 +14,11 @@ use super::MeshError;
 pub struct VertexFrame {
     /// Positions, m.
     pub positions: Vec<Vec3>,
-    /// Normals of any length above 0: one a vertex, or none.
+    /// Normals of any length above 0: one per vertex, or none.
     pub normals: Vec<Vec3>,
 }
 
-/// What follows the last frame, and what precedes the first.
+/// Behaviour after the last frame and before the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Repeat {
     /// The last holds, and the first before its time.
@@ -31,25 +31,25 @@ pub enum Repeat {
 #[derive(Clone, Debug, PartialEq)]
 pub struct VertexAnimation {
     frames: Vec<VertexFrame>,
-    /// One a frame, rising; of a loop one more, when the first frame comes again. Simulated time, s.
+    /// One per frame, rising; for a loop one more, at which the first frame recurs. Simulated time, s.
     times_s: Vec<f64>,
     repeat: Repeat,
 }
 
-/// A moment between two frames.
+/// A time between two frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Span {
     from: u32,
     to: u32,
-    /// That of the frame `to`, 0 … 1.
+    /// Weight of the frame `to`, 0 … 1.
     weight: f64,
 }
 
-/// By how much of a loop's period moments may be rounded across a frame's time.
+/// Fraction of a loop's period by which times may be rounded across a frame's time.
 const ROUNDING: f64 = 1e-9;
 
 impl VertexAnimation {
-    /// Frames at rising times, s; of a loop one time more, when the first frame comes again.
+    /// Frames at rising times, s; for a loop one time more, at which the first frame recurs.
     ///
     /// # Errors
     /// Fewer than two frames, frames of unequal numbers of vertices or normals, and times that are not finite, not rising or not as many as
@@ -74,13 +74,13 @@ impl VertexAnimation {
         &self.frames
     }
 
-    /// From the first frame to the last, or to the first again.
+    /// From the first frame to the last, or to the recurrence of the first.
     #[must_use]
     pub fn moves_during(&self) -> TimeInterval {
         TimeInterval::new(self.times_s[0], self.end_s()).expect("rising times")
     }
 
-    /// The same vertices at all times.
+    /// True if the vertices are the same at all times.
     #[must_use]
     pub fn is_still(&self) -> bool {
         self.frames.windows(2).all(|pair| pair[0] == pair[1])
@@ -94,7 +94,7 @@ impl VertexAnimation {
         self.end_s() - self.times_s[0]
     }
 
-    /// Where a moment of simulated time (s) lies.
+    /// The span of a simulated time (s).
     pub(crate) fn span(&self, time_s: f64) -> Span {
         let (start_s, count) = (self.times_s[0], self.frames.len() as u32);
         let time_s = match self.repeat {
@@ -107,7 +107,7 @@ impl VertexAnimation {
         Span { from: after as u32 - 1, to: after as u32 % count, weight }
     }
 
-    /// Moments between which all vertices go straight, from the interval's start to its end: both and the frames inside, these in no order.
+    /// Times between which all vertices move straight, from the interval's start to its end: both and the frames inside, these in no order.
     pub(crate) fn corners_of(&self, interval: TimeInterval) -> Vec<Span> {
         let mut spans = vec![self.span(interval.start_s()), self.span(interval.end_s())];
         let inside = (0..self.frames.len()).filter(|frame| self.has_frame(interval, *frame));
@@ -115,7 +115,7 @@ impl VertexAnimation {
         spans
     }
 
-    /// Whether the time of a frame lies in an interval, or so near that rounding may take moments across it.
+    /// True if the time of a frame lies in an interval, or so near that rounding may move times across it.
     fn has_frame(&self, interval: TimeInterval, frame: usize) -> bool {
         let room_s = ROUNDING * self.period_s();
         match self.repeat {
@@ -130,7 +130,7 @@ impl VertexAnimation {
         }
     }
 
-    /// Where it stands all through an interval; `None` where some vertex moves.
+    /// Its pose during a whole interval; `None` if some vertex moves.
     pub(crate) fn still_over(&self, interval: TimeInterval) -> Option<Span> {
         let start = self.span(interval.start_s());
         let holds =
@@ -143,7 +143,7 @@ impl VertexAnimation {
         frames.into_iter().all(|frame| self.frames[frame as usize] == *first).then_some(start)
     }
 
-    /// A vertex at a moment.
+    /// A vertex at a time.
     #[inline]
     pub(crate) fn position(&self, span: Span, vertex: u32) -> Vec3 {
         self.exact_position(span, vertex).as_vec3()
@@ -156,7 +156,7 @@ impl VertexAnimation {
         between(place(span.from), place(span.to), span.weight)
     }
 
-    /// A vertex's normal at a moment, of any length; `None` without normals.
+    /// A vertex's normal at a time, of any length; `None` without normals.
     pub(crate) fn normal(&self, span: Span, vertex: u32) -> Option<Vec3> {
         let normal = |frame: u32| self.frames[frame as usize].normals.get(vertex as usize).map(|n| n.as_dvec3());
         Some(between(normal(span.from)?, normal(span.to)?, span.weight).as_vec3())
@@ -205,7 +205,7 @@ mod tests {
         }
     }
 
-    /// Every moment of an interval lies between two of the moments told of it.
+    /// Every time of an interval lies between two of its corner times.
     #[test]
     fn the_corners_of_an_interval_bound_all_its_moments() {
         for animation in [at(&[1.0, 2.0, 4.0], Repeat::Hold), at(&[1.0, 2.0, 4.0, 5.0], Repeat::Loop)] {

@@ -1,7 +1,7 @@
 //! A density of directions in bins of equal cosine-weighted solid angle.
 //!
-//! The hemisphere is seen from above as a disc, where the cosine's density is even (Nusselt's analogue). It has sixteen sectors of
-//! equal angle with eight rings of equal area each. Which bin a direction is in takes comparisons alone.
+//! The hemisphere is seen from above as a disc, where the cosine's density is uniform (Nusselt's analogue). It has sixteen sectors of equal angle
+//! with eight rings of equal area each. Finding the bin of a direction takes only comparisons.
 
 use core::f32::consts::FRAC_PI_4;
 
@@ -16,7 +16,7 @@ const SECTORS: usize = 16;
 pub(super) const BINS: usize = RINGS * SECTORS;
 /// tan 22.5°.
 const TAN_SIXTEENTH: f32 = 0.414_213_56;
-/// The greatest f32 below 1.
+/// The largest f32 below 1.
 const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
 
 /// The bin of a unit direction above a surface, in its shading frame.
@@ -31,7 +31,7 @@ pub(crate) fn bin_of(wi: Vec3) -> usize {
     sector * RINGS + ring.min(RINGS - 1)
 }
 
-/// The quarter of the plane that a point is in, and the point turned to the first.
+/// The quadrant of a point, and the point rotated to the first quadrant.
 #[inline(always)]
 fn in_first_quarter(x: f32, y: f32) -> (usize, f32, f32) {
     if x > 0.0 && y >= 0.0 {
@@ -45,7 +45,7 @@ fn in_first_quarter(x: f32, y: f32) -> (usize, f32, f32) {
     }
 }
 
-/// Bins that neighbour one: two in its ring, one or two in its sector.
+/// Neighbouring bins: two in its ring, one or two in its sector.
 pub(super) fn neighbours(bin: usize) -> impl Iterator<Item = usize> {
     let (sector, ring) = (bin / RINGS, bin % RINGS);
     let beside = [(sector + 1) % SECTORS, (sector + SECTORS - 1) % SECTORS].map(|s| s * RINGS + ring);
@@ -54,18 +54,18 @@ pub(super) fn neighbours(bin: usize) -> impl Iterator<Item = usize> {
     beside.into_iter().chain(within).chain(beyond)
 }
 
-/// A density of directions above a matt surface, in whole numbers: a path reads one cache line to choose a sector and one for the ring.
+/// A density of directions above a diffuse surface, in integers: a path reads one cache line to choose a sector and one for the ring.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct DirectionDistribution {
-    /// Where each sector ends, as a sum of weights.
+    /// End of each sector, as a cumulative sum of weights.
     ends: [u32; SECTORS],
     /// Weights of the rings of each sector, 1 or more.
     weights: [[u16; RINGS]; SECTORS],
 }
 
 impl DirectionDistribution {
-    /// The density that is in proportion to positive `weights` of bins; what is less than 1/65 535 of the greatest counts as that.
+    /// The density proportional to positive `weights` of bins; weights below 1/65 535 of the maximum are raised to it.
     pub(super) fn new(weights: &[f64; BINS]) -> Self {
         let most = weights.iter().copied().fold(0.0, f64::max);
         let whole = weights.map(|weight| (weight / most * f64::from(u16::MAX)).round().max(1.0) as u16);
@@ -103,7 +103,7 @@ impl DirectionDistribution {
         (wi, self.relative(self.weights[sector][ring]))
     }
 
-    /// The sector that a number in [0, 1) is in, and how far in it, in [0, 1).
+    /// The sector of a number in [0, 1), and its position within it, in [0, 1).
     #[inline(always)]
     fn sector(&self, u: f32) -> (usize, f32) {
         let at = f64::from(u) * f64::from(self.ends[SECTORS - 1]);
@@ -114,13 +114,13 @@ impl DirectionDistribution {
         (sector, (part as f32).clamp(0.0, BELOW_ONE))
     }
 
-    /// The ring of a sector likewise.
+    /// The ring within a sector, and the position within it.
     #[inline(always)]
     fn ring(&self, sector: usize, u: f32) -> (usize, f32) {
         let weights = &self.weights[sector];
         let at = u * sum_of(weights) as f32;
         let (mut ring, mut begin) = (0, 0.0);
-        // The last ring takes what rounding leaves.
+        // The last ring takes the remainder of rounding.
         while ring < RINGS - 1 && at >= begin + f32::from(weights[ring]) {
             begin += f32::from(weights[ring]);
             ring += 1;
@@ -167,7 +167,7 @@ mod tests {
         (0..count).map(move |sample| PathStream::new(&address, sample).two(Draw::BsdfDirection, 0))
     }
 
-    /// Every direction is drawn by the density that is told of it, but for those that rounding carries over a bin's edge.
+    /// Every direction is sampled by the stated density, except those that rounding moves over a bin's edge.
     #[test]
     fn drawn_directions_are_unit_and_have_the_density_that_is_told_of_them() {
         let density = uneven();
@@ -180,7 +180,8 @@ mod tests {
         assert!(over_an_edge <= 16, "{over_an_edge}");
     }
 
-    /// χ² of 2¹⁶ draws that are stratified, so that it is less than that of independent ones: below its 99.9th percentile of 127 degrees of freedom.
+    /// χ² of 2¹⁶ stratified samples, so that it is less than that of independent ones: below its 99.9th percentile of 127 degrees of
+    /// freedom.
     #[test]
     fn bins_are_drawn_as_often_as_their_density_says() {
         let (density, count) = (uneven(), 1 << 16);
@@ -196,8 +197,8 @@ mod tests {
         assert!(squares < 181.0, "{squares}");
     }
 
-    /// The mean of 1/p of a drawn direction is the size of what it is drawn from, here 1 in units of the cosine's density; and every
-    /// bin of an even density is the cosine's.
+    /// The mean of 1/p of a sampled direction is the measure of the domain, here 1 in units of the cosine's density; and every bin of a
+    /// uniform density is the cosine's.
     #[test]
     fn densities_integrate_to_one() {
         let density = uneven();
@@ -207,13 +208,13 @@ mod tests {
         assert!(points(256).all(|u| even.sample(u).1 == 1.0));
     }
 
-    /// Bins have equal parts of cosine-weighted solid angle: directions drawn by the cosine meet all equally.
+    /// Bins have equal parts of cosine-weighted solid angle: directions sampled by the cosine hit all equally.
     #[test]
     fn bins_are_of_equal_cosine_weighted_solid_angle() {
         let mut met = [0_u32; BINS];
         let count = 1 << 17;
         points(count).for_each(|u| met[bin_of(etendue_core::warp::cosine_hemisphere(u))] += 1);
-        // Independent draws would scatter by 32 about 1024.
+        // Independent samples would scatter by 32 about 1024.
         assert!(met.iter().all(|met| met.abs_diff(count / BINS as u32) < 100), "{met:?}");
     }
 

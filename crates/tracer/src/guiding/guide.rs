@@ -1,4 +1,4 @@
-//! A guide, the training paths that it is made of, and where surfaces share what they learn.
+//! A guide, the training paths from which it is built, and the places that share statistics.
 
 use std::{collections::BTreeMap, sync::Mutex};
 
@@ -8,18 +8,18 @@ use super::distribution::{BINS, DirectionDistribution, neighbours};
 
 /// Side of a cube over its distance from the camera, between half of this and all of it.
 const ANGLE: f32 = 0.08;
-/// How many normals there are a side: a direction's components, times this, are rounded.
+/// Number of normals per unit: a direction's components, times this, are rounded.
 const NORMALS: f32 = 1.8;
 
 /// A cube about the camera with a range of normals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Place(u64);
 
-/// Bits of a coordinate.
+/// Bits per coordinate.
 const BITS: u32 = 10;
 /// Half of the range of a coordinate.
 const HALF: i32 = 1 << (BITS - 1);
-/// Where the exponent of a cube's side stands, above three coordinates and the normal.
+/// Position of the exponent of a cube's side, above three coordinates and the normal.
 const EXPONENT: u32 = 3 * BITS + 8;
 /// Marks cubes of the coarse kind.
 const COARSE: u64 = 1 << 60;
@@ -30,14 +30,14 @@ impl Place {
     pub(crate) fn of(position: Vec3, normal: Vec3) -> Self {
         let side = (position.length() * ANGLE).clamp(f32::MIN_POSITIVE, f32::MAX / 2.0);
         let exponent = side.to_bits() >> 23;
-        // Sides are powers of two, so that the quotient is exact; up to 25 cubes lie between the camera and a point of theirs.
+        // Sides are powers of two, so that the quotient is exact; up to 25 cubes lie between the camera and a point.
         let inverse = f32::from_bits((254 - exponent).max(1) << 23);
         let cube = (position * inverse).floor();
         let word = coordinates([cube.x, cube.y, cube.z].map(|c| c as i32));
         Self(u64::from(exponent) << EXPONENT | normal_bits(normal) << (3 * BITS) | word)
     }
 
-    /// The cube four times as wide that this one is in, with the same normals.
+    /// The cube four times as wide that contains this one, with the same normals.
     #[inline(always)]
     pub(super) fn coarse(self) -> Self {
         let word = coordinates(core::array::from_fn(|axis| self.coordinate(axis as u32) >> 2));
@@ -49,7 +49,7 @@ impl Place {
         (self.0 >> (axis * BITS) & ((1 << BITS) - 1)) as i32 - HALF
     }
 
-    /// A number whose lowest bits are scattered.
+    /// A hash whose lowest bits are well distributed.
     #[inline(always)]
     pub(super) fn hash(self) -> usize {
         let mixed = self.0.wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -64,33 +64,32 @@ fn coordinates(cube: [i32; 3]) -> u64 {
     bits[0] | bits[1] << BITS | bits[2] << (2 * BITS)
 }
 
-/// The range of a normal. Frames about normals turn where z changes its sign, so its sign counts.
+/// The range of a normal. Frames about normals flip where z changes its sign, so its sign counts.
 #[inline(always)]
 fn normal_bits(normal: Vec3) -> u64 {
     let [x, y, z] = (normal * NORMALS).round().to_array().map(|c| (c as i32 + 2) as u64);
     x + 5 * y + 25 * z + 128 * u64::from(normal.z.is_sign_negative())
 }
 
-/// Share of the cosine in the mixture (defensive sampling): no weight is more than five times that without a guide.
+/// Fraction of the cosine in the mixture (defensive sampling): no weight is more than five times that without a guide.
 const UNGUIDED: f64 = 0.2;
-/// Paths a bin for which what is expected of it counts.
+/// Weight, in paths, of the expected value of a bin.
 const EXPECTED_PATHS: f64 = 4.0;
-/// What a path of a neighbouring bin counts.
+/// Weight of a path of a neighbouring bin.
 const NEIGHBOUR: f64 = 0.5;
 
-/// Densities of directions at matt surfaces by their place.
+/// Densities of directions at diffuse surfaces by their place.
 #[derive(Clone, Debug, Default)]
 pub struct Guide {
-    /// Open addresses: a place and the number of its density; the number [`EMPTY`] where there is none.
+    /// Open addressing: a place and the index of its density; the index [`EMPTY`] if there is none.
     slots: Vec<(Place, u32)>,
     distributions: Vec<DirectionDistribution>,
 }
 
-/// No density's number.
 const EMPTY: u32 = u32::MAX;
 
 impl Guide {
-    /// Of what was found in cubes and, of all of these, in those four times as wide.
+    /// From the statistics in cubes and, aggregated from these, in those four times as wide.
     pub(super) fn new(fine: &BTreeMap<Place, PlaceStatistics>, coarse: &BTreeMap<Place, PlaceStatistics>) -> Self {
         let wide: BTreeMap<Place, [f64; BINS]> =
             coarse.iter().map(|(place, found)| (*place, squares(found, &[1.0; BINS]))).collect();
@@ -113,7 +112,7 @@ impl Guide {
         self.distributions.push(distribution(squares));
     }
 
-    /// The density at a point (render frame, m) of a surface with a unit shading normal; `None` where too few paths came.
+    /// The density at a point (render frame, m) of a surface with a unit shading normal; `None` if there were too few paths.
     #[inline(always)]
     pub(crate) fn at(&self, position: Vec3, normal: Vec3) -> Option<&DirectionDistribution> {
         let place = Place::of(position, normal);
@@ -136,14 +135,14 @@ impl Guide {
         }
     }
 
-    /// How many places have a density, of cubes and of those four times as wide together.
+    /// Number of places with a density, of cubes and of those four times as wide together.
     #[cfg(test)]
     pub(crate) fn places(&self) -> usize {
         self.distributions.len()
     }
 }
 
-/// Mean squares by bin, over their mean; where few paths came they are near what is `expected`, and like those of neighbouring bins.
+/// Mean squares by bin, over their mean. If there were few paths they are close to the `expected` values and to those of neighbouring bins.
 fn squares(found: &PlaceStatistics, expected: &[f64; BINS]) -> [f64; BINS] {
     let mean = found.iter().map(|bin| bin.squares).sum::<f64>() / found.iter().map(|bin| bin.paths).sum::<f64>();
     let of = |bin: usize| (found[bin].squares / mean, found[bin].paths);
@@ -157,34 +156,34 @@ fn squares(found: &PlaceStatistics, expected: &[f64; BINS]) -> [f64; BINS] {
     squares.map(|square| square / mean)
 }
 
-/// The density of least variance: the root of the mean squares; a part of it even.
+/// The density of least variance: the root of the mean squares, mixed with a uniform part.
 fn distribution(squares: &[f64; BINS]) -> DirectionDistribution {
     let roots = squares.map(f64::sqrt);
     let mean = roots.iter().sum::<f64>() / BINS as f64;
     DirectionDistribution::new(&roots.map(|root| UNGUIDED + (1.0 - UNGUIDED) * root / mean))
 }
 
-/// What was found in the directions of one bin.
+/// Statistics of the directions of one bin.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct BinStatistics {
     /// Sum of squares of radiance.
     pub(super) squares: f64,
-    /// Paths.
     pub(super) paths: f64,
 }
 
-/// What was found at one place.
+/// Statistics of one place.
 pub(super) type PlaceStatistics = [BinStatistics; BINS];
 
-/// Parts that are locked apart.
+/// Number of parts with separate locks.
 const PARTS: usize = 16;
-/// Unit of the sums: squares of radiance, (W/(m² sr nm))², from 8e-25 on are told apart, and their sums to 2.8e14. Beyond, densities tend to the cosine's.
+/// Unit of the sums: squares of radiance, (W/(m² sr nm))², are resolved from 8e-25 on, and their sums up to 2.8e14. Beyond, densities tend
+/// to the cosine's.
 const ONE: f64 = (1_u128 << 80) as f64;
 
-/// Paths below which a place has no density of its own.
+/// Minimum number of paths for a place to have a density of its own.
 const LEAST_PATHS: u32 = 16;
 
-/// What was found in the directions of one bin, while threads add to it.
+/// Statistics of the directions of one bin, while threads add to it.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sum {
     /// Sum of squares of radiance, in units of 1/[`ONE`].
@@ -199,15 +198,15 @@ struct TrainingSum {
     sum: Sum,
 }
 
-/// Gathers what paths find behind matt surfaces. Threads may add in any order.
+/// Collects the radiance that paths find behind diffuse surfaces. Threads may add in any order.
 #[derive(Debug, Default)]
 pub struct Training {
     parts: [Mutex<BTreeMap<(Place, u8), Sum>>; PARTS],
 }
 
 impl Training {
-    /// Adds what a path has found that left a place in the directions of a bin: the radiance that arrived by them, W/(m² sr nm), summed over the
-    /// path's wavelengths as they count at the camera.
+    /// Adds the result of a path that left a place in the directions of a bin: the radiance that arrived from there, W/(m² sr nm), summed
+    /// over the path's wavelengths, weighted as at the camera.
     pub(crate) fn add(&self, place: Place, bin: usize, radiance: f32) {
         let square = f64::from(radiance) * f64::from(radiance) * ONE;
         let mut part = self.parts[place.hash() % PARTS].lock().expect("no path panicked");
@@ -216,18 +215,18 @@ impl Training {
         sum.paths = sum.paths.saturating_add(1);
     }
 
-    /// What all paths have found.
+    /// Builds the guide from the results of all paths.
     #[must_use]
     pub fn guide(self) -> Guide {
         let parts = self.parts.map(|part| part.into_inner().expect("no path panicked"));
-        // In an order that is always the same, so that sums have the same bits.
+        // In a fixed order, so that sums have the same bits.
         let sums: Vec<TrainingSum> =
             parts.into_iter().flatten().map(|((place, bin), sum)| TrainingSum { place, bin, sum }).collect();
         Guide::new(&by_place(&sums, |place| place), &by_place(&sums, Place::coarse))
     }
 }
 
-/// What was found at the places that enough paths have left.
+/// Statistics of the places that enough paths have left.
 fn by_place(sums: &[TrainingSum], place_of: impl Fn(Place) -> Place) -> BTreeMap<Place, PlaceStatistics> {
     let mut paths: BTreeMap<Place, u32> = BTreeMap::new();
     for TrainingSum { place, sum, .. } in sums {
@@ -270,7 +269,7 @@ mod tests {
         let mut places: Vec<Place> = points.iter().map(|p| Place::of(*p, Vec3::X)).collect();
         places.sort_unstable();
         places.dedup();
-        // Cubes of 1/16 m, of which -0.395 m to 0.395 m meets fourteen.
+        // Cubes of 1/16 m; -0.395 m to 0.395 m covers fourteen.
         assert_eq!(places.len(), 14 * 14);
     }
 
@@ -284,7 +283,7 @@ mod tests {
         }
     }
 
-    /// From the smallest to the greatest numbers there is a place, and the same one for the same point.
+    /// From the smallest to the largest numbers there is a place, and the same one for the same point.
     #[test]
     fn every_point_has_a_place() {
         for scale in [0.0, 1e-38, 1e-30, 1e-25, 1e-20, 1.0, 1e12, 1e30, f32::MAX / 4.0] {

@@ -1,4 +1,4 @@
-//! Direct light (next-event estimation): light of sampled lights at a surface, and what is left of it on the way.
+//! Direct light (next-event estimation): sampled lights at a surface, and their transmittance.
 
 use etendue_core::{Integrator, Ray, Spectral, random::Draw};
 use glam::Vec3;
@@ -10,7 +10,7 @@ use crate::lights::{LightSample, LightSampleContext};
 use crate::media::{ForwardPeak, MediaRay, RandomCounter};
 
 impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
-    /// Adds light of as many sampled lights as the receiver draws, as far as it comes through.
+    /// Adds the light of sampled lights, as many as the receiver requires, times its transmittance.
     #[inline(always)]
     pub(super) fn sample_direct_light(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) {
         let lights = self.tracer.lights;
@@ -30,7 +30,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// Radiance at the camera of a sampled light that a surface scatters; `None` where there is none.
+    /// Radiance at the camera of a sampled light that a surface scatters; `None` if there is none.
     #[inline(always)]
     fn direct_light(
         &self,
@@ -53,8 +53,8 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         Some(arriving * visibility)
     }
 
-    /// Weight of a sampled light beside the scattering that may hit it, over its density. A lamp without an opening is found in no
-    /// other way, and nor are surfaces where no ray is traced to hit them.
+    /// Weight of a sampled light against the scattering that may hit it, over its density. Sampling is the only way to find a lamp without
+    /// an opening, or a surface that no ray is traced to hit.
     pub(super) fn light_weight(&self, light: &LightSample<N>, direction_pdf: f32) -> f32 {
         let settings = &self.tracer.settings;
         let is_only_sampled = light.delta || (settings.integrator == Integrator::Flat && light.target.is_some());
@@ -65,8 +65,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// The fraction of a sampled light that reaches the vertex through a `medium`; `None` where something opaque stands
-    /// between.
+    /// Fraction of a sampled light that reaches the vertex through a `medium`; `None` if something opaque stands between.
     fn visibility(
         &self,
         vertex: &Vertex<'_, N>,
@@ -81,7 +80,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         Some(if E::SURFACES { medium.attenuate(fraction, distance_m, self.wavelengths) } else { fraction })
     }
 
-    /// The fraction of a sampled light that comes through along a ray towards it, but for what a solid absorbs in which the ray begins.
+    /// Transmittance along a ray towards a sampled light, without the absorption of a solid in which the ray begins.
     pub(super) fn visibility_along(
         &self,
         ray: Ray,
@@ -107,13 +106,13 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// The ray from a point of a surface to the light's, or to infinity.
+    /// Ray from a point of a surface to that of the light, or to infinity.
     fn ray_from_surface(&self, point: &SurfacePoint, light: &LightSample<N>) -> Ray {
         let origin = point.spawn(light.direction);
         self.ray_towards(origin, light.direction, light.target).leaving(point.primitive_id())
     }
 
-    /// The ray from a point off all surfaces to `target`, or to infinity.
+    /// Ray from a point off all surfaces to `target`, or to infinity.
     pub(super) fn ray_towards(&self, origin: Vec3, direction: Vec3, target: Option<Vec3>) -> Ray {
         let mut ray = Ray::new(origin, direction, self.ray.time_s);
         if let Some(target) = target {
@@ -123,7 +122,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         ray
     }
 
-    /// The fraction of a sampled light that the surfaces along a ray let pass: cut-outs and thin panes let light pass straight.
+    /// Transmittance of the surfaces along a ray towards a sampled light. Cut-outs and thin panes pass light straight.
     fn transmittance_of_surfaces(&self, mut ray: Ray, light: &LightSample<N>) -> Option<Spectral<N>> {
         let material_table = self.tracer.material_table;
         let mut transmittance = Spectral::ONE;

@@ -1,20 +1,19 @@
 //! The path tracer: spectral radiance along a ray.
 //!
-//! Unidirectional paths from the camera (Kajiya 1986). At each vertex a light is sampled (next-event
-//! estimation; at the first surface several where paths branch), then the BSDF samples where the path continues; light found in both ways is weighted by
-//! its densities (multiple importance sampling). Paths end at random by what is left of their throughput (Russian roulette), which
-//! leaves the mean unchanged. Nothing is clamped.
+//! Unidirectional paths from the camera (Kajiya 1986). At each vertex a light is sampled (next-event estimation; several lights at the first surface
+//! if paths branch). Then the BSDF samples the direction in which the path continues. Light that both strategies find is weighted by their densities
+//! (multiple importance sampling). Paths end at random by their remaining throughput (Russian roulette), which leaves the mean unchanged. Nothing is
+//! clamped.
 //!
-//! `max_bounces` is the greatest number of scattering events between a light and the camera: 0 shows only what
-//! emits, 1 adds direct light, 2 light that was scattered twice. Beside the filtering of textures it is the only bias, and it is
-//! darkness.
+//! `max_bounces` is the maximum number of scattering events between a light and the camera: 0 shows only emission, 1 adds direct light, 2 adds light
+//! that was scattered twice. Together with the filtering of textures it is the only bias, and it darkens the image.
 //!
-//! All wavelengths of a path share its directions, drawn by densities common to them.
+//! All wavelengths of a path share its directions, which are sampled by densities common to them.
 //!
 //! | file | subject |
 //! | --- | --- |
 //! | `settings` | settings, and the weights of multiple importance sampling |
-//! | `path_tracer` | view, materials, lights; which effects paths are compiled for |
+//! | `path_tracer` | view, materials, lights; effects that paths are compiled for |
 //! | `radiance` | entry points: a ray, a group of rays, the training of a guide |
 //! | `path` | the algorithm, from the camera to Russian roulette |
 //! | `surface` | the surface at a vertex: textures, frame, BSDF, densities |

@@ -1,9 +1,9 @@
-//! Scattering between surfaces: by participating media, and by the drops and flakes that rays of the camera hit.
+//! Scattering between surfaces: by participating media, and by the drops and flakes that camera rays hit.
 //!
-//! A pixel sees a small part of a drop or flake at some place of it: over these the direction in which light is scattered is spread by the
-//! phase function. A ray is therefore continued as the drop refracts it where it is hit, and lights are sampled for it, and weighted against that ray, as
-//! by the phase function. For a particle that a pixel does not resolve this is right in the mean; in one that fills pixels, glints of
-//! lamps and of the sun are spread over its disc.
+//! A pixel sees a small part of a drop or flake, anywhere on it. Averaged over these parts, the phase function gives the distribution of scattered
+//! directions. A camera ray therefore continues in the direction in which the drop refracts it at the hit point. Lights are sampled as by the phase
+//! function, and weighted against that ray. For a particle that a pixel does not resolve the mean is right. In a particle that fills pixels, glints
+//! of lamps and of the sun are spread over its disc.
 
 use etendue_core::{Integrator, Ray, Spectral, random::Draw};
 use glam::Vec3;
@@ -18,7 +18,7 @@ use crate::precipitation::{NearParticles, ParticleHit};
 const DRAWS_PER_DROP: u32 = 16;
 
 impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
-    /// Takes the ray through media and precipitation to `end`, or to where it is scattered; `None` where it gets to the end.
+    /// Moves the ray through media and precipitation to `end`, or to the point where it is scattered; `None` if it reaches the end.
     pub(super) fn intersect_media(&mut self, end: f32) -> Option<Intersection<'a>> {
         let particle = match self.particles_along() {
             Some(near) if !self.medium.is_solid() => near.closest(&self.ray, end),
@@ -33,35 +33,35 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         Some(Intersection::Particle(hit))
     }
 
-    /// The media along the ray: about the camera, particles stand for a part of them.
+    /// The media along the ray. Near the camera, particles replace part of them.
     fn media_along(&self) -> Option<&'a Media<'a>> {
         self.particles_along().map(NearParticles::media).or(self.tracer.media)
     }
 
-    /// The drops and flakes along the ray: about the camera alone.
+    /// The drops and flakes along the ray; only near the camera.
     fn particles_along(&self) -> Option<&'a NearParticles<'a>> {
         let is_camera_ray = self.bounces == 0 && !self.has_hit_particle;
         self.tracer.near.filter(|near| is_camera_ray && near.looks_along(self.ray.direction))
     }
 
-    /// How forward peaks scatter a path, given whether it has been scattered by more than smooth surfaces.
+    /// Treatment of forward peaks for a path; `has_diffuse` is true if more than smooth surfaces have scattered it.
     pub(super) fn forward_peak(&self, has_diffuse: bool) -> ForwardPeak {
         if has_diffuse && !self.tracer.settings.caustics { ForwardPeak::Unscattered } else { ForwardPeak::Exact }
     }
 
-    /// Whether what the ray hits does not count, as no medium has scattered it yet.
+    /// True if light of surfaces does not count because no medium has scattered the path yet.
     #[inline(always)]
     pub(super) fn sees_only_air(&self) -> bool {
         E::MEDIA && self.tracer.settings.only_airlight && self.bounces == 0
     }
 
-    /// Whether lamps without an opening are sampled along the ray, rather than where the path is scattered: as far as the camera sees it straight
-    /// or in mirrors. Behind that a ray is one of so many that its own light matters less than its price.
+    /// True if lamps without an opening are sampled along the ray, and not where the path is scattered. This holds for rays that the camera
+    /// sees straight or in mirrors. Later rays are many, and the light of each matters less than its cost.
     fn samples_lamps_along(&self) -> bool {
         self.tracer.lights.has_points() && !self.history.has_diffuse() && !self.is_at_max_bounces()
     }
 
-    /// Adds the light of lamps that is scattered on the way to `end`, and finds where the path is scattered itself; `None` where it is not.
+    /// Adds the light of lamps that is scattered on the way to `end`, and samples where the path itself is scattered; `None` if it is not.
     fn travel_through_media(&mut self, end: f32) -> Option<Intersection<'a>> {
         if self.medium.is_solid() {
             return None;
@@ -79,7 +79,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         Some(Intersection::Medium(self.ray.at(collision.t), collision.phase))
     }
 
-    /// Adds light of one lamp without an opening that is scattered once on the way to `end`.
+    /// Adds the light of one lamp without an opening that is scattered once on the way to `end`.
     fn add_in_scattered_lamp(&mut self, media: &Media<'_>, end: f32) {
         let Some(RaySpan { from, to }) = media.reach(&self.ray, f64::from(end)) else { return };
         let (segment, lights) = (RaySegment { from: from as f32, to: to as f32 }, self.tracer.lights);
@@ -115,7 +115,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         self.scatter_by_phase(position, phase, self.samples_lamps_along())
     }
 
-    /// The same; `lamps_were_sampled` as of [`Path::sample_direct_light_in_medium`].
+    /// As `scatter_in_medium`, with `lamps_were_sampled` as in [`Path::sample_direct_light_in_medium`].
     fn scatter_by_phase(&mut self, position: Vec3, phase: &Phase, lamps_were_sampled: bool) -> PathStep {
         let from = self.ray.direction;
         let receiver = LightSampleContext::in_medium(position, self.ray.time_s);
@@ -137,7 +137,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         self.leave(Ray::new(position, direction, self.ray.time_s))
     }
 
-    /// Direct light at a point between surfaces; lamps that only sampling can find are left out where they were sampled along the ray.
+    /// Direct light at a point between surfaces. Lamps that only sampling can find are left out if they were sampled along the ray.
     fn sample_direct_light_in_medium(
         &mut self,
         receiver: &LightSampleContext,
@@ -185,11 +185,12 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
 
     fn scatter_at_flake(&mut self, position: Vec3, phase: &Phase) -> PathStep {
         self.has_hit_particle = true;
-        // Lamps that were sampled along the ray were those of the medium before the flake.
+        // The lamps sampled along the ray were those of the medium in front of the flake.
         self.scatter_by_phase(position, phase, false)
     }
 
-    /// Continues from where a drop refracts the ray. A drop is no scattering event: a path of one event only still sees what is behind it.
+    /// Continues from the point where a drop refracts the ray. A drop is no scattering event: a path of a single event still sees what is
+    /// behind it.
     fn scatter_at_drop(&mut self, phase: &Phase, position: Vec3, direction: Vec3) -> PathStep {
         let from = self.ray.direction;
         let density = phase.density(from, direction, self.wavelengths);

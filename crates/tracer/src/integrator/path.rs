@@ -1,20 +1,19 @@
 //! One path, in the order of the algorithm: intersect, add emission, sample direct light, sample the BSDF, Russian roulette.
 //!
-//! Where a surface is transparent to a path (opacity), or light crosses it straight (a thin pane), the path continues as if there were
-//! no surface: no scattering event, and the light that it then hits has the weight seen from where the path was last scattered.
+//! Where a surface is transparent to a path (opacity), or passes light straight (a thin pane), the path continues as if there were no surface: there
+//! is no scattering event, and the light that it hits next is weighted as seen from the last scattering.
 //!
-//! **Branches** (splitting; Arvo and Kirk, "Particle transport and image synthesis", 1990): from one point that
-//! the camera sees several lights are sampled and several paths continue.
-//! The cost of that point (the ray through the lens, the textures, the cut of lights that the samples share) is paid once, and the
-//! light of lamps and of other surfaces has the noise of as many more samples. Edges, depth of field and motion do not: their noise goes
-//! by samples. A path branches once, at the first surface that is no mirror; points in media, drops and flakes do not branch. Each branch
-//! has its part of the throughput, and densities are those of all branches and light samples together, so that multiple importance sampling
-//! weights as many of both.
+//! **Branches** (splitting; Arvo and Kirk, "Particle transport and image synthesis", 1990): from one point that the camera sees, several lights are
+//! sampled and several paths continue. The cost of that point (the ray through the lens, the textures, the cut of lights that the samples share) is
+//! paid once. The light of lamps and of other surfaces has the noise of as many more samples. Edges, depth of field and motion do not benefit: their
+//! noise depends on the number of samples. A path branches once, at the first surface that is no mirror. Points in media, drops and flakes do not
+//! branch. Each branch has its part of the throughput. Densities are those of all branches and light samples together, so that multiple importance
+//! sampling weights as many of both.
 //!
-//! **Russian roulette** (Arvo and Kirk 1990): light that a path still finds counts in its pixel by the throughput, and so does all else that the pixel
-//! shows: behind a dark surface everything is dark. So the probability to continue goes by the fraction of the throughput that is left behind the first
-//! surface that scatters, and not by the throughput itself. Where light is alike everywhere the best probability is in proportion to that fraction,
-//! by the root of a whole path's cost over that of the rest of it (Bolin and Meyer 1997; Rath and others 2022, "EARS").
+//! **Russian roulette** (Arvo and Kirk 1990): light that a path still finds counts in its pixel by the throughput, and so does everything else that
+//! the pixel shows: behind a dark surface everything is dark. The probability to continue therefore depends on the fraction of the throughput that is
+//! left behind the first surface that scatters, not on the throughput itself. Under uniform light the best probability is that fraction times the
+//! root of the cost of a whole path over that of its remaining part (Bolin and Meyer 1997; Rath and others 2022, "EARS").
 
 use core::marker::PhantomData;
 
@@ -30,34 +29,35 @@ use crate::{
     textures::Lookup,
 };
 
-/// Greatest number of surfaces that a path hits, with those that it passes. No scene needs as many; among surfaces closer together
-/// than the step from one to the next a path might go round for ever.
+/// Maximum number of surfaces that a path hits, including those that it passes. No scene needs as many. Among surfaces closer together than
+/// the step from one to the next, a path might loop forever.
 pub(super) const MAX_VERTICES: u32 = 8192;
 
-/// A path and what it has gathered so far.
+/// A path and the radiance it has gathered so far.
 #[derive(Clone)]
 pub(super) struct Path<'a, const N: usize, E> {
     pub(super) tracer: &'a PathTracer<'a>,
     pub(super) wavelengths: &'a Wavelengths<N>,
-    /// The ray of the camera: its random address, and the interval over which lights are averaged.
+    /// Camera ray: its random stream, and the interval over which lights are averaged.
     pub(super) camera_ray: &'a FieldRay,
     pub(super) ray: Ray,
     pub(super) cone: Cone,
-    /// Whether it branches at the first surface that is no mirror.
+    /// True if it branches at the first surface that is no mirror.
     pub(super) branches: bool,
     /// Scattering events so far.
     pub(super) bounces: u32,
-    /// Surfaces hit so far, with those that were passed: the vertex's number for random draws.
+    /// Surfaces hit so far, including those passed: the vertex's index for random numbers.
     pub(super) vertex_index: u32,
-    /// Distance since the last scattering, m: longer than the ray's where it has passed surfaces.
+    /// Distance since the last scattering, m: longer than the ray's if it has passed surfaces.
     pub(super) travelled_m: f32,
-    /// Density of the ray's direction, 1/sr, times the branches of the path at the surface that scattered it; `None` where it came from the camera or a mirror.
+    /// Density of the ray's direction, 1/sr, times the branches of the path at the surface that scattered it; `None` if it came from the
+    /// camera or a mirror.
     pub(super) direction_pdf: Option<f32>,
-    /// Where the ray was last scattered; `None` where it came from the camera or a mirror.
+    /// Point of the last scattering; `None` if the ray came from the camera or a mirror.
     pub(super) receiver: Option<LightSampleContext>,
     pub(super) medium: Medium<'a>,
     pub(super) history: ScatteringHistory,
-    /// Whether the path has hit a drop or flake: it hits one at most.
+    /// True if the path has hit a drop or flake. It hits one at most.
     pub(super) has_hit_particle: bool,
     /// Random numbers used for free flights in media.
     pub(super) flight_draws: u32,
@@ -74,9 +74,9 @@ pub(super) struct Vertex<'a, const N: usize> {
     pub(super) point: SurfacePoint,
     pub(super) frame: ShadingFrame,
     pub(super) bsdf: Bsdf<'a, N>,
-    /// Of mixes the part that was drawn.
+    /// Material; for mixes, the sampled component.
     pub(super) material: MaterialId,
-    /// The distribution of sampled directions; `None` where they are those of the bsdf.
+    /// Distribution of sampled directions; `None` if the BSDF samples them.
     pub(super) guide: Option<&'a DirectionDistribution>,
 }
 
@@ -84,13 +84,13 @@ pub(super) struct Vertex<'a, const N: usize> {
 pub(super) enum Intersection<'a> {
     /// Infinity.
     Nothing,
-    /// A surface that is transparent to this path; the ray has been taken beyond it.
+    /// A surface that is transparent to this path; the ray continues behind it.
     Passed,
     /// A point between surfaces where light is scattered, in the render frame, m.
     Medium(Vec3, &'a Phase),
-    /// A drop or flake, which the ray has been taken to.
+    /// A drop or flake; the ray ends there.
     Particle(ParticleHit),
-    /// A surface, and where its textures are read.
+    /// A surface, and the place of its texture look-ups.
     Surface(SurfacePoint, Lookup),
 }
 
@@ -133,13 +133,13 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         self.radiance
     }
 
-    /// To the next surface and on from it, or to infinity.
+    /// Moves to the next surface and on from it, or to infinity.
     fn step(&mut self) -> PathStep {
         let intersection = self.intersect();
         self.scatter(intersection)
     }
 
-    /// Takes the ray to the next surface, whose emission is added, or to infinity.
+    /// Moves the ray to the next surface, whose emission is added, or to infinity.
     #[inline(always)]
     pub(super) fn intersect(&mut self) -> Intersection<'a> {
         let hit = self.tracer.view.closest(&self.ray);
@@ -194,7 +194,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         self.radiance += self.throughput * emitted * weight;
     }
 
-    /// Radiance of a surface against the ray: by its material, or as the opening of a lamp; `None` where its side does not emit.
+    /// Radiance of a surface against the ray: by its material, or as the opening of a lamp; `None` if this side does not emit.
     #[inline(always)]
     fn emitted(&self, point: &SurfacePoint, lookup: &Lookup) -> Option<Spectral<N>> {
         let material_table = self.tracer.material_table;
@@ -207,7 +207,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// Whether the surface is transparent to this path.
+    /// True if the surface is transparent to this path.
     fn is_transparent(&self, point: &SurfacePoint, lookup: &Lookup) -> bool {
         let material_table = self.tracer.material_table;
         E::SURFACES
@@ -216,13 +216,13 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
                 >= material_table.opacity(point.material, lookup)
     }
 
-    /// Takes the ray straight on from a surface.
+    /// Continues the ray straight behind a surface.
     fn pass(&mut self, point: &SurfacePoint) {
         self.ray.origin = point.spawn(self.ray.direction);
         self.ray.left = Some(point.primitive_id());
     }
 
-    /// Scatters the path where its ray ended.
+    /// Scatters the path at the end of its ray.
     #[inline(always)]
     pub(super) fn scatter(&mut self, intersection: Intersection<'a>) -> PathStep {
         match intersection {
@@ -238,12 +238,12 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// Whether the path has scattered as often as it may.
+    /// True if the path has reached the maximum number of scattering events.
     pub(super) fn is_at_max_bounces(&self) -> bool {
         self.bounces == self.tracer.max_bounces()
     }
 
-    /// Beyond the last scattering event light may still come straight through.
+    /// Passes surfaces only: after the last scattering event light may still come straight through.
     pub(super) fn only_pass(&mut self, point: SurfacePoint, lookup: &Lookup) -> PathStep {
         if !(E::SURFACES && self.tracer.material_table.lets_pass(point.material)) {
             return PathStep::End;
@@ -261,7 +261,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         if matches!(vertex.bsdf, Bsdf::Absorber) {
             return PathStep::End;
         }
-        // Light from behind counts where the surface lets it through.
+        // Light from behind counts if the surface transmits it.
         let transmits = E::SURFACES && vertex.bsdf.transmits();
         let normal = if transmits { Vec3::ZERO } else { vertex.frame.normal() };
         let gloss = if !E::SURFACES || transmits { None } else { self.gloss(vertex) };
@@ -272,7 +272,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         if draws > 1 { self.branch(vertex, &receiver) } else { self.continue_from(vertex, &receiver) }
     }
 
-    /// How many paths continue from a surface that the path has hit.
+    /// Number of paths that continue from a surface that the path has hit.
     #[inline(always)]
     fn branch_count(&self, vertex: &Vertex<'a, N>) -> u32 {
         let here = self.branches && self.history.is_seen() && !(E::SURFACES && vertex.bsdf.is_delta());
@@ -309,7 +309,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// Samples the direction in which the path continues; `None` where the light would be absorbed.
+    /// Samples the direction in which the path continues; `None` if the light is absorbed.
     #[inline(always)]
     fn sample_bsdf(&self, vertex: &Vertex<'_, N>) -> Option<BsdfSample<N>> {
         let choice = if E::SURFACES && vertex.bsdf.has_parts() {
@@ -325,7 +325,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// Straight through a surface that takes its share.
+    /// Passes straight through a surface that attenuates the path.
     fn go_through(&mut self, vertex: &Vertex<'_, N>, sample: &BsdfSample<N>) -> PathStep {
         self.throughput *= sample.weight;
         self.pass(&vertex.point);
@@ -342,7 +342,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         let outward = vertex.frame.outward(sample.wi);
         let Some(direction) = outward.or_else(|| Self::along_surface(vertex, sample)) else { return PathStep::End };
         self.throughput *= sample.weight;
-        // What counts as a caustic, and how wide textures are read, goes by the surface, not by how its directions are sampled. No light is sampled
+        // Caustics and the width of texture look-ups depend on the surface, not on the sampling of its directions. No light is sampled
         // along a surface.
         let has_density = outward.is_some() && (!E::SURFACES || sample.event == Event::Scatter);
         let bsdf_pdf = has_density.then_some(sample.pdf);
@@ -358,8 +358,8 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         self.leave(Ray { time_s: self.ray.time_s, ..vertex.point.leave(direction) })
     }
 
-    /// Where the shading normal sends light to the wrong side of the true surface: along it for mirrors and glass, which absorb nothing there; `None`
-    /// for all others.
+    /// Direction along the surface, if the shading normal sends light to the wrong side of the true surface: mirrors and glass absorb
+    /// nothing there. `None` for all others.
     #[inline(always)]
     fn along_surface(vertex: &Vertex<'a, N>, sample: &BsdfSample<N>) -> Option<Vec3> {
         let is_lossless =
@@ -388,7 +388,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         if self.throughput.is_zero() { PathStep::End } else { PathStep::Continue }
     }
 
-    /// Draws whether the path continues; if so it counts for those that ended. Paths that only mirrors have scattered all continue.
+    /// Samples whether the path continues; if so it is weighted for those that ended. Paths that only mirrors have scattered all continue.
     fn russian_roulette(&mut self) -> bool {
         if self.history.is_seen() {
             return true;
@@ -402,12 +402,12 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         self.camera_ray.stream.one(Draw::Roulette, self.bounces) < probability
     }
 
-    /// Whether light of a lamp counts, given whether it is part of a caustic: diffuse surfaces alone make none.
+    /// True if light of a light source counts; `is_caustic` is true if it is part of a caustic. Diffuse surfaces alone make no caustics.
     pub(super) fn includes(&self, is_caustic: bool) -> bool {
         !E::SURFACES || self.tracer.settings.caustics || !is_caustic
     }
 
-    /// What lights are evaluated at.
+    /// Arguments for the evaluation of lights.
     pub(super) fn emission_query(&self) -> EmissionQuery<'a, N> {
         EmissionQuery { wavelengths: self.wavelengths, interval: self.lit() }
     }

@@ -1,22 +1,19 @@
 //! Paths of neighbouring pixels that share their tails.
 //!
-//! Neighbouring pixels see nearly the same point, so what one path finds behind its second surface is of use to all of
-//! them (Bekaert, Sbert, Halton, "Accelerating path tracing by re-using paths", 2002). Each path of a group is traced to
-//! its second surface y. A drawn part of the group continues, and the light L that y reflects counts for every
-//! path whose first surface x sees y:
+//! Neighbouring pixels see nearly the same point, so the light that one path finds behind its second surface is of use to all of them (Bekaert,
+//! Sbert, Halton, "Accelerating path tracing by re-using paths", 2002). Each path of a group is traced to its second surface y. A selected part of
+//! the group continues. The light L that y reflects counts for every path whose first surface x sees y:
 //!
 //! L_x += β_x f(x, y) cos θ_x cos θ_y / d² · L / Σ_k q p_k(y) cos θ_yk / d_k²,
 //!
-//! the balance heuristic over all first surfaces k that see y (Veach and Guibas 1995): p_k is the density (1/sr) with which
-//! the surface k scatters towards y, θ_yk the angle at y's true normal, q the fraction of the group that continues. It is
-//! an unbiased estimate for each pixel, with the error of many paths for the price of few. The price is that errors of
-//! pixels of one group are alike.
+//! the balance heuristic over all first surfaces k that see y (Veach and Guibas 1995). Here p_k is the density (1/sr) with which the surface k
+//! scatters towards y, θ_yk the angle at y's true normal, q the fraction of the group that continues. It is an unbiased estimate for each pixel, with
+//! the error of many paths for the cost of few. The drawback is that errors of pixels of one group are correlated.
 //!
-//! Shared is what every path of the group could have found: y is diffuse, so that L is the same in all directions, is hit
-//! straight from x with nothing between, in air, at the same time, under lights averaged over the same interval where the strength of any changes over
-//! time, and x is the first surface that scattered the path. All else (light
-//! hit directly, mirrors, glossy second surfaces, cut-outs and panes in between) stays with its own path. Textures at y are
-//! read over the width of the path that continues.
+//! Only tails that every path of the group could have found are shared. The surface y is diffuse, so that L is the same in all directions. It is hit
+//! straight from x with nothing between, in air, at the same time, and under lights averaged over the same interval if the strength of any changes
+//! over time. The surface x is the first that scattered the path. All other light (light hit directly, mirrors, glossy second surfaces, cut-outs and
+//! panes in between) stays with its own path. Textures at y are read over the width of the path that continues.
 
 use etendue_core::{FieldRay, Integrator, Ray, Spectral, TimeInterval, Wavelengths, random::Draw};
 use glam::Vec3;
@@ -26,24 +23,24 @@ use super::path::{Intersection, MAX_VERTICES, Path, PathStep, Vertex};
 use super::path_tracer::{Effects, SceneEffects};
 use crate::materials::Bsdf;
 
-/// Number of parts of a group, of which one continues.
+/// Number of parts of a group. One of them continues.
 const PARTS: usize = 4;
 
-/// Cosine from which on a shading normal is the same for all viewers: below, it is bent towards the viewer.
+/// Minimum cosine at which a shading normal is the same for all viewers: below, it is bent towards the viewer.
 const MIN_VIEW_COS: f32 = 2e-4;
 
 /// A path up to its second surface.
 struct PathPrefix<'a, const N: usize, E: Effects> {
     path: Path<'a, N, E>,
     first: Option<FirstVertex<'a, N>>,
-    /// The second surface, where what lies behind it may be shared.
+    /// The second surface, if the light behind it may be shared.
     second: Option<Vertex<'a, N>>,
 }
 
 /// The first surface that scattered a path.
 struct FirstVertex<'a, const N: usize> {
     vertex: Vertex<'a, N>,
-    /// Before scattering.
+    /// Throughput before scattering.
     throughput: Spectral<N>,
     vertex_index: u32,
 }
@@ -56,7 +53,7 @@ struct TailContribution<const N: usize> {
 }
 
 impl<const N: usize> TailContribution<N> {
-    /// `None` where the path could not have found the surface.
+    /// `None` if the path could not have found the surface.
     fn if_valid(self) -> Option<Self> {
         (self.density > 0.0 && self.density.is_finite() && !self.weight.is_zero()).then_some(self)
     }
@@ -85,10 +82,10 @@ impl PathTracer<'_> {
         }
     }
 
-    /// Whether paths of a group share anything.
+    /// True if paths of a group share tails.
     pub(super) fn shares(&self) -> bool {
         let settings = &self.settings;
-        // Between surfaces no path sees what another has found there.
+        // Between surfaces, no path can use what another has found there.
         self.effects != SceneEffects::All
             && settings.integrator == Integrator::Path
             && settings.max_bounces > 1
@@ -96,8 +93,8 @@ impl PathTracer<'_> {
     }
 }
 
-/// The paths of a group that continue at one sample: the parts of the group take turns, and each has a run of samples,
-/// in which its points are stratified. Which part begins is drawn.
+/// The paths of a group that continue at one sample. The parts of the group take turns. Each part continues for a run of samples, in which
+/// its points are stratified. The first part is random.
 struct TailSelection {
     parts: usize,
     part: usize,
@@ -109,12 +106,12 @@ impl TailSelection {
         let stream = &rays[0].stream;
         let first = (stream.with_sample(0).one(Draw::Followed, 0) * parts as f32) as usize;
         let (run, place) = (stream.sample() / samples, stream.sample() % samples);
-        // Runs of fewer samples than parts begin one part on each.
+        // If a run has fewer samples than there are parts, each run begins with the next part.
         let turn = u64::from(place) * parts as u64 / u64::from(samples) + u64::from(run);
         Self { parts, part: (first + turn as usize) % parts }
     }
 
-    /// Whether the path of this index continues: neighbours in the list belong to one part.
+    /// True if the path of this index continues: neighbours in the list belong to one part.
     fn contains(&self, index: usize, paths: usize) -> bool {
         index * self.parts / paths == self.part
     }
@@ -129,7 +126,7 @@ fn parts(paths: usize) -> usize {
     (1..=PARTS).rev().find(|parts| paths.is_multiple_of(*parts)).unwrap_or(1)
 }
 
-/// Continues one path, and adds what it finds to all that see its second surface.
+/// Continues one path, and adds the radiance it finds to all paths that see its second surface.
 fn share_tail<'a, const N: usize, E: Effects>(
     prefixes: &[PathPrefix<'a, N, E>],
     owner: usize,
@@ -157,8 +154,8 @@ fn share_tail<'a, const N: usize, E: Effects>(
 }
 
 impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
-    /// The light that a surface, which the path has just hit, scatters against it: what the rest of the path gathers.
-    /// Roulette goes on as if the path were not cut.
+    /// Light that a surface, which the path has just hit, scatters against it: the radiance of the rest of the path. Roulette goes on as if
+    /// the path were not cut.
     fn tail(mut self, vertex: &Vertex<'a, N>) -> Spectral<N> {
         self.roulette.scale(self.throughput.max_value());
         self.throughput = Spectral::ONE;
@@ -214,7 +211,7 @@ impl<'a, const N: usize, E: Effects> PathPrefix<'a, N, E> {
         TailContribution { index, weight: self.path.throughput * density, density }.if_valid()
     }
 
-    /// The contribution of the tail of another path; `None` where this one could not have found its surface.
+    /// The contribution of the tail of another path; `None` if this path could not have found its surface.
     fn contribution_of_tail(
         &self,
         index: usize,
@@ -239,12 +236,12 @@ impl<'a, const N: usize, E: Effects> PathPrefix<'a, N, E> {
         self.sees(first, second, direction).then_some(contribution)
     }
 
-    /// Whether the path sees lights as strong as one that averages them over `lit`.
+    /// True if the strengths of lights for this path equal their averages over `lit`.
     fn is_lit_over(&self, lit: &TimeInterval) -> bool {
         !self.path.tracer.is_modulated || self.path.lit() == lit
     }
 
-    /// Whether nothing stands between two surfaces.
+    /// True if nothing stands between two surfaces.
     fn sees(&self, first: &FirstVertex<'_, N>, second: &Vertex<'_, N>, direction: Vec3) -> bool {
         let origin = first.vertex.point.spawn(direction);
         let across = second.point.spawn(-direction) - origin;
@@ -255,20 +252,20 @@ impl<'a, const N: usize, E: Effects> PathPrefix<'a, N, E> {
 }
 
 impl<const N: usize> FirstVertex<'_, N> {
-    /// Whether light that the surface `second`, just hit, throws on this one may be shared.
+    /// True if the light that the surface `second`, just hit, sends to this one may be shared.
     fn leads_to<E: Effects>(&self, path: &Path<'_, N, E>, second: &Vertex<'_, N>) -> bool {
         let straight = path.vertex_index == self.vertex_index + 1 && path.bounces == 1 && path.direction_pdf.is_some();
         straight && matches!(second.bsdf, Bsdf::Diffuse(_)) && second.frame.wo.z >= MIN_VIEW_COS
     }
 }
 
-/// Whether a surface that a path has just hit is the first to scatter it, in air.
+/// True if a surface that a path has just hit is the first to scatter it, in air.
 fn may_be_first<const N: usize, E: Effects>(path: &Path<'_, N, E>, vertex: &Vertex<'_, N>) -> bool {
     let scatters = !matches!(vertex.bsdf, Bsdf::Absorber);
     path.bounces == 0 && scatters && (!E::SURFACES || is_open(path, vertex))
 }
 
-/// Whether a surface scatters by a finite density, in air and into air.
+/// True if a surface scatters by a finite density, in air and into air.
 fn is_open<const N: usize, E: Effects>(path: &Path<'_, N, E>, vertex: &Vertex<'_, N>) -> bool {
     let in_air = path.medium.is_clear() && path.tracer.material_table.solid(vertex.material).is_none();
     in_air && !vertex.bsdf.is_delta()
@@ -281,7 +278,7 @@ mod tests {
     use etendue_core::{Ray, TimeInterval};
     use glam::Vec3;
 
-    /// Runs of 1, 2, 4 and 16 samples, of which those of one or two are shorter than the number of parts.
+    /// Runs of 1, 2, 4 and 16 samples; runs of one or two are shorter than the number of parts.
     #[test]
     fn every_part_has_its_turns_however_short_runs_are() {
         let frame = FrameAddress { seed: 3, ..FrameAddress::default() };

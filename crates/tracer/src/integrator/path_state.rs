@@ -1,5 +1,5 @@
-//! What a path carries from vertex to vertex beside its throughput: the footprint of texture look-ups, its scattering history, the state of
-//! Russian roulette and the medium that it is in.
+//! State of a path besides its throughput: the footprint of texture look-ups, the scattering history, the state of Russian roulette and the current
+//! medium.
 
 use core::f32::consts::FRAC_1_PI;
 
@@ -13,15 +13,15 @@ const SPREAD_FRACTION: f32 = 0.25;
 /// Spread from which on a footprint has no long side, rad: that of a pixel of a very wide or coarse camera.
 const MAX_ELONGATED_SPREAD_RAD: f32 = 0.02;
 
-/// Greatest length of a footprint over its width.
+/// Maximum ratio of length to width of a footprint.
 const MAX_ELONGATION: f32 = 1000.0;
 
 /// Width and growth of a path: the footprint of texture look-ups.
 ///
-/// A cone about the path (Amanatides 1984): its width grows by spread × distance. Scattering with density p widens the
-/// spread to at least a quarter of √(1/(π p)), the half angle of a small cone of solid angle 1/p, taken as 1 rad where it
-/// is more. A diffuse surface (p ≤ 1/π) thus widens it to 0.25 rad always, a mirror not at all. The quarter is a choice:
-/// it leaves texture to be seen in what diffuse surfaces throw on each other. Curvature of mirrors is left out.
+/// A cone about the path (Amanatides 1984): its width grows by spread × distance. Scattering with density p widens the spread to at least a
+/// quarter of √(1/(π p)), the half angle of a small cone of solid angle 1/p, limited to 1 rad. A diffuse surface (p ≤ 1/π) thus always
+/// widens it to 0.25 rad, a mirror not at all. The quarter is a choice: it keeps texture visible in light between diffuse surfaces.
+/// Curvature of mirrors is left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Cone {
     pub(super) width_m: f32,
@@ -37,9 +37,9 @@ impl Cone {
         self.width_m += self.spread_rad * distance_m;
     }
 
-    /// The long side (m, from end to end) of the ellipse that the cone cuts out of a surface of unit `normal`, about the
-    /// unit `direction`: `None` where it is less than twice as long as wide. A cone that scattering has widened has
-    /// none: what such a path sees is an average of many anyway, and long sides take many readings of a texture.
+    /// The long side (m, from end to end) of the ellipse in which the cone cuts a surface of unit `normal`, about the unit `direction`:
+    /// `None` if it is less than twice as long as wide. A cone that scattering has widened has none: such a path sees an average of many
+    /// others, and long sides need many texture readings.
     pub(super) fn long_side(self, normal: Vec3, direction: Vec3) -> Option<Vec3> {
         let cos = normal.dot(direction);
         let is_long = cos.abs() < 0.5 && self.spread_rad < MAX_ELONGATED_SPREAD_RAD;
@@ -47,28 +47,29 @@ impl Cone {
         is_long.then(|| along.normalize_or_zero() * (self.width_m / cos.abs().max(1.0 / MAX_ELONGATION)))
     }
 
-    /// After scattering into a direction of density `pdf`, 1/sr.
+    /// Widens the cone after scattering into a direction of density `pdf`, 1/sr.
     pub(super) fn scatter(&mut self, pdf: f32) {
         self.spread_rad = self.spread_rad.max(SPREAD_FRACTION * (FRAC_1_PI / pdf).sqrt().min(1.0));
     }
 }
 
-// Caustics of lamps: light that a smooth surface throws on a diffuse one, or a mirror on what blurs what it mirrors.
+// Caustics of light sources: light that a smooth surface focuses on a diffuse one, or a mirror on a surface that blurs its reflection.
 //
-// Seen from the camera: a path scatters at a diffuse surface, then at a smooth one, and then hits a sun or an emitting
-// surface; or it scatters at a glossy surface (a wet road), then at one that is much smoother (car paint). Unidirectional paths find such light only
-// by chance, in a few very bright samples. Where a caller leaves it
-// out ([`super::PathSettings::caustics`]), the image is darker by exactly that light: light of suns and emitting
-// surfaces that arrives by a scattering of more than [`SMOOTH_PER_SR`] after one of less, or by one of more than [`MIN_CAUSTIC_RATIO`] times
-// the density of one before it. What smooth surfaces reflect
-// of the surroundings is kept. In fog the light of a sun comes from a bright patch about it, which is found as seldom; without caustics light
-// that a medium's forward peak scatters counts as not scattered, behind the first diffuse surface and the first scattering in a medium (`crate::media`).
-// The rule looks at densities alone, so that sampled lights and lights that are hit obey it alike.
+// Seen from the camera, a path scatters at a diffuse surface, then at a smooth one, and then hits a sun or an emitting surface; or it
+// scatters at a glossy surface (a wet road), then at one that is much smoother (car paint). Unidirectional paths find such light only by
+// chance, in a few very bright samples. If the caller leaves it out ([`super::PathSettings::caustics`]), the image is darker by exactly
+// that light: light of suns and emitting surfaces that arrives by a scattering of more than [`SMOOTH_PER_SR`] after one of less, or by one
+// of more than [`MIN_CAUSTIC_RATIO`] times the density of one before it. Reflections of the surroundings in smooth surfaces are kept.
+//
+// In fog the light of a sun comes from a bright patch around it, which paths find as rarely. Without caustics, light that a medium's
+// forward peak scatters counts as not scattered, behind the first diffuse surface and the first scattering in a medium (`crate::media`).
+// The rule uses densities alone, so that it holds for sampled lights and for lights that are hit.
 
 /// Density of scattering, 1/sr, above which a surface counts as smooth: that of the highlight of a GGX surface of α ≈ 0.14.
 const SMOOTH_PER_SR: f32 = 4.0;
 
-/// Density of a scattering, over that of a glossy surface before it, from which on the glossy surface finds its light of lamps by luck alone: that of an eighth to a quarter of its α.
+/// Minimum ratio of a scattering density to that of a glossy surface before it, from which the glossy surface finds light sources by chance
+/// only: it corresponds to an eighth to a quarter of its α.
 const MIN_CAUSTIC_RATIO: f32 = 16.0;
 
 /// The kinds of scattering that a path has undergone.
@@ -76,7 +77,7 @@ const MIN_CAUSTIC_RATIO: f32 = 16.0;
 pub(super) struct ScatteringHistory {
     has_diffuse: bool,
     caustic: bool,
-    /// The least density of any scattering, 1/sr; infinite where all were mirrors.
+    /// Minimum density of any scattering, 1/sr; infinite if all were mirrors.
     min_density: f32,
 }
 
@@ -95,32 +96,32 @@ impl ScatteringHistory {
         self.min_density = self.min_density.min(density);
     }
 
-    /// The least density of any scattering so far, 1/sr; infinite where all were mirrors.
+    /// Minimum density of any scattering so far, 1/sr; infinite if all were mirrors.
     pub(super) fn min_density(self) -> f32 {
         self.min_density
     }
 
-    /// Whether the path comes straight from the camera, or by mirrors alone.
+    /// True if the path comes straight from the camera, or by mirrors alone.
     pub(super) fn is_seen(self) -> bool {
         self.min_density == f32::INFINITY
     }
 
-    /// Whether the path has been scattered by anything but smooth surfaces.
+    /// True if anything except smooth surfaces has scattered the path.
     pub(super) fn has_diffuse(self) -> bool {
         self.has_diffuse
     }
 
-    /// Whether it has, once it continues by a scattering of density `pdf`, 1/sr.
+    /// True if the path has such a scattering once it continues by one of density `pdf`, 1/sr.
     pub(super) fn would_have_diffuse(self, pdf: f32) -> bool {
         self.has_diffuse || !is_smooth(pdf)
     }
 
-    /// Whether light of a lamp that is hit now is part of a caustic.
+    /// True if light of a source that is hit now is part of a caustic.
     pub(super) fn is_caustic(self) -> bool {
         self.caustic
     }
 
-    /// Whether light of a lamp would be part of a caustic if it arrived by a scattering of density `pdf`, 1/sr.
+    /// True if light of a source would be part of a caustic if it arrived by a scattering of density `pdf`, 1/sr.
     pub(super) fn would_be_caustic(self, pdf: f32) -> bool {
         is_smooth(pdf) && (self.has_diffuse || pdf > MIN_CAUSTIC_RATIO * self.min_density)
     }
@@ -130,13 +131,13 @@ fn is_smooth(pdf: f32) -> bool {
     pdf > SMOOTH_PER_SR
 }
 
-/// The probability of a path to survive, over the fraction that is left of its throughput behind the first surface.
+/// Survival probability of a path, over the fraction that is left of its throughput behind the first surface.
 const PROBABILITY_PER_FRACTION: f32 = 1.5;
 
-/// The throughput by which Russian roulette finds the survival probability of a path.
+/// The throughput from which Russian roulette computes the survival probability of a path.
 #[derive(Clone, Copy)]
 pub(super) struct RouletteState {
-    /// Factor beside the path's throughput: what that was when it was last set to one.
+    /// Factor on the path's throughput: its value when the throughput was last set to one.
     factor: f32,
     /// Throughput behind the first surface that is no mirror.
     first: Option<f32>,
@@ -149,12 +150,12 @@ impl Default for RouletteState {
 }
 
 impl RouletteState {
-    /// Multiplies the factor beside the throughput.
+    /// Multiplies the factor on the throughput.
     pub(super) fn scale(&mut self, factor: f32) {
         self.factor *= factor;
     }
 
-    /// The survival probability of a path that has been scattered by more than mirrors; 1 or more: it survives, as it does where the probability is NaN.
+    /// Survival probability of a path that more than mirrors have scattered. At 1 or more, or NaN, it survives.
     pub(super) fn survival_probability(&mut self, throughput: f32) -> f32 {
         let now = self.factor * throughput;
         PROBABILITY_PER_FRACTION * (now / *self.first.get_or_insert(now))
@@ -163,19 +164,19 @@ impl RouletteState {
 
 /// The medium that a path is in: air, or the inside of clear, absorbing matter.
 ///
-/// Beer–Lambert: over d metres of absorption coefficient a (1/m) the fraction exp(−a d) is left. A path is inside from where
-/// it was refracted in, or from a camera inside ([`super::Surroundings`]), until it is refracted out. Fog and the like (`crate::media`) are not in
-/// solids. Left out: scattering inside, and solids within solids (a path that leaves the inner one is in air).
+/// Beer–Lambert: over d metres of absorption coefficient a (1/m) the fraction exp(−a d) is left. A path is inside from the point where it
+/// was refracted in, or from a camera inside ([`super::Surroundings`]), until it is refracted out. Fog and other media (`crate::media`) are
+/// not in solids. Left out: scattering inside, and solids within solids (a path that leaves the inner one is in air).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Medium<'a> {
-    /// Absorption coefficient, 1/m; `None` where nothing absorbs.
+    /// Absorption coefficient, 1/m; `None` if nothing absorbs.
     absorption: Option<&'a Spectrum>,
-    /// Whether it is the inside of a solid.
+    /// True for the inside of a solid.
     solid: bool,
 }
 
 impl<'a> Medium<'a> {
-    /// What is beyond a surface whose inside has this `absorption`, for a path that comes from its front or its back.
+    /// The medium beyond a surface whose inside has this `absorption`, for a path that comes from its front or its back.
     pub(super) fn beyond(front: bool, solid: bool, absorption: Option<&'a Spectrum>) -> Self {
         Self { absorption: if front { absorption } else { None }, solid: solid && front }
     }
@@ -185,17 +186,17 @@ impl<'a> Medium<'a> {
         Self { absorption, solid: true }
     }
 
-    /// Whether it is the inside of a solid.
+    /// True for the inside of a solid.
     pub(super) fn is_solid(self) -> bool {
         self.solid
     }
 
-    /// Whether nothing absorbs.
+    /// True if nothing absorbs.
     pub(super) fn is_clear(self) -> bool {
         self.absorption.is_none()
     }
 
-    /// What is left of `light` after `distance_m`.
+    /// Returns `light` after absorption over `distance_m`.
     pub(super) fn attenuate<const N: usize>(
         self,
         light: Spectral<N>,
@@ -224,7 +225,7 @@ mod tests {
         for cos in [1.0, 0.5, 1e-6] {
             assert_eq!(after(1e-3, cos * FRAC_1_PI), SPREAD_FRACTION, "Lambert's law at cosine {cos}");
         }
-        // A lobe of a hundredth of a matt surface's solid angle is a tenth as wide; four roundings of 6e-8.
+        // A lobe of a hundredth of a diffuse surface's solid angle is a tenth as wide; four roundings of 6e-8.
         assert!((after(1e-3, 100.0 * FRAC_1_PI) - 0.1 * SPREAD_FRACTION).abs() < 1e-8);
         assert_eq!(after(1e-3, 1e12), 1e-3, "a lobe narrower than the cone leaves it");
         assert_eq!(after(0.5, FRAC_1_PI), 0.5, "nothing narrows it");
@@ -268,7 +269,7 @@ mod tests {
         assert!(diffuse.would_be_caustic(50.0) && !diffuse.would_be_caustic(0.3));
         assert!(!ScatteringHistory::default().would_be_caustic(50.0));
         assert!(!after(&[Some(20.0), Some(300.0)]) && after(&[Some(20.0), Some(330.0)]) && after(&[Some(20.0), None]));
-        // Scattering in a medium is told as of no density.
+        // Scattering in a medium counts as of zero density.
         assert!(!after(&[Some(0.0), Some(0.3)]) && after(&[Some(0.0), Some(5.0)]));
         assert!(!after(&[Some(5000.0), Some(20.0)]) && !after(&[None, None]) && !after(&[None, Some(20.0)]));
     }

@@ -18,23 +18,23 @@ pub struct PathTracer<'a> {
     pub(super) material_table: &'a MaterialTable,
     pub(super) lights: &'a Lights,
     pub(super) settings: PathSettings,
-    /// The medium that the entrance pupil is in: paths begin there.
+    /// The medium around the entrance pupil: paths begin there.
     pub(super) medium: Medium<'a>,
-    /// What scatters light between surfaces; `None` where nothing does.
+    /// Media that scatter light between surfaces; `None` if there are none.
     pub(super) media: Option<&'a Media<'a>>,
     /// Drops or flakes that rays from the camera hit; `None` where none fall.
     pub(super) near: Option<&'a NearParticles<'a>>,
-    /// The distributions by which diffuse surfaces sample directions; `None` where they go by the cosine alone.
+    /// The distributions by which diffuse surfaces sample directions; `None` if they sample by the cosine alone.
     pub(super) guide: Option<&'a Guide>,
-    /// Whether the strength of any light changes over time.
+    /// True if the strength of any light changes over time.
     pub(super) is_modulated: bool,
-    /// The code that is compiled for the scene.
+    /// The code variant compiled for the scene.
     pub(super) effects: SceneEffects,
 }
 
 impl<'a> PathTracer<'a> {
-    /// A path tracer of a view with the materials that its instances name; `lights` must be collected from the same
-    /// view and material_table.
+    /// A path tracer of a view with the materials that its instances name; `lights` must be collected from the same view and
+    /// material_table.
     #[must_use]
     pub fn new(
         view: &'a RenderSpace<'a>,
@@ -51,25 +51,25 @@ impl<'a> PathTracer<'a> {
         tracer.with_effects()
     }
 
-    /// The same with what scatters light between surfaces, of the same view.
+    /// Adds media that scatter light between surfaces, of the same view.
     #[must_use]
     pub fn with_media(self, media: &'a Media<'a>) -> Self {
         Self { media: Some(media).filter(|media| !media.is_empty()), ..self }.with_effects()
     }
 
-    /// The same with drops or flakes about the camera, of the same view and media.
+    /// Adds drops or flakes around the camera, of the same view and media.
     #[must_use]
     pub fn with_near(self, near: Option<&'a NearParticles<'a>>) -> Self {
         Self { near, ..self }.with_effects()
     }
 
-    /// The same with a guide that paths of the same view and lights have trained, by which diffuse surfaces sample directions. No mean depends on it.
+    /// Adds a guide, trained by paths of the same view and lights, by which diffuse surfaces sample directions. No mean depends on it.
     #[must_use]
     pub fn with_guide(self, guide: Option<&'a Guide>) -> Self {
         Self { guide, ..self }
     }
 
-    /// The same with the code that is compiled for the effects that its paths may encounter.
+    /// Selects the code compiled for the effects that paths may encounter.
     fn with_effects(self) -> Self {
         let has_media = self.media.is_some() || self.near.is_some() || self.settings.only_airlight;
         let is_diffuse_only = self.material_table.is_diffuse_only() && !self.medium.is_solid();
@@ -87,7 +87,7 @@ impl<'a> PathTracer<'a> {
         &self.settings
     }
 
-    /// Scattering events that a path may have.
+    /// Maximum number of scattering events of a path.
     pub(super) fn max_bounces(&self) -> u32 {
         match self.settings.integrator {
             Integrator::Flat | Integrator::Direct => 1,
@@ -102,8 +102,8 @@ impl<'a> PathTracer<'a> {
     }
 }
 
-/// The effects that a path may encounter. A path is compiled once for each row of the table; [`super::PathTracer`] takes the first that has all that
-/// its scene needs. An effect that a row leaves out costs nothing at a vertex. All rows give the same bits.
+/// The effects that a path may encounter. A path is compiled once for each row of the table; [`super::PathTracer`] takes the first row that
+/// has everything its scene needs. An effect that a row leaves out costs nothing at a vertex. All rows give the same bits.
 ///
 /// | row | scenes |
 /// | --- | --- |
@@ -111,7 +111,7 @@ impl<'a> PathTracer<'a> {
 /// | [`NoMedia`] | all surfaces, no media |
 /// | [`AllEffects`] | all |
 pub(super) trait Effects: Copy {
-    /// What scatters light between surfaces: fog, drops, flakes.
+    /// Scattering of light between surfaces: fog, drops, flakes.
     const MEDIA: bool;
     /// Surfaces other than diffuse ones of one spectrum each: other models, textures, mixes, opacity, transparent solids.
     const SURFACES: bool;
@@ -155,28 +155,28 @@ impl Effects for DiffuseOnly {
     const SURFACES: bool = false;
 }
 
-/// Rays that are traced.
+/// Number of traced rays.
 const RAYS: u32 = 15;
 
-/// Greatest number of surfaces that a ray is traced through.
+/// Maximum number of surfaces that a ray is traced through.
 const MAX_PASSED: u32 = 4096;
 
-/// The solid that a camera stands in.
+/// The solid that surrounds a camera.
 ///
-/// From the centre of the entrance pupil, rays of fixed directions are traced straight through everything. A solid that a
-/// ray comes out of once more than it goes in holds the camera; of several the one it first comes out of, which is the
-/// innermost. Most of the rays decide: of a solid whose surface is closed all agree. What moves is taken where it is half-way through
-/// the view's interval; left out is a camera that enters or leaves a solid while it exposes.
+/// From the centre of the entrance pupil, rays of fixed directions are traced straight through everything. A solid holds the camera if a
+/// ray leaves it once more than it enters it. Of several such solids the one left first counts: it is the innermost. Most of the rays
+/// decide: for a solid with a closed surface all agree. Moving objects are taken half-way through the view's interval. Left out is a camera
+/// that enters or leaves a solid during its exposure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Surroundings {
-    /// The material of the solid that most rays come out of; `None` for air.
+    /// The material of the solid that most rays leave; `None` for air.
     pub solid: Option<MaterialId>,
-    /// A solid that some rays come out of where others do not: its surface is not closed.
+    /// A solid that only some rays leave: its surface is not closed.
     pub open: Option<MaterialId>,
 }
 
 impl Surroundings {
-    /// What surrounds the camera of a view.
+    /// The surroundings of a view's camera.
     #[must_use]
     pub fn of(view: &RenderSpace<'_>, material_table: &MaterialTable) -> Self {
         if !material_table.has_solids() {
@@ -202,11 +202,11 @@ fn direction(i: u32) -> Vec3 {
 struct CrossedSolid {
     instance: u32,
     material: MaterialId,
-    /// How many times more often the ray has left it than entered it.
+    /// Number of exits minus number of entries of the ray.
     exits: i32,
 }
 
-/// Of the solids that hold the camera as seen along one direction, the one that is left first.
+/// Of the solids that hold the camera as seen along one direction, the one that the ray leaves first.
 fn first_exited(view: &RenderSpace<'_>, material_table: &MaterialTable, direction: Vec3) -> Option<MaterialId> {
     // In the order in which they were first crossed.
     let mut solids: Vec<CrossedSolid> = vec![];

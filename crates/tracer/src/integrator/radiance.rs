@@ -1,4 +1,4 @@
-//! What paths are traced for: radiance along rays, alone and in groups, and the training of a guide (`crate::guiding`); by the code that was
+//! Entry points of the path tracer: radiance along rays, alone and in groups, and the training of a guide (`crate::guiding`). Each runs the code
 //! compiled for the scene's effects.
 
 use etendue_core::{FieldRay, RadianceField, Spectral, Wavelengths};
@@ -72,7 +72,7 @@ impl PathTracer<'_> {
         }
         match self.effects {
             SceneEffects::DiffuseOnly => self.radiance_shared::<N, DiffuseOnly>(rays, wavelengths, radiance),
-            // With media no path shares anything.
+            // With media, paths share nothing.
             SceneEffects::NoMedia | SceneEffects::All => {
                 self.radiance_shared::<N, NoMedia>(rays, wavelengths, radiance);
             }
@@ -96,12 +96,12 @@ struct TrainingVertex {
     bin: usize,
     /// Radiance at the camera before, summed over wavelengths.
     radiance_before: f32,
-    /// Weight at the camera of radiance along the path from here on, likewise.
+    /// Weight at the camera of radiance along the path from here on, summed over wavelengths.
     throughput: f32,
 }
 
 impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
-    /// Traces the path to its end and adds what it has found behind its first diffuse surfaces.
+    /// Traces the path to its end and adds the radiance found behind its first diffuse surfaces.
     fn train(mut self, training: &Training) {
         self.branches = false;
         let mut vertices = [None; GUIDED_BOUNCES as usize];
@@ -115,7 +115,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// To the next surface and on from it, which is noted where it is diffuse.
+    /// Moves to the next surface and on from it; stores the vertex if the surface is diffuse.
     fn train_step(&mut self, vertices: &mut [Option<TrainingVertex>]) -> PathStep {
         match self.intersect() {
             Intersection::Surface(point, lookup) if !self.is_at_max_bounces() => {
@@ -132,7 +132,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// How the path has left a surface; `None` where that is not diffuse.
+    /// The direction in which the path has left a surface; `None` if the surface is not diffuse.
     fn training_vertex(&self, vertex: &Vertex<'a, N>) -> Option<TrainingVertex> {
         if !matches!(vertex.bsdf, Bsdf::Diffuse(_)) {
             return None;

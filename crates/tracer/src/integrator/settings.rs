@@ -5,29 +5,28 @@ use etendue_core::{Integrator, LightSampling, Setting, Word as _, words::Setting
 /// Settings of a path tracer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
-    /// Which light paths are simulated.
+    /// Simulated light paths.
     pub integrator: Integrator,
-    /// Greatest number of scattering events; 1 where no paths are traced.
+    /// Maximum number of scattering events; 1 if no paths are traced.
     pub max_bounces: u32,
-    /// Scattering events after which paths may end at random; those that mirrors alone have scattered never do.
+    /// Scattering events after which paths may end at random. Paths that only mirrors have scattered never do.
     pub roulette_start: u32,
-    /// How many lights are sampled and how many paths continue at the first surface that is no mirror, 1 or more (`path.rs`).
+    /// Number of sampled lights, and of paths that continue, at the first surface that is no mirror; 1 or more (`path.rs`).
     pub branches: u32,
-    /// Samples of a replicate, or of a run of them where their number is not known before: paths that share their tails take turns over them.
+    /// Samples of a replicate, or of a run of them if their number is not known before. Paths that share their tails take turns over them.
     pub samples: u32,
-    /// Full angle of the cone that a camera ray stands for, rad: that of a pixel over the root of its samples. Chooses the
-    /// resolution of textures.
+    /// Full angle of the cone around a camera ray, rad: that of a pixel over the root of its samples. Selects the resolution of textures.
     pub cone_spread_rad: f32,
-    /// Which sampling strategies are used.
+    /// Sampling strategies in use.
     pub strategies: Strategies,
-    /// What lights are sampled by.
+    /// Method of light sampling.
     pub light_sampling: LightSampling,
-    /// Whether light of suns and emitting surfaces that smooth surfaces throw on diffuse ones, and mirrors on much less glossy ones, is simulated
-    /// (`path_state.rs`). Without it the image is darker by that light, and free of the rare bright samples that find it.
+    /// Includes caustics: light of suns and emitting surfaces that smooth surfaces focus on diffuse ones, and mirrors on much less glossy
+    /// ones (`path_state.rs`). Without it the image is darker by that light, and free of the rare bright samples that find it.
     pub caustics: bool,
-    /// Whether micro-facets are widened whose lobes the path would find by luck (`surface.rs`).
+    /// Path-space regularisation (biased): widens microfacet lobes that the path would find by chance only (`surface.rs`).
     pub regularize: bool,
-    /// Whether only light counts that media scatter into the camera's rays before these meet a surface, a drop or a flake.
+    /// Includes only airlight: light that media scatter into camera rays before these hit a surface, a drop or a flake.
     pub only_airlight: bool,
 }
 
@@ -63,17 +62,17 @@ impl PathSettings {
         ]
     }
 
-    /// Whether both settings give the same mean: they differ in noise at most.
+    /// True if both settings give the same mean: they differ in noise at most.
     #[must_use]
     pub fn has_mean_of(&self, other: &Self) -> bool {
         Self { branches: other.branches, light_sampling: other.light_sampling, ..*self } == *other
     }
 }
 
-/// Which sampling strategies find light (multiple importance sampling). All give the same mean; the others than `Both` exist to prove it.
+/// Sampling strategies that find light (multiple importance sampling). All give the same mean; those other than `Both` exist to verify it.
 ///
-/// Where an emission is textured they do but for the filtering: a sampled light's texture is averaged over the cone of the path
-/// as it arrived, one hit by chance over the cone widened by the scattering. `Both` then gives a mean of the two.
+/// For textured emission the means differ by the filtering. The texture of a sampled light is averaged over the cone of the path as it
+/// arrived; that of a light hit by chance is averaged over the cone widened by the scattering. `Both` then gives a mean of the two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategies {
     /// Lights are sampled, and hit by chance; both are weighted.
@@ -81,12 +80,12 @@ pub enum Strategies {
     Both,
     /// Lights are only hit by chance.
     Scattering,
-    /// Lights are only sampled, but for those that cannot be: seen by the camera or in a mirror, or a uniform environment.
+    /// Lights are only sampled, except those that cannot be: seen by the camera or in a mirror, or a uniform environment.
     Lights,
 }
 
-/// Weight of a strategy of density `this` beside one of density `other`, for finite densities of 0 or more: the power heuristic with exponent 2
-/// (Veach and Guibas 1995), p²/(p² + q²).
+/// Weight of a strategy of density `this` against one of density `other`, for finite densities of 0 or more: the power heuristic with
+/// exponent 2 (Veach and Guibas 1995), p²/(p² + q²).
 fn power_heuristic(this: f32, other: f32) -> f32 {
     if this <= 0.0 {
         return 0.0;
@@ -97,8 +96,8 @@ fn power_heuristic(this: f32, other: f32) -> f32 {
 }
 
 impl Strategies {
-    /// Weight of light hit by chance. `direction_pdf` is the density of the direction that hit it, `None` where it could
-    /// not have been sampled from here (camera, mirror); `light_pdf` is the density by which the light would have been sampled.
+    /// Weight of light hit by chance. `direction_pdf` is the density of the direction that hit it, `None` if it could not have been sampled
+    /// from here (camera, mirror); `light_pdf` is the density of the same light under light sampling.
     pub(super) fn hit_weight(self, direction_pdf: Option<f32>, light_pdf: f32) -> f32 {
         match (self, direction_pdf) {
             (Self::Both, Some(direction_pdf)) if light_pdf > 0.0 => power_heuristic(direction_pdf, light_pdf),

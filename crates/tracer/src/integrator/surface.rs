@@ -1,15 +1,16 @@
 //! The surface at a vertex: texture look-ups, shading frame, BSDF, and the densities of directions that are sampled there.
 //!
-//! **Path-space regularisation**: micro-facets as wide as the widest lobe that has scattered the path.
+//! **Path-space regularisation**: microfacet lobes at least as wide as the widest lobe that has scattered the path.
 //!
-//! A path that a wide lobe has scattered hits the image of a lamp in a narrower one by luck alone, in a few samples as many times too bright as the
-//! second lobe is narrower. Where a caller asks for it ([`super::PathSettings::regularize`]), each lobe of micro-facets (metals, coats, paint, glass) is
-//! widened, until its density is at most [`MAX_DENSITY_RATIO`] of that of the widest scattering before it, or [`MIN_DENSITY_PER_SR`] (Kaplanyan and
-//! Dachsbacher, "Path space
-//! regularization for holistic and robust light transport", 2013; there of mirrors). What is seen straight or in mirrors is unchanged; images of lamps in
-//! what other surfaces mirror are blurred, and their light is kept but for what models lose at greater roughness. The mean is another one: the image
-//! is biased. Where caustics are left out, those behind diffuse surfaces still are: nothing is widened there; a mirror that a glossy surface shows is
-//! widened, and counts. The density is that of reflection: what glass refracts straight on stays up to 36 times as dense (n = 1.5).
+//! A path that a wide lobe has scattered hits the reflection of a light in a narrower lobe by chance only: in a few samples, too bright by the ratio
+//! of the two lobes. If a caller requests it ([`super::PathSettings::regularize`]), each microfacet lobe (metals, coats, paint, glass) is widened
+//! until its density is at most [`MAX_DENSITY_RATIO`] of that of the widest scattering before it, or [`MIN_DENSITY_PER_SR`] (Kaplanyan and
+//! Dachsbacher, "Path space regularization for holistic and robust light transport", 2013; there of mirrors).
+//!
+//! Surfaces seen straight or in mirrors are unchanged. Reflections of lights in reflections of other surfaces are blurred. Their light is kept,
+//! except what models lose at greater roughness. The mean changes: the image is biased. If caustics are left out, those behind diffuse surfaces still
+//! are: nothing is widened there. A mirror that a glossy surface shows is widened, and counts. The density is that of reflection: light that glass
+//! refracts straight on stays up to 36 times as dense (n = 1.5).
 
 use core::f32::consts::PI;
 
@@ -23,18 +24,18 @@ use crate::guiding::{DirectionDistribution, GUIDED_BOUNCES};
 use crate::materials::{Bsdf, BsdfSample, BsdfValue, DiffuseBsdf, Event, GlossLobe, ShadingFrame};
 use crate::{MaterialId, geometry::SurfacePoint, lights::ReceiverGloss, textures::Lookup};
 
-/// Greatest density of a lobe over that of the widest scattering before it. Of 4, 1, 1/2, 0.3 and 0.2, tried on car paint that sees a wet road at 64
-/// samples, the last two leave no speckle.
+/// Maximum density of a lobe over that of the widest scattering before it. Tried: 4, 1, 1/2, 0.3 and 0.2, on car paint that sees a wet road
+/// at 64 samples. The last two leave no speckle.
 const MAX_DENSITY_RATIO: f32 = 0.25;
 
 /// Density that any lobe may have, 1/sr: that of a GGX lobe of α = 0.28 along the normal.
 const MIN_DENSITY_PER_SR: f32 = 1.0;
 
-// Behind diffuse surfaces all lobes are as wide, so that paths that share a tail agree on it.
+// Behind diffuse surfaces all lobes are equally wide, so that paths that share a tail agree on it.
 const _: () = assert!(MAX_DENSITY_RATIO / PI < MIN_DENSITY_PER_SR);
 
 impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
-    /// Where textures are read at a point that a ray of unit `direction` has hit whose cone is `cone` there.
+    /// Place of texture look-ups at a point that a ray of unit `direction` has hit; `cone` is its cone there.
     #[inline(always)]
     pub(super) fn lookup(&self, point: &SurfacePoint, cone: Cone, direction: Vec3) -> Lookup {
         let at = Lookup { local: point.local, local_normal: point.local_normal, ..Lookup::point(point.uv) };
@@ -90,7 +91,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         ShadingFrame::new(point, normal, -direction)
     }
 
-    /// The least roughness α of micro-facets at a surface that the path has hit: 0 where they are not widened.
+    /// Minimum roughness α of microfacets at a surface that the path has hit: 0 if they are not widened.
     #[inline(always)]
     fn min_alpha(&self, frame: &ShadingFrame) -> f32 {
         let settings = &self.tracer.settings;
@@ -101,7 +102,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         alpha_of_density((MAX_DENSITY_RATIO * self.history.min_density()).max(MIN_DENSITY_PER_SR), frame.wo.z)
     }
 
-    /// The distribution of directions that a diffuse surface samples, where other paths have trained one.
+    /// The distribution of directions that a diffuse surface samples, if other paths have trained one.
     #[inline(always)]
     fn guide(
         &self,
@@ -116,7 +117,8 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         guide.at(point.position, frame.normal())
     }
 
-    /// The lobes of a surface for the choice among lights: none where light that lobes reflect is left out as a caustic, or lobes do not count.
+    /// The lobes of a surface for the choice among lights: none if light that lobes reflect is left out as a caustic, or lobes do not
+    /// count.
     #[inline(always)]
     pub(super) fn gloss(&self, vertex: &Vertex<'a, N>) -> Option<ReceiverGloss> {
         let counts_lobes = self.tracer.settings.light_sampling == LightSampling::Gloss;
@@ -136,7 +138,7 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
         }
     }
 
-    /// The medium that light crosses which arrives at a surface from `wi`.
+    /// The medium on the side of `wi`, which light crosses before it arrives at a surface.
     pub(super) fn medium_towards(&self, vertex: &Vertex<'a, N>, wi: Vec3) -> Medium<'a> {
         if E::SURFACES && wi.z < 0.0 {
             let table = self.tracer.material_table;
@@ -152,20 +154,20 @@ impl<'a, const N: usize, E: Effects> Path<'a, N, E> {
 }
 
 impl<const N: usize> Vertex<'_, N> {
-    /// Density with which `wi` (shading frame) is sampled, 1/sr, where `pdf` is that of the bsdf.
+    /// Density with which `wi` (shading frame) is sampled, 1/sr; `pdf` is that of the BSDF.
     #[inline(always)]
     pub(super) fn density(&self, wi: Vec3, pdf: f32) -> f32 {
         pdf * self.relative_density(wi)
     }
 
-    /// Density with which `wi` (shading frame) is sampled over that of the bsdf. Roulette goes by the throughput times this, as if nothing
-    /// guided the path: a direction that is sampled often carries less, and is worth no less.
+    /// Ratio of the density with which `wi` (shading frame) is sampled to that of the BSDF. Roulette uses the throughput times this, as if
+    /// nothing guided the path: a direction that is sampled often carries less, and is worth no less.
     #[inline(always)]
     pub(super) fn relative_density(&self, wi: Vec3) -> f32 {
         self.guide.map_or(1.0, |guide| guide.relative_density(wi))
     }
 
-    /// A direction sampled by the guide; its density is stated as that of the bsdf.
+    /// A direction sampled by the guide; its density is stated as that of the BSDF.
     #[inline(always)]
     pub(super) fn guided_sample(&self, bsdf: &DiffuseBsdf<N>, u: Vec2) -> Option<BsdfSample<N>> {
         let (wi, relative) = self.guide?.sample(u);
@@ -174,8 +176,8 @@ impl<const N: usize> Vertex<'_, N> {
     }
 }
 
-/// A roughness α at which a GGX lobe's density at its axis, seen at a cosine, is at most `density`, 1/sr. The density is
-/// 1/(2π α² (cos + √(cos² + α² sin²))), and the root at least cos and, with the cosine, at least α: two bounds, of which the lower α does.
+/// A roughness α at which a GGX lobe's density at its axis, seen at a cosine, is at most `density`, 1/sr. The density is 1/(2π α² (cos +
+/// √(cos² + α² sin²))). The root is at least cos and, with the cosine, at least α. These give two bounds; the lower α suffices.
 fn alpha_of_density(density: f32, cos: f32) -> f32 {
     let (steep, grazing) = (1.0 / (4.0 * PI * density * cos).sqrt(), cbrt(1.0 / (2.0 * PI * density)));
     steep.min(grazing).min(1.0)

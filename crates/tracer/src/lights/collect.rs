@@ -1,4 +1,4 @@
-//! Finding the surfaces that glow.
+//! Collects the emitting surfaces of a scene.
 
 use etendue_core::{Motion, TimeInterval, WavelengthRange};
 use glam::DAffine3;
@@ -13,53 +13,52 @@ use crate::geometry::{Instance, Mesh, Shape};
 use crate::materials::{Emission, EmissionSides, MaterialTable};
 use crate::{MaterialId, render_space::RenderSpace};
 
-/// Why lights cannot be collected.
+/// Error in the collection of lights.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LightError {
-    /// An instance names a material that is not there.
+    /// An instance names a material that does not exist.
     #[error("instance {instance} names material {material}, but there are {materials}; add the material first")]
     UnknownMaterial {
-        /// The instance, counted from 0.
+        /// Index of the instance, from 0.
         instance: usize,
-        /// The material it names.
+        /// The material that it names.
         material: u32,
         /// Number of materials.
         materials: usize,
     },
-    /// The surface of a lamp's opening is not what the opening asks for.
+    /// The surface of a lamp's opening does not match the opening.
     #[error(
         "instance {instance} is not the surface of a lamp's opening, which its lamp takes it for; place the opening's own mesh, or a \
          sphere, of one material that does not glow"
     )]
     Opening {
-        /// The instance, counted from 0.
+        /// Index of the instance, from 0.
         instance: u32,
     },
-    /// More glowing triangles than can be told apart.
+    /// More emitting triangles than can be indexed.
     #[error("the scene has more than four thousand million glowing triangles; let fewer glow")]
     TooMany,
 }
 
-/// Lights of the scene.
 #[derive(Default)]
 pub(super) struct SceneLights {
     pub(super) lights: Vec<Light>,
-    /// What the choice among them knows of each.
+    /// Bounds of each light, for light selection.
     pub(super) bounds: Vec<LightBounds>,
     pub(super) primitives: Primitives,
 }
 
-/// The emission of the materials in the choice among lights.
+/// The emission of the materials, for light selection.
 struct EmissionWeights<'a> {
     material_table: &'a MaterialTable,
     /// Of each material that emits.
     emissions: Vec<Option<MeanEmission>>,
 }
 
-/// The emission of a material in the choice among lights.
+/// The emission of a material, for light selection.
 #[derive(Clone, Copy)]
 struct MeanEmission {
-    /// Mean radiance, W·m⁻²·sr⁻¹·nm⁻¹, as its strength over the view's interval counts.
+    /// Mean radiance, W·m⁻²·sr⁻¹·nm⁻¹, with its strength over the view's interval.
     radiance: f64,
     is_two_sided: bool,
 }
@@ -111,9 +110,9 @@ fn check_materials(index: usize, instance: &Instance, weights: &EmissionWeights<
     }
 }
 
-/// Where something is during the view's interval.
+/// Placement of an object during the view's interval.
 enum Place {
-    /// To the render frame.
+    /// Static: transform to the render frame.
     Still(DAffine3),
     Moving(LightMotion),
 }
@@ -130,7 +129,7 @@ impl Place {
         }
     }
 
-    /// To the render frame at the start of the interval.
+    /// Transform to the render frame at the start of the interval.
     fn at_start(&self) -> DAffine3 {
         match self {
             Self::Still(to_render) => *to_render,
@@ -138,7 +137,7 @@ impl Place {
         }
     }
 
-    /// The light of a triangle, of two together if they are to be a pair and make up a parallelogram, with its bounds.
+    /// The light of a triangle, with its bounds; of two triangles together if they are to be a pair and form a parallelogram.
     fn facets(
         &self,
         mesh: &Mesh,

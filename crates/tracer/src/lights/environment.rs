@@ -1,10 +1,9 @@
-//! What surrounds the scene, infinitely far away.
+//! The surroundings of the scene, infinitely far away.
 //!
-//! A picture of the surroundings is equirectangular, z up: its centre looks along +x, a quarter of its width to the
-//! left along +y, its left and right edges along −x; the top row is the zenith. A rotation turns the surroundings
-//! about z, anticlockwise seen from above. Colours are interpolated between texels; directions are drawn texel by
-//! texel, by the mean of the interpolated picture over the texel and its solid angle, so that whatever shines can be
-//! drawn.
+//! An image of the surroundings is equirectangular, z up: its centre looks along +x, a quarter of its width to the left along +y, its left and right
+//! edges along −x; the top row is the zenith. A rotation turns the surroundings about z, anticlockwise seen from above. Colours are interpolated
+//! between texels. Directions are sampled texel by texel, by the mean of the interpolated image over the texel and its solid angle, so that every
+//! direction with radiance can be sampled.
 
 use core::f32::consts::{PI, TAU};
 
@@ -16,20 +15,21 @@ use glam::{DVec3, Vec2, Vec3};
 use super::patches::{EnvironmentCell, patches};
 use super::{BRIGHTEST, LightSample, sky::SkyEnvironment};
 
-/// What surrounds the scene.
+/// Surroundings of the scene.
 #[derive(Clone, Debug)]
 pub enum Environment {
-    /// The same spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) from everywhere.
+    /// The same spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) from every direction.
     Uniform(Spectrum),
-    /// A picture.
+    /// An image.
     Image(ImageEnvironment),
     /// A clear sky.
     Sky(Box<SkyEnvironment>),
 }
 
 impl Environment {
-    /// Irradiance by which the surroundings are drawn beside suns that give `of_suns`, W·m⁻²·nm⁻¹; 0 where they are not: that of their bright patches,
-    /// and of all else what is beyond that of the suns. Scattered rays meet what is even as well as draws do.
+    /// Irradiance that determines how often the surroundings are sampled next to suns of irradiance `of_suns`, W·m⁻²·nm⁻¹; 0 if they are
+    /// not sampled. It is the irradiance of their bright patches, and the part of the remaining irradiance that exceeds that of the suns.
+    /// Scattered rays hit uniform surroundings as well as light samples do.
     pub(super) fn drawn_irradiance(&self, range: WavelengthRange, of_suns: f64) -> f64 {
         let (mean, patches) = match self {
             Self::Uniform(_) => return 0.0,
@@ -39,7 +39,7 @@ impl Environment {
         mean * patches + (mean * (1.0 - patches) - of_suns).max(0.0)
     }
 
-    /// Radiance from a direction, and the density by which it would be drawn, 1/sr, which is asked for only where it is
+    /// Radiance from a direction, and the density with which the direction would be sampled, 1/sr. The density is computed only if
     /// `wanted`.
     pub(super) fn radiance_and_pdf<const N: usize>(
         &self,
@@ -67,44 +67,44 @@ impl Environment {
     }
 }
 
-/// Why an environment picture is refused.
+/// Error of an environment image.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum EnvironmentError {
-    /// The texels do not fill the picture.
+    /// The texels do not fill the image.
     #[error("a picture of {width} × {height} needs as many texels, but {found} were given; check its size")]
     Size {
         /// Columns.
         width: usize,
         /// Rows.
         height: usize,
-        /// Texels given.
+        /// Number of texels given.
         found: usize,
     },
     /// A texel is negative or not finite.
     #[error("texel {texel} of the surroundings is negative or not a finite number; correct the picture")]
     Texel {
-        /// The texel, counted by rows from the top.
+        /// Index of the texel, by rows from the top.
         texel: usize,
     },
-    /// Nothing shines.
+    /// All texels are black.
     #[error("the picture of the surroundings is black everywhere; leave it out")]
     Black,
-    /// Light beyond [`BRIGHTEST`].
+    /// Luminance above [`BRIGHTEST`].
     #[error(
         "texels up to {texel:e} times {scale:e} cd/m² are brighter than 1e30, the most that can be traced; lower the scale"
     )]
     Bright {
-        /// The greatest component of a texel.
+        /// Maximum component of a texel.
         texel: f32,
-        /// The scale.
+        /// Luminance scale, cd/m².
         scale: f64,
     },
-    /// The scale or the rotation is not a number that can be used.
+    /// The scale or the rotation is not a usable number.
     #[error("the scale of the surroundings must be positive and finite and their rotation finite; correct them")]
     Placement,
 }
 
-/// A picture of the surroundings. Its `Debug` text leaves out the texels.
+/// An image of the surroundings. Its `Debug` text leaves out the texels.
 #[derive(Clone)]
 pub struct ImageEnvironment {
     width: usize,
@@ -115,7 +115,7 @@ pub struct ImageEnvironment {
     rotation_turns: f32,
     distribution: Distribution2,
     mean_luminance: f64,
-    /// Share of bright patches in its light.
+    /// Fraction of bright patches in its light.
     patches: f64,
 }
 
@@ -132,11 +132,11 @@ impl core::fmt::Debug for ImageEnvironment {
 }
 
 impl ImageEnvironment {
-    /// A picture of linear sRGB colours, rows from the zenith down, in which (1, 1, 1) is D65 of `luminance_scale`
-    /// cd/m², turned by `rotation_rad` about z.
+    /// An image of linear sRGB colours, rows from the zenith down, in which (1, 1, 1) is D65 of `luminance_scale` cd/m², turned by
+    /// `rotation_rad` about z.
     ///
     /// # Errors
-    /// Where the texels do not fill the picture, one is not light, or all are black.
+    /// If the texels do not fill the image, one is negative or not finite, or all are black.
     pub fn new(
         width: usize,
         height: usize,
@@ -180,13 +180,13 @@ impl ImageEnvironment {
         upsample::emission((self.colour(place) * self.scale).to_array(), wavelengths)
     }
 
-    /// Place in the picture (to the right, downwards, in [0, 1]) of a direction.
+    /// Place in the image (to the right, downwards, in [0, 1]) of a direction.
     fn place(&self, direction: Vec3) -> Vec2 {
         let turns = 0.5 - atan2(direction.y, direction.x) / TAU + self.rotation_turns;
         Vec2::new((turns - turns.floor()).min(ONE_BELOW), (acos(direction.z.clamp(-1.0, 1.0)) / PI).min(ONE_BELOW))
     }
 
-    /// Direction of a place in the picture, and the sine of its angle from z.
+    /// Direction of a place in the image, and the sine of its angle from z.
     fn direction(&self, place: Vec2) -> (Vec3, f32) {
         let (sin_phi, cos_phi) = sin_cos((0.5 - place.x + self.rotation_turns) * TAU);
         let (sin, cos) = sin_cos(place.y * PI);
@@ -200,7 +200,7 @@ impl ImageEnvironment {
         line(row as i32).lerp(line(row as i32 + 1), y - row)
     }
 
-    /// A texel; columns join at the edges, rows end at the poles.
+    /// Texel at a column and row. Columns wrap at the edges, rows are clamped at the poles.
     fn texel(&self, column: i32, row: i32) -> Vec3 {
         // At most one column beyond an edge.
         let width = self.width as i32;
@@ -210,7 +210,7 @@ impl ImageEnvironment {
         Vec3::from(self.texels[y * self.width + x])
     }
 
-    /// Density by which [`ImageEnvironment::sample`] gives the unit `direction`, 1/sr.
+    /// Density with which [`ImageEnvironment::sample`] returns the unit `direction`, 1/sr.
     #[cfg(test)]
     fn pdf(&self, direction: Vec3) -> f32 {
         self.pdf_at(self.place(direction), direction)
@@ -228,7 +228,6 @@ impl ImageEnvironment {
         LightSample::of_surroundings(direction, self.radiance_at(place, wavelengths), pdf)
     }
 
-    /// Irradiance of a surface under the mean of the surroundings, W·m⁻²·nm⁻¹, over a range of wavelengths.
     /// Spectral irradiance of a surface under the mean colour of all directions, W·m⁻²·nm⁻¹.
     pub(super) fn irradiance(&self) -> Spectrum {
         let rows = self.texels.chunks(self.width).enumerate();
@@ -254,7 +253,7 @@ fn solid_angle(y: usize, height: usize) -> f64 {
     0.5 * (edge(y) - edge(y + 1))
 }
 
-/// Mean of the interpolated picture over each texel, all channels alike, times the texel's solid angle.
+/// Mean of the interpolated image over each texel, all channels weighted equally, times the texel's solid angle.
 fn weights(width: usize, height: usize, texels: &[[f32; 3]]) -> Vec<f32> {
     let grey = |x: usize, y: usize| texels[y * width + x].iter().map(|v| f64::from(*v)).sum::<f64>() / 3.0;
     // The mean of linear interpolation over a texel is 1/8, 6/8, 1/8 of its neighbours and itself.
@@ -315,7 +314,7 @@ mod tests {
             apart += usize::from((told - sample.pdf).abs() > 1e-3 * sample.pdf);
         }
         assert!((sum / f64::from(n) - 1.0).abs() < 2e-3, "{}", sum / f64::from(n));
-        // Only on the borders of texels may rounding tell the neighbour's density.
+        // Only on the borders of texels may rounding give the neighbour's density.
         assert!(apart < 100, "{apart} of 65536 densities differ");
     }
 

@@ -1,12 +1,12 @@
-//! A receiver's gloss in the choice among lights.
+//! A receiver's gloss in light selection.
 //!
-//! What a light counts is its irradiance times 1 + the lobes' values relative to the matt part. Of a light or cluster that is
-//! seen under a half angle with sine r, a lobe's mean over it is estimated: the kernel of `materials::gloss`, its width w
-//! grown to √(w² + (r/2)²) by the share of a disc's radius that is its root mean square along one axis, its peak lowered so that
-//! as much light is sent back. Half vectors move by half of what the light does in the plane of incidence, and by
-//! 1/(cos θₒ + cos θᵢ) of it across: both widths are told apart, as towards grazing they differ by orders of magnitude.
+//! The weight of a light is its irradiance times 1 + the lobes' values relative to the diffuse part. For a light or cluster seen under a half angle
+//! with sine r, the mean of a lobe over it is estimated. The estimate is the kernel of `materials::gloss` with its width w increased to
+//! √(w² + (r/2)²) and its peak lowered so that the reflected light stays the same. (Half a disc's radius is its root mean square along one axis.) In
+//! the plane of incidence, half vectors move by half of the motion of the light; across it, by 1/(cos θₒ + cos θᵢ) of it. The two widths are
+//! distinct, as towards grazing they differ by orders of magnitude.
 //!
-//! A matt part is never taken for less than [`LEAST`] of what the lobes send back: a floor for lights outside them.
+//! The diffuse part counts as at least [`LEAST`] of the light that the lobes reflect: a floor for lights outside them.
 
 use core::f32::consts::{FRAC_1_PI, PI};
 
@@ -14,18 +14,18 @@ use glam::{Mat3, Vec3};
 
 use crate::materials::{Gloss, GlossLobe, LobeCentre, ShadingFrame, TOLD, schlick};
 
-/// Share of what the lobes send back that the matt part counts at least.
+/// Minimum diffuse part, as a fraction of the light that the lobes reflect.
 const LEAST: f32 = 0.05;
 
-/// How many times as bright as the matt part lobes are at least together; where less, they are left out. From 4 to 32 the error of
-/// the dry street stays the same; below, draws by the matt part alone are as good.
+/// Minimum ratio of the brightness of all lobes to the diffuse part; below, lobes are left out. From 4 to 32 the error of the dry street
+/// stays the same; below, sampling by the diffuse part alone is as good.
 const BRIGHT: f32 = 16.0;
 
-/// Least width of a lobe that clusters are opened for: what narrower ones mirror of a lamp is smaller than a pixel, whose error
-/// is then that of its place in the pixel.
+/// Minimum width of a lobe for which clusters are split. The reflection of a lamp in narrower lobes is smaller than a pixel; its error is
+/// then that of its place in the pixel.
 const RESOLVED: f32 = 0.004;
 
-/// Sine of a cone's half angle above which the change of half vectors over it is not taken for linear.
+/// Sine of a cone's half angle above which the change of half vectors over it is not treated as linear.
 const WIDE: f32 = 0.2;
 
 /// Mean square along one axis over a disc of radius 1.
@@ -34,10 +34,10 @@ const SPREAD2: f32 = 0.25;
 /// The lobes of a receiver in the render frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReceiverGloss {
-    /// Towards the viewer, unit.
+    /// Unit vector towards the viewer.
     viewer: Vec3,
     normal: Vec3,
-    /// Unit, in the surface: in the plane of incidence of the viewer, and across.
+    /// Unit vectors in the surface: in the viewer's plane of incidence, and across it.
     along: Vec3,
     across: Vec3,
     lobes: [Lobe; TOLD],
@@ -47,11 +47,11 @@ pub struct ReceiverGloss {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DirectionCone {
     pub(super) axis: Vec3,
-    /// Of the half angle.
+    /// Sine of the half angle.
     pub(super) sin: f32,
 }
 
-/// A lobe relative to the matt part.
+/// A lobe relative to the diffuse part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Lobe {
     about: LobeCentre,
@@ -61,7 +61,7 @@ struct Lobe {
 }
 
 impl ReceiverGloss {
-    /// The gloss of a surface seen in `frame`; `None` where no lobe is bright enough to matter.
+    /// The gloss of a surface seen in `frame`; `None` if no lobe is bright enough to matter.
     pub(crate) fn new(gloss: &Gloss, frame: &ShadingFrame) -> Option<Self> {
         let cos_o = frame.wo.z;
         if gloss.lobes.iter().all(|lobe| lobe.peak <= 0.0) {
@@ -100,14 +100,14 @@ impl ReceiverGloss {
         Self { viewer, normal, along, across, lobes: core::array::from_fn(|i| lobe(&self.lobes[i])) }
     }
 
-    /// What lobes send of light from a cone about the unit `direction` whose half angle has the sine `sin`, relative to what
-    /// the matt part sends of light from above.
+    /// Light that lobes reflect from a cone about the unit `direction` whose half angle has the sine `sin`, relative to the light that the
+    /// diffuse part reflects from above.
     #[inline]
     pub(super) fn relative(&self, direction: Vec3, sin: f32) -> f32 {
         self.relative_four(direction.to_array().map(|x| [x; 4]), [sin; 4])[0]
     }
 
-    /// The same of four cones.
+    /// The same for four cones.
     #[inline(always)]
     pub(super) fn relative_four(&self, directions: [Four; 3], sin: Four) -> Four {
         let mut sum = [0.0; 4];
@@ -121,9 +121,9 @@ impl ReceiverGloss {
         sum
     }
 
-    /// About the most that lobes send of light from one place in a cone about the unit `direction` whose half angle has the sine
-    /// `sin`, or anywhere where there is no cone, relative to what the matt part sends of light from above; 0 for lobes too narrow
-    /// to be told apart.
+    /// Approximate maximum of the light that lobes reflect from one place in a cone about the unit `direction` whose half angle has the
+    /// sine `sin`, or from anywhere if there is no cone, relative to the light that the diffuse part reflects from above; 0 for lobes too
+    /// narrow to be resolved.
     pub(super) fn greatest(&self, cone: Option<DirectionCone>) -> f32 {
         self.lobes.iter().map(|lobe| self.greatest_of(lobe, cone)).sum()
     }
@@ -156,8 +156,8 @@ impl ReceiverGloss {
         lobe.peak * fresnel * fallen * fallen
     }
 
-    /// Least tan² of half vector and normal in a wide cone. A direction at an angle δ from the mirror direction has its half vector
-    /// at δ/2 or more from the normal: mirroring at the one and at the other differ by a rotation of twice the angle between them.
+    /// Minimum tan² between half vector and normal in a wide cone. A direction at an angle δ from the mirror direction has its half vector
+    /// at δ/2 or more from the normal: the two reflections differ by a rotation of twice the angle between them.
     fn least_aside2(&self, direction: Vec3, sin: f32) -> f32 {
         let mirrored = self.normal * (2.0 * self.viewer.dot(self.normal)) - self.viewer;
         let (cos_a, cos) = (mirrored.dot(direction).clamp(-1.0, 1.0), (1.0 - sin * sin).max(0.0).sqrt());
@@ -200,7 +200,7 @@ fn of_direction(lobe: &Lobe, axis: Vec3, [x, y, z]: [Four; 3], sin: Four) -> Fou
     each(|i| lobe.peak * (lobe.width2 / width2[i]) * (fallen[i] * fallen[i]))
 }
 
-/// Schlick's approximation, of a cosine of at most 1.
+/// Schlick's approximation, for a cosine of at most 1.
 #[inline(always)]
 fn schlick_of(f0: f32, cos: f32) -> f32 {
     let x = 1.0 - cos;
@@ -208,11 +208,11 @@ fn schlick_of(f0: f32, cos: f32) -> f32 {
     f0 + (1.0 - f0) * (x2 * x2 * x)
 }
 
-/// Least cos θₒ + cos θᵢ.
+/// Minimum cos θₒ + cos θᵢ.
 const LOWEST: f32 = 1e-4;
 
-/// What a lobe sends at its axis. Lobes about a direction are compared with what the matt part sends of light from that same direction,
-/// which on a road marking far ahead is little: lamp and viewer lie low.
+/// Light that a lobe reflects at its axis. Lobes about a direction are compared with the light that the diffuse part reflects from that
+/// same direction. For a road marking far ahead this is little: lamp and viewer are low.
 fn brightness(lobe: &GlossLobe, cos_o: f32) -> f32 {
     let at_axis = lobe.peak * lobe.fresnel_at_axis(cos_o);
     match lobe.about {
@@ -221,7 +221,7 @@ fn brightness(lobe: &GlossLobe, cos_o: f32) -> f32 {
     }
 }
 
-/// Share of light that a lobe sends back, about.
+/// Approximate albedo of a lobe.
 fn albedo(lobe: &GlossLobe, cos_o: f32) -> f32 {
     let solid = PI * lobe.width * lobe.width;
     match lobe.about {
@@ -231,22 +231,22 @@ fn albedo(lobe: &GlossLobe, cos_o: f32) -> f32 {
     }
 }
 
-/// What goes side by side.
+/// Four values processed side by side (SIMD).
 pub(super) type Four = [f32; 4];
 
-/// Each of the four by its place.
+/// Computes each of the four values from its index.
 #[inline(always)]
 pub(super) fn each(f: impl Fn(usize) -> f32) -> Four {
     [f(0), f(1), f(2), f(3)]
 }
 
-/// The greater of two numbers, as one instruction.
+/// Maximum of two numbers, as one instruction.
 #[inline(always)]
 pub(super) fn at_least(x: f32, low: f32) -> f32 {
     if x > low { x } else { low }
 }
 
-/// The smaller of two numbers, as one instruction.
+/// Minimum of two numbers, as one instruction.
 #[inline(always)]
 pub(super) fn at_most(x: f32, high: f32) -> f32 {
     if x < high { x } else { high }
@@ -267,7 +267,7 @@ mod tests {
         uniform_sphere(Vec2::new(number(i, k), number(i, k + 1)))
     }
 
-    /// A surface facing up with one lobe that mirrors all light, so that Fresnel's factor is 1 everywhere.
+    /// A surface facing up with one lobe that reflects all light, so that the Fresnel factor is 1 everywhere.
     fn mirror(viewer: Vec3, width: f32, about: LobeCentre) -> ReceiverGloss {
         let along = Vec3::new(viewer.x, viewer.y, 0.0).normalize();
         let lobe = Lobe { about, width2: width * width, peak: 1e4, f0: 1.0 };
@@ -275,8 +275,8 @@ mod tests {
         ReceiverGloss { viewer, normal: Vec3::Z, along, across: Vec3::Z.cross(along), lobes: [lobe, none] }
     }
 
-    /// Whatever light a receiver mirrors counts no more than the cluster may that it is in. (Fresnel's factor, left out here, is that of
-    /// the mirror direction, which wide lobes exceed at grazing by some tenths.)
+    /// The weight of any reflected light is at most the maximum weight of its cluster. (The Fresnel factor, left out here, is that of the
+    /// mirror direction, which wide lobes exceed at grazing by some tenths.)
     #[test]
     fn no_light_in_a_wide_cone_counts_more_than_the_cone_may() {
         for i in 0..40_000 {

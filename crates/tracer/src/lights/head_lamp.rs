@@ -1,24 +1,23 @@
-//! Head lamps as ready elements: a low beam with an asymmetric cut-off, a high beam.
+//! Predefined headlamps: a low beam with an asymmetric cut-off, a high beam.
 //!
-//! Both are grids of type A (the sphere with a vertical polar axis of the UN regulations; V up, H to the right, degrees) of
-//! candela, made from formulas and not measured on any lamp. The low beam for traffic on the right is
+//! Both are grids of type A (the sphere with a vertical polar axis of the UN regulations; V up, H to the right, degrees) of candela, computed from
+//! formulas and not measured on any lamp. The low beam for traffic on the right is
 //!
 //! I = s(V, H) + [1 + e^{(V − c(H))/w}]⁻¹ · (24 000 g(H − 1, 5 or 3.5) g(V + 1.2, 2) + 3 500 g(H, 20) g(V + 3, 5)) cd
 //!
-//! with g(x, σ) = e^{−x²/2σ²} (the narrower σ on the side of oncoming traffic). Its cut-off c lies 0.57° (1 %) below the
-//! horizon on the side of oncoming traffic, rises by 15° from the middle, and ends 1° above the horizon. Its width
-//! w = 0.15° makes the sharpness G = lg I(V) − lg I(V + 0.1°) 0.2–0.3, between the 0.13 and 0.40 that UN R112 asks
-//! for. Stray light s = 160 g(H, 15) g(V, 5) cd reaches signs above the road. For traffic on the left all is mirrored.
-//! The high beam is 52 000 g(H, 3.5) g(V, 1.5) + 6 000 g(H, 12) g(V + 0.5, 3.5) cd.
+//! with g(x, σ) = e^{−x²/2σ²} (the narrower σ on the side of oncoming traffic). Its cut-off c lies 0.57° (1 %) below the horizon on the side of
+//! oncoming traffic, rises by 15° from the middle, and ends 1° above the horizon. Its width w = 0.15° gives a sharpness G = lg I(V) − lg I(V + 0.1°)
+//! of 0.2–0.3, between the 0.13 and 0.40 that UN R112 requires. Stray light s = 160 g(H, 15) g(V, 5) cd reaches signs above the road. For traffic on
+//! the left all is mirrored. The high beam is 52 000 g(H, 3.5) g(V, 1.5) + 6 000 g(H, 12) g(V + 0.5, 3.5) cd.
 //!
-//! The low beam meets the test points of the passing beam of UN Regulation No. 149, class B (a test on rendered walls, with the
-//! one table of these points, in `io::inspect::passing_beam`).
+//! The low beam meets the test points of the passing beam of UN Regulation No. 149, class B (tested on rendered walls, with the one table of these
+//! points, in `io::inspect::passing_beam`).
 
 use etendue_core::maths;
 
 use super::profile::{PhotometricAxes, PhotometricGrid};
 
-/// The side of the road that traffic keeps to.
+/// The side of the road on which traffic drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Traffic {
     /// As on the European continent.
@@ -54,7 +53,7 @@ fn low(v: f64, h: f64) -> f64 {
     160.0 * bell(h, 15.0) * bell(v, 5.0) + passed * beam
 }
 
-/// Where the cut-off lies, degrees above the horizon.
+/// Elevation of the cut-off above the horizon, degrees.
 fn cut_off(h: f64) -> f64 {
     const SLOPE: f64 = 0.267_949_192_431_122_7;
     (SLOPE * h.max(0.0) - 0.57).min(1.0)

@@ -1,13 +1,11 @@
-//! Lamps: intensity by direction, and as points 1/d² by distance.
+//! Lamps: intensity by direction; lamps that are points fall off as 1/d² with distance.
 //!
-//! A surface that faces a lamp of intensity I(λ) · value(direction) from the distance d has the spectral irradiance
-//! E(λ) = I(λ) · value / d² / (1 + a d). The last factor is the attenuation coefficient a (1/m) of the legacy mode, 0 by
-//! default; it is no physics of clear air.
+//! A surface that faces a lamp of intensity I(λ) · value(direction) from the distance d has the spectral irradiance E(λ) = I(λ) · value / d² / (1 + a
+//! d). The last factor is the attenuation coefficient a (1/m) of the legacy mode, 0 by default; it does not represent clear air.
 //!
-//! A lamp's frame is x forward, y left, z up; its axes say where these point in the world. A lamp without an opening has no
-//! size (shadows are sharp, and so near it that it is no point its light is too strong); one with an opening shines from a
-//! surface of the world (`opening/`). One that moves is asked as the lamp that it is at the receiver's time (`carried`). Its strength
-//! may go up and down over time. Left out: polarisation.
+//! A lamp's frame is x forward, y left, z up; its axes give these directions in the world. A lamp without an opening has no size: shadows are sharp,
+//! and its light is too strong at distances at which a real lamp is no point. One with an opening emits from a surface of the world (`opening/`). A
+//! moving lamp is evaluated at the receiver's time (`carried`). Its strength may change over time. Left out: polarisation.
 
 use std::sync::Arc;
 
@@ -21,10 +19,10 @@ use super::{
 };
 use crate::materials::{EmissionQuery, choice_level};
 
-/// Why a lamp is refused.
+/// Error of a lamp.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LampError {
-    /// The place is not finite.
+    /// The position is not finite.
     #[error("a lamp's position must be three finite numbers; correct it")]
     Position,
     /// The axes are no rotation.
@@ -38,7 +36,7 @@ pub enum LampError {
     /// The attenuation coefficient is negative or not finite.
     #[error("an attenuation of {per_m} 1/m was given, but it must be 0 or more and finite; correct it")]
     Attenuation {
-        /// What was given, 1/m.
+        /// Value given, 1/m.
         per_m: f64,
     },
     /// Attenuation of a lamp with an opening.
@@ -47,20 +45,20 @@ pub enum LampError {
          of the two"
     )]
     AttenuatedOpening {
-        /// What was given, 1/m.
+        /// Value given, 1/m.
         per_m: f64,
     },
-    /// Too bright an opening.
+    /// The opening is too bright.
     #[error(
         "the opening would have a radiance of {radiance:e} W·m⁻²·sr⁻¹·nm⁻¹, at most 1e30 can be traced; give less light"
     )]
     OpeningRadiance {
-        /// At its brightest, W·m⁻²·sr⁻¹·nm⁻¹.
+        /// Maximum radiance, W·m⁻²·sr⁻¹·nm⁻¹.
         radiance: f32,
     },
 }
 
-/// A lamp. Intensity and profile are shared between lamps of a kind.
+/// A lamp. Lamps of the same kind share intensity and profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lamp {
     to_world: Motion,
@@ -73,11 +71,11 @@ pub struct Lamp {
 }
 
 impl Lamp {
-    /// A lamp at `position_m` of the world. The columns of `axes` are its x (forward), y (left) and z (up) in the world,
-    /// `intensity` (W·sr⁻¹·nm⁻¹) is that where the profile is 1.
+    /// A lamp at `position_m` of the world. The columns of `axes` are its x (forward), y (left) and z (up) in the world; `intensity`
+    /// (W·sr⁻¹·nm⁻¹) is the intensity where the profile is 1.
     ///
     /// # Errors
-    /// Where a number is not finite, the axes are no rotation, or the intensity is negative.
+    /// If a number is not finite, the axes are no rotation, or the intensity is negative.
     pub fn new(
         position_m: DVec3,
         axes: DMat3,
@@ -87,7 +85,7 @@ impl Lamp {
         Self::moving(Motion::still(DAffine3::from_mat3_translation(axes, position_m)), intensity, profile)
     }
 
-    /// A lamp that moves by `to_world`, which takes its frame to the world and scales nothing.
+    /// A lamp that moves by `to_world`, a transform from its frame to the world without scaling.
     ///
     /// # Errors
     /// As [`Lamp::new`].
@@ -109,10 +107,10 @@ impl Lamp {
         Ok(Self { to_world, intensity, profile, attenuation_per_m: 0.0, modulation: None, opening: None })
     }
 
-    /// The lamp with an attenuation coefficient, 1/m.
+    /// Sets an attenuation coefficient, 1/m.
     ///
     /// # Errors
-    /// Where it is negative or not finite, or the lamp has an opening.
+    /// If it is negative or not finite, or the lamp has an opening.
     pub fn attenuated(self, attenuation_per_m: f64) -> Result<Self, LampError> {
         if self.opening.is_some() && attenuation_per_m > 0.0 {
             return Err(LampError::AttenuatedOpening { per_m: attenuation_per_m });
@@ -125,10 +123,10 @@ impl Lamp {
         }
     }
 
-    /// The lamp with a strength that changes over time: a factor on its intensity.
+    /// Sets a strength that changes over time: a factor on the intensity.
     ///
     /// # Errors
-    /// Where it would be brighter than can be traced, or has an opening already.
+    /// If the lamp would be brighter than can be traced, or already has an opening.
     pub fn modulated(self, modulation: impl Into<Arc<Waveform>>) -> Result<Self, LampError> {
         let modulation = modulation.into();
         let brightest = f64::from(self.intensity.max_value()) * modulation.greatest_level();
@@ -138,11 +136,11 @@ impl Lamp {
         Ok(Self { modulation: Some(modulation), ..self })
     }
 
-    /// The lamp with an opening, whose surface is an instance of the world: that of [`Opening::mesh`] or of a sphere of radius
-    /// 1, placed by [`Lamp::opening_to_world`].
+    /// Adds an opening whose surface is an instance of the world: that of [`Opening::mesh`] or of a sphere of radius 1, placed by
+    /// [`Lamp::opening_to_world`].
     ///
     /// # Errors
-    /// Where the lamp is attenuated, or the opening would be brighter than can be traced.
+    /// If the lamp is attenuated, or the opening would be brighter than can be traced.
     pub fn opened(self, opening: Opening, instance: u32) -> Result<Self, LampError> {
         if self.attenuation_per_m > 0.0 {
             return Err(LampError::AttenuatedOpening { per_m: self.attenuation_per_m });
@@ -156,7 +154,7 @@ impl Lamp {
         }
     }
 
-    /// From the frame of an opening's mesh or sphere to the world.
+    /// Transform from the frame of an opening's mesh or sphere to the world.
     #[must_use]
     pub fn opening_to_world(&self, opening: &Opening) -> Motion {
         self.to_world.after(&opening.to_lamp())
@@ -168,19 +166,19 @@ impl Lamp {
         self.opening
     }
 
-    /// From its frame (x forward, y left, z up) to the world.
+    /// Transform from its frame (x forward, y left, z up) to the world.
     #[must_use]
     pub fn to_world(&self) -> &Motion {
         &self.to_world
     }
 
-    /// How its intensity is spread.
+    /// Distribution of its intensity over directions.
     #[must_use]
     pub fn profile(&self) -> &Profile {
         &self.profile
     }
 
-    /// How its strength changes over time; `None` where it does not.
+    /// Change of its strength over time; `None` if it is constant.
     #[must_use]
     pub fn modulation(&self) -> Option<&Waveform> {
         self.modulation.as_deref()
@@ -197,10 +195,10 @@ impl Lamp {
 #[derive(Clone, Debug)]
 pub(super) struct LampLight {
     position: Vec3,
-    /// From the render frame to the lamp's.
+    /// Rotation from the render frame to the lamp's.
     to_lamp: Mat3,
-    /// Mean intensity over the wavelengths of the camera where the profile is 1, W·sr⁻¹·nm⁻¹, as the lamp's strength over the
-    /// view's interval counts in the choice among lights.
+    /// Mean intensity over the wavelengths of the camera where the profile is 1, W·sr⁻¹·nm⁻¹, with the lamp's strength over the view's
+    /// interval, for light selection.
     mean_intensity: f32,
     attenuation: f32,
     intensity: Arc<Spectrum>,
@@ -209,7 +207,7 @@ pub(super) struct LampLight {
 }
 
 impl LampLight {
-    /// The lamp where `to_render` places it, from its frame to the render frame, in a view of an `interval`.
+    /// The lamp placed by `to_render`, from its frame to the render frame, in a view of an `interval`.
     pub(super) fn new(lamp: Lamp, to_render: &DAffine3, interval: TimeInterval, range: WavelengthRange) -> Self {
         let counts = lamp.modulation().map_or(1.0, |modulation| choice_level(modulation, interval));
         Self {
@@ -223,7 +221,7 @@ impl LampLight {
         }
     }
 
-    /// Where it is, render frame, m.
+    /// Position in the render frame, m.
     pub(super) fn position(&self) -> Vec3 {
         self.position
     }
@@ -233,7 +231,7 @@ impl LampLight {
         self.mean_intensity * self.profile.peak() as f32
     }
 
-    /// For the choice among lights.
+    /// Bounds for light selection.
     pub(super) fn bounds(&self) -> LightBounds {
         let spread = self.profile.spread();
         let core_sr = core::f64::consts::TAU * (1.0 - maths::f64::cos(f64::from(spread.core_rad)));
@@ -258,7 +256,7 @@ impl LampLight {
         LampIrradiance { plain: faced * cos, raised: faced * raised }
     }
 
-    /// The same of a lamp whose light starts within `extent_m` of its place.
+    /// Mean irradiance of a lamp whose light starts within `extent_m` of its position.
     pub(super) fn irradiance_of_extent(&self, receiver: &LightSampleContext, extent_m: f32) -> LampIrradiance {
         let way = self.position - receiver.position;
         let distance = way.length();
@@ -274,7 +272,7 @@ impl LampLight {
         LampIrradiance { plain: faced * cos, raised: faced * raised }
     }
 
-    /// A direction of the render frame in the lamp's.
+    /// Transforms a direction of the render frame to the lamp's.
     pub(super) fn to_lamp(&self, direction: Vec3) -> Vec3 {
         self.to_lamp * direction
     }
@@ -293,7 +291,7 @@ impl LampLight {
         }
     }
 
-    /// Direction to the lamp, and what a unit of intensity gives a surface that faces it; `None` where there is none.
+    /// Direction to the lamp, and the irradiance of a surface that faces it per unit of intensity; `None` if there is none.
     fn reach(&self, from: Vec3) -> Option<(Vec3, f32)> {
         let way = self.position - from;
         let distance = way.length();

@@ -1,10 +1,10 @@
 //! Lamps without an opening as light that falls on a ray through fog.
 //!
-//! Of all light that a lamp of intensity I sends on a ray between two points, as much falls on a part as it fills of the angle at the lamp:
-//! ∫ I/d² dt = I (θ_b − θ_a)/D, D the lamp's distance from the ray (Kulla and Fajardo, "Importance sampling techniques for path tracing in
-//! participating media", 2012). The angle is cut into cells, narrow at both ends, where a beam that hardly touches the ray may fill a long way
-//! of it; in the middle of each it is looked up what the lamp sends there and how much of that reaches the eye. The cell is drawn by that, the
-//! lamp by the same at three places.
+//! A lamp of intensity I sends light on a ray between two points. Each part of the ray receives light in proportion to the angle that it subtends at
+//! the lamp: ∫ I/d² dt = I (θ_b − θ_a)/D, with D the lamp's distance from the ray (Kulla and Fajardo, "Importance sampling techniques for path
+//! tracing in participating media", 2012). The angle is divided into cells. They are narrow at both ends, where a beam that barely touches the ray
+//! may cover a long part of it. The light of the lamp in the middle of each cell, and the fraction of it that reaches the camera, are evaluated. The
+//! cell is sampled by that product, the lamp by the same product at three places.
 
 use core::f32::consts::FRAC_PI_2;
 
@@ -19,13 +19,13 @@ use crate::materials::EmissionQuery;
 /// Minimum lamp-to-ray distance, m.
 const MIN_DISTANCE_M: f32 = 1e-4;
 
-/// Share of a lamp's greatest intensity that it counts for beside what it sends into the middle of a cell.
+/// Fraction of a lamp's maximum intensity that is added to its intensity in the middle of a cell.
 const FLOOR: f32 = 0.02;
 
-/// Shares of the angle that a lamp is judged by, with their weights.
+/// Fractions of the angle at which a lamp is evaluated, with their weights.
 const PLACES: [(f32, f32); 3] = [(0.04, 0.25), (0.5, 0.5), (0.96, 0.25)];
 
-/// AngleCells that the angle is cut into.
+/// Number of cells of the angle.
 const CELLS: usize = 16;
 
 /// A part of a ray, in lengths of its direction.
@@ -45,10 +45,10 @@ pub(crate) struct SampledLamp {
     cells: AngleCells,
 }
 
-/// A segment of a ray as visibility from a lamp.
+/// The angle that a segment of a ray subtends at a lamp.
 #[derive(Clone, Copy, Debug)]
 struct SegmentAngles {
-    /// Where the ray is nearest to it, m.
+    /// Ray parameter nearest to the lamp, m.
     nearest_m: f32,
     /// Its distance from the ray there, m.
     away_m: f32,
@@ -68,13 +68,13 @@ impl SegmentAngles {
         self.ends[1] - self.ends[0]
     }
 
-    /// The place at a share of the angle, m.
+    /// The place at a fraction of the angle, m.
     fn place(&self, share: f32) -> f32 {
         let (sin, cos) = sin_cos(self.ends[0] + share * self.whole());
         self.nearest_m + self.away_m * sin / cos.max(f32::MIN_POSITIVE)
     }
 
-    /// The share of the angle up to a place, m.
+    /// The fraction of the angle up to a place, m.
     fn share(&self, t: f32) -> f32 {
         (atan((t - self.nearest_m) / self.away_m) - self.ends[0]) / self.whole()
     }
@@ -86,18 +86,18 @@ impl SegmentAngles {
     }
 }
 
-/// AngleCells of the angle, by the light that comes from each.
+/// Cells of the angle, by the light that comes from each.
 #[derive(Clone, Copy, Debug)]
 struct AngleCells([f32; CELLS]);
 
 impl AngleCells {
-    /// Where cell `i` begins, as a share of the angle: narrow at both ends.
+    /// Start of cell `i`, as a fraction of the angle: cells are narrow at both ends.
     fn edge(i: usize) -> f32 {
         let x = i as f32 / CELLS as f32;
         x * x * (3.0 - 2.0 * x)
     }
 
-    /// Light of a cell by what is told of its middle.
+    /// Computes the light of each cell from the value in its middle.
     fn new(light: impl Fn(f32) -> f32) -> Self {
         Self(core::array::from_fn(|i| {
             let (from, to) = (Self::edge(i), Self::edge(i + 1));
@@ -109,7 +109,7 @@ impl AngleCells {
         self.0.iter().sum()
     }
 
-    /// A share of the angle, drawn.
+    /// Samples a fraction of the angle.
     fn share(&self, u: f32) -> f32 {
         let mut rest = u * self.whole();
         let last = self.0.iter().rposition(|light| *light > 0.0).unwrap_or(0);
@@ -123,7 +123,7 @@ impl AngleCells {
         1.0
     }
 
-    /// The density of shares.
+    /// Density of fractions.
     fn density(&self, share: f32) -> f32 {
         let i = (1..CELLS).take_while(|i| Self::edge(*i) <= share).count();
         self.0[i] / (self.whole() * (Self::edge(i + 1) - Self::edge(i)))
@@ -131,25 +131,25 @@ impl AngleCells {
 }
 
 impl SampledLamp {
-    /// A place of the ray, m, drawn by the light that comes from there.
+    /// Samples a place of the ray, m, by the light that comes from there.
     pub(crate) fn place(&self, u: f32) -> f32 {
         self.angles.place(self.cells.share(u))
     }
 
-    /// The density of that, 1/m.
+    /// Density of [`SampledLamp::place`], 1/m.
     pub(crate) fn density(&self, t: f32) -> f32 {
         self.angles.density(t) * self.cells.density(self.angles.share(t))
     }
 }
 
 impl Lights {
-    /// Whether there are lamps without an opening.
+    /// True if there are lamps without an opening.
     pub(crate) fn has_points(&self) -> bool {
         !self.points.is_empty()
     }
 
-    /// A lamp without an opening for a segment of a ray of unit direction; `None` where none sends light there. `visibility` is about the share of
-    /// light from the unit direction of its second argument that reaches the eye from a place of the ray, m.
+    /// Samples a lamp without an opening for a segment of a ray of unit direction; `None` if none sends light there. `visibility` is the
+    /// approximate fraction of light from the unit direction of its second argument that reaches the camera from a place of the ray, m.
     pub(crate) fn lamp_along(
         &self,
         ray: &Ray,
@@ -163,7 +163,7 @@ impl Lights {
             let places = PLACES.map(|(share, weight)| weight * self.visible_light(&along, ray, share, &visibility));
             let counts = places.iter().sum::<f32>() * along.angles.whole() / along.angles.away_m;
             if counts > 0.0 && counts.is_finite() {
-                // Each replaces the one before with the probability of its share so far; what is left of the number is as even as it was.
+                // Each lamp replaces the one before with the probability of its fraction so far. The remainder of the number stays uniform.
                 whole += counts;
                 let share = f64::from(counts / whole);
                 if rest < share {
@@ -179,7 +179,7 @@ impl Lights {
         Some(SampledLamp { light: along.light, probability: counts / whole, angles: along.angles, cells })
     }
 
-    /// The light of a lamp that was drawn, at a place.
+    /// The light of a sampled lamp at a place.
     pub(crate) fn of_lamp<const N: usize>(
         &self,
         lamp: &SampledLamp,
@@ -202,7 +202,7 @@ impl Lights {
         LampBesideRay { light, position, greatest, angles: SegmentAngles::new(position, ray, segment) }
     }
 
-    /// About what is visible of a lamp's light, by the angle at the lamp, at a share of that.
+    /// Approximate visible light of a lamp per angle at the lamp, at a fraction of that angle.
     fn visible_light(&self, lamp: &LampBesideRay, ray: &Ray, share: f32, visibility: impl Fn(f32, Vec3) -> f32) -> f32 {
         let t = lamp.angles.place(share);
         let place = ray.at(t);
@@ -218,12 +218,12 @@ impl Lights {
     }
 }
 
-/// A lamp beside a segment of a ray.
+/// A lamp next to a segment of a ray.
 #[derive(Clone, Copy, Debug)]
 struct LampBesideRay {
     light: usize,
     position: Vec3,
-    /// Its greatest intensity.
+    /// Maximum intensity.
     greatest: f32,
     angles: SegmentAngles,
 }
@@ -232,7 +232,7 @@ struct LampBesideRay {
 mod tests {
     use super::*;
 
-    /// Places drawn have the density that is told of them: the mean of 1/density over places is the length of the part.
+    /// Sampled places have the stated density: the mean of 1/density over places is the length of the part.
     #[test]
     fn places_are_drawn_by_their_density() {
         let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0);

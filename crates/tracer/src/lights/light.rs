@@ -23,7 +23,7 @@ impl Light {
         }
     }
 
-    /// Whether it is a lamp without an opening.
+    /// True for a lamp without an opening.
     pub(super) fn is_point(&self) -> bool {
         match self {
             Self::Lamp(_) => true,
@@ -32,7 +32,7 @@ impl Light {
         }
     }
 
-    /// Whether it is a lamp with an opening.
+    /// True for a lamp with an opening.
     pub(super) fn is_open(&self) -> bool {
         match self {
             Self::Opening(_) => true,
@@ -52,23 +52,23 @@ impl Light {
 
 const NONE: u32 = u32::MAX;
 
-/// The light of every primitive of the instances that glow.
+/// The light of every primitive of the emitting instances.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Primitives {
-    /// For each instance the place of its first primitive in `lights`, `NONE` where it does not glow.
+    /// For each instance the index of its first primitive in `lights`; `NONE` if it does not emit.
     first: Vec<u32>,
     lights: Vec<u32>,
 }
 
 impl Primitives {
-    /// Adds the next instance: one entry a primitive, empty where none of them glows.
+    /// Adds the next instance: one entry per primitive, empty if none of them emits.
     pub(super) fn push(&mut self, lights: impl IntoIterator<Item = Option<u32>>) {
         let first = self.lights.len();
         self.lights.extend(lights.into_iter().map(|l| l.unwrap_or(NONE)));
         self.first.push(if self.lights.len() > first { first as u32 } else { NONE });
     }
 
-    /// Tells that all `count` primitives of an instance that does not glow by itself are one light.
+    /// Makes all `count` primitives of an instance that does not itself emit one light.
     pub(super) fn assign(&mut self, instance: u32, count: usize, light: u32) {
         self.first[instance as usize] = self.lights.len() as u32;
         self.lights.extend(core::iter::repeat_n(light, count));

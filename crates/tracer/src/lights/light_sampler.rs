@@ -1,21 +1,22 @@
-//! Which light to ask.
+//! Selection of a light.
 //!
-//! Lights in the scene and lights at infinity share the draws by the irradiances that a receiver can expect of them: the
-//! tree's estimate on one side, on the other that of the suns which its surface faces and that of the surroundings in the
-//! mean. Neither side gets less than [`FLOOR`] while it can give anything at all, since both numbers are estimates.
-//! Within the scene the tree decides (`tree/`); at infinity suns and surroundings share by irradiance. Of surroundings beside suns only
-//! bright patches count, and what else is beyond the irradiance of the suns (`patches.rs`): scattered rays meet what is even as
-//! often as it deserves. A draw that falls on a sun behind the receiver's surface asks nothing, so that surfaces in shade, too, ask the
-//! surroundings no more often than that. Figures are in `docs/decisions/light-choice.md`.
+//! Lights in the scene and lights at infinity share the samples by the irradiances that a receiver can expect of them. For lights in the scene this
+//! is the estimate of the tree. For lights at infinity it is the irradiance of the suns that the surface faces, and the mean irradiance of the
+//! surroundings. Neither group receives less than [`FLOOR`] if it can contribute at all, since both numbers are estimates.
+//!
+//! Within the scene the tree decides (`tree/`); at infinity suns and surroundings are weighted by irradiance. Of surroundings next to suns only
+//! bright patches count, and the part of the rest that exceeds the irradiance of the suns (`patches.rs`): scattered rays hit uniform surroundings
+//! often enough. A sample that falls on a sun behind the receiver's surface evaluates nothing, so that surfaces in shade do not sample the
+//! surroundings more often either. Figures are in `docs/decisions/light-choice.md`.
 
 use super::tree::{LightBounds, LightTree, MATT_SHARE, Start, TreeQuery};
 use super::{LightSampleContext, light_sample::LampIrradiance, sun::Sun};
 use crate::ALL_EFFECTS;
 
-/// Least share of the draws of lights in the scene beside those at infinity, and the other way round.
+/// Minimum fraction of the samples for lights in the scene against those at infinity, and the reverse.
 const FLOOR: f32 = 0.05;
 
-/// A light among all of a view.
+/// A light among all lights of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum LightId {
     /// A light in the scene, by its index.
@@ -30,11 +31,10 @@ pub(super) enum LightId {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SampledLight {
     pub(super) id: LightId,
-    /// Of its choice.
     pub(super) probability: f32,
 }
 
-/// A sun, and the irradiance of what faces it, W·m⁻²·nm⁻¹.
+/// A sun, and the irradiance of a surface that faces it, W·m⁻²·nm⁻¹.
 #[derive(Clone, Debug)]
 pub(super) struct WeightedSun {
     pub(super) sun: Sun,
@@ -46,32 +46,32 @@ pub(super) struct WeightedSun {
 pub(super) struct LightSampler {
     tree: Option<LightTree>,
     suns: Vec<WeightedSun>,
-    /// Irradiance of the surroundings if they are drawn, W·m⁻²·nm⁻¹.
+    /// Irradiance of the surroundings if they are sampled, W·m⁻²·nm⁻¹.
     environment: f32,
-    /// Whether suns or surroundings can be drawn.
+    /// True if suns or surroundings can be sampled.
     has_distant: bool,
 }
 
 impl LightSampler {
-    /// A choice among lights in the scene, suns, and surroundings of a mean irradiance (0 where they are not drawn).
+    /// Selection among lights in the scene, suns, and surroundings of a mean irradiance (0 if they are not sampled).
     pub(super) fn new(local: &[LightBounds], suns: Vec<WeightedSun>, environment: f32) -> Self {
         let has_distant = environment > 0.0 || suns.iter().any(|sun| sun.irradiance > 0.0);
         Self { tree: LightTree::new(local), suns, environment, has_distant }
     }
 
-    /// Whether any light can be drawn.
+    /// True if any light can be sampled.
     pub(super) fn is_possible(&self) -> bool {
         self.tree.is_some() || self.has_distant
     }
 
-    /// Whether there is more than one light to choose from.
+    /// True if there is more than one light to choose from.
     pub(super) fn is_open(&self) -> bool {
         let near = self.tree.as_ref().map_or(0, LightTree::len);
         near + self.suns.len() + usize::from(self.environment > 0.0) > 1
     }
 
-    /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver. What the receiver
-    /// starts with ([`LightSampler::start`], [`LightSampler::local_share`]) serves all its draws.
+    /// The light selected by `u` in [0, 1), and its probability; `None` if nothing reaches the receiver. The start of the receiver
+    /// ([`LightSampler::start`], [`LightSampler::local_share`]) serves all its samples.
     pub(super) fn sample<F: Fn(u32) -> LampIrradiance>(
         &self,
         question: &TreeQuery<'_, F>,
@@ -92,7 +92,7 @@ impl LightSampler {
         }
     }
 
-    /// `None` where the draw falls on a sun that the receiver faces away from.
+    /// `None` if the sample falls on a sun that the receiver faces away from.
     fn sample_distant(&self, receiver: &LightSampleContext, u: f32) -> Option<SampledLight> {
         let suns = (0..self.suns.len()).map(LightId::Sun);
         let lights = suns.chain((self.environment > 0.0).then_some(LightId::Environment));
@@ -110,8 +110,8 @@ impl LightSampler {
         sampled.filter(|light| self.reaches(light.id, receiver))
     }
 
-    /// The share of a light at infinity among those at infinity: by what they count, and to [`MATT_SHARE`] by what they count for a
-    /// matt receiver. Suns that the receiver faces away from keep their shares.
+    /// The probability of a light at infinity among those at infinity: by its weight, and to [`MATT_SHARE`] by its weight for a diffuse
+    /// receiver. Suns that the receiver faces away from keep their probabilities.
     fn share_of_distant(&self, light: LightId, receiver: &LightSampleContext) -> f32 {
         let raised = self.plain_share_of_distant(light, receiver);
         if receiver.gloss.is_none() {
@@ -131,7 +131,7 @@ impl LightSampler {
         if counts > 0.0 { counts / total } else { 0.0 }
     }
 
-    /// The probability by which [`LightSampler::sample`] gives a light.
+    /// The probability with which [`LightSampler::sample`] returns a light.
     pub(super) fn probability<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, light: LightId) -> f32 {
         let start = self.start(question);
         let local = self.local_share(question, &start);
@@ -143,7 +143,7 @@ impl LightSampler {
         }
     }
 
-    /// Where the receiver starts in the tree: large, so that it is made where it stays.
+    /// The receiver's start in the tree. It is large, so it is built in its final place.
     #[inline(always)]
     pub(super) fn start<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Start {
         match &self.tree {
@@ -152,7 +152,7 @@ impl LightSampler {
         }
     }
 
-    /// The share of the draws that lights in the scene get.
+    /// The fraction of the samples for lights in the scene.
     #[inline(always)]
     pub(super) fn local_share<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f32 {
         let Some(tree) = &self.tree else { return 0.0 };
@@ -167,13 +167,13 @@ impl LightSampler {
         if local > 0.0 { (1.0 / (1.0 + distant / local)).clamp(FLOOR, 1.0 - FLOOR) } else { 0.0 }
     }
 
-    /// Of what may reach the receiver.
+    /// Irradiance of the lights at infinity that may reach the receiver.
     fn distant_irradiance(&self, receiver: &LightSampleContext) -> f32 {
         let reaching = (0..self.suns.len()).filter(|i| self.reaches(LightId::Sun(*i), receiver));
         reaching.map(|i| self.of_sun(i, receiver)).sum::<f32>() + self.environment
     }
 
-    /// Whether the receiver faces a light at infinity.
+    /// True if the receiver faces a light at infinity.
     fn reaches(&self, light: LightId, receiver: &LightSampleContext) -> bool {
         match light {
             LightId::Sun(i) => receiver.normal == glam::Vec3::ZERO || self.suns[i].sun.rises_over(receiver.normal),
@@ -181,7 +181,7 @@ impl LightSampler {
         }
     }
 
-    /// What a sun counts for a receiver that faces it.
+    /// The weight of a sun for a receiver that faces it.
     fn of_sun(&self, i: usize, receiver: &LightSampleContext) -> f32 {
         let WeightedSun { sun, irradiance } = &self.suns[i];
         *irradiance * (1.0 + receiver.glossy(sun.direction(), sun.sin()))
@@ -194,7 +194,7 @@ mod tests {
     use etendue_spectra::Spectrum;
     use glam::{DVec3, Vec3};
 
-    /// Shares of draws that fall on a sun and on surroundings of a third of its irradiance, and their probabilities, at a receiver.
+    /// Fractions of samples that fall on a sun and on surroundings of a third of its irradiance, and their probabilities, at a receiver.
     #[test]
     fn a_sun_behind_the_surface_keeps_its_share_of_the_draws() {
         let sun = Sun::of_radiance(DVec3::Z, 0.5, Spectrum::constant(1.0)).expect("a sun");

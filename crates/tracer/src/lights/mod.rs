@@ -1,17 +1,17 @@
-//! Lights: where light starts, and how to ask for it from a point.
+//! Lights: emitters, and light sampling from a point.
 //!
 //! # Contract
 //! - [`Lights`] are those of one view: emissive triangles and spheres of its instances in the render frame, lamps, suns,
 //!   and an environment. They are collected once and never change.
-//! - [`Lights::sample`] draws a light and a direction towards it. Its `pdf` is by solid angle and includes the choice of
-//!   the light. Exactly the same density is told for light that was met by chance: [`Lights::light_pdf`] for surfaces,
-//!   [`Lights::distant`] for what lies beyond them, so that both can be weighed against each other.
-//! - Every light but a uniform environment can be drawn with a positive probability. A uniform environment is not drawn:
-//!   no direction of it is better than the one that the surface prefers; its density is told as 0.
-//! - Densities belong to a [`LightSampleContext`], the point that asks.
+//! - [`Lights::sample`] samples a light and a direction towards it. Its `pdf` is by solid angle and includes the choice of
+//!   the light. Exactly the same density is returned for light hit by chance, for multiple importance sampling:
+//!   [`Lights::light_pdf`] for surfaces, [`Lights::distant`] for light at infinity.
+//! - Every light except a uniform environment is sampled with a positive probability. A uniform environment is not sampled:
+//!   no direction of it is better than the one that the surface prefers; its density is 0.
+//! - Densities belong to a [`LightSampleContext`], the receiving point.
 //! - Radiance is spectral, W·m⁻²·sr⁻¹·nm⁻¹.
-//! - Who asks for light names the time over which strengths that change are averaged, within the view's interval. A light that is
-//!   dark throughout that interval is never drawn; what others count in the choice is their level over it
+//! - The caller states the time interval over which changing strengths are averaged, within the view's interval. A light that is
+//!   dark throughout the view's interval is never sampled; other lights count in light selection with their level over it
 //!   ([`crate::materials::choice_level`]).
 
 mod collect;

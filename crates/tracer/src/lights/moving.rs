@@ -1,7 +1,7 @@
-//! Lights that move: emitting surfaces and lamps. Each is evaluated as the light that it is at the receiver's time.
+//! Lights that move: emitting surfaces and lamps. Each is evaluated at the receiver's time.
 //!
-//! What the choice among lights knows of one holds for the whole interval of the view, and so does the probability of its choice;
-//! everything else, drawn or hit, is that of the light made for the moment.
+//! The bounds of a light in light selection hold for the whole interval of the view, and so does the probability of its choice. All other values,
+//! sampled or hit, are those of the light at that time.
 
 use core::f32::consts::PI;
 
@@ -43,7 +43,7 @@ impl MovingLight {
         Self { shape: Shape::Sphere { radius_m, look: SphereLook::of(material, material_table) }, motion, material }
     }
 
-    /// How many triangles it is.
+    /// Number of its triangles.
     pub(super) fn triangles(&self) -> usize {
         match &self.shape {
             Shape::Facets(facets) => facets.triangles(),
@@ -51,8 +51,8 @@ impl MovingLight {
         }
     }
 
-    /// For the choice among lights, at a mean radiance, `both` sides of triangles glow or only the front; `None` where it has no
-    /// area at any moment.
+    /// Bounds for light selection at a mean radiance. If `both`, both sides of triangles emit, else only the front; `None` if it has no
+    /// area at any time.
     pub(super) fn bounds(&self, radiance: f64, both: bool) -> Option<LightBounds> {
         let LightMotion { to_world, interval, .. } = &self.motion;
         match &self.shape {
@@ -72,7 +72,7 @@ impl MovingLight {
         }
     }
 
-    /// The point drawn for a receiver, without the probability of the choice.
+    /// Samples a point for a receiver, without the probability of the choice.
     pub(super) fn sample<const N: usize>(
         &self,
         receiver: &LightSampleContext,
@@ -89,7 +89,7 @@ impl MovingLight {
         emission.towards(&sample, from, spread_rad, query)
     }
 
-    /// Density of what was hit, without the probability of the choice, 1/sr.
+    /// Density of the point hit, without the probability of the choice, 1/sr.
     pub(super) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
         match self.at(hit.point.time_s) {
             Some(Moment::Triangle(light)) => light.pdf(hit),
@@ -109,7 +109,7 @@ impl MovingLight {
     }
 }
 
-/// The light at a moment.
+/// The light at one time.
 enum Moment {
     Triangle(TriangleLight),
     Sphere(SphereLight),
@@ -117,41 +117,40 @@ enum Moment {
 
 // Lamps that move, as points or with an opening.
 //
-// A lamp moves without changing its shape, so that its light of a moment is that of the lamp at the interval's start, asked for
-// from where the receiver would be had it moved back with the lamp: nothing of the lamp is made anew. The surface of an opening
-// is an instance of the world and moves as such. What the choice among clusters of lights knows of a lamp holds for the whole
-// interval; what the lamp by itself counts is that of the receiver's time.
+// A lamp moves without changing its shape. Its light at a time is therefore that of the lamp at the interval's start, for a receiver that
+// is moved back with the lamp: no part of the lamp is rebuilt. The surface of an opening is an instance of the world and moves as such.
+// Bounds of a lamp in the choice among clusters of lights hold for the whole interval; the weight of the lamp itself is that of the
+// receiver's time.
 
-/// A lamp in motion.
 #[derive(Clone, Debug)]
 pub(super) struct MovingLamp {
     motion: LightMotion,
-    /// To the render frame at the interval's start, from the lamp's.
+    /// Transform from the lamp's frame to the render frame at the interval's start.
     start: DAffine3,
     lamp: LampAtStart,
 }
 
-/// The lamp where it is at the interval's start.
+/// The lamp at its place at the interval's start.
 #[derive(Clone, Debug)]
 enum LampAtStart {
     Point(LampLight),
     Opening(OpeningLight),
 }
 
-/// A rigid motion of the render frame, and back.
+/// A rigid motion of the render frame, and its inverse.
 struct RigidMotion {
     forward: DAffine3,
     back: DAffine3,
 }
 
 impl MovingLamp {
-    /// A lamp made for the interval's start.
+    /// A point lamp built for the interval's start.
     pub(super) fn of_point(motion: LightMotion, lamp: LampLight) -> Self {
         let start = motion.at(motion.interval.start_s());
         Self { motion, start, lamp: LampAtStart::Point(lamp) }
     }
 
-    /// A lamp with an opening made for the interval's start.
+    /// A lamp with an opening built for the interval's start.
     pub(super) fn of_opening(motion: LightMotion, opening: OpeningLight) -> Self {
         let start = motion.at(motion.interval.start_s());
         let reach = DVec3::splat(f64::from(opening.bounds().radius));
@@ -161,12 +160,13 @@ impl MovingLamp {
         Self { motion, start, lamp: LampAtStart::Opening(opening.carried_within(farthest_m)) }
     }
 
-    /// Whether it has an opening.
+    /// True if it has an opening.
     pub(super) fn is_open(&self) -> bool {
         matches!(self.lamp, LampAtStart::Opening(_))
     }
 
-    /// Where a lamp without an opening is at a time, render frame, m, and its greatest intensity, W·sr⁻¹·nm⁻¹; of one with an opening 0.
+    /// Position of a lamp without an opening at a time, render frame, m, and its maximum intensity, W·sr⁻¹·nm⁻¹ (0 for one with an
+    /// opening).
     pub(super) fn point(&self, time_s: f32) -> (Vec3, f32) {
         let at = self.motion.at(self.motion.interval.moment(time_s)).translation.as_vec3();
         match &self.lamp {
@@ -175,7 +175,7 @@ impl MovingLamp {
         }
     }
 
-    /// For the choice among lights: a box of all the motion, the cone of the start opened by how far the lamp turns.
+    /// Bounds for light selection: a box of the whole motion, and the cone at the start, widened by the rotation of the lamp.
     pub(super) fn bounds(&self) -> LightBounds {
         let at_start = match &self.lamp {
             LampAtStart::Point(lamp) => lamp.bounds(),
@@ -198,7 +198,7 @@ impl MovingLamp {
         }
     }
 
-    /// Light drawn for a receiver, without the probability of the choice.
+    /// Samples light for a receiver, without the probability of the choice.
     pub(super) fn sample<const N: usize>(
         &self,
         receiver: &LightSampleContext,
@@ -212,12 +212,12 @@ impl MovingLamp {
             LampAtStart::Opening(opening) => opening.sample(from, u, query),
         }?;
         let direction = motion.direction_forward(drawn.direction);
-        // By the vector to it, which is the same in both frames, so that it is rounded but once.
+        // By the vector to it, which is the same in both frames, so that it is rounded only once.
         let target = |target: Vec3| receiver.position + motion.vector_forward(target - from);
         Some(LightSample { direction, target: drawn.target.map(target), ..drawn })
     }
 
-    /// Density of what was hit, without the probability of the choice, 1/sr.
+    /// Density of the point hit, without the probability of the choice, 1/sr.
     pub(super) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
         let LampAtStart::Opening(opening) = &self.lamp else { return 0.0 };
         let motion = self.motion_since_start(hit.point.time_s);
@@ -226,7 +226,7 @@ impl MovingLamp {
         opening.pdf(&LightHit { receiver: &receiver, point: &point, direction, distance_m: hit.distance_m })
     }
 
-    /// Radiance against a ray of unit `direction` at a point of the opening; `None` where its side does not emit.
+    /// Radiance against a ray of unit `direction` at a point of the opening; `None` if its side does not emit.
     pub(super) fn emitted<const N: usize>(
         &self,
         point: &SurfacePoint,
@@ -261,19 +261,19 @@ impl RigidMotion {
         self.forward.transform_vector3(direction.as_dvec3()).normalize_or_zero().as_vec3()
     }
 
-    /// A receiver, with its gloss.
+    /// The receiver moved back to the interval's start, with its gloss.
     fn receiver(&self, receiver: &LightSampleContext) -> LightSampleContext {
         let gloss = receiver.gloss.as_ref().map(|gloss| gloss.turned(&self.back.matrix3.as_mat3()));
         LightSampleContext { gloss, ..self.place_of(receiver) }
     }
 
-    /// A receiver's place and normal.
+    /// The receiver's position and normal, moved back to the interval's start.
     fn place_of(&self, receiver: &LightSampleContext) -> LightSampleContext {
         let (position, normal) = (self.point_back(receiver.position), self.direction_back(receiver.normal));
         LightSampleContext { position, normal, gloss: None, ..*receiver }
     }
 
-    /// What of a surface point an opening looks at.
+    /// The data of a surface point that an opening reads.
     fn surface(&self, point: &SurfacePoint) -> SurfacePoint {
         SurfacePoint {
             position: self.point_back(point.position),
@@ -283,36 +283,36 @@ impl RigidMotion {
     }
 }
 
-/// Moments of an interval at which a light's intensity is looked at.
+/// Times of an interval at which a light's intensity is evaluated.
 const MOMENTS: u32 = 16;
 
 /// The motion of a light during a view's interval.
 #[derive(Clone, Debug)]
 pub(super) struct LightMotion {
-    /// That of its instance.
+    /// Motion of its instance.
     pub(super) to_world: Motion,
     /// The origin of the render frame in the world, m.
     pub(super) origin_m: DVec3,
-    /// The view's.
+    /// Interval of the view.
     pub(super) interval: TimeInterval,
 }
 
 impl LightMotion {
-    /// To the render frame at a simulated time, s.
+    /// Transform to the render frame at a simulated time, s.
     pub(super) fn at(&self, time_s: f64) -> DAffine3 {
         let mut to_render = self.to_world.at(time_s);
         to_render.translation -= self.origin_m;
         to_render
     }
 
-    /// To the render frame at even moments of the interval, both its ends among them.
+    /// Transforms to the render frame at equidistant times of the interval, including both its ends.
     pub(super) fn moments(&self) -> impl Iterator<Item = DAffine3> {
         let part = |i: u32| f64::from(i) / f64::from(MOMENTS);
         (0..=MOMENTS).map(move |i| self.at(self.interval.start_s() + self.interval.length_s() * part(i)))
     }
 
-    /// Bounds from those at some moments, and the box of all the motion: intensity is the greatest, the cone that of the start
-    /// opened by how far the light turns, or all directions where there is none at some of them.
+    /// Bounds from those at some times, and the box of the whole motion. The intensity is the maximum. The cone is that of the start
+    /// widened by the rotation of the light, or all directions if the light has none at some of the times.
     pub(super) fn bounds(&self, moments: Vec<LightBounds>, low: DVec3, high: DVec3) -> Option<LightBounds> {
         let first = *moments.first()?;
         let intensity = moments.iter().map(|bounds| bounds.intensity).fold(0.0, f64::max);
@@ -324,14 +324,14 @@ impl LightMotion {
         Some(LightBounds { axis: first.axis, theta_o, theta_e: first.theta_e, ..whole })
     }
 
-    /// Least and greatest coordinates, render frame, m, of a box of the world, with room for rounding to f32.
+    /// Minimum and maximum coordinates, render frame, m, of a box of the world, with a margin for rounding to f32.
     fn render_box(&self, low: DVec3, high: DVec3) -> [Vec3; 2] {
         let box_of = [low, high].map(|corner| (corner - self.origin_m).as_vec3());
         let room = (box_of[0].abs().max(box_of[1].abs()) + Vec3::splat(f32::MIN_POSITIVE)) * f32::EPSILON;
         [box_of[0] - room, box_of[1] + room]
     }
 
-    /// A bound of the angle by which directions turn from where they are at the start, rad, with room for rounding.
+    /// Upper bound of the angle by which directions turn from the start, rad, with a margin for rounding.
     fn turning(&self) -> f32 {
         self.to_world.turning_over(self.interval) as f32 * (1.0 + 1e-5) + 1e-5
     }
@@ -345,7 +345,7 @@ mod tests {
     use etendue_core::{TimeInterval, maths};
     use glam::{DQuat, Vec3};
 
-    /// At moments between those that are looked at: corners in the box, the normal in the cone (f32 rounds cosines to 1e-7).
+    /// At times between those evaluated: corners in the box, the normal in the cone (f32 rounds cosines to 1e-7).
     #[test]
     fn bounds_hold_the_light_at_every_moment() {
         let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y];

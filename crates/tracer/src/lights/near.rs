@@ -1,22 +1,22 @@
-//! A triangle or a parallelogram close to the point that asks for its light.
+//! A triangle or a parallelogram close to the receiving point.
 //!
-//! Drawn by area, a point of a light has the density r²/(A cos θ), which from near by grows from the closest part to the farthest by orders
-//! of magnitude: almost all draws go to parts that give almost nothing, and the part that gives the light is left to chance. Drawn by
-//! solid angle the density is 1/Ω everywhere.
+//! A point of a light sampled by area has the density r²/(A cos θ). Near by it grows from the closest part to the farthest by orders of magnitude:
+//! almost all samples go to parts that contribute almost nothing, and the part that contributes is rarely sampled. Sampled by solid angle, the
+//! density is 1/Ω everywhere.
 
 use etendue_core::maths::f64::{atan2, sin_cos};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// Least solid angle that is drawn by, sr: below, by area (as pbrt-v4 does from 3e-4 on, in f32).
+/// Minimum solid angle for sampling by solid angle, sr: below, by area (as pbrt-v4 does from 3e-4 on, in f32).
 const MIN_SR: f64 = 1e-5;
 
-/// Within how many times its own radius, from the middle to the farthest corner, a point is near.
+/// Maximum distance of a near point, in radii of the light (from its middle to its farthest corner).
 const NEAR: f32 = 2.0;
 
 /// Four roundings of f32.
 const EARLY: f32 = 4.0 * 0.5 * f32::EPSILON;
 
-/// A flat light: a corner and the two edges from it; with as much again beyond the side that they leave open where it is `doubled`.
+/// A flat light: a corner and the two edges from it. If `doubled`, the same triangle lies again beyond the side that the edges leave open.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FlatLight {
     pub(super) corner: Vec3,
@@ -25,13 +25,13 @@ pub(super) struct FlatLight {
 }
 
 impl FlatLight {
-    /// A point, in shares of the edges.
+    /// A point, in fractions of the edges.
     pub(super) fn at(&self, shares: Vec2) -> Vec3 {
         self.corner + self.edges[0] * shares.x + self.edges[1] * shares.y
     }
 
-    /// How far before a point of it, along the ray to it, the accelerator may meet it: some roundings of f32 of its length, and of a
-    /// needle as many times more as it is longer than wide, as its barycentric coordinates are uncertain by so much.
+    /// Distance before a point of the light at which the accelerator may hit it, along the ray to it: some roundings of f32 of its length.
+    /// For a needle the distance is larger by the ratio of its length to its width, as its barycentric coordinates are as uncertain.
     pub(super) fn early_m(&self) -> f32 {
         let [along, across] = self.edges;
         let length2 = along.length_squared().max(across.length_squared());
@@ -45,7 +45,7 @@ impl FlatLight {
     }
 }
 
-/// Up to where a point is near to a flat light.
+/// Region in which a point is near to a flat light.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NearRegion {
     centre: Vec3,
@@ -67,7 +67,7 @@ impl NearRegion {
 /// A flat light as seen from a point near by.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NearView {
-    /// From the point to the corner, and the edges.
+    /// The corner relative to the point, and the edges.
     corner: DVec3,
     edges: [DVec3; 2],
     triangle: SphericalTriangle,
@@ -78,7 +78,7 @@ pub(super) struct NearView {
 }
 
 impl NearView {
-    /// `None` where it fills too little of the directions, as edge-on.
+    /// `None` if it covers too few directions, for example edge-on.
     pub(super) fn new(flat: &FlatLight, from: Vec3) -> Option<Self> {
         let corner = flat.corner.as_dvec3() - from.as_dvec3();
         let edges = flat.edges.map(|edge| edge.as_dvec3());
@@ -90,7 +90,7 @@ impl NearView {
         (solid_angle_sr > MIN_SR).then_some(Self { corner, edges, triangle, far, solid_angle_sr, per_sr })
     }
 
-    /// A point of the light, in shares of its edges; `None` where rounding leaves no number.
+    /// A point of the light, in fractions of its edges; `None` if rounding leaves no number.
     pub(super) fn place(&self, u: Vec2) -> Option<Vec2> {
         let u = u.as_dvec2();
         let share = self.triangle.solid_angle_sr() / self.solid_angle_sr;
@@ -103,7 +103,7 @@ impl NearView {
         place.is_finite().then(|| place.as_vec2())
     }
 
-    /// Where a direction meets the light's plane, in shares of the edges, held within the light.
+    /// Intersection of a direction with the light's plane, in fractions of the edges, clamped to the light.
     fn plane_coordinates(&self, direction: DVec3) -> DVec2 {
         let [along, across] = self.edges;
         let normal = along.cross(across);
@@ -113,11 +113,11 @@ impl NearView {
     }
 }
 
-// Spherical triangles: what a flat triangle fills of the directions about a point.
+// Spherical triangles: the directions that a flat triangle covers about a point.
 //
-// The solid angle Ω is that of Van Oosterom & Strackee 1983, tan(Ω/2) = |a·(b×c)| / (1 + a·b + b·c + c·a) for the unit
-// directions a, b, c of the corners. Directions are drawn uniformly after Arvo 1995 ("Stratified sampling of spherical
-// triangles"), in f64: the triangles may be needles, or fill nearly half of all directions.
+// The solid angle Ω is that of Van Oosterom & Strackee 1983, tan(Ω/2) = |a·(b×c)| / (1 + a·b + b·c + c·a) for the unit directions a, b, c
+// of the corners. Directions are sampled uniformly after Arvo 1995 ("Stratified sampling of spherical triangles"), in f64: the triangles
+// may be needles, or cover nearly half of all directions.
 
 /// A triangle as seen from a point.
 #[derive(Clone, Copy, Debug)]
@@ -130,11 +130,11 @@ pub(super) struct SphericalTriangle {
 }
 
 impl SphericalTriangle {
-    /// Of corners relative to the point; no number where the point lies at one of them.
+    /// From corners relative to the point; NaN if the point lies at one of them.
     pub(super) fn new(corners: [DVec3; 3]) -> Self {
         let [a, b, c] = corners;
         let lengths = corners.map(DVec3::length);
-        // By the edges: of the corners' own product few digits are left where the triangle is small or far.
+        // By the edges: the product of the corners themselves has few digits if the triangle is small or far.
         let volume = a.dot((b - a).cross(c - a)).abs() / (lengths[0] * lengths[1] * lengths[2]);
         let corners = [a / lengths[0], b / lengths[1], c / lengths[2]];
         let [a, b, c] = corners;
@@ -146,7 +146,7 @@ impl SphericalTriangle {
         self.solid_angle_sr
     }
 
-    /// A unit direction, uniformly by solid angle; no number where the triangle has no area.
+    /// A unit direction, uniform by solid angle; NaN if the triangle has no area.
     pub(super) fn sample(&self, u: DVec2) -> DVec3 {
         let [a, b, c] = self.corners;
         let cos_side = a.dot(b);
@@ -154,7 +154,7 @@ impl SphericalTriangle {
         let (ab, ac) = (a.cross(b), a.cross(c));
         let per_sides = 1.0 / (ab.length() * ac.length());
         let (sin_a, cos_a) = (self.volume * per_sides, ab.dot(ac) * per_sides);
-        // The corner c' on the side ac that cuts off the share u.x of the solid angle.
+        // The corner c' on the side ac that cuts off the fraction u.x of the solid angle.
         let (sin, cos) = sin_cos(u.x * self.solid_angle_sr);
         let (s, t) = (sin * cos_a - cos * sin_a, cos * cos_a + sin * sin_a);
         let (p, q) = (t - cos_a, s + sin_a * cos_side);
@@ -165,7 +165,7 @@ impl SphericalTriangle {
     }
 }
 
-/// The unit direction at an angle of this cosine from `from` on the way to `to`.
+/// The unit direction at an angle of this cosine from `from` towards `to`.
 fn towards(from: DVec3, to: DVec3, cos: f64) -> DVec3 {
     let aside = (to - from * from.dot(to)).normalize_or_zero();
     from * cos + aside * (1.0 - cos * cos).max(0.0).sqrt()
@@ -178,7 +178,7 @@ mod tests {
 
     /// Cells along each edge.
     const CELLS: usize = 6;
-    /// Draws along each number.
+    /// Samples along each dimension.
     const DRAWS: usize = 300;
 
     fn flat(corner: Vec3, along: Vec3, across: Vec3, doubled: bool) -> FlatLight {
@@ -199,7 +199,7 @@ mod tests {
         all
     }
 
-    /// Solid angle of the part between shares of the edges, cut along the light's own diagonal.
+    /// Solid angle of the part between fractions of the edges, cut along the light's own diagonal.
     fn of_part(flat: &FlatLight, [i, j]: [usize; 2]) -> f64 {
         let at = |i: usize, j: usize| flat.at(Vec2::new(i as f32, j as f32) / CELLS as f32).as_dvec3();
         let solid_angle_sr = |corners: [DVec3; 3]| SphericalTriangle::new(corners).solid_angle_sr();
@@ -215,7 +215,7 @@ mod tests {
             let near = NearView::new(&flat, Vec3::ZERO).expect("it fills some of the directions");
             let mut counts = vec![0; CELLS * CELLS];
             for k in 0..DRAWS * DRAWS {
-                // A lattice of rank one: even, but in step with no cell.
+                // A lattice of rank one: uniform, but not aligned with any cell.
                 let u = Vec2::new(
                     ((k as f64 * 0.754_877_666_246_69) % 1.0) as f32,
                     ((k as f64 * 0.569_840_290_998_05) % 1.0) as f32,

@@ -11,15 +11,15 @@ use super::{
 use crate::geometry::{Mesh, SurfacePoint};
 use crate::materials::EmissionQuery;
 
-/// A lamp that shines from a surface.
+/// A lamp that emits from a surface.
 #[derive(Clone, Debug)]
 pub(super) struct OpeningLight {
     lamp: LampLight,
     opening: Opening,
     surface: Surface,
-    /// Radius of a sphere about the lamp's place that holds the opening, m.
+    /// Radius of a sphere about the lamp's position that holds the opening, m.
     reach_m: f32,
-    /// How much farther than they say its points may be from where the accelerator sees them, m.
+    /// Additional distance of its points from where the accelerator sees them, m.
     room_m: f32,
 }
 
@@ -30,7 +30,7 @@ enum Surface {
 }
 
 impl OpeningLight {
-    /// The light of a lamp whose opening is this `mesh`, placed by `to_render`; `None` where rounding leaves it no area.
+    /// The light of a lamp whose opening is this `mesh`, placed by `to_render`; `None` if rounding leaves it no area.
     pub(super) fn of_mesh(
         lamp: LampLight,
         opening: Opening,
@@ -48,16 +48,16 @@ impl OpeningLight {
     }
 
     fn new(lamp: LampLight, opening: Opening, surface: Surface) -> Self {
-        // Room for rounding.
+        // Margin for rounding.
         Self { reach_m: opening.reach_m() as f32 * (1.0 + 1e-5), lamp, opening, surface, room_m: 0.0 }
     }
 
-    /// The same light where its points are moved and rounded anew, within `farthest_m` of the origin.
+    /// The same light with points that are moved and rounded again, within `farthest_m` of the origin.
     pub(super) fn carried_within(self, farthest_m: f32) -> Self {
         Self { room_m: ROUNDING * farthest_m, ..self }
     }
 
-    /// How many primitives its surface has.
+    /// Number of primitives of its surface.
     pub(super) fn primitives(&self) -> usize {
         match &self.surface {
             Surface::Sphere(_) => 1,
@@ -65,29 +65,29 @@ impl OpeningLight {
         }
     }
 
-    /// For the choice among lights.
+    /// Bounds for light selection.
     pub(super) fn bounds(&self) -> LightBounds {
         let lamp = self.lamp.bounds();
         LightBounds { low: lamp.low - self.reach_m, high: lamp.high + self.reach_m, radius: self.reach_m, ..lamp }
     }
 
-    /// Mean irradiance at a receiver as if the lamp had no extent, but for receivers close by.
+    /// Mean irradiance at a receiver as if the lamp had no extent, except for receivers close by.
     pub(super) fn irradiance(&self, receiver: &LightSampleContext) -> LampIrradiance {
         self.lamp.irradiance_of_extent(receiver, self.reach_m)
     }
 
-    /// Spectral radiance that leaves along the unit `direction`, W·m⁻²·sr⁻¹·nm⁻¹, on a side that shines.
+    /// Spectral radiance along the unit `direction`, W·m⁻²·sr⁻¹·nm⁻¹, on an emitting side.
     fn radiance<const N: usize>(&self, direction: Vec3, query: EmissionQuery<'_, N>) -> Spectral<N> {
         let own = self.lamp.to_lamp(direction);
         self.lamp.intensity_along(own, query) / self.opening.seen_area_m2(own)
     }
 
-    /// Whether the side that `direction` leaves from shines.
+    /// True if the side on which `direction` leaves emits.
     fn leaves(&self, normal: Vec3, direction: Vec3) -> bool {
         self.opening.flat_axis().is_some() || normal.dot(direction) > 0.0
     }
 
-    /// Radiance against a ray of unit `direction` at a point of the opening; `None` where its side does not emit.
+    /// Radiance against a ray of unit `direction` at a point of the opening; `None` if its side does not emit.
     pub(super) fn emitted<const N: usize>(
         &self,
         point: &SurfacePoint,

@@ -1,16 +1,15 @@
-//! Which part of surroundings is worth drawing: bright patches, which scattered rays seldom meet.
+//! The part of surroundings that is worth sampling: bright patches, which scattered rays rarely hit.
 
-/// How many times as bright as the mean of all directions bright patches are.
+/// Minimum radiance of a bright patch over the mean of all directions.
 const BRIGHT: f64 = 8.0;
 
-/// A cell of surroundings.
 pub(super) struct EnvironmentCell {
     pub(super) weight: f64,
     pub(super) solid_angle: f64,
 }
 
-/// Share of light that comes from bright patches beyond [`BRIGHT`] times the mean: of cells of a weight in proportion to radiance and solid angle, and
-/// of a solid angle in units of the whole sphere.
+/// Fraction of light that comes from bright patches beyond [`BRIGHT`] times the mean. The weight of a cell is proportional to radiance and
+/// solid angle; its solid angle is in units of the whole sphere.
 pub(super) fn patches(cells: impl Iterator<Item = EnvironmentCell> + Clone) -> f64 {
     let all: f64 = cells.clone().map(|cell| cell.weight).sum();
     cells.map(|cell| (cell.weight - BRIGHT * all * cell.solid_angle).max(0.0)).sum::<f64>() / all
@@ -35,7 +34,7 @@ mod tests {
         assert!((sphere(weights, shares) - (bright - 8.0 * 0.025)).abs() < 1e-12);
     }
 
-    /// Surroundings without suns are drawn by all their light, beside suns by their patches and what is beyond the suns'.
+    /// Surroundings without suns are sampled by all their light; next to suns, by their patches and the part beyond the suns' irradiance.
     #[test]
     fn surroundings_are_drawn_by_what_suns_and_scattered_rays_leave() {
         let mut texels = vec![[1.0; 3]; 64 * 32];
@@ -52,7 +51,7 @@ mod tests {
         let patchy = picture(texels);
         let all = drawn(&patchy, 0.0);
         let patches = drawn(&patchy, all) / all;
-        // The texel has 1.0e-3 of the sphere and so half of the light, of which eight times the mean is left out.
+        // The texel has 1.0e-3 of the sphere and thus half of the light; eight times the mean is subtracted from it.
         assert!(patches > 0.4 && patches < 0.6, "{patches}");
         assert!((drawn(&patchy, 0.1 * all) / all - 0.9).abs() < 1e-6);
     }

@@ -1,9 +1,9 @@
-//! The spectra of what shines, by power: which wavelengths the light of a scene has.
+//! Spectral power of emitters: the wavelengths of the light of a scene.
 //!
-//! Surfaces and lamps count by the flux that leaves them (a surface of radiance L and area A sends π A L from a side, a lamp of
-//! intensity I where its profile is 1 sends I ∫ profile dΩ), what is infinitely far away by what it sends through the
-//! cross-section of a ball about the scene (π r² E, E the irradiance of a surface that faces it; Pharr, Jakob and Humphreys 2016,
-//! 12.6). Strengths that change over time count in the mean. What stands in the way of light is left out: these are estimates.
+//! Surfaces and lamps count by the flux that leaves them: a surface of radiance L and area A emits π A L from a side; a lamp of intensity I where its
+//! profile is 1 emits I ∫ profile dΩ. Sources at infinity count by their flux through the cross-section of a ball about the scene (π r² E, with E the
+//! irradiance of a surface that faces the source; Pharr, Jakob and Humphreys 2016, 12.6). Strengths that change over time count by their mean.
+//! Occlusion is left out: these are estimates.
 
 use core::f64::consts::PI;
 
@@ -15,10 +15,10 @@ use super::{environment::Environment, lamp::Lamp, scene_lights::Sources, sun::Su
 use crate::materials::{Emission, EmissionSides, MaterialTable, Modulation};
 use crate::{MaterialId, accel::World};
 
-/// Least radius of the ball about a scene, m: surroundings shine also where there is nothing.
+/// Minimum radius of the ball about a scene, m: surroundings emit even into an empty scene.
 const LEAST_RADIUS_M: f64 = 1e-3;
 
-/// Spectral flux of each source, W·nm⁻¹: materials that glow, lamps, suns, surroundings.
+/// Spectral flux of each source, W·nm⁻¹: emitting materials, lamps, suns, surroundings.
 #[must_use]
 pub fn spectral_fluxes(world: &World, material_table: &MaterialTable, sources: &Sources) -> Vec<Spectrum> {
     let radius_m = world.radius_at_start_m().max(LEAST_RADIUS_M);
@@ -29,7 +29,7 @@ pub fn spectral_fluxes(world: &World, material_table: &MaterialTable, sources: &
     of_surfaces(world, material_table).into_iter().chain(lamps).chain(suns).chain(surroundings).collect()
 }
 
-/// Flux of each material that glows, from all surfaces that have it.
+/// Flux of each emitting material, from all surfaces that have it.
 fn of_surfaces(world: &World, material_table: &MaterialTable) -> Vec<Spectrum> {
     let mut areas_m2 = vec![0.0; material_table.materials().len()];
     for instance in world.instances() {
@@ -48,7 +48,7 @@ fn of_surfaces(world: &World, material_table: &MaterialTable) -> Vec<Spectrum> {
     areas_m2.iter().enumerate().filter_map(flux).collect()
 }
 
-/// Radiance in the mean over texture and time, both sides of a surface together, W·m⁻²·sr⁻¹·nm⁻¹.
+/// Mean radiance over texture and time, both sides of a surface together, W·m⁻²·sr⁻¹·nm⁻¹.
 fn mean_radiance(emission: &Emission, material_table: &MaterialTable) -> Spectrum {
     let sides = if emission.sides == EmissionSides::Both { 2.0 } else { 1.0 };
     let level = emission.modulation.as_ref().map(Modulation::waveform).map_or(1.0, mean_level);
@@ -66,13 +66,13 @@ fn of_lamp(lamp: &Lamp) -> Spectrum {
     lamp.intensity().scaled(lamp.profile().flux_sr() * lamp.modulation().map_or(1.0, mean_level))
 }
 
-/// The mean over all times, or the greatest where nothing recurs.
+/// The mean over all times, or the maximum if nothing recurs.
 fn mean_level(waveform: &Waveform) -> f64 {
     waveform.mean_level().unwrap_or_else(|| waveform.greatest_level())
 }
 
-/// Irradiance of surroundings, W·m⁻²·nm⁻¹: of a surface under all of one radiance, in the mean over all directions of a picture, of
-/// level ground under a sky.
+/// Irradiance of surroundings, W·m⁻²·nm⁻¹: of a surface under uniform radiance, in the mean over all directions of an image, of level
+/// ground under a sky.
 fn facing(environment: &Environment) -> Spectrum {
     match environment {
         Environment::Uniform(radiance) => radiance.scaled(PI),
@@ -91,8 +91,8 @@ mod tests {
     use etendue_core::Motion;
     use glam::{DAffine3, DMat3, DVec3};
 
-    /// Closed forms: a sphere of radius r sends 4 π² r² L, a lamp of intensity I 4 π I, a sky of radiance L through a ball
-    /// about a scene of radius R (of the sphere's box: √3 r) π² R² L.
+    /// Closed forms: a sphere of radius r emits 4 π² r² L, a lamp of intensity I 4 π I, a sky of radiance L through a ball about a scene of
+    /// radius R (of the sphere's box: √3 r) π² R² L.
     #[test]
     fn fluxes_are_those_of_closed_forms() {
         let level = |value: f64| Spectrum::constant(value);

@@ -1,4 +1,4 @@
-//! All lights of a view, and how they share the draws.
+//! All lights of a view, and the distribution of samples among them.
 
 use etendue_core::{Spectral, WavelengthRange, Wavelengths};
 use glam::{Vec2, Vec3};
@@ -18,7 +18,7 @@ pub struct Lights {
     pub(super) lights: Vec<Light>,
     pub(super) sampler: LightSampler,
     pub(super) primitives: Primitives,
-    /// Lamps without an opening, by their places.
+    /// Indices of the lamps without an opening.
     pub(super) points: Vec<usize>,
     has_openings: bool,
     are_modulated: bool,
@@ -27,11 +27,11 @@ pub struct Lights {
 }
 
 impl Lights {
-    /// The lights of a view: its surfaces that glow, and `sources`. The wavelengths of `range` decide
-    /// how the lights share the draws.
+    /// The lights of a view: its emitting surfaces, and `sources`. The wavelengths of `range` determine the distribution of samples among
+    /// the lights.
     ///
     /// # Errors
-    /// Where an instance names a material that the material_table does not have.
+    /// If an instance names a material that the material_table does not have.
     pub fn new(
         view: &RenderSpace<'_>,
         material_table: &MaterialTable,
@@ -56,7 +56,7 @@ impl Lights {
         Ok(Self { lights, sampler, primitives, points, has_openings, are_modulated, suns, environment })
     }
 
-    /// How many lights of each kind there are.
+    /// Number of lights of each kind.
     #[must_use]
     pub fn light_counts(&self) -> LightCounts {
         let count = |kind: fn(&Light) -> bool| self.lights.iter().filter(|l| kind(l)).count();
@@ -72,28 +72,26 @@ impl Lights {
         }
     }
 
-    /// Whether the strength of any lamp changes over time; [`MaterialTable::is_modulated`] tells it of surfaces.
+    /// True if the strength of any lamp changes over time; [`MaterialTable::is_modulated`] is the same for surfaces.
     #[must_use]
     pub fn are_modulated(&self) -> bool {
         self.are_modulated
     }
 
-    /// Whether any light can be drawn.
+    /// True if any light can be sampled.
     #[must_use]
     pub fn can_be_drawn(&self) -> bool {
         self.sampler.is_possible()
     }
 
-    /// Whether there is more than one light to choose from; [`Lights::sample`] does not look at the number that chooses
-    /// where there is not.
+    /// True if there is more than one light to choose from; otherwise [`Lights::sample`] does not use the number that chooses.
     #[must_use]
     pub fn are_many(&self) -> bool {
         self.sampler.is_open()
     }
 
-    /// A light and a direction towards it from the `receiver`; `None` where the light drawn sends nothing there.
-    /// `spread_rad` is the width of the path's cone, for the footprint of textures. Light is averaged
-    /// over an interval within that of the view.
+    /// Samples a light and a direction towards it from the `receiver`; `None` if the sampled light sends nothing there. `spread_rad` is the
+    /// width of the path's cone, for the footprint of textures. Light is averaged over an interval within that of the view.
     #[must_use]
     pub fn sample<const N: usize>(
         &self,
@@ -107,7 +105,7 @@ impl Lights {
         self.sampler_for(receiver).sample(choice, u, spread_rad, material_table, query)
     }
 
-    /// The sampler of a receiver: made once for all its draws.
+    /// The sampler of a receiver: built once for all its samples.
     #[inline(always)]
     pub(crate) fn sampler_for<'a>(&'a self, receiver: &'a LightSampleContext) -> ReceiverLightSampler<'a> {
         let question = self.question(receiver);
@@ -116,7 +114,7 @@ impl Lights {
         ReceiverLightSampler { lights: self, receiver, start, local }
     }
 
-    /// A drawn light and a direction towards it.
+    /// Samples a direction towards a selected light.
     #[inline(always)]
     fn sample_of<const N: usize>(
         &self,
@@ -140,7 +138,7 @@ impl Lights {
         (pdf > 0.0).then_some(LightSample { pdf, ..sample })
     }
 
-    /// The same of a light that is no triangle, without the choice's probability.
+    /// The same for a light that is no triangle, without the probability of the choice.
     #[inline(never)]
     fn sample_of_other<const N: usize>(
         &self,
@@ -179,8 +177,8 @@ impl Lights {
         TreeQuery { receiver, lamp }
     }
 
-    /// Density by which the receiver's draws would have given the direction to a surface point that was hit, 1/sr; 0
-    /// where the surface is no light.
+    /// Density with which the receiver's light samples would have given the direction to a surface point that was hit, 1/sr; 0 if the
+    /// surface is no light.
     #[must_use]
     pub fn light_pdf(&self, hit: &LightHit<'_>) -> f32 {
         let Some(i) = self.primitives.light(hit.point.instance, hit.point.primitive) else { return 0.0 };
@@ -197,8 +195,8 @@ impl Lights {
         pdf * probability * hit.receiver.draws as f32
     }
 
-    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, of a lamp's opening that a ray of unit `direction` has hit at `point`; `None` where
-    /// the surface is none, or its side does not shine.
+    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, of a lamp's opening that a ray of unit `direction` has hit at `point`; `None` if the surface is
+    /// no opening, or its side does not emit.
     #[inline(always)]
     pub(crate) fn of_opening<const N: usize>(
         &self,
@@ -217,8 +215,8 @@ impl Lights {
         }
     }
 
-    /// Light from infinity along the unit `direction` away from the viewer, each contribution by itself. `receiver` is
-    /// where the ray came from; without one nothing could have been drawn from there, and densities are 0.
+    /// Light from infinity along the unit `direction` away from the viewer, each contribution separately. `receiver` is the origin of the
+    /// ray; without one no light could have been sampled from there, and densities are 0.
     pub fn distant<'a, const N: usize>(
         &'a self,
         direction: Vec3,
@@ -246,17 +244,17 @@ impl Lights {
     }
 }
 
-/// Samples lights for a receiver. Large: it stays where it is made.
+/// Samples lights for a receiver. It is large, so it is built in its final place.
 pub(crate) struct ReceiverLightSampler<'a> {
     lights: &'a Lights,
     receiver: &'a LightSampleContext,
     start: Start,
-    /// The share of the draws that lights in the scene get.
+    /// The fraction of the samples for lights in the scene.
     local: f32,
 }
 
 impl ReceiverLightSampler<'_> {
-    /// One draw, as [`Lights::sample`].
+    /// One sample, as [`Lights::sample`].
     #[inline(always)]
     pub(crate) fn sample<const N: usize>(
         &self,
@@ -267,7 +265,7 @@ impl ReceiverLightSampler<'_> {
         query: EmissionQuery<'_, N>,
     ) -> Option<LightSample<N>> {
         let Self { lights, receiver, start, local } = self;
-        // Deep in a tree more digits are needed than the one number has; the other's place on the light is not felt.
+        // Deep in a tree the choice needs more digits than one number has; the effect on the place on the light is negligible.
         let fine = f64::from(choice) + f64::from(u.x) * DIGIT;
         let light = lights.sampler.sample(&lights.question(receiver), start, *local, fine)?;
         lights.sample_of(light, receiver, u, spread_rad, material_table, query)
@@ -277,26 +275,26 @@ impl ReceiverLightSampler<'_> {
 /// Weight of the digits that a second number adds to the 24 bits of the first: 2⁻²⁴.
 const DIGIT: f64 = 0.5 * 1.192_092_895_507_812_5e-7;
 
-/// What shines but is no surface that glows by its material.
+/// Light sources other than surfaces with emitting materials.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     /// Suns.
     pub suns: Vec<Sun>,
     /// Lamps, as points or with the instances of the world that are their openings.
     pub lamps: Vec<Lamp>,
-    /// What surrounds the scene.
+    /// Surroundings of the scene.
     pub environment: Option<Environment>,
 }
 
 impl Sources {
-    /// Whether the strength of any of them changes over time; [`crate::materials::MaterialTable::is_modulated`] tells it of surfaces.
+    /// True if the strength of any of them changes over time; [`crate::materials::MaterialTable::is_modulated`] is the same for surfaces.
     #[must_use]
     pub fn is_modulated(&self) -> bool {
         self.lamps.iter().any(|lamp| lamp.modulation().is_some())
     }
 }
 
-/// What is lit by what: for the plan.
+/// Numbers of lights, for the plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LightCounts {
     /// Emissive triangles.
@@ -309,16 +307,16 @@ pub struct LightCounts {
     pub openings: usize,
     /// Suns.
     pub suns: usize,
-    /// Whether an environment of one radiance above 0 surrounds the scene.
+    /// True if an environment of one radiance above 0 surrounds the scene.
     pub uniform_environment: bool,
-    /// Whether a picture surrounds the scene.
+    /// True if an image surrounds the scene.
     pub image_environment: bool,
-    /// Whether a clear sky surrounds the scene.
+    /// True if a clear sky surrounds the scene.
     pub sky: bool,
 }
 
 impl LightCounts {
-    /// Whether nothing gives light.
+    /// True if there is no light.
     #[must_use]
     pub fn is_dark(&self) -> bool {
         let environment = self.uniform_environment || self.image_environment || self.sky;

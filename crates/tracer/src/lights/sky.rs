@@ -1,16 +1,16 @@
 //! The clear sky of Hosek and Wilkie as surroundings.
 //!
-//! Above the horizon a direction at the angle θ from the zenith and γ from the sun has, in each of eleven bands,
-//! L = L̄ · gradient(cos θ) · (glow(γ) + rise · √cos θ), not below zero (`etendue_spectra::sky`, which also says how bands
-//! become wavelengths). The two functions are kept as tables, linear between nodes of √cos θ and of √sin(γ/2), in which
-//! they are smooth and finest where the horizon and the sun are; against the model that is within 1e-3.
+//! Above the horizon a direction at the angle θ from the zenith and γ from the sun has, in each of eleven bands, L = L̄ · gradient(cos θ) · (glow(γ)
+//! + rise · √cos θ), not below zero (`etendue_spectra::sky`, which also describes the conversion of bands to wavelengths). The two functions are
+//! stored as tables, linear between nodes of √cos θ and of √sin(γ/2). In these variables they are smooth, with the finest steps at the horizon and at
+//! the sun. The error against the model is below 1e-3.
 //!
-//! Below the horizon lies ground of the model's kind, matt and endless: its radiance is albedo · E/π everywhere, E the
-//! irradiance of level ground by sky and sun. So a picture without a ground does not end in black. It is met by chance
-//! and never drawn: no direction of it is better than the surface's own.
+//! Below the horizon lies diffuse, endless ground, as in the model: its radiance is albedo · E/π everywhere, with E the irradiance of level ground by
+//! sky and sun. An image without a ground thus does not end in black. The ground is hit by chance and never sampled: no direction of it is better
+//! than the surface's own.
 //!
-//! Directions of the sky are drawn by a grid of equal steps in azimuth from the sun and in elevation, a cell by its mean
-//! radiance (440–640 nm) and solid angle; each cell has a chance.
+//! Directions of the sky are sampled by a grid of equal steps in azimuth from the sun and in elevation, a cell by its mean radiance (440–640 nm) and
+//! solid angle; each cell has a positive probability.
 
 use core::f32::consts::{FRAC_PI_2, TAU};
 
@@ -26,37 +26,37 @@ use super::patches::{EnvironmentCell, patches};
 /// Intervals of the tables.
 const STEPS: usize = 4096;
 
-/// Cells of the grid that directions are drawn by.
+/// Cells of the grid for the sampling of directions.
 const COLUMNS: usize = 256;
 const ROWS: usize = 128;
 
-/// Bands whose mean weighs directions: 440 to 640 nm.
+/// Bands whose mean weights directions: 440 to 640 nm.
 const SEEN: core::ops::RangeInclusive<usize> = 3..=8;
 
 /// Height and width of a cell, rad.
 const CELL: (f64, f64) = (core::f64::consts::FRAC_PI_2 / ROWS as f64, core::f64::consts::TAU / COLUMNS as f64);
 
-/// Least weight of a cell, as a share of the mean one.
+/// Minimum weight of a cell, as a fraction of the mean weight.
 const FLOOR: f64 = 1e-3;
 
 /// One value for each band.
 type Bands = [f32; BANDS];
 
-/// The sky above an endless ground. Its `Debug` text leaves out the tables, which follow from what it tells.
+/// The sky above an endless ground. Its `Debug` text leaves out the tables, which follow from the printed values.
 #[derive(Clone)]
 pub struct SkyEnvironment {
-    /// Where γ is counted from: the sun, or the horizon below which it stands.
+    /// Origin of γ: the sun, or the point of the horizon above a sun that is below it.
     glow: Vec3,
     azimuth_turns: f32,
     gradient: Vec<Bands>,
     around: Vec<Bands>,
     rise: Bands,
-    /// Factor on the outermost bands beyond them, 1 between.
+    /// Factor on the outermost bands at wavelengths beyond them, 1 between.
     beyond: Spectrum,
     ground: Spectrum,
     irradiance: Spectrum,
     distribution: Distribution2,
-    /// Share of bright patches in its light.
+    /// Fraction of bright patches in its light.
     pub(super) patches: f64,
 }
 
@@ -71,9 +71,8 @@ impl core::fmt::Debug for SkyEnvironment {
 }
 
 impl SkyEnvironment {
-    /// The sky of a model whose sun stands at an azimuth (rad, anticlockwise from +x seen from above), over ground of a
-    /// matt `albedo` on which the sun alone gives the spectral irradiance `sun_on_ground` (W·m⁻²·nm⁻¹).
-    /// `None` where the sky is black.
+    /// The sky of a model whose sun stands at an azimuth (rad, anticlockwise from +x seen from above), over ground of a diffuse `albedo`
+    /// that receives from the sun alone the spectral irradiance `sun_on_ground` (W·m⁻²·nm⁻¹). `None` if the sky is black.
     #[must_use]
     pub fn new(model: &SkyModel, azimuth_rad: f64, albedo: f64, sun_on_ground: &Spectrum) -> Option<Self> {
         let irradiance = model.horizontal_irradiance();
@@ -129,7 +128,7 @@ impl SkyEnvironment {
         self.irradiance.band_mean(low_nm, high_nm)
     }
 
-    /// Density by which [`SkyEnvironment::sample`] gives the unit `direction`, 1/sr.
+    /// Density with which [`SkyEnvironment::sample`] returns the unit `direction`, 1/sr.
     pub(super) fn pdf(&self, direction: Vec3) -> f32 {
         let cos = (direction.x * direction.x + direction.y * direction.y).sqrt();
         if direction.z < 0.0 || cos <= 0.0 {
@@ -185,7 +184,7 @@ fn tables(model: &SkyModel) -> [Vec<Bands>; 2] {
     [(0..=STEPS).map(|i| gradient(node(i))).collect(), (0..=STEPS).map(|i| around(node(i))).collect()]
 }
 
-/// Mean radiance of each cell, of its corners and middle, times the cell's solid angle.
+/// Mean radiance of each cell, over its corners and middle, times the cell's solid angle.
 fn weights(model: &SkyModel) -> Vec<f32> {
     let (height, width) = CELL;
     let glow = towards(0.0, model.glow_elevation_rad());
@@ -263,7 +262,7 @@ mod tests {
                 (0..4).for_each(|k| sums[k] += f64::from(sample.radiance[k]) * cos / f64::from(sample.pdf));
                 share += f64::from(sky.pdf(uniform_sphere(u))) * 4.0 * core::f64::consts::PI;
             }
-            // Only on the borders of cells may rounding tell the neighbour's density.
+            // Only on the borders of cells may rounding give the neighbour's density.
             assert!(apart < 200, "{apart} of {n} densities differ");
             assert!((share / f64::from(n) - 1.0).abs() < 5e-3, "{}", share / f64::from(n));
             let expected = model.horizontal_irradiance();

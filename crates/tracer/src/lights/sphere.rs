@@ -1,9 +1,8 @@
-//! Glowing spheres, and the ellipsoids that unequal scales make of them.
+//! Emitting spheres, and ellipsoids (spheres under unequal scales).
 //!
-//! From outside a round sphere is drawn by solid angle, uniformly over the cone it fills; from inside, for an ellipsoid,
-//! and where light passes through the surface, so that the far side is seen too, uniformly over the sphere in its own
-//! frame: density by area 1/(4π J) with the stretch of area J = |det M| · |M⁻ᵀ n| where M takes the unit sphere to the
-//! render frame and n is the unit sphere's normal.
+//! From outside, a round sphere is sampled by solid angle, uniformly over its cone. It is sampled uniformly over the sphere in its own frame from
+//! inside, for an ellipsoid, and if light passes through the surface, so that the far side is seen too. The density by area is then 1/(4π J) with the
+//! stretch of area J = |det M| · |M⁻ᵀ n|. M transforms the unit sphere to the render frame and n is the unit sphere's normal.
 
 use core::f32::consts::{PI, TAU};
 
@@ -14,7 +13,7 @@ use glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3};
 use super::{LightHit, ROUNDING, SurfaceEmission, SurfaceSample, solid_angle_pdf, tree::LightBounds};
 use crate::{MaterialId, geometry::sphere, materials::MaterialTable};
 
-/// A glowing sphere in the render frame.
+/// An emitting sphere in the render frame.
 #[derive(Clone, Debug)]
 pub(super) struct SphereLight {
     centre: Vec3,
@@ -23,21 +22,21 @@ pub(super) struct SphereLight {
     /// M⁻ᵀ.
     normals: Mat3,
     determinant: f32,
-    /// Radius, m, where the sphere is round and nothing passes through it.
+    /// Radius, m, if the sphere is round and nothing passes through it.
     radius: Option<f32>,
     area_m2: f64,
     error_m: f32,
     material: MaterialId,
-    /// Whether texture coordinates are needed.
+    /// True if texture coordinates are needed.
     textured: bool,
 }
 
-/// What of a sphere's material decides how it is drawn.
+/// Properties of a sphere's material that determine its sampling.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SphereLook {
-    /// Whether light passes through its surface.
+    /// True if light passes through its surface.
     lets_pass: bool,
-    /// Whether texture coordinates are needed.
+    /// True if texture coordinates are needed.
     textured: bool,
 }
 
@@ -47,7 +46,7 @@ impl SphereLook {
     }
 }
 
-/// The cone that a round sphere fills, seen from outside.
+/// The cone that a round sphere covers, seen from outside.
 struct Cone {
     axis: Vec3,
     distance: f32,
@@ -64,7 +63,7 @@ impl SphereLight {
         Self::with_look(radius_m, to_render, material, SphereLook::of(material, material_table))
     }
 
-    /// Of a material of which all is known that matters.
+    /// A sphere of a material with these properties.
     pub(super) fn with_look(radius_m: f64, to_render: &DAffine3, material: MaterialId, look: SphereLook) -> Self {
         let linear = to_render.matrix3 * radius_m;
         let centre = to_render.translation.as_vec3();
@@ -82,23 +81,23 @@ impl SphereLight {
         }
     }
 
-    /// For the choice among lights, at a mean radiance: seen from anywhere it fills about a quarter of its area.
+    /// Bounds for light selection, at a mean radiance: its projected area is about a quarter of its surface from everywhere.
     pub(super) fn bounds(&self, radiance: f64) -> LightBounds {
         let rows = self.linear.transpose();
         let half = Vec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length());
         let points = [self.centre - half, self.centre + half];
         let bounds = LightBounds::of_surface(&points, 0.25 * radiance * self.area_m2, None);
-        // Room for rounding.
+        // Margin for rounding.
         LightBounds { radius: half.max_element().min(bounds.radius) * (1.0 + 1e-5), ..bounds }
     }
 
-    /// The cone that it fills, with its radius, seen from outside; `None` from inside or where it is not round.
+    /// The cone that it covers, with its radius, seen from outside; `None` from inside or if it is not round.
     fn cone(&self, from: Vec3) -> Option<(Cone, f32)> {
         let radius = self.radius?;
         let way = self.centre - from;
         let distance = way.length();
         let sin = radius / distance;
-        // A point on the sphere itself is inside as far as f32 can tell.
+        // A point on the sphere itself is inside to the precision of f32.
         if sin.is_nan() || sin >= 1.0 - 1e-6 {
             return None;
         }
@@ -117,7 +116,7 @@ impl SphereLight {
     fn sample_cone(&self, cone: &Cone, radius: f32, from: Vec3, u: Vec2) -> SurfaceSample {
         let local = uniform_cone(u, cone.one_minus_cos);
         let direction = Basis::about(cone.axis).outward(local);
-        // Not by 1 − z²: of a small cone's z few digits are left, and points beyond the limb would be drawn.
+        // Not by 1 − z²: for a small cone few digits of z are left, and points beyond the limb would be sampled.
         let aside2 = cone.distance * cone.distance * (local.x * local.x + local.y * local.y);
         let near = cone.distance * local.z - (radius * radius - aside2).max(0.0).sqrt();
         let normal = (from + direction * near - self.centre).normalize_or(-cone.axis);
@@ -139,7 +138,7 @@ impl SphereLight {
         (pdf > 0.0).then_some(SurfaceSample { way, distance, normal, pdf, uv, uv_per_m })
     }
 
-    /// Texture coordinates where the sphere's own normal is along `own`, and how many a metre covers.
+    /// Texture coordinates where the sphere's own normal is along `own`, and their change per metre.
     fn texture(&self, own: Vec3) -> (Vec2, f32) {
         if !self.textured {
             return (Vec2::ZERO, 0.0);
@@ -158,7 +157,7 @@ impl SphereLight {
         solid_angle_pdf(1.0 / (4.0 * PI * stretch), hit.direction * hit.distance_m, hit.distance_m, normal)
     }
 
-    /// How far a stored point may be from where the accelerator sees it, m.
+    /// Maximum distance of a stored point from where the accelerator sees it, m.
     pub(super) fn error_m(&self) -> f32 {
         self.error_m
     }
@@ -168,14 +167,14 @@ impl SphereLight {
     }
 }
 
-/// The radius where all directions are stretched alike, to f32's precision.
+/// The radius if all directions are stretched equally, to f32's precision.
 fn round_radius(linear: &DMat3) -> Option<f64> {
     let square = linear.x_axis.length_squared();
     let deviation = (linear.transpose() * *linear - DMat3::from_diagonal(DVec3::splat(square))).to_cols_array();
     deviation.iter().all(|x| x.abs() <= 1e-6 * square).then_some(square.sqrt())
 }
 
-/// 4π times the root mean square of the stretch of area: exact for a sphere, a little too much for an ellipsoid.
+/// 4π times the root mean square of the stretch of area: exact for a sphere, slightly too large for an ellipsoid.
 fn mean_area(linear: &DMat3) -> f64 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *linear;
     let squares = x.cross(y).length_squared() + y.cross(z).length_squared() + z.cross(x).length_squared();

@@ -1,10 +1,9 @@
 //! The sun: a disc at infinity.
 //!
-//! A disc of half angle δ seen at the mean radiance L gives a surface that faces it the irradiance E = π sin² δ · L. At
-//! 0.5338° across that is 6.817·10⁻⁵ sr · L. The disc is of one radiance, or darkens towards its limb: with
-//! µ = √(1 − sin² γ/sin² δ) at the angle γ from its centre, radiance is the centre's times Σ aₖ(λ) µᵏ, k = 0…5
-//! (`etendue_spectra::sky::sun`), of which the mean is 2 Σ aₖ/(k + 2), so that the irradiance is as stated, exactly.
-//! Directions are drawn uniformly over the disc in both cases. Left out: refraction, which flattens a low sun; spots.
+//! A surface that faces a disc of half angle δ and mean radiance L receives the irradiance E = π sin² δ · L. At 0.5338° across that is 6.817·10⁻⁵ sr
+//! · L. The disc is of one radiance, or darkens towards its limb. With µ = √(1 − sin² γ/sin² δ) at the angle γ from its centre, the radiance is that
+//! of the centre times Σ aₖ(λ) µᵏ, k = 0…5 (`etendue_spectra::sky::sun`). Its mean is 2 Σ aₖ/(k + 2), so that the irradiance is as stated, exactly.
+//! Directions are sampled uniformly over the disc in both cases. Left out: refraction, which flattens a low sun; sunspots.
 
 use core::f32::consts::TAU;
 
@@ -21,7 +20,7 @@ pub const SUN_ANGULAR_DIAMETER_DEG: f64 = 0.5338;
 /// Coefficients aₖ in each band.
 type Limb = [[f32; 6]; BANDS];
 
-/// Why a sun is refused.
+/// Error of a sun.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SunError {
     /// The direction has no length.
@@ -30,7 +29,7 @@ pub enum SunError {
     /// The diameter is out of range.
     #[error("a sun of {degrees} degrees was given, but its angular diameter must be between 0.001 and 90; correct it")]
     Diameter {
-        /// What was given.
+        /// Value given.
         degrees: f64,
     },
     /// The radiance is negative or not finite.
@@ -42,9 +41,9 @@ pub enum SunError {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sun {
     basis: Basis,
-    /// At the centre.
+    /// Radiance at the centre.
     radiance: Spectrum,
-    /// Coefficients aₖ in each band, where the limb is darker.
+    /// Coefficients aₖ in each band, if there is limb darkening.
     limb: Option<Box<Limb>>,
     /// 1 − cos δ and sin² δ of the half angle δ.
     one_minus_cos: f32,
@@ -55,7 +54,7 @@ impl Sun {
     /// A sun in `direction` (world, towards it) of spectral `radiance`, W·m⁻²·sr⁻¹·nm⁻¹.
     ///
     /// # Errors
-    /// Where the direction is zero, the diameter out of range, or the radiance negative.
+    /// If the direction is zero, the diameter out of range, or the radiance negative.
     pub fn of_radiance(direction: DVec3, angular_diameter_deg: f64, radiance: Spectrum) -> Result<Self, SunError> {
         let z = direction.try_normalize().ok_or(SunError::Direction)?;
         if !(1e-3..=90.0).contains(&angular_diameter_deg) {
@@ -70,7 +69,7 @@ impl Sun {
         Ok(Self { basis, radiance, limb: None, one_minus_cos: one_minus_cos as f32, sin2: sin * sin })
     }
 
-    /// A sun that gives a surface facing it the spectral `irradiance`, W·m⁻²·nm⁻¹.
+    /// A sun of spectral `irradiance` on a surface that faces it, W·m⁻²·nm⁻¹.
     ///
     /// # Errors
     /// As [`Sun::of_radiance`].
@@ -80,7 +79,7 @@ impl Sun {
         Self::of_radiance(direction, angular_diameter_deg, radiance)
     }
 
-    /// The sun with a limb as dark as the real one's, and the same irradiance: its centre becomes brighter.
+    /// Adds the limb darkening of the real sun at the same irradiance: the centre becomes brighter.
     #[must_use]
     pub fn with_limb(self) -> Self {
         if self.limb.is_some() {
@@ -122,13 +121,13 @@ impl Sun {
         mean.scaled(core::f64::consts::PI * self.sin2)
     }
 
-    /// Whether any of the disc is above the horizon of a surface of this unit normal.
+    /// True if any part of the disc is above the horizon of a surface of this unit normal.
     pub(super) fn rises_over(&self, normal: Vec3) -> bool {
-        // Room for the rounding of both vectors.
+        // Margin for the rounding of both vectors.
         self.basis.z.dot(normal) > -(self.sin2 as f32).sqrt() - 1e-5
     }
 
-    /// Spectral radiance from a unit direction that meets the disc.
+    /// Spectral radiance from a unit direction within the disc.
     pub(super) fn radiance_from<const N: usize>(&self, direction: Vec3, wavelengths: &Wavelengths<N>) -> Spectral<N> {
         let centre = self.radiance.sample(wavelengths);
         let Some(limb) = &self.limb else { return centre };
@@ -149,13 +148,13 @@ impl Sun {
         (self.sin2 as f32).sqrt()
     }
 
-    /// Whether the unit `direction` meets the disc. By the sine, which f32 resolves where it cannot the cosine.
+    /// True if the unit `direction` is within the disc. By the sine, which f32 resolves where it cannot resolve the cosine.
     pub(super) fn covers(&self, direction: Vec3) -> bool {
         let aside2 = self.basis.z.cross(direction).length_squared();
         aside2 <= self.sin2 as f32 && self.basis.z.dot(direction) > 0.0
     }
 
-    /// Density of a draw within the disc, 1/sr.
+    /// Density of samples within the disc, 1/sr.
     pub(super) fn pdf(&self) -> f32 {
         1.0 / (TAU * self.one_minus_cos)
     }

@@ -1,15 +1,13 @@
-//! Where the Sun stands, from time and place.
+//! Position of the Sun from time and place.
 //!
-//! The Sun's apparent longitude (Meeus, *Astronomical Algorithms*, 2nd edition 1998, chapter 25, lower accuracy: 0.01°),
-//! apparent sidereal time (chapter 12), the turn to the horizon (chapter 13), and the parallax in elevation (8.794″).
-//! From 1900 to 2100 the result lies within 0.01° of NREL's Solar Position Algorithm; within 0.3° of the zenith or
-//! nadir the azimuth loses its meaning.
+//! The Sun's apparent longitude (Meeus, *Astronomical Algorithms*, 2nd edition 1998, chapter 25, lower accuracy: 0.01°), apparent sidereal time
+//! (chapter 12), the rotation to the horizon (chapter 13), and the parallax in elevation (8.794″). From 1900 to 2100 the result lies within 0.01° of
+//! NREL's Solar Position Algorithm; within 0.3° of the zenith or nadir the azimuth loses its meaning.
 //!
-//! Time is UTC, taken as the Earth's own (they differ by less than 0.9 s: 0.004°); terrestrial time is 69 s ahead of it,
-//! as it was about 2020; other years of the range differ by a minute or two, in which the Sun moves 0.002°.
+//! UTC is used as universal time (they differ by less than 0.9 s: 0.004°). Terrestrial time is 69 s ahead of it, as it was about 2020; other years of
+//! the range differ by a minute or two, in which the Sun moves 0.002°.
 //!
-//! **Left out:** refraction, which lifts a Sun at the horizon by about 0.5° (the sky's model knows none either), and the
-//! observer's height.
+//! **Left out:** refraction, which lifts a Sun at the horizon by about 0.5° (the sky's model has none either), and the observer's height.
 
 use core::f64::consts::TAU;
 
@@ -22,7 +20,7 @@ pub struct UtcTime {
     days: f64,
 }
 
-/// Where the Sun stands.
+/// Position of the Sun.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SunPosition {
     /// From north by east, in [0, 2π), rad.
@@ -31,7 +29,7 @@ pub struct SunPosition {
     pub elevation_rad: f64,
 }
 
-/// Why there is no such time or place.
+/// Error of a time or place.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SunPositionError {
     /// A year beyond the formulas.
@@ -40,7 +38,7 @@ pub enum SunPositionError {
         /// The year given.
         found: i32,
     },
-    /// A month or day that the calendar has not.
+    /// A month or day that is not in the calendar.
     #[error("{year}-{month:02}-{day:02} is not a date of the calendar: give year, month 1 to 12 and day of the month")]
     Date {
         /// The year given.
@@ -50,7 +48,7 @@ pub enum SunPositionError {
         /// The day given.
         day: u32,
     },
-    /// A time that the day has not.
+    /// An invalid time of day.
     #[error(
         "{hour:02}:{minute:02}:{second} is not a time of the day: give hour 0 to 23, minute 0 to 59, second below 60"
     )]
@@ -62,7 +60,7 @@ pub enum SunPositionError {
         /// The second given.
         second: f64,
     },
-    /// A place that the Earth has not.
+    /// A place that does not exist on the Earth.
     #[error(
         "latitude {latitude_deg}°, longitude {longitude_deg}° is not a place: give −90 to 90 (north is positive) and −180 to 180 (east is positive)"
     )]
@@ -100,7 +98,7 @@ impl UtcTime {
     /// The time of a date and a time of day.
     ///
     /// # Errors
-    /// Where the calendar or the day has no such moment, or the year is out of range.
+    /// If the calendar or the day has no such time, or the year is out of range.
     pub fn new(date: CalendarDate, time: ClockTime) -> Result<Self, SunPositionError> {
         let CalendarDate { year, month, day } = date;
         let ClockTime { hour, minute, second } = time;
@@ -138,10 +136,10 @@ fn days_since_2000(year: i32, month: u32, day: u32) -> f64 {
     f64::from(365 * (year - 2000) + leap_days) + f64::from(months + day - 1)
 }
 
-/// Where the Sun stands at a time, seen from a latitude (degrees, north positive) and longitude (degrees, east positive).
+/// Position of the Sun at a time, seen from a latitude (degrees, north positive) and longitude (degrees, east positive).
 ///
 /// # Errors
-/// Where there is no such place.
+/// If there is no such place.
 pub fn sun_position(time: UtcTime, latitude_deg: f64, longitude_deg: f64) -> Result<SunPosition, SunPositionError> {
     if !(latitude_deg.abs() <= 90.0 && longitude_deg.abs() <= 180.0) {
         return Err(SunPositionError::Place { latitude_deg, longitude_deg });
@@ -160,7 +158,7 @@ pub fn sun_position(time: UtcTime, latitude_deg: f64, longitude_deg: f64) -> Res
     Ok(SunPosition { azimuth_rad, elevation_rad: elevation - parallax })
 }
 
-/// The Sun's place among the turning Earth's meridians and parallels.
+/// Position of the Sun relative to the rotating Earth.
 struct ApparentSun {
     greenwich_hour_angle_rad: f64,
     declination_rad: f64,
@@ -230,7 +228,7 @@ mod tests {
             let (azimuth, elevation) = (got.azimuth_rad.to_degrees(), got.elevation_rad.to_degrees());
             let aside = ((azimuth - number(3) + 540.0).rem_euclid(360.0) - 180.0) * cos(got.elevation_rad);
             let off = (aside * aside + (elevation - number(4)) * (elevation - number(4))).sqrt();
-            // What is promised; Meeus' lower accuracy.
+            // The stated accuracy: Meeus' lower accuracy.
             assert!(off < 0.01, "{row}: {azimuth} {elevation}, off by {off}");
         }
     }

@@ -1,4 +1,4 @@
-//! What lights that are surfaces have in common.
+//! Common parts of lights that are surfaces.
 
 use glam::{Vec2, Vec3};
 
@@ -6,9 +6,9 @@ use super::light_sample::LightSample;
 use crate::materials::{EmissionQuery, MaterialTable};
 use crate::textures::Lookup;
 
-/// A point of a light's surface, drawn for a point of the scene.
+/// A point of a light's surface, sampled for a point of the scene.
 pub(super) struct SurfaceSample {
-    /// From the point of the scene, and its length, m.
+    /// Vector from the point of the scene, and its length, m.
     pub(super) way: Vec3,
     pub(super) distance: f32,
     pub(super) normal: Vec3,
@@ -19,14 +19,14 @@ pub(super) struct SurfaceSample {
 }
 
 impl SurfaceSample {
-    /// Unit direction to the point; `None` where it is the receiver itself.
+    /// Unit direction to the point; `None` if it is the receiver itself.
     #[inline(always)]
     pub(super) fn direction(&self) -> Option<Vec3> {
         (self.distance > 0.0).then(|| self.way * (1.0 / self.distance))
     }
 
-    /// The point, moved off its surface by the error bound, and towards the receiver by as much as the accelerator may meet
-    /// the surface early.
+    /// The point, moved off its surface by the error bound, and towards the receiver by the distance at which the accelerator may hit the
+    /// surface early.
     #[inline(always)]
     pub(super) fn target(&self, from: Vec3, direction: Vec3, error_m: f32, early_m: f32) -> Vec3 {
         let side = -1.0_f32.copysign(self.normal.dot(direction));
@@ -35,17 +35,18 @@ impl SurfaceSample {
     }
 }
 
-/// What surface lights have in common.
+/// Common data of surface lights.
 pub(super) struct SurfaceEmission<'a> {
     pub(super) material: crate::MaterialId,
     pub(super) error_m: f32,
-    /// How far before the point, along the ray to it, the accelerator may already meet the surface.
+    /// Distance before the point, along the ray to it, at which the accelerator may already hit the surface.
     pub(super) early_m: f32,
     pub(super) material_table: &'a MaterialTable,
 }
 
 impl SurfaceEmission<'_> {
-    /// The light sample of a surface sample seen from `from`, with the strength of the time that is queried; `None` where the side seen does not glow.
+    /// The light sample of a surface sample seen from `from`, with its strength at the queried time; `None` if the visible side does not
+    /// emit.
     #[inline(always)]
     pub(super) fn towards<const N: usize>(
         &self,
@@ -72,8 +73,8 @@ impl SurfaceEmission<'_> {
 /// Relative error allowed for a point on a light and a ray to it: sixteen roundings of f32.
 pub(super) const ROUNDING: f32 = 16.0 * 0.5 * f32::EPSILON;
 
-/// Density by solid angle of a point drawn with density `per_area` (1/m²) on a surface of unit `normal`, seen from
-/// a point at the far end of `way` of length `distance`; 0 where it is seen edge-on.
+/// Density by solid angle of a point sampled with density `per_area` (1/m²) on a surface of unit `normal`, seen from a point at the far end
+/// of `way` of length `distance`; 0 if it is seen edge-on.
 pub(super) fn solid_angle_pdf(per_area: f32, way: Vec3, distance: f32, normal: Vec3) -> f32 {
     let height = normal.dot(way).abs();
     if height > 0.0 { per_area * (distance * distance) * (distance / height) } else { 0.0 }

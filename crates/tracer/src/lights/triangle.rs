@@ -1,7 +1,7 @@
-//! Glowing triangles and parallelograms, drawn uniformly by solid angle from near by, and by area from afar.
+//! Emitting triangles and parallelograms, sampled uniformly by solid angle from near by, and by area from afar.
 //!
-//! Two triangles that make up a parallelogram are one light: points then lie as well on it as the numbers do in their
-//! square, and there are half as many lights to choose from.
+//! Two triangles that form a parallelogram are one light. Sample points on it are then as well distributed as the numbers in their square, and there
+//! are half as many lights to choose from.
 
 use etendue_core::warp::uniform_triangle;
 use glam::{DAffine3, DVec3, Mat3, Vec2, Vec3};
@@ -10,14 +10,14 @@ use super::near::{FlatLight, NearRegion, NearView};
 use super::{LightHit, ROUNDING, SurfaceEmission, SurfaceSample, solid_angle_pdf, tree::LightBounds};
 use crate::{MaterialId, geometry::Mesh, materials::MaterialTable};
 
-/// A glowing triangle in the render frame, or a parallelogram.
+/// An emitting triangle in the render frame, or a parallelogram.
 #[derive(Clone, Debug)]
 pub(super) struct TriangleLight {
     flat: FlatLight,
     /// On the same side as the surface's geometric normal: that of the winding in the mesh's own frame.
     normal: Vec3,
     per_area: f32,
-    /// Where it is drawn by solid angle.
+    /// Region in which it is sampled by solid angle.
     nearness: NearRegion,
     uvs: [Vec2; 3],
     uv_per_m: f32,
@@ -26,7 +26,7 @@ pub(super) struct TriangleLight {
 }
 
 impl TriangleLight {
-    /// `None` where rounding leaves no area: such a triangle sends no light that could be drawn.
+    /// `None` if rounding leaves no area: such a triangle sends no light that could be sampled.
     pub(super) fn new(mesh: &Mesh, primitive: usize, to_render: &DAffine3, material: MaterialId) -> Option<Self> {
         Facets::one(mesh, primitive).light(to_render, material)
     }
@@ -52,7 +52,7 @@ impl TriangleLight {
         (per_area.is_finite() && per_area > 0.0).then_some(light)
     }
 
-    /// The parallelogram of two triangles of a mesh; `None` where they are none, to the rounding of coordinates.
+    /// The parallelogram of two triangles of a mesh; `None` if they form none, to the rounding of coordinates.
     pub(super) fn of_two(
         mesh: &Mesh,
         primitives: [usize; 2],
@@ -62,7 +62,7 @@ impl TriangleLight {
         Facets::two(mesh, primitives)?.light(to_render, material)
     }
 
-    /// How many triangles it is.
+    /// Number of its triangles.
     pub(super) fn triangles(&self) -> usize {
         1 + usize::from(self.flat.doubled)
     }
@@ -81,12 +81,12 @@ impl TriangleLight {
         self.flat.at(Vec2::splat(0.5))
     }
 
-    /// How far a stored point may be from where the accelerator sees it, and how far before it a ray may be hit, m.
+    /// Maximum distance of a stored point from where the accelerator sees it, and distance before it at which a ray may be hit, m.
     pub(super) fn rounding_m(&self) -> (f32, f32) {
         (self.error_m, self.flat.early_m())
     }
 
-    /// For the choice among lights, at a mean radiance; `both` sides glow or only the front.
+    /// Bounds for light selection, at a mean radiance; `both` sides emit or only the front.
     pub(super) fn bounds(&self, radiance: f64, both: bool) -> LightBounds {
         let corners = self.flat.corners();
         // A side's intensity falls by the cosine, whose mean over all directions is one half.
@@ -123,7 +123,7 @@ impl TriangleLight {
         }
     }
 
-    /// The light as seen from near by; `None` from afar, or where it fills too little.
+    /// The light as seen from near by; `None` from afar, or if its solid angle is too small.
     #[inline(always)]
     fn near(&self, from: Vec3) -> Option<NearView> {
         if self.nearness.holds(from) { NearView::new(&self.flat, from) } else { None }
@@ -134,7 +134,7 @@ impl TriangleLight {
     }
 }
 
-/// A triangle in its own frame, or two that make up a parallelogram.
+/// A triangle in its own frame, or two that form a parallelogram.
 #[derive(Clone, Debug)]
 pub(super) struct Facets {
     near: Corners,
@@ -146,26 +146,26 @@ impl Facets {
         Self { near: Corners::of(mesh, primitive), far: None }
     }
 
-    /// `None` where the two make up no parallelogram, to the rounding of coordinates.
+    /// `None` if the two form no parallelogram, to the rounding of coordinates.
     pub(super) fn two(mesh: &Mesh, primitives: [usize; 2]) -> Option<Self> {
         let whole = primitives.map(|primitive| Corners::of(mesh, primitive));
         let turn = (0..9).find(|turn| whole[0].turned(turn % 3).meets(&whole[1].turned(turn / 3)))?;
         Some(Self { near: whole[0].turned(turn % 3), far: Some(whole[1].turned(turn / 3)) })
     }
 
-    /// How many triangles it is.
+    /// Number of its triangles.
     pub(super) fn triangles(&self) -> usize {
         1 + usize::from(self.far.is_some())
     }
 
-    /// Least and greatest coordinates in its own frame.
+    /// Minimum and maximum coordinates in its own frame.
     pub(super) fn own_box(&self) -> (DVec3, DVec3) {
         let corners = self.far.iter().fold(self.near.own.to_vec(), |corners, far| [corners, far.own.to_vec()].concat());
         let corners = corners.into_iter().map(Vec3::as_dvec3);
         corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
     }
 
-    /// The light that it is where it is placed; `None` where rounding leaves no area.
+    /// The light at its placement; `None` if rounding leaves no area.
     pub(super) fn light(&self, to_render: &DAffine3, material: MaterialId) -> Option<TriangleLight> {
         let single = TriangleLight::of_corners(&self.near, to_render, material)?;
         let Some(far) = &self.far else { return Some(single) };
@@ -194,7 +194,7 @@ impl Corners {
         Self { own: mesh.corners(primitive as u32), uvs }
     }
 
-    /// Begun by another corner.
+    /// The same triangle, starting with another corner.
     fn turned(&self, by: usize) -> Self {
         let Self { mut own, mut uvs } = *self;
         own.rotate_left(by);
@@ -202,7 +202,7 @@ impl Corners {
         Self { own, uvs }
     }
 
-    /// Whether `far` has the side that faces the first corner, seen from the same side, and both make up a parallelogram.
+    /// True if `far` has the side that faces the first corner, seen from the same side, and both form a parallelogram.
     fn meets(&self, far: &Self) -> bool {
         let shares = |one: usize, other: usize| self.own[one] == far.own[other] && self.uvs[one] == far.uvs[other];
         let closes = |one: [f32; 3], far: f32| {
@@ -218,12 +218,12 @@ impl Corners {
     }
 }
 
-/// How far a parallelogram's fourth corner may be from where the others put it, in units of the largest coordinate: four
-/// roundings of f32 and room for those of the test.
+/// Maximum distance of a parallelogram's fourth corner from where the others put it, in units of the largest coordinate: four roundings of
+/// f32 and a margin for those of the test.
 const CLOSED: f32 = 8.0 * 0.5 * f32::EPSILON;
 
-/// How far a stored point may be from where the accelerator sees the triangle: roundings of the coordinates in
-/// the mesh's own frame and in the render frame.
+/// Maximum distance of a stored point from where the accelerator sees the triangle: roundings of the coordinates in the mesh's own frame
+/// and in the render frame.
 fn error_bound(own: [Vec3; 3], linear: Mat3, translation: Vec3) -> f32 {
     let largest = own.into_iter().fold(Vec3::ZERO, |m, p| m.max(p.abs()));
     let carried = linear.x_axis.abs() * largest.x + linear.y_axis.abs() * largest.y + linear.z_axis.abs() * largest.z;

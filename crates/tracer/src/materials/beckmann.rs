@@ -1,20 +1,17 @@
-//! The Beckmann distribution of micro-facets with height-correlated Smith shadowing.
+//! The Beckmann distribution of microfacets with height-correlated Smith shadowing.
 //!
-//! D(m) = exp(−tan²θ/α²)/(π α² cos⁴θ) (Beckmann and Spizzichino 1963): slopes are normally distributed with variance
-//! α²/2. Λ = (exp(−a²)/(a√π) − erfc a)/2 with a = 1/(α tan θ) (Walter et al. 2007), exact where that paper's rational
-//! form is not. Facets are drawn from those visible (Heitz and d'Eon 2014): the slope towards the viewer by inverting
-//! [1 + erf x + tan θ exp(−x²)/√π] numerically, the slope across by the inverse error function (Giles 2010). The error
-//! function is Hastings' (Abramowitz and Stegun 7.1.26, 1.5e-7).
+//! D(m) = exp(−tan²θ/α²)/(π α² cos⁴θ) (Beckmann and Spizzichino 1963): slopes are normally distributed with variance α²/2. Λ = (exp(−a²)/(a√π) − erfc
+//! a)/2 with a = 1/(α tan θ) (Walter et al. 2007), exact where that paper's rational form is not. Visible facets are sampled (Heitz and d'Eon 2014):
+//! the slope towards the viewer by numerical inversion of [1 + erf x + tan θ exp(−x²)/√π], the slope across by the inverse error function (Giles
+//! 2010). The error function is Hastings' (Abramowitz and Stegun 7.1.26, 1.5e-7).
 
 use core::f32::consts::PI;
 
 use etendue_core::maths::f32::{exp, ln};
 use glam::{Vec2, Vec3};
 
-/// 1/√π.
 const FRAC_1_SQRT_PI: f32 = 0.564_189_6;
 
-/// A Beckmann distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Beckmann {
     pub(super) alpha: f32,
@@ -25,7 +22,7 @@ impl Beckmann {
     fn density(self, m: Vec3) -> f32 {
         let (a2, z2) = (self.alpha * self.alpha, m.z * m.z);
         let steepness = (m.x * m.x + m.y * m.y) / (a2 * z2);
-        // Beyond, exp is 0 to f32.
+        // Beyond, exp is 0 in f32.
         if steepness < 100.0 { exp(-steepness) / (PI * a2 * z2 * z2) } else { 0.0 }
     }
 
@@ -47,20 +44,20 @@ impl Beckmann {
         0.25 * self.density(m) * wi.z / below.max(f32::MIN_POSITIVE)
     }
 
-    /// Density by solid angle of the direction mirrored at a visible facet `m`, 1/sr.
+    /// Density by solid angle of the direction reflected at a visible facet `m`, 1/sr.
     pub(super) fn reflect_pdf(self, wo: Vec3, m: Vec3) -> f32 {
         0.25 * self.density(m) / (wo.z + self.shadow(wo))
     }
 
-    /// G₂/G₁ = f cos θᵢ / (F · pdf) of a direction mirrored at a visible facet.
+    /// G₂/G₁ = f cos θᵢ / (F · pdf) of a direction reflected at a visible facet.
     pub(super) fn weight(self, wo: Vec3, wi: Vec3) -> f32 {
         let so = self.shadow(wo);
         wi.z * (wo.z + so) / (wo.z * wi.z + wi.z * so + wo.z * self.shadow(wi)).max(f32::MIN_POSITIVE)
     }
 
-    /// A facet normal drawn from those that `wo` sees.
+    /// Samples a facet normal visible from `wo`.
     pub(super) fn sample(self, wo: Vec3, u: Vec2) -> Vec3 {
-        // Seen from as far aside as the stretched direction (roughness 1), and turned back.
+        // Sampled for the stretched direction (roughness 1), and scaled back.
         let (x, y) = (self.alpha * wo.x, self.alpha * wo.y);
         let side = (x * x + y * y).sqrt();
         let (cos_phi, sin_phi) = if side > 0.0 { (x / side, y / side) } else { (1.0, 0.0) };
@@ -71,11 +68,11 @@ impl Beckmann {
     }
 }
 
-/// Slopes beyond are never drawn: their share is exp(−25).
+/// Maximum sampled slope: the fraction of steeper ones is exp(−25).
 const STEEPEST: f32 = 5.0;
 
-/// The slope x < cot θ of density (1 − x tan θ) exp(−x²), drawn by `u`: the root of a rising function, found by Newton's
-/// steps kept within a bracket.
+/// The slope x < cot θ of density (1 − x tan θ) exp(−x²), sampled by `u`: the root of an increasing function, found by Newton's method
+/// within a bracket.
 fn visible_slope(tan: f32, u: f32) -> f32 {
     let rise = |x: f32| {
         let bell = exp(-x * x);
@@ -155,7 +152,7 @@ mod tests {
             if i % 1000 == 999 {
                 let end = ((f64::from(i) + 1.0) * STEP) as f32;
                 assert!((f64::from(erf(end)) - integral).abs() < 3e-7, "{end}");
-                // Near 1 the inverse is as good as f32 holds erf: divided by its slope.
+                // Near 1 the accuracy of the inverse is that of erf in f32, divided by its slope.
                 let slack = 1e-6 + 4e-7 / (1.13 * f64::from(exp(-end * end)));
                 assert!((f64::from(erf_inverse(integral as f32) - end)).abs() < slack, "{end}");
             }
@@ -164,7 +161,7 @@ mod tests {
 
     #[test]
     fn what_is_seen_of_the_facets_is_the_plane() {
-        // ∫ D(m) [wo·m]₊ G₁ dω = cos θₒ: the density of facets seen integrates to 1.
+        // ∫ D(m) [wo·m]₊ G₁ dω = cos θₒ: the density of visible facets integrates to 1.
         for alpha in [0.05_f32, 0.4, 1.0] {
             for cos in [1.0_f32, 0.6, 0.1, 0.02] {
                 let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);

@@ -1,12 +1,11 @@
-//! Blinn and Phong's model with its exact normalisation.
+//! Blinn–Phong model with its exact normalisation.
 //!
-//! f = k_d/π + k_s c_n (n·h)ⁿ, 1/sr, h the unit vector half-way between both directions (Blinn 1977), with
-//! c_n = (n + 2)(n + 4)/(8π(2^(−n/2) + n)), so that k_s is exactly what the lobe sends back at normal incidence (Arvo's
-//! moment integrals; the usual (n + 8)/8π errs by up to 7.5 %). k_d and k_s are spectra in 0–1, n lies in 0–100 000.
+//! f = k_d/π + k_s c_n (n·h)ⁿ, 1/sr, h the unit vector half-way between both directions (Blinn 1977), with c_n = (n + 2)(n + 4)/(8π(2^(−n/2) + n)),
+//! so that k_s is exactly the lobe's albedo at normal incidence (Arvo's moment integrals; the usual (n + 8)/8π errs by up to 7.5 %). k_d and k_s are
+//! spectra in 0–1, n lies in 0–100 000.
 //!
-//! Half vectors are drawn with density (n + 2)/2π · cosⁿ⁺¹θ, mixed with the cosine for the base by what each sends
-//! back; below n = 4 the cosine serves both.
-//! The albedo over all incidences is tabulated; models that send back more than arrives are refused. Towards grazing
+//! Half vectors are sampled with density (n + 2)/2π · cosⁿ⁺¹θ, mixed with the cosine for the base in proportion to the reflected light of each; below
+//! n = 4 the cosine serves both. The albedo over all incidences is tabulated; models that reflect more than arrives are refused. Towards grazing
 //! incidence the lobe loses energy, as it has no Fresnel factor; shadowing is left out.
 
 use core::f32::consts::{FRAC_1_PI, TAU};
@@ -26,16 +25,16 @@ use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 /// The sharpest lobe: about 0.2° wide.
 const MAX_EXPONENT: f64 = 1e5;
 
-/// Exponent of lobes so wide that the cosine draws them better than half vectors do.
+/// Exponent below which the cosine samples lobes better than half vectors do.
 const WIDE: f32 = 4.0;
 
-/// c_n: what makes the lobe (n·h)ⁿ send back all light at normal incidence.
+/// c_n: normalisation that gives the lobe (n·h)ⁿ an albedo of 1 at normal incidence.
 #[must_use]
 pub fn blinn_phong_normalisation(n: f64) -> f64 {
     (n + 2.0) * (n + 4.0) / (8.0 * core::f64::consts::PI * (maths::f64::exp2(-0.5 * n) + n))
 }
 
-/// A matt base and a glossy lobe.
+/// A diffuse base and a glossy lobe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BlinnPhong {
     base: Reflectance,
@@ -46,10 +45,10 @@ pub struct BlinnPhong {
 }
 
 impl BlinnPhong {
-    /// A base of reflectance k_d and a lobe of exponent n that sends back k_s at normal incidence.
+    /// A base of reflectance k_d and a lobe of exponent n with albedo k_s at normal incidence.
     ///
     /// # Errors
-    /// Where the exponent is out of range, k_s is negative or the whole sends back more than arrives.
+    /// If the exponent is out of range, k_s is negative or the model reflects more than arrives.
     pub fn new(base: Reflectance, gloss: Spectrum, exponent: f64) -> Result<Self, BlinnPhongError> {
         if !(0.0..=MAX_EXPONENT).contains(&exponent) {
             return Err(BlinnPhongError::Exponent { exponent });
@@ -63,7 +62,7 @@ impl BlinnPhong {
         Ok(model)
     }
 
-    /// Refuses a base with which more is sent back than arrives.
+    /// Refuses a base with which more is reflected than arrives.
     fn refuse_gain(&self, base: &Spectrum) -> Result<(), EnergyGain> {
         energy::check(base, &[WeightedLobe { weight: &self.gloss, albedo: &self.albedo }])
     }
@@ -94,19 +93,19 @@ impl SurfaceModel for BlinnPhong {
     }
 }
 
-/// Why a Blinn–Phong model is refused.
+/// Error of a Blinn–Phong model.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum BlinnPhongError {
     /// The exponent is out of range.
     #[error("an exponent of {exponent} was given, but it must lie between 0 and {MAX_EXPONENT}; correct it")]
     Exponent {
-        /// What was given.
+        /// Value given.
         exponent: f64,
     },
     /// The gloss is negative or not a number.
     #[error("the specular reflectance is negative or not finite at some wavelength; it must lie between 0 and 1")]
     Gloss,
-    /// More is sent back than arrives.
+    /// The model reflects more than arrives.
     #[error(transparent)]
     Energy(#[from] EnergyGain),
 }
@@ -126,13 +125,13 @@ impl Lobe {
         Vec3::new(sin * c, sin * s, cos)
     }
 
-    /// f cos θᵢ over the density of `wi`, for a drawn half vector.
+    /// f cos θᵢ over the density of `wi`, for a sampled half vector.
     fn weight(self, wo: Vec3, wi: Vec3, h: Vec3) -> f32 {
         self.scale * 4.0 * TAU / (self.n + 2.0) * wo.dot(h) * wi.z / h.z.max(f32::MIN_POSITIVE)
     }
 
-    /// By the midpoint rule over the square of a drawing (half a turn: the lobe is symmetric): by the cosine for a wide
-    /// lobe, by half vectors for a narrow one.
+    /// By the midpoint rule over the sample square (half a turn: the lobe is symmetric): cosine sampling for a wide lobe, half vectors for
+    /// a narrow one.
     fn albedo(self, cos: f32) -> f64 {
         const CELLS: usize = 64;
         let wo = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
@@ -144,7 +143,7 @@ impl Lobe {
         (0..CELLS * CELLS).map(cell).sum::<f64>() / (CELLS * CELLS) as f64
     }
 
-    /// f cos θᵢ over the density of a direction drawn by the cosine.
+    /// f cos θᵢ over the density of a direction sampled by the cosine.
     fn wide(self, wo: Vec3, u: Vec2) -> f32 {
         let (s, c) = maths::f32::sin_cos(TAU * u.y);
         let r = u.x.sqrt();
@@ -152,7 +151,7 @@ impl Lobe {
         core::f32::consts::PI * self.scale * maths::f32::pow(h.z, self.n)
     }
 
-    /// The same of one drawn by its half vector.
+    /// The same for a direction sampled by its half vector.
     fn narrow(self, wo: Vec3, u: Vec2) -> f32 {
         let h = self.half_vector(u);
         let wi = mirrored(wo, h);
@@ -198,7 +197,7 @@ impl<const N: usize> BsdfModel<N> for BlinnPhongBsdf<'_, N> {
 
     fn gloss(&self, wo: Vec3) -> Gloss {
         let Lobe { n, scale } = self.model.lobe;
-        // cosⁿ of the half vector's angle and the kernel bend alike at the axis, t² n/2 = 2 t² (1/w² − 1).
+        // cosⁿ of the half vector's angle and the kernel have the same curvature at the axis, t² n/2 = 2 t² (1/w² − 1).
         let width = (4.0 / (n + 4.0)).sqrt();
         let peak = self.gloss.mean() * scale * wo.z;
         Gloss::over(self.base.mean() * FRAC_1_PI).with(GlossLobe {

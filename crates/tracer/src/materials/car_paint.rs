@@ -3,21 +3,20 @@
 //! Three parts, 1/sr, with T the coat's transmittance of `coated`, n its index, ω′ the directions refracted into it:
 //!
 //! - the coat's own reflection F D G₂/(4 cos θₒ cos θᵢ), exact for a smooth coat;
-//! - the base, met once: T(θₒ) T(θᵢ)/n² · [ s F D G₂/(4 cos θₒ′ cos θᵢ′) + (1 − s) d/π ], flakes (GGX of roughness α_f,
-//!   their reflectance F in the coat a spectrum) covering a share s of the area, pigment of reflectance d the rest;
-//! - light sent back by the base, turned round inside the coat and met again, taken as diffuse from the first turn
-//!   (Saunderson 1942): T(θₒ) T(θᵢ)/(n² π) · g R(θₒ) R(θᵢ), R(θ) the share of light from θ that the base sends back and
-//!   the coat turns round, g = min(ρ̄/(R̄ (1 − R̄)), 1/X). ρ̄ and R̄ are means over diffuse light inside, X the part of R
-//!   that comes out: with pigment alone this is Saunderson's sum of `coated`, and with white flakes no more comes out
-//!   than went round.
+//! - the base, hit once: T(θₒ) T(θᵢ)/n² · [ s F D G₂/(4 cos θₒ′ cos θᵢ′) + (1 − s) d/π ], flakes (GGX of roughness α_f,
+//!   their reflectance F in the coat a spectrum) covering a fraction s of the area, pigment of reflectance d the rest;
+//! - light reflected by the base, reflected inside the coat and returned to the base, treated as diffuse from the first internal reflection
+//!   (Saunderson 1942): T(θₒ) T(θᵢ)/(n² π) · g R(θₒ) R(θᵢ). R(θ) is the fraction of light from θ that the base reflects and
+//!   the coat reflects internally, g = min(ρ̄/(R̄ (1 − R̄)), 1/X). ρ̄ and R̄ are means over diffuse light inside, X the part of R
+//!   that leaves. With pigment alone this is Saunderson's sum of `coated`; with white flakes no more leaves than was
+//!   reflected internally.
 //!
-//! Reciprocal; at no incidence or wavelength is more sent back than arrives, as both sides of each sum are bounded: met
-//! once ρ − R, after that R g X ≤ R. Drawn by parts, in proportion to what each sends back; flakes inside the coat from
-//! those visible.
+//! Reciprocal. At no incidence or wavelength is more reflected than arrives, as both parts are bounded: after one hit ρ − R, after that R g X ≤ R.
+//! Sampled by parts, in proportion to the reflected light of each; flakes inside the coat by visible facets.
 //!
-//! The flop of colour with the angle comes from s, α_f and d alone. Left out: single flakes (sparkle), layers of flakes
-//! above one another, light scattered among flakes more than once, change of F with the angle (below 42° inside, a metal's
-//! hardly does), pearl and interference pigments, absorption in the coat.
+//! The flop of colour with the angle comes from s, α_f and d alone. Left out: single flakes (sparkle), layers of flakes above one another, multiple
+//! scattering among flakes, change of F with the angle (hardly any for metals below 42° inside), pearl and interference pigments, absorption in the
+//! coat.
 
 use core::f32::consts::FRAC_1_PI;
 
@@ -34,16 +33,16 @@ use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, DiscreteSampler,
 use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureCheck};
 use super::{error::MaterialError, fresnel};
 
-/// What a metallic paint is made of.
+/// Parameters of a metallic paint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CarPaintParts {
     /// Reflectance d of the pigment between the flakes.
     pub pigment: Reflectance,
     /// Reflectance F of the flakes' metal in the coat, 0 to 1: see [`flake_reflectance`].
     pub flakes: Spectrum,
-    /// Share s of the area that flakes cover, 0 to 1.
+    /// Fraction s of the area that flakes cover, 0 to 1.
     pub coverage: f64,
-    /// How unevenly flakes lie: GGX α_f, 0.05 to 1.
+    /// Roughness of the flakes' orientation: GGX α_f, 0.05 to 1.
     pub flake_alpha: f64,
     /// Refractive index n of the clear coat.
     pub coat_index: f64,
@@ -73,32 +72,32 @@ pub struct CarPaint {
     inside: InsideCoat,
 }
 
-/// What flakes of reflectance 1 do inside the coat.
+/// Reflection of flakes of reflectance 1 inside the coat.
 #[derive(Clone, Debug, PartialEq)]
 struct InsideCoat {
-    /// Share sent back, by the cosine outside.
+    /// Reflected fraction, by the cosine outside.
     sent: AlbedoTable,
-    /// Of it, what the coat turns round.
+    /// Part of it that the coat reflects internally.
     turned: AlbedoTable,
     /// Means of both over diffuse light inside.
     mean_sent: f32,
     mean_turned: f32,
-    /// What of the second comes out when it is sent up by its own profile: X of the flakes.
+    /// Part of the second that leaves if it is emitted upwards with its own profile: X of the flakes.
     out: f32,
 }
 
-/// The cosine inside the coat of one outside.
+/// The cosine inside the coat for one outside.
 fn inner_cos(cos: f32, n: f32) -> f32 {
     (1.0 - (1.0 - cos * cos).max(0.0) / (n * n)).sqrt()
 }
 
-/// The cosine outside of one inside; `None` beyond total reflection.
+/// The cosine outside for one inside; `None` at total reflection.
 fn outer_cos(cos: f32, n: f32) -> Option<f32> {
     let square = 1.0 - n * n * (1.0 - cos * cos);
     (square > 0.0).then(|| square.sqrt())
 }
 
-/// A direction bent at the coat's mean plane.
+/// A direction refracted at the coat's mean plane.
 fn bent(w: Vec3, scale: f32, cos: f32) -> Vec3 {
     Vec3::new(w.x * scale, w.y * scale, cos)
 }
@@ -122,7 +121,7 @@ impl InsideCoat {
     }
 }
 
-/// Share of light from a cosine inside that flakes send back, and what of it the coat turns round.
+/// Fraction of light from a cosine inside that flakes reflect, and the part of it that the coat reflects internally.
 fn sent_and_turned(facets: Ggx, cos: f32, through: &impl Fn(f32) -> f32) -> (f64, f64) {
     const CELLS: usize = 24;
     let cos = cos.max(1e-4);
@@ -142,7 +141,7 @@ impl CarPaint {
     /// A paint of `parts`.
     ///
     /// # Errors
-    /// Where a number or spectrum is out of range.
+    /// If a number or spectrum is out of range.
     pub fn new(parts: CarPaintParts) -> Result<Self, CarPaintError> {
         if !COAT_INDICES.contains(&parts.coat_index) {
             return Err(MaterialError::CoatIndex { n: parts.coat_index }.into());
@@ -172,7 +171,7 @@ impl CarPaint {
         })
     }
 
-    /// Share of diffuse light inside that the coat turns round.
+    /// Fraction of diffuse light inside that the coat reflects internally.
     fn turned_diffuse(&self) -> f32 {
         1.0 - self.coat.mean_transmittance(self.place) / (self.coat.n * self.coat.n)
     }
@@ -200,7 +199,7 @@ impl SurfaceModel for CarPaint {
             let out = f * self.inside.out + d * turned * (1.0 - turned);
             if round > 1e-6 { (sent / (round * (1.0 - round))).min(1.0 / out) } else { 0.0 }
         });
-        // Outside, what flakes send on is spread by the coat's refraction as well.
+        // Outside, the coat's refraction also spreads the light of flakes.
         let facets = Ggx { alpha: self.facets.alpha.max(point.min_alpha / self.coat.n) };
         let coat_alpha = point.widened(self.coat_alpha);
         let (coat_facets, is_widened) = (Ggx::of(coat_alpha), coat_alpha > self.coat_alpha);
@@ -216,25 +215,25 @@ impl SurfaceModel for CarPaint {
     }
 }
 
-/// Why a metallic paint is refused.
+/// Error of a metallic paint.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CarPaintError {
     /// The flakes' roughness is out of range.
     #[error("flakes of roughness α = {alpha} were given, but it must lie between 0.05 and 1; correct it")]
     FlakeAlpha {
-        /// What was given.
+        /// Value given.
         alpha: f64,
     },
     /// The coverage is out of range.
     #[error("a coverage by flakes of {coverage} was given, but it must lie between 0 and 1; correct it")]
     Coverage {
-        /// What was given.
+        /// Value given.
         coverage: f64,
     },
-    /// The flakes' reflectance is none.
+    /// The flakes' reflectance is out of range.
     #[error("the reflectance of the flakes leaves the range 0 to 1 at some wavelength; scale it")]
     Flakes,
-    /// The coat is none.
+    /// The coat is invalid.
     #[error(transparent)]
     Coat(#[from] MaterialError),
 }
@@ -247,13 +246,13 @@ pub struct CarPaintBsdf<'a, const N: usize> {
     facets: Ggx,
     /// `None` for a smooth coat.
     coat_facets: Option<Ggx>,
-    /// Whether they are rougher than the coat.
+    /// True if they are rougher than the coat.
     is_widened: bool,
     /// s F.
     flakes: Spectral<N>,
     /// (1 − s) d.
     pigment: Spectral<N>,
-    /// Share of diffuse light inside that the coat turns round.
+    /// Fraction of diffuse light inside that the coat reflects internally.
     turned: f32,
     /// g.
     again: Spectral<N>,
@@ -269,7 +268,7 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
         self.flakes * self.paint.inside.turned.at(cos) + self.pigment * self.turned
     }
 
-    /// Coat, flakes and what is matt, by what each sends back.
+    /// Sampler of coat, flakes and diffuse part, by the reflected light of each.
     fn discrete_sampler(&self, wo: Vec3) -> Option<DiscreteSampler<3>> {
         let (inside, through) = (&self.paint.inside, self.through(wo.z));
         let flakes = self.flakes.mean() * (inside.sent.at(wo.z) - inside.turned.at(wo.z)).max(0.0);
@@ -295,7 +294,7 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
         BsdfValue { value_cos, pdf }
     }
 
-    /// Of flakes of reflectance 1, f′ cos θᵢ for directions outside, and the density there of drawing them.
+    /// For flakes of reflectance 1: f′ cos θᵢ for directions outside, and the density of sampling them there.
     fn flake(&self, wo: Vec3, wi: Vec3) -> (f32, f32) {
         let (n, facets) = (self.paint.coat.n, self.facets);
         let (o, i) = (bent(wo, 1.0 / n, inner_cos(wo.z, n)), bent(wi, 1.0 / n, inner_cos(wi.z, n)));
@@ -303,7 +302,7 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
         (facets.reflect(o, i, m) * wi.z / i.z, facets.reflect_pdf(o, m) * wi.z / (n * n * i.z))
     }
 
-    /// A direction by way of a flake, outside; `None` where the coat turns it round.
+    /// Samples a direction outside, reflected at a flake; `None` if the coat reflects it internally.
     fn sample_flake(&self, wo: Vec3, u: Vec2) -> Option<Vec3> {
         let n = self.paint.coat.n;
         let o = bent(wo, 1.0 / n, inner_cos(wo.z, n));

@@ -1,4 +1,4 @@
-//! What a material_table's materials must be.
+//! Checks of the materials of a material_table.
 
 use super::material::{Material, Mix};
 use super::parameter::{Parameter, TextureCheck};
@@ -46,7 +46,7 @@ fn emission(check: &TextureCheck<'_>, emission: &Emission) -> Result<(), Materia
     }
 }
 
-/// Checks that the parts of material `index` are there, and that it is no part of itself.
+/// Checks that the parts of material `index` exist, and that it does not contain itself.
 fn parts(materials: &[Material], index: usize, mix: &Mix) -> Result<(), MaterialError> {
     for part in [mix.a, mix.b] {
         let unknown = MaterialError::UnknownMaterial { material: index, part: part.0, materials: materials.len() };
@@ -59,7 +59,7 @@ fn parts(materials: &[Material], index: usize, mix: &Mix) -> Result<(), Material
             return refused("an opacity");
         }
     }
-    // Marks of what was visited bound the work where parts are shared.
+    // Marks of visited materials bound the work if parts are shared.
     let mut visited = vec![false; materials.len()];
     let mut open = vec![mix.a, mix.b];
     while let Some(part) = open.pop() {

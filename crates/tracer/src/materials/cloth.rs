@@ -1,15 +1,14 @@
-//! Cloth: fibres' sheen over a matt base.
+//! Cloth: the sheen of fibres over a diffuse base.
 //!
-//! f = c f_s + (ρ/π) (1 − c E(θₒ)) (1 − c E(θᵢ))/(1 − c Ē), 1/sr. The sheen f_s = D G/(4 cos θₒ cos θᵢ) is that of
-//! Estevez and Kulla 2017: D = (2 + 1/α) sin^(1/α)θ_h/2π, facets that stand upright as fibres' ends do, α from 0.1 (short
-//! nap seen at grazing alone) to 1; G = 1/(1 + Λₒ + Λᵢ) with their fit of Λ, without their softened terminator, which is
-//! not reciprocal. c is the sheen's colour, 0 to 1, ρ the base's reflectance; E the sheen's albedo, tabulated, Ē its mean
-//! 2 ∫ E μ dμ. The base gets what the sheen leaves (after Kelemen and Szirmay-Kalos 2001), so that a white cloth sends
-//! back exactly what arrives and others less; where the fit itself would gain energy, f_s is scaled to E ≤ 1.
+//! f = c f_s + (ρ/π) (1 − c E(θₒ)) (1 − c E(θᵢ))/(1 − c Ē), 1/sr. The sheen f_s = D G/(4 cos θₒ cos θᵢ) is that of Estevez and Kulla 2017: D = (2 +
+//! 1/α) sin^(1/α)θ_h/2π, facets that stand upright like the ends of fibres, α from 0.1 (short nap, visible at grazing only) to 1; G = 1/(1 + Λₒ + Λᵢ)
+//! with their fit of Λ, without their softened terminator, which is not reciprocal. c is the sheen's colour, 0 to 1, ρ the base's reflectance; E the
+//! sheen's albedo, tabulated, Ē its mean 2 ∫ E μ dμ. The base receives the light that the sheen leaves (after Kelemen and Szirmay-Kalos 2001). A
+//! white cloth therefore reflects exactly the light that arrives, and others less. If the fit itself would gain energy, f_s is scaled to E ≤ 1.
 //!
-//! The sheen is drawn from tables of the cosine, row by row of the viewer's, the azimuth evenly; the base by the cosine.
+//! The sheen is sampled from tables of the cosine, row by row of the viewer's, with uniform azimuth; the base by the cosine.
 //!
-//! Left out: the weave, threads' highlights and their direction, light through the cloth (see the leaf for that).
+//! Left out: the weave, highlights of threads and their direction, transmission through the cloth (see the leaf for that).
 
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
 
@@ -32,7 +31,7 @@ pub struct Cloth {
     sheen: Sheen,
     albedo: AlbedoTable,
     mean: f32,
-    /// For each of [`ROWS`] cosines of the viewer, the share of the sheen below each of [`CELLS`] cosines of light.
+    /// For each of [`ROWS`] cosines of the viewer, the fraction of the sheen below each of [`CELLS`] cosines of light.
     cumulative: Vec<f32>,
 }
 
@@ -43,7 +42,7 @@ impl Cloth {
     /// A base of reflectance `base` under a sheen of colour `colour` (0 to 1) and roughness `alpha` (0.1 to 1).
     ///
     /// # Errors
-    /// Where the colour or the roughness is out of range.
+    /// If the colour or the roughness is out of range.
     pub fn new(base: Reflectance, colour: Spectrum, alpha: f64) -> Result<Self, ClothError> {
         if !(0.1..=1.0).contains(&alpha) {
             return Err(ClothError::Alpha { alpha });
@@ -93,13 +92,13 @@ impl SurfaceModel for Cloth {
     }
 }
 
-/// Why a cloth is refused.
+/// Error of a cloth.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ClothError {
     /// The sheen's roughness is out of range.
     #[error("a sheen of roughness α = {alpha} was given, but it must lie between 0.1 and 1; correct it")]
     Alpha {
-        /// What was given.
+        /// Value given.
         alpha: f64,
     },
     /// The sheen's colour is out of range.
@@ -159,13 +158,13 @@ impl Sheen {
         (0..CELLS).map(|k| self.cell(wo, k)).sum()
     }
 
-    /// What is sent to cosines of cell `k`, by the midpoint rule on four parts of it.
+    /// Light reflected to cosines of cell `k`, by the midpoint rule on four parts of it.
     fn cell(self, wo: Vec3, k: usize) -> f64 {
         let edge = |i: usize| square((4 * k + i) as f32 / (4 * CELLS) as f32);
         (0..4).map(|i| self.ring(wo, 0.5 * (edge(i) + edge(i + 1))) * f64::from(edge(i + 1) - edge(i))).sum()
     }
 
-    /// Shares of the sheen below each edge, for a viewer of a row.
+    /// Fractions of the sheen below each edge, for a viewer of a row.
     fn row(self, row: usize) -> Vec<f32> {
         let wo = from_cos(square(row as f32 / ROWS as f32).max(GRAZING));
         let cells: Vec<_> = (0..CELLS).map(|k| self.cell(wo, k)).collect();
@@ -180,7 +179,7 @@ impl Sheen {
     }
 }
 
-/// Cosine below which shadowing and the bsdf's divisor are held.
+/// Minimum cosine for shadowing and for the BSDF's divisor.
 const GRAZING: f32 = 1e-3;
 
 fn square(x: f32) -> f32 {

@@ -1,16 +1,15 @@
-//! Plastics and paints: a matt base under a clear, rough coat.
+//! Plastics and paints: a diffuse base under a clear, rough coat.
 //!
 //! f = F(n) · D · G₂ / (4 cos θₒ cos θᵢ) + (a/π) · T(θᵢ) T(θₒ) / (n² (1 − a·Fᵢₙₜ))
 //!
-//! The first term is the coat's GGX reflection with the exact dielectric Fresnel factor (index n, without dispersion);
-//! the second is the base of albedo a, seen through the coat, with all reflections between base and coat's inner side
-//! (Saunderson 1942). T(θ) = 1 − E(θ), E = the coat's directional-hemispherical reflectance, tabulated at construction
-//! by quadrature over slopes. The inner diffuse reflectance follows from reciprocity, Fᵢₙₜ = 1 − T̄/n² with
-//! T̄ = 2 ∫ T(μ) μ dμ, so that a white base gives back exactly what the coat let in: energy is conserved at a = 1 and
-//! lost below. Symmetric in both directions by construction. Where the roughness is a texture, T is tabulated over it too
-//! and interpolated.
+//! The first term is the coat's GGX reflection with the exact dielectric Fresnel factor (index n, without dispersion). The second is the base of
+//! albedo a, seen through the coat, with all reflections between base and coat's inner side (Saunderson 1942). T(θ) = 1 − E(θ), E = the coat's
+//! directional-hemispherical reflectance, tabulated at construction by quadrature over slopes. The inner diffuse reflectance follows from
+//! reciprocity, Fᵢₙₜ = 1 − T̄/n² with T̄ = 2 ∫ T(μ) μ dμ. A white base thus returns exactly the light that the coat let in: energy is conserved at a
+//! = 1 and lost below. Symmetric in both directions by construction. If the roughness is a texture, T is also tabulated over roughness and
+//! interpolated.
 //!
-//! Left out: absorption in the coat, dispersion, refraction of the roughness on the way in and out.
+//! Left out: absorption in the coat, dispersion, refraction of the roughness at entry and exit.
 
 use core::f32::consts::FRAC_1_PI;
 
@@ -24,19 +23,19 @@ use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, 
 use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureCheck};
 use super::{energy::CosineTable, error::MaterialError, fresnel, gloss::Gloss, puddles::Puddles, slopes::SeenFacets};
 
-/// Refractive indices that a coat may have: from a little above air's, below which the coat would do nothing that f32
-/// and the table resolve, to that of germanium. Scene files state the same range.
+/// Range of a coat's refractive index: from a little above air's, below which neither f32 nor the table would resolve the coat, to that of
+/// germanium. Scene files state the same range.
 pub const COAT_INDICES: core::ops::RangeInclusive<f64> = 1.1..=4.0;
 
 /// Refractive index of water (without dispersion).
 pub const WATER: f64 = 1.333;
 
-/// A coated matt surface.
+/// A coated diffuse surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coated {
     pub(super) base: Reflectance,
     coat: Coat,
-    /// Water that stands in low parts and smooths them; `None` for coats as rough as they say.
+    /// Water that stands in low parts and smooths them; `None` for coats of their own roughness only.
     puddles: Option<Puddles>,
 }
 
@@ -44,7 +43,7 @@ impl Coated {
     /// A base of reflectance `base` under a coat of index `n` and roughness `alpha` (GGX α, 0 to 1).
     ///
     /// # Errors
-    /// Where the roughness is outside 0–1 or the index outside [`COAT_INDICES`].
+    /// If the roughness is outside 0–1 or the index outside [`COAT_INDICES`].
     pub fn new(base: Reflectance, n: f64, alpha: impl Into<Factor>) -> Result<Self, MaterialError> {
         if !COAT_INDICES.contains(&n) {
             return Err(MaterialError::CoatIndex { n });
@@ -107,30 +106,30 @@ impl SurfaceModel for Coated {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Coat {
     pub(super) n: f32,
-    /// The roughness; of ground under water the height that it follows from.
+    /// The roughness; for ground under water the height from which it follows.
     alpha: Factor,
-    /// One row for a roughness that is a number. For a texture that of a smooth coat, then [`ROWS`] + 1 at equal ratios of α
-    /// from [`MIRROR_ALPHA`] to 1.
+    /// One row for a roughness that is a number. For a texture that of a smooth coat, then [`ROWS`] + 1 at equal ratios of α from
+    /// [`MIRROR_ALPHA`] to 1.
     rows: Box<[Row]>,
 }
 
 /// The transmittance of a coat of one roughness.
 #[derive(Clone, Debug, PartialEq)]
 struct Row {
-    /// T, of more steps than albedos have: towards grazing it bends sharply.
+    /// T, with more steps than albedos have: it changes sharply towards grazing.
     transmittance: CosineTable<192>,
     /// T̄ = 2 ∫ T μ dμ.
     mean: f32,
 }
 
-/// Where a roughness lies among the rows: between `row` and the next, at `beyond` in [0, 1]; 0 needs no next.
+/// Position of a roughness among the rows: between `row` and the next, at `beyond` in [0, 1]; 0 needs no next row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlaceInRows {
     row: u32,
     beyond: f32,
 }
 
-/// Steps of the table over roughness: each is 1.15 times as rough as the one before.
+/// Steps of the table over roughness: each is 1.15 times as rough as the previous one.
 const ROWS: usize = 64;
 
 /// The roughness of a row of a table over roughness.
@@ -194,7 +193,7 @@ pub struct CoatedBsdf<'a, const N: usize> {
     coat: &'a Coat,
     /// `None` for a smooth coat.
     facets: Option<Ggx>,
-    /// Whether they are rougher than the coat.
+    /// True if they are rougher than the coat.
     is_widened: bool,
     place: PlaceInRows,
     /// T̄ here.
@@ -205,7 +204,7 @@ pub struct CoatedBsdf<'a, const N: usize> {
 }
 
 impl<const N: usize> CoatedBsdf<'_, N> {
-    /// Probability of drawing from the coat: its share of the energy sent back towards `wo`.
+    /// Probability of sampling the coat: its fraction of the energy reflected towards `wo`.
     fn coat_fraction(&self, through: f32) -> f32 {
         let coat = 1.0 - through;
         let base = self.seen_mean * through * self.mean_transmittance;
@@ -230,7 +229,7 @@ impl<const N: usize> BsdfModel<N> for CoatedBsdf<'_, N> {
         let base_pdf = (1.0 - share) * cosine_hemisphere_pdf(wi.z);
         let Some(facets) = self.facets else { return BsdfValue { value_cos: base, pdf: base_pdf } };
         let m = half_vector(wo, wi);
-        // What the coat reflects is spread by wider facets, and is no less for their tilt.
+        // Wider facets spread the light that the coat reflects; their tilt does not reduce it.
         let share_reflected = if self.is_widened { 1.0 - through } else { fresnel::dielectric(wo.dot(m), self.coat.n) };
         let coat = share_reflected * facets.reflect(wo, wi, m);
         BsdfValue { value_cos: base + Spectral::splat(coat), pdf: base_pdf + share * facets.reflect_pdf(wo, m) }
@@ -294,7 +293,7 @@ mod tests {
                 let t = i as f32 / 200.0;
                 let c = t * t * t;
                 let (table, exact) = (map.transmittance(place, c), one.transmittance(ALONE, c));
-                // Seen: 2.9e-4.
+                // Measured: 2.9e-4.
                 assert!((table - exact).abs() < 5e-4, "α {alpha} at {c}: {table} {exact}");
             }
             assert!((map.mean_transmittance(place) - one.mean_transmittance(ALONE)).abs() < 1e-4, "{alpha}");

@@ -1,15 +1,12 @@
-//! Metals and other rough interfaces after Cook and Torrance: micro-facets with the exact Fresnel reflectance at each
-//! wavelength.
+//! Metals and other rough interfaces after Cook and Torrance: microfacets with the exact Fresnel reflectance at each wavelength.
 //!
-//! f = F · D · G₂ / (4 cos θₒ cos θᵢ), 1/sr (Cook and Torrance 1982, with the 4 that energy asks for), D GGX or Beckmann
-//! with height-correlated Smith shadowing, see `microfacet` and `beckmann`; facets are drawn from those visible. F is
-//! that of a complex index n + ik, or of a real one; what enters is absorbed (a matt base under such a surface is
-//! [`super::Coated`]). A roughness α below [`super::MIRROR_ALPHA`] is an exact mirror: the lobe would be narrower than a
-//! hundredth of a degree. The roughness may be a texture's, and so may be what a metal reflects at normal incidence: then F is Schlick's approximation
-//! (1994), F₀ + (1 − F₀)(1 − cos θ)⁵, as glTF has all metals.
+//! f = F · D · G₂ / (4 cos θₒ cos θᵢ), 1/sr (Cook and Torrance 1982, with the 4 that energy conservation requires), D GGX or Beckmann with
+//! height-correlated Smith shadowing, see `microfacet` and `beckmann`; visible facets are sampled. F is that of a complex index n + ik, or of a real
+//! one. Light that enters is absorbed (a diffuse base under such a surface is [`super::Coated`]). A roughness α below [`super::MIRROR_ALPHA`] is an
+//! exact mirror: the lobe would be narrower than a hundredth of a degree. The roughness may be a texture, and so may the reflectance of a metal at
+//! normal incidence. F is then Schlick's approximation (1994), F₀ + (1 − F₀)(1 − cos θ)⁵, as for all metals in glTF.
 //!
-//! Light scattered among facets more than once is left out (a white surface of α = 1 loses up to six tenths), unless it
-//! is asked for: see `interreflection`.
+//! Multiple scattering among facets is left out (a white surface of α = 1 loses up to six tenths), unless it is requested: see `interreflection`.
 
 use core::f32::consts::FRAC_1_PI;
 
@@ -24,13 +21,13 @@ use super::parameter::{Factor, Parameter, Reflectance, ShadingPoint, TextureChec
 use super::{error::MaterialError, fresnel, gloss::Gloss};
 use crate::textures::TextureId;
 
-/// A metal, or another interface that light does not come out of again.
+/// A metal, or another interface that light does not leave again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conductor {
     index: Index,
     alpha: Factor,
     distribution: Distribution,
-    /// F̄, where light scattered more than once counts.
+    /// F̄, if multiple scattering is included.
     mean_fresnel: Option<MeanFresnel>,
 }
 
@@ -48,7 +45,7 @@ enum MeanFresnel {
 enum Index {
     Complex(ComplexIndex),
     Real(Spectrum),
-    /// Known by what it reflects at normal incidence alone, a texture's colours.
+    /// Given by the reflectance at normal incidence only, the colours of a texture.
     Colour(Reflectance),
 }
 
@@ -56,7 +53,7 @@ impl Conductor {
     /// A metal of complex index `index` and roughness `alpha` (GGX α, 0 to 1).
     ///
     /// # Errors
-    /// Where the roughness is outside 0–1 or the index is not a substance's (n² + k² must be positive and finite).
+    /// If the roughness is outside 0–1 or the index is not a substance's (n² + k² must be positive and finite).
     pub fn new(index: ComplexIndex, alpha: impl Into<Factor>) -> Result<Self, MaterialError> {
         let alpha = alpha.into().checked_alpha()?;
         match (300_u16..=1100).find(|nm| !is_a_substance(&index, f32::from(*nm))) {
@@ -65,11 +62,10 @@ impl Conductor {
         }
     }
 
-    /// An interface of real refractive index `index` (1 to 4) and roughness `alpha` (GGX α, 0 to 1); what enters is
-    /// absorbed.
+    /// An interface of real refractive index `index` (1 to 4) and roughness `alpha` (GGX α, 0 to 1); light that enters is absorbed.
     ///
     /// # Errors
-    /// Where the roughness or the index is out of range.
+    /// If the roughness or the index is out of range.
     pub fn dielectric(index: Spectrum, alpha: impl Into<Factor>) -> Result<Self, MaterialError> {
         let alpha = alpha.into().checked_alpha()?;
         match (300_u16..=1100).find(|nm| !(1.0..=4.0).contains(&index.at(f32::from(*nm)))) {
@@ -78,10 +74,11 @@ impl Conductor {
         }
     }
 
-    /// A metal that reflects the colours of `texture` at normal incidence and, elsewhere, as Schlick's approximation says; of roughness `alpha` (GGX α, 0 to 1).
+    /// A metal of roughness `alpha` (GGX α, 0 to 1) that reflects the colours of `texture` at normal incidence, and follows Schlick's
+    /// approximation elsewhere.
     ///
     /// # Errors
-    /// Where the roughness is out of range.
+    /// If the roughness is out of range.
     pub fn of_texture(texture: TextureId, alpha: impl Into<Factor>) -> Result<Self, MaterialError> {
         Ok(Self::of_index(Index::Colour(Reflectance::Texture(texture)), alpha.into().checked_alpha()?))
     }
@@ -90,13 +87,13 @@ impl Conductor {
         Self { index, alpha, distribution: Distribution::Ggx, mean_fresnel: None }
     }
 
-    /// The same with facets of another distribution.
+    /// Sets another distribution of facets.
     #[must_use]
     pub fn with_distribution(self, distribution: Distribution) -> Self {
         Self { distribution, ..self }
     }
 
-    /// The same with the light that is scattered among its facets more than once.
+    /// Adds multiple scattering among facets.
     #[must_use]
     pub fn with_interreflection(self) -> Self {
         let mean = self.index.mean_fresnel();
@@ -184,11 +181,11 @@ fn mean_over_directions(fresnel: impl Fn(f32) -> f32) -> f64 {
 enum Fresnel<const N: usize> {
     Complex(Spectral<N>, Spectral<N>),
     Real(Spectral<N>),
-    /// What is reflected at normal incidence.
+    /// Reflectance at normal incidence.
     Schlick(Spectral<N>),
 }
 
-/// Light scattered among facets more than once.
+/// Multiple scattering among facets.
 #[derive(Clone, Copy, Debug)]
 struct MultipleScattering<const N: usize> {
     loss: LossOfAlpha<'static>,
@@ -202,13 +199,14 @@ pub struct ConductorBsdf<const N: usize> {
     fresnel: Fresnel<N>,
     /// `None` for a mirror.
     facets: Option<Facets>,
-    /// Whether they are rougher than the surface.
+    /// True if they are rougher than the surface.
     is_widened: bool,
     more: Option<MultipleScattering<N>>,
 }
 
 impl<const N: usize> ConductorBsdf<N> {
-    /// The reflectance of a facet `m`; of widened facets that of the surface: their tilt spreads what it reflects, and changes it no further.
+    /// The reflectance of a facet `m`; for widened facets that of the surface: their tilt spreads the reflected light, and does not change
+    /// it otherwise.
     fn reflected(&self, wo: Vec3, m: Vec3) -> Spectral<N> {
         self.fresnel(if self.is_widened { wo.z } else { wo.dot(m) })
     }
@@ -225,7 +223,7 @@ impl<const N: usize> ConductorBsdf<N> {
         }
     }
 
-    /// Probability of drawing from what is scattered more than once: about its share of what goes back.
+    /// Probability of sampling multiple scattering: approximately its fraction of the reflected light.
     fn share_of(&self, more: &MultipleScattering<N>, wo_loss: f32, wo: Vec3) -> f32 {
         let (again, once) = (more.tint.mean() * wo_loss, self.fresnel(wo.z).mean() * (1.0 - wo_loss));
         if again + once > 0.0 { again / (again + once) } else { 0.0 }

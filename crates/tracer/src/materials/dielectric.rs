@@ -1,22 +1,21 @@
 //! Glass, water, ice: a solid of one refractive index, smooth or rough, seen from outside and inside.
 //!
-//! A surface is one interface. Its geometric normal points out of the solid; η is the index of the far side over that of
-//! the viewer's: n from outside, 1/n from inside. A share F (exact Fresnel, total reflection included) is mirrored at the
-//! facet m, the rest refracted at it:
+//! A surface is one interface. Its geometric normal points out of the solid; η is the index of the far side over that of the viewer's: n from
+//! outside, 1/n from inside. A fraction F (exact Fresnel, total reflection included) is reflected at the facet m, the rest refracted at it:
 //!
 //! reflection    f = F · D(m) · G₂(wo, wi) / (4 cos θₒ cos θᵢ), m = (wo + wi) normalised
 //! transmission  f = (1 − F) · D(m) · G₁(wo) G₁(wi) · |wo·m| |wi·m| / (cos θₒ |cos θᵢ| (η wi·m + wo·m)²), m = ±(wo + η wi)
-//!               normalised, in terms of radiance: with the factor 1/η² by which radiance from a denser medium thins out
+//!               normalised, in terms of radiance: with the factor 1/η² of radiance from a denser medium
 //!
-//! (Walter, Marschner, Li & Torrance 2007, equations 16, 20, 21; there the second has η_o², here divided through. Factor
-//! 1/η²: Veach 1997, section 5.2.) D is GGX with roughness α, G₁ Smith's; reflection has the height-correlated G₂, as
-//! metals have. A roughness below [`super::MIRROR_ALPHA`] is smooth: both directions are exact.
+//! (Walter, Marschner, Li & Torrance 2007, equations 16, 20, 21; there the second has η_o², here divided through. Factor 1/η²: Veach 1997, section
+//! 5.2.) D is GGX with roughness α, G₁ Smith's; reflection has the height-correlated G₂, as for metals. A roughness below [`super::MIRROR_ALPHA`] is
+//! smooth: both directions are exact.
 //!
-//! Inside, light is absorbed by Beer and Lambert's law: exp(−a·s) over a way of s metres, a(λ) in 1/m
-//! ([`super::MaterialTable::absorption`]; who follows the path applies it).
+//! Inside, light is absorbed by Beer and Lambert's law: exp(−a·s) over s metres, a(λ) in 1/m ([`super::MaterialTable::absorption`]; the path tracer
+//! applies it).
 //!
-//! Left out: dispersion (n is one number at all wavelengths, so that a path keeps all of its own), polarisation, light
-//! scattered among facets more than once (lost: up to some tenths at α near 1), scattering inside.
+//! Left out: dispersion (n is one number at all wavelengths, so that a path keeps all its wavelengths), polarisation, multiple scattering among
+//! facets (lost: up to some tenths at α near 1), scattering inside.
 
 use etendue_core::{Spectral, maths};
 use etendue_spectra::Spectrum;
@@ -27,11 +26,11 @@ use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, Event, Passage, 
 use super::parameter::{Factor, Parameter, ShadingPoint, TextureCheck};
 use super::{error::MaterialError, fresnel, gloss::Gloss};
 
-/// Refractive indices against air that a solid or a pane may have: from that of a substance which nobody sees.
+/// Range of the refractive index against air of a solid or a pane: from that of an invisible substance.
 pub const DIELECTRIC_INDICES: core::ops::RangeInclusive<f64> = 1.0..=4.0;
 
-/// Below this difference of its index from 1 a rough solid is smooth: its facets turn light by less than a thousandth of their
-/// slope, into lobes narrower than single precision resolves.
+/// Minimum difference of the index from 1 of a rough solid. Below, it is smooth: its facets deflect light by less than a thousandth of
+/// their slope, into lobes narrower than single precision resolves.
 const FACETS_FROM: f32 = 1e-3;
 
 /// A transparent solid.
@@ -43,11 +42,11 @@ pub struct Dielectric {
 }
 
 impl Dielectric {
-    /// A solid of index `n`, surface roughness `alpha` (GGX α, 0 to 1) and absorption coefficient `absorption` (1/m, 0 or
-    /// more; `None` where it absorbs nothing).
+    /// A solid of index `n`, surface roughness `alpha` (GGX α, 0 to 1) and absorption coefficient `absorption` (1/m, 0 or more; `None` if
+    /// it absorbs nothing).
     ///
     /// # Errors
-    /// Where a number is out of range.
+    /// If a number is out of range.
     pub fn new(n: f64, alpha: impl Into<Factor>, absorption: Option<Spectrum>) -> Result<Self, MaterialError> {
         if !DIELECTRIC_INDICES.contains(&n) {
             return Err(MaterialError::GlassIndex { n });
@@ -87,14 +86,14 @@ impl SurfaceModel for Dielectric {
     }
 }
 
-/// Absorption that a transmittance of 0 stands for, 1/m: a micrometre lets nothing through.
+/// Absorption coefficient that represents a transmittance of 0, 1/m: a micrometre passes nothing.
 const OPAQUE_PER_M: f64 = 1e9;
 
-/// The absorption coefficient (1/m) of a substance whose internal transmittance (0 to 1, reflections taken out) over
-/// `thickness_m` is given: −ln τ / d. Where τ is 0 it is 1e9 1/m.
+/// The absorption coefficient (1/m) of a substance of this internal transmittance (0 to 1, without reflections) over `thickness_m`: −ln τ /
+/// d. If τ is 0 it is 1e9 1/m.
 ///
 /// # Errors
-/// Where the transmittance leaves 0–1 or the thickness is not above 0.
+/// If the transmittance is outside 0–1 or the thickness is not above 0.
 pub fn absorption_of(transmittance: &Spectrum, thickness_m: f64) -> Result<Spectrum, MaterialError> {
     let range = [transmittance.min_value(), transmittance.max_value()];
     if let Some(value) = range.into_iter().find(|v| !(0.0..=1.0).contains(v)) {
@@ -134,16 +133,16 @@ impl DielectricBsdf {
         let h = wo + wi * self.eta;
         let m = (h * 1.0_f32.copysign(h.z)).normalize_or(Vec3::Z);
         let (o, i) = (wo.dot(m), wi.dot(m));
-        // Facets must be seen from their front, and from behind by the light.
+        // Both viewer and light must be on the front of the facets.
         if o <= 0.0 || i >= 0.0 {
             return (0.0, 0.0);
         }
-        // dω(m)/dω(wi) is this times η²; the factor of radiance takes it away again.
+        // dω(m)/dω(wi) is this times η²; the factor of radiance cancels it.
         let jacobian = -i / ((self.eta * i + o) * (self.eta * i + o));
         let visible = facets.visible_pdf(wo, m) * (1.0 - fresnel::interface(o, self.eta)) * jacobian;
         let value = visible * facets.shadowing(wi);
         let pdf = visible * self.eta * self.eta;
-        // The surface seen through itself edge-on: a density beyond f32 is none.
+        // The surface seen through itself edge-on: a density beyond f32 counts as none.
         if pdf.is_finite() { (value, pdf) } else { (0.0, 0.0) }
     }
 }
@@ -184,8 +183,8 @@ impl<const N: usize> BsdfModel<N> for DielectricBsdf {
     }
 }
 
-/// `wo` refracted at the facet `m` (wo·m > 0) into a medium of relative index `eta`: the direction that points away from
-/// the surface on the far side. `None` where all is reflected.
+/// `wo` refracted at the facet `m` (wo·m > 0) into a medium of relative index `eta`: the direction that points away from the surface on the
+/// far side. `None` at total reflection.
 pub(super) fn refracted(wo: Vec3, m: Vec3, eta: f32) -> Option<Vec3> {
     if eta == 1.0 {
         return Some(-wo);
@@ -234,11 +233,11 @@ mod tests {
                         "{cos}"
                     );
                 }
-                // Radiance that passes thins out by η², which is undone here.
+                // Transmitted radiance has a factor 1/η², which is undone here.
                 let power =
                     |s: &BsdfSample<1>| if s.wi.z > 0.0 { s.weight[0] } else { s.weight[0] * bsdf.eta * bsdf.eta };
                 let sum = samples.iter().map(power).sum::<f32>() / 1024.0;
-                // A smooth surface loses nothing; facets lose among themselves what those of any index do.
+                // A smooth surface loses nothing; facets lose by multiple scattering as much as at any index.
                 let least = match (bsdf.facets.is_none(), cos > 0.99) {
                     (true, _) => 1.0 - 2e-3,
                     (false, true) => 0.94,

@@ -1,4 +1,4 @@
-//! Matt surfaces: Lambert's law.
+//! Diffuse surfaces: Lambert's law.
 //!
 //! f = ρ/π, 1/sr, at every pair of directions; ρ is the reflectance in [0, 1]. Sampled by the cosine.
 
@@ -55,7 +55,7 @@ impl<const N: usize> DiffuseBsdf<N> {
         BsdfValue { value_cos: self.reflectance * (wi.z * FRAC_1_PI), pdf: cosine_hemisphere_pdf(wi.z) }
     }
 
-    /// A direction for light to come from; `None` where rounding leaves it in the surface.
+    /// Samples a direction for light to come from; `None` if rounding leaves it in the surface.
     #[inline(always)]
     pub(crate) fn sample_above(&self, u: Vec2) -> Option<BsdfSample<N>> {
         let wi = cosine_hemisphere(u);

@@ -1,10 +1,9 @@
-//! Emission of surfaces, and how it goes up and down over time.
+//! Emission of surfaces, and its change over time.
 //!
-//! Radiance is the same in every direction of a glowing side (Lambert): a surface of radiance L sends π L per area.
+//! Radiance is the same in every direction of an emitting side (Lambert): a surface of radiance L emits π L per area.
 //!
-//! A texture multiplies it colour by colour, and may be above 1: a picture in real units (HDR) is its colours times a
-//! radiance. With D65 of 1 cd/m² as the radiance, colours in cd/m² come out as
-//! [`etendue_spectra::upsample::emission`] has them.
+//! A texture multiplies it colour by colour, and may be above 1: an image in real units (HDR) is its colours times a radiance. With D65 of 1 cd/m² as
+//! the radiance, colours in cd/m² give the same spectra as [`etendue_spectra::upsample::emission`].
 
 use core::num::NonZeroU32;
 use std::sync::Arc;
@@ -16,7 +15,7 @@ use glam::{Vec2, Vec3};
 use crate::ALL_EFFECTS;
 use crate::textures::{ImageTexture, Lookup, TextureId};
 
-/// Which sides of a surface glow.
+/// Emitting sides of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EmissionSides {
     /// The side that the geometric normal points to: by the winding of a triangle, outwards for a sphere.
@@ -25,17 +24,17 @@ pub enum EmissionSides {
     Both,
 }
 
-/// What a surface emits.
+/// Emission of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Emission {
     /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹.
     pub radiance: Spectrum,
-    /// A factor on the radiance over the surface: linear sRGB colours of a texture, made spectra as reflectances are
-    /// (white is 1 at every wavelength).
+    /// A factor on the radiance over the surface: linear sRGB colours of a texture, converted to spectra like reflectances (white is 1 at
+    /// every wavelength).
     pub factor: Option<TextureId>,
-    /// Which sides glow.
+    /// Emitting sides.
     pub sides: EmissionSides,
-    /// How its strength changes over time; `None` where it does not.
+    /// Change of its strength over time; `None` if it is constant.
     pub modulation: Option<Modulation>,
 }
 
@@ -49,7 +48,7 @@ pub struct EmissionQuery<'a, const N: usize> {
 }
 
 impl Emission {
-    /// Whether light leaves along `direction` from a surface of this geometric normal.
+    /// True if light leaves along `direction` from a surface of this geometric normal.
     #[must_use]
     pub fn leaves(&self, geometric_normal: Vec3, direction: Vec3) -> bool {
         self.sides == EmissionSides::Both || geometric_normal.dot(direction) > 0.0
@@ -75,41 +74,41 @@ impl Emission {
         }
     }
 
-    /// Mean radiance over a range of wavelengths and over the texture: how much this glow matters beside others, at the level 1.
+    /// Mean radiance over a range of wavelengths and over the texture, for light selection, at the level 1.
     pub(crate) fn mean_radiance(&self, textures: &[ImageTexture], low_nm: f64, high_nm: f64) -> f64 {
         let texture = self.factor.map_or(1.0, |id| f64::from(textures[id.0 as usize].mean().element_sum()) / 3.0);
         self.radiance.band_mean(low_nm, high_nm) * texture
     }
 }
 
-/// What a light counts at least in the choice among lights, over its greatest level in the view's interval: no row of the picture that
-/// it lights at its strongest draws it less than a sixteenth as often as it should.
+/// Minimum weight of a light in light selection, over its maximum level in the view's interval. In rows of the image that the light
+/// illuminates at its strongest, it is sampled at least a sixteenth as often as it should be.
 const LEAST_OF_GREATEST: f64 = 1.0 / 16.0;
 
-/// What a light's strength counts in the choice among lights that is made for a whole `interval`: its mean, but not less than a
-/// sixteenth of its greatest level; 0 only where it is dark throughout.
+/// Strength of a light in light selection for a whole `interval`: its mean, but not less than a sixteenth of its maximum level; 0 only if
+/// it is dark throughout.
 #[must_use]
 pub fn choice_level(waveform: &Waveform, interval: TimeInterval) -> f64 {
     waveform.mean(interval).max(LEAST_OF_GREATEST * waveform.greatest(interval))
 }
 
-/// How the strength of a surface's light changes over time: all of it together, or row by row as a panel's driver goes through its rows.
+/// Change of the strength of a surface's light over time: uniformly, or row by row like the multiplexed rows of a panel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modulation {
     waveform: Arc<Waveform>,
-    /// Rows that take turns, from the top (v = 1) of the texture coordinates down, and the time from one to the next, s.
+    /// Number of rows that take turns, from the top (v = 1) of the texture coordinates down, and the delay from one to the next, s.
     rows: Option<(NonZeroU32, f64)>,
 }
 
 impl Modulation {
-    /// The whole surface by one waveform.
+    /// One waveform for the whole surface.
     #[must_use]
     pub fn of(waveform: impl Into<Arc<Waveform>>) -> Self {
         Self { waveform: waveform.into(), rows: None }
     }
 
-    /// A panel of so many rows, even bands of the texture coordinate v from 1 down to 0 (and again beyond), each later than the one
-    /// above by an even part of the period; `None` where the waveform does not recur.
+    /// A panel of this number of rows, equal bands of the texture coordinate v from 1 down to 0 (repeated beyond). Each is delayed against
+    /// the one above by an equal part of the period. `None` if the waveform does not recur.
     #[must_use]
     pub fn in_rows(waveform: impl Into<Arc<Waveform>>, rows: NonZeroU32) -> Option<Self> {
         let waveform = waveform.into();
@@ -117,7 +116,7 @@ impl Modulation {
         Some(Self { waveform, rows: Some((rows, step_s)) })
     }
 
-    /// The same later by `delay_s`, which is finite.
+    /// The same delayed by `delay_s`, which is finite.
     #[must_use]
     pub fn later(self, delay_s: f64) -> Self {
         Self { waveform: Arc::new(self.waveform.as_ref().clone().later(delay_s)), ..self }
@@ -132,26 +131,26 @@ impl Modulation {
         self.waveform.mean(over) as f32
     }
 
-    /// What it counts in the choice among lights, a panel in the mean over its rows.
+    /// Its weight in light selection; for a panel the mean over its rows.
     pub(crate) fn choice_level(&self, interval: TimeInterval) -> f64 {
         let Some((rows, step_s)) = self.rows else { return choice_level(&self.waveform, interval) };
         let of = |row: u32| choice_level(&self.waveform, interval.later(-step_s * f64::from(row)));
         (0..rows.get()).map(of).sum::<f64>() / f64::from(rows.get())
     }
 
-    /// The greatest level at any time.
+    /// Maximum level at any time.
     #[must_use]
     pub fn greatest_level(&self) -> f64 {
         self.waveform.greatest_level()
     }
 
-    /// The waveform, of a panel that of its topmost row.
+    /// The waveform; for a panel that of its topmost row.
     #[must_use]
     pub fn waveform(&self) -> &Waveform {
         &self.waveform
     }
 
-    /// Rows that take turns; `None` where the whole surface has one waveform.
+    /// Rows that take turns; `None` if the whole surface has one waveform.
     #[must_use]
     pub fn rows(&self) -> Option<NonZeroU32> {
         self.rows.map(|(rows, _)| rows)
@@ -185,7 +184,7 @@ mod tests {
         let radiance = emission.at(&[picture], &Lookup::point(Vec2::ZERO), query);
         let expected = upsample::emission(colour, &wavelengths);
         for i in 0..8 {
-            // Products of interpolated spectra, and the product interpolated: tables of D65 bend by 1e-3 over a nanometre.
+            // Products of interpolated spectra, and the product interpolated: tables of D65 curve by 1e-3 over a nanometre.
             assert!((radiance[i] / expected[i] - 1.0).abs() < 2e-3, "{} {}", radiance[i], expected[i]);
         }
     }

@@ -1,8 +1,8 @@
-//! Energy: how much of the light a surface sends back, and the refusal of surfaces that send back more than arrives.
+//! Energy: albedos of surfaces, and the refusal of surfaces that reflect more than arrives.
 //!
-//! The albedo (directional-hemispherical reflectance) of a lobe is tabulated over the incidence when a material is made:
-//! E(θ) = ∫ f(θ, ωᵢ) cos θᵢ dωᵢ. A material's albedo at a wavelength is the sum of its lobes' tables, each times its
-//! spectrum; it is checked at every node of the tables and at every nanometre.
+//! The albedo (directional-hemispherical reflectance) of a lobe is tabulated over the incidence when a material is built: E(θ) = ∫ f(θ, ωᵢ) cos θᵢ
+//! dωᵢ. A material's albedo at a wavelength is the sum of its lobes' tables, each times its spectrum; it is checked at every node of the tables and
+//! at every nanometre.
 
 use etendue_spectra::Spectrum;
 
@@ -11,11 +11,11 @@ use super::{error::EnergyGain, parameter::Reflectance, slopes::GAUSS};
 /// Segments of the tables of albedos.
 const SEGMENTS: usize = 128;
 
-/// Rounding, and the error of the quadratures behind the tables.
+/// Maximum albedo: a margin for rounding, and for the error of the quadratures behind the tables.
 const LIMIT: f64 = 1.0 + 5e-4;
 
-/// A function of the cosine of incidence, at cosines (i/N)⁴, i = 0 ..= N: dense towards grazing, where what is rough by α
-/// bends at cosines of α.
+/// A function of the cosine of incidence, at cosines (i/N)⁴, i = 0 ..= N: dense towards grazing, where surfaces of roughness α curve at
+/// cosines of α.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CosineTable<const N: usize>(Box<[f32]>);
 
@@ -38,7 +38,7 @@ impl<const N: usize> CosineTable<N> {
         self.0.iter().copied().fold(0.0, f32::max)
     }
 
-    /// 2 ∫ E μ dμ = 8 ∫ E t⁷ dt with μ = t⁴: the mean under uniform light. Exact for the broken line over t.
+    /// 2 ∫ E μ dμ = 8 ∫ E t⁷ dt with μ = t⁴: the mean under uniform light. Exact for the piecewise linear function of t.
     pub(super) fn mean(&self) -> f32 {
         let segment = |i: usize| -> f64 {
             let (low, high) = (f64::from(self.0[i]), f64::from(self.0[i + 1]));
@@ -62,11 +62,11 @@ fn node_cos(i: usize, segments: usize) -> f32 {
 #[derive(Clone, Copy)]
 pub(super) struct WeightedLobe<'a> {
     pub(super) weight: &'a Spectrum,
-    /// At the weight 1.
+    /// Albedo at the weight 1.
     pub(super) albedo: &'a AlbedoTable,
 }
 
-/// Refuses a surface of matt reflectance `base` and lobes (spectrum, albedo at spectrum 1) that gains energy anywhere.
+/// Refuses a surface of diffuse reflectance `base` and lobes (spectrum, albedo at spectrum 1) that gains energy anywhere.
 pub(super) fn check(base: &Spectrum, lobes: &[WeightedLobe<'_>]) -> Result<(), EnergyGain> {
     let greatest =
         (0..=SEGMENTS).map(|i| greatest(base, lobes, i)).reduce(|a, b| if b.albedo > a.albedo { b } else { a });
@@ -88,7 +88,7 @@ fn greatest(base: &Spectrum, lobes: &[WeightedLobe<'_>], node: usize) -> EnergyG
     EnergyGain { albedo, incidence_deg, wavelength_nm: 300 + k as u16 }
 }
 
-/// A reflectance's spectrum; black for a texture, whose range the material_table checks once it has its pictures.
+/// A reflectance's spectrum; black for a texture, whose range the material_table checks when it has the images.
 pub(super) fn known(reflectance: &Reflectance) -> Spectrum {
     match reflectance {
         Reflectance::Spectrum(spectrum) => spectrum.clone(),
@@ -96,7 +96,7 @@ pub(super) fn known(reflectance: &Reflectance) -> Spectrum {
     }
 }
 
-/// Whether every value of a spectrum is a number of 0 or more.
+/// True if every value of a spectrum is a number of 0 or more.
 pub(super) fn is_weight(spectrum: &Spectrum) -> bool {
     spectrum.nodes().iter().all(|v| v.is_finite() && *v >= 0.0)
 }
@@ -111,7 +111,7 @@ mod tests {
         assert_eq!((table.at(0.0), table.at(1.0), table.max_value()), (1.0, 0.0, 1.0));
         // 2 ∫ (1 − μ²) μ dμ = 1/2.
         assert!((table.mean() - 0.5).abs() < 4e-4, "{}", table.mean());
-        // The broken line errs by h²/8 · f'' (t⁸ has 56) at h = 1/128: 4.3e-4 at most.
+        // The piecewise linear function errs by h²/8 · f'' (t⁸ has 56) at h = 1/128: 4.3e-4 at most.
         assert!((table.at(0.3) - 0.91).abs() < 4.3e-4);
     }
 

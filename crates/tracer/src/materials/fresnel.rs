@@ -1,10 +1,10 @@
 //! Reflectance of smooth interfaces for unpolarised light.
 //!
-//! Exact Fresnel equations (Born & Wolf, *Principles of Optics*, ch. 1.5 and 14.2), light arriving from air or vacuum
-//! (index 1) but where stated. `cos_i` is the cosine of the angle of incidence, in [0, 1]. Polarisation is left out: the mean of both
-//! planes is taken at every interface.
+//! Exact Fresnel equations (Born & Wolf, *Principles of Optics*, ch. 1.5 and 14.2), light arriving from air or vacuum (index 1) unless stated
+//! otherwise. `cos_i` is the cosine of the angle of incidence, in [0, 1]. Polarisation is left out: the mean of both planes is used at every
+//! interface.
 
-/// Reflectance of a dielectric of index `n` ≥ 1 seen from outside; 0 of an index of 1.
+/// Reflectance of a dielectric of index `n` ≥ 1 seen from outside; 0 for an index of 1.
 #[must_use]
 pub fn dielectric(cos_i: f32, n: f32) -> f32 {
     let [s, p] = planes(cos_i, n);
@@ -19,8 +19,8 @@ pub fn planes(cos_i: f32, n: f32) -> [f32; 2] {
     }
     let c = cos_i.clamp(0.0, 1.0);
     let n_cos_t = cos_square(c, n).sqrt();
-    // (c − n cos θₜ)/(c + n cos θₜ) and (n² c − n cos θₜ)/(n² c + n cos θₜ), both with their denominator above and below the line: the
-    // differences, of nearly equal numbers where n is close to 1, become products.
+    // (c − n cos θₜ)/(c + n cos θₜ) and (n² c − n cos θₜ)/(n² c + n cos θₜ), numerator and denominator multiplied by the denominator: the
+    // differences, of nearly equal numbers if n is close to 1, become products.
     let (difference, n2) = ((n - 1.0) * (n + 1.0), n * n);
     let (s_sum, p_sum) = (c + n_cos_t, n2 * c + n_cos_t);
     let s = difference / (s_sum * s_sum);
@@ -28,13 +28,12 @@ pub fn planes(cos_i: f32, n: f32) -> [f32; 2] {
     [s * s, p * p]
 }
 
-/// The square of n cos θₜ, n² − sin² θ, without loss of digits where n is close to 1; negative beyond the critical angle.
+/// The square of n cos θₜ, n² − sin² θ, without loss of digits if n is close to 1; negative beyond the critical angle.
 pub(super) fn cos_square(cos_i: f32, n: f32) -> f32 {
     (n - 1.0) * (n + 1.0) + cos_i * cos_i
 }
 
-/// Reflectance of an interface into a medium of `eta` times the index of the one light comes from; 1 beyond the critical
-/// angle.
+/// Reflectance of an interface into a medium of `eta` times the index of the medium that light comes from; 1 beyond the critical angle.
 #[must_use]
 pub fn interface(cos_i: f32, eta: f32) -> f32 {
     if eta != 1.0 && cos_square(cos_i, eta) <= 0.0 { 1.0 } else { dielectric(cos_i, eta) }
@@ -43,7 +42,7 @@ pub fn interface(cos_i: f32, eta: f32) -> f32 {
 /// Reflectance of a conductor of complex index n + i·k (n² + k² > 0) seen from outside.
 #[must_use]
 pub fn conductor(cos_i: f32, n: f32, k: f32) -> f32 {
-    // At exactly grazing incidence a substance like air would give 0/0: stay a hair above.
+    // At exactly grazing incidence a substance of the index of air would give 0/0: the cosine is kept above 0.
     let c = cos_i.clamp(1e-6, 1.0);
     let (c2, s2) = (c * c, 1.0 - c * c);
     let t = n * n - k * k - s2;

@@ -1,34 +1,34 @@
-//! What the choice among lights is told of a surface: how matt it is, and where its narrow lobes lie.
+//! Data of a surface for light selection: its diffuse part, and its narrow lobes.
 //!
-//! A lobe is told by a kernel of one shape (that of GGX, Walter et al. 2007),
+//! A lobe is described by a kernel of one shape (that of GGX, Walter et al. 2007),
 //!
 //! f cos θᵢ ≈ peak · F · [w²/(w² + t²)]²,
 //!
-//! t the distance from the lobe's axis. Values are those of the model at the axis, so that both agree where a lobe is brightest;
-//! elsewhere they need not, as a choice may be by any probabilities.
+//! t the distance from the lobe's axis. The kernel equals the model at the axis, where a lobe is brightest. Elsewhere they may differ, as a choice
+//! may use any probabilities.
 
 use glam::Vec3;
 
-/// How many lobes are told at most: the brightest.
+/// Maximum number of described lobes: the brightest.
 pub(crate) const TOLD: usize = 2;
 
 /// A surface's gloss at one point for one viewer, in the shading frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gloss {
-    /// Mean bsdf of what is scattered to all sides, 1/sr.
+    /// Mean BSDF of the diffuse part, 1/sr.
     pub(crate) matt: f32,
-    /// Those without a peak are none.
+    /// Lobes; those without a peak do not exist.
     pub(crate) lobes: [GlossLobe; TOLD],
 }
 
 /// A narrow lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct GlossLobe {
-    /// What t is measured from.
+    /// Origin of t.
     pub(crate) about: LobeCentre,
     /// w, in units of t.
     pub(crate) width: f32,
-    /// f cos θᵢ at the axis but for the Fresnel factor, 1/sr.
+    /// f cos θᵢ at the axis without the Fresnel factor, 1/sr.
     pub(crate) peak: f32,
     /// F at normal incidence; elsewhere it is Schlick's (1994).
     pub(crate) f0: f32,
@@ -37,26 +37,26 @@ pub(crate) struct GlossLobe {
 /// The axis of a lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum LobeCentre {
-    /// The normal, as which the half vector of viewer and light should lie: t is the tangent of their angle.
+    /// The normal, to be compared with the half vector of viewer and light: t is the tangent of the angle between them.
     HalfVector,
-    /// A unit direction that light should come from: t is its distance on the unit sphere.
+    /// A unit direction of incoming light: t is the distance from it on the unit sphere.
     Direction(Vec3),
 }
 
 impl GlossLobe {
     const NONE: Self = Self { about: LobeCentre::HalfVector, width: 1.0, peak: 0.0, f0: 0.0 };
 
-    /// A lobe about a unit direction whose whole share of light sent back is `albedo`: ∫ [w²/(w² + t²)]² 2π t dt = π w².
+    /// A lobe about a unit direction with the total albedo `albedo`: ∫ [w²/(w² + t²)]² 2π t dt = π w².
     pub(super) fn of_albedo(direction: Vec3, peak: f32, albedo: f32) -> Self {
         let width2 = core::f32::consts::FRAC_1_PI * albedo / peak.max(f32::MIN_POSITIVE);
         Self { about: LobeCentre::Direction(direction), width: width2.sqrt(), peak, f0: 1.0 }
     }
 
-    /// About the density by which the lobe alone is sampled at its axis, 1/sr: that of a kernel whose integral is 1.
+    /// Approximate density with which the lobe alone is sampled at its axis, 1/sr: that of a kernel whose integral is 1.
     pub(crate) fn density_at_axis(&self) -> f32 {
         let kernel = core::f32::consts::FRAC_1_PI / (self.width * self.width).max(f32::MIN_POSITIVE);
         match self.about {
-            // Half vectors turn by half of what directions do.
+            // Half vectors turn by half the angle of directions.
             LobeCentre::HalfVector => 0.25 * kernel,
             LobeCentre::Direction(_) => kernel,
         }
@@ -72,12 +72,12 @@ impl Gloss {
     /// A surface without narrow lobes.
     pub(super) const MATT: Self = Self { matt: 1.0, lobes: [GlossLobe::NONE; TOLD] };
 
-    /// A matt part alone, of mean bsdf `matt`, 1/sr.
+    /// A diffuse part alone, of mean BSDF `matt`, 1/sr.
     pub(super) fn over(matt: f32) -> Self {
         Self { matt, ..Self::MATT }
     }
 
-    /// With those lobes alone that `keep` says.
+    /// Keeps only the lobes that `keep` selects.
     pub(crate) fn keeping(mut self, keep: impl Fn(&GlossLobe) -> bool) -> Self {
         for lobe in &mut self.lobes {
             if lobe.peak > 0.0 && !keep(lobe) {
@@ -87,7 +87,7 @@ impl Gloss {
         self
     }
 
-    /// With another lobe; of too many the weakest is left out.
+    /// Adds a lobe; of too many the weakest is left out.
     pub(super) fn with(mut self, lobe: GlossLobe) -> Self {
         let weakest =
             (0..TOLD).fold(0, |weakest, i| if self.lobes[i].peak < self.lobes[weakest].peak { i } else { weakest });
@@ -111,7 +111,7 @@ mod tests {
     use crate::materials::microfacet::Ggx;
     use core::f32::consts::PI;
 
-    /// GGX has D = 1/(πα²) at the normal (Walter et al. 2007), and half vectors along it are drawn with the density D/4 by direction.
+    /// GGX has D = 1/(πα²) at the normal (Walter et al. 2007), and half vectors along it are sampled with the density D/4 by direction.
     #[test]
     fn a_lobe_is_as_dense_at_its_axis_as_what_it_tells_of() {
         for alpha in [0.005, 0.06, 0.2] {
@@ -119,7 +119,7 @@ mod tests {
             assert!((lobe.density_at_axis() * 4.0 * PI * alpha * alpha - 1.0).abs() < 1e-4, "{lobe:?}");
         }
         let wide = GlossLobe::of_albedo(Vec3::Z, 3.0, 0.5);
-        // As much light as it sends back, all of it within the lobe: peak over albedo.
+        // All reflected light lies within the lobe: peak over albedo.
         assert!((wide.density_at_axis() - 6.0).abs() < 1e-4, "{wide:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! One surface of each model that states lobes, for tests of what is done with them.
+//! One surface of each model with lobes, for tests of the use of these lobes.
 
 use etendue_spectra::{Spectrum, metal};
 
@@ -63,7 +63,7 @@ fn sheeting() -> Surface {
     Surface::Sheeting(Box::new(preset.sheeting().expect("a sheeting")))
 }
 
-/// With beads whose lobe is narrow: that of usual ones is hardly brighter than the paint.
+/// With beads of a narrow lobe: that of usual ones is hardly brighter than the paint.
 fn marking() -> Surface {
     let white = Spectrum::constant(1.0);
     let marking = RoadMarking::with_spread(300.0, DayTime::Qd(130.0), &white, 0.5).expect("a marking");

@@ -1,16 +1,14 @@
-//! Light scattered among facets more than once: what single scattering loses, given back.
+//! Multiple scattering among facets: adds the energy lost by single scattering.
 //!
-//! f_ms = F_ms · (1 − E(θₒ))(1 − E(θᵢ)) / (π (1 − Ē)), E = the albedo of facets that reflect everything, Ē = 2 ∫ E μ dμ
-//! (Kulla and Conty 2017, after Kelemen and Szirmay-Kalos 2001); F_ms = F̄² Ē/(1 − F̄ (1 − Ē)), F̄ = 2 ∫ F μ dμ, counts
-//! light that met two facets or more (Hill 2018). Reciprocal; with F = 1 the whole sends back all light, with less it
-//! sends back at most E + (1 − E) F_ms ≤ 1 at every wavelength.
+//! f_ms = F_ms · (1 − E(θₒ))(1 − E(θᵢ)) / (π (1 − Ē)), E = the albedo of facets that reflect everything, Ē = 2 ∫ E μ dμ (Kulla and Conty 2017, after
+//! Kelemen and Szirmay-Kalos 2001); F_ms = F̄² Ē/(1 − F̄ (1 − Ē)), F̄ = 2 ∫ F μ dμ, includes light reflected by two facets or more (Hill 2018).
+//! Reciprocal. With F = 1 all light is reflected, with less at most E + (1 − E) F_ms ≤ 1 at every wavelength.
 //!
-//! 1 − E is tabulated by quadrature over slopes, on the root of the roughness and the slant μ/(μ + α), the cosine measured
-//! against the roughness: for small α the loss depends on their ratio alone. 1 − Ē is the integral of the interpolated table
-//! itself, tabulated finely over α, so that the furnace's error is the table's own: 3e-4 at most. Directions are drawn from
-//! the loss by the table's cells.
+//! 1 − E is tabulated by quadrature over slopes, on the root of the roughness and the slant μ/(μ + α), the cosine relative to the roughness: for
+//! small α the loss depends on their ratio alone. 1 − Ē is the integral of the interpolated table itself, tabulated finely over α, so that the
+//! furnace test's error is the table's own: 3e-4 at most. Directions are sampled from the loss by the table's cells.
 //!
-//! Left out: the direction that light keeps after a few bounces; what leaves is taken independent of where it came from.
+//! Left out: the dependence of the direction on that of incidence after a few bounces; the two are treated as independent.
 
 use core::f32::consts::{FRAC_1_PI, TAU};
 use std::sync::LazyLock;
@@ -34,14 +32,14 @@ pub(super) struct Loss {
     loss: Vec<f32>,
     /// (1 − Ē)/α².
     mean: Vec<f32>,
-    /// For each row, how much of ∫ (1 − E) μ dμ lies below each step of the slant; the last is 1.
+    /// For each row, the fraction of ∫ (1 − E) μ dμ below each step of the slant; the last is 1.
     cumulative: Vec<f32>,
 }
 
 static GGX: LazyLock<Loss> = LazyLock::new(|| Loss::new(Distribution::Ggx));
 static BECKMANN: LazyLock<Loss> = LazyLock::new(|| Loss::new(Distribution::Beckmann));
 
-/// The table of a distribution, made when first asked for.
+/// The table of a distribution, computed at first use.
 pub(super) fn table(distribution: Distribution) -> &'static Loss {
     match distribution {
         Distribution::Ggx => &GGX,
@@ -49,14 +47,13 @@ pub(super) fn table(distribution: Distribution) -> &'static Loss {
     }
 }
 
-/// Roughness of a row; the first stands for the limit of small ones.
+/// Roughness of a row; the first represents the limit of small ones.
 fn row_alpha(row: usize) -> f32 {
     let t = row as f32 / ROUGHNESSES as f32;
     (t * t).max(2e-4)
 }
 
-/// How much closer together steps of the slant are at 0, where the loss falls like μ ln μ: the slant is (q² + c q)/(1 + c)
-/// at q = step/[`SLANTS`].
+/// c, for finer steps of the slant towards 0, where the loss falls like μ ln μ: the slant is (q² + c q)/(1 + c) at q = step/[`SLANTS`].
 const GRAZING: f32 = 0.25;
 
 /// The cosine at a step of the slant.
@@ -73,14 +70,14 @@ fn step(cos: f32, alpha: f32) -> f32 {
     (0.5 * (root - GRAZING) * SLANTS as f32).min(SLANTS as f32)
 }
 
-/// Where a roughness lies among the rows.
+/// Position of a roughness among the rows.
 fn row_of(alpha: f32) -> (usize, f32) {
     let x = alpha.clamp(0.0, 1.0).sqrt() * ROUGHNESSES as f32;
     let row = (x as usize).min(ROUGHNESSES - 1);
     (row, x - row as f32)
 }
 
-/// Where a roughness lies among the means.
+/// Position of a roughness among the means.
 fn mean_of(alpha: f32) -> (usize, f32) {
     let x = (1.0 - ln(alpha.max(MIRROR_ALPHA)) / ln(MIRROR_ALPHA)).clamp(0.0, 1.0) * MEANS as f32;
     let node = (x as usize).min(MEANS - 1);
@@ -117,7 +114,7 @@ impl Loss {
         (0..SLANTS).map(|k| loss.cell_flux(k)).collect()
     }
 
-    /// The sums of these up to each step, over all.
+    /// Cumulative sums of the cells up to each step, normalised.
     fn shares(&self, alpha: f32) -> Vec<f32> {
         let cells = self.cells(alpha);
         let total: f64 = cells.iter().sum();
@@ -140,7 +137,7 @@ fn cell_edge(k: usize, alpha: f32) -> f32 {
     if k == SLANTS { 1.0 } else { cosine(k as f32, alpha) }
 }
 
-/// What single scattering loses at one roughness.
+/// Loss by single scattering at one roughness.
 #[derive(Clone, Copy)]
 pub(super) struct LossOfAlpha<'a> {
     table: &'a Loss,
@@ -193,13 +190,13 @@ impl LossOfAlpha<'_> {
         wo_loss * self.at(wi.z) * wi.z * FRAC_1_PI / self.mean
     }
 
-    /// The nearer row of the table: directions are drawn by its cells.
+    /// The nearer row of the table: directions are sampled by its cells.
     fn cells(&self) -> &[f32] {
         let row = self.row + usize::from(self.share >= 0.5);
         &self.table.cumulative[row * (SLANTS + 1)..(row + 1) * (SLANTS + 1)]
     }
 
-    /// A direction drawn by the loss.
+    /// Samples a direction by the loss.
     pub(super) fn sample(&self, u: Vec2) -> Vec3 {
         let cells = self.cells();
         let k = cells.partition_point(|c| *c <= u.x).clamp(1, SLANTS) - 1;
@@ -210,7 +207,7 @@ impl LossOfAlpha<'_> {
         Vec3::new(sin * c, sin * s, cos)
     }
 
-    /// The cosine at a share of cell `k`: uniform by its square in the first, by its logarithm in the others.
+    /// The cosine at a fraction of cell `k`: uniform by its square in the first, by its logarithm in the others.
     fn within(&self, k: usize, share: f32) -> f32 {
         let (low, high) = (cell_edge(k, self.alpha), cell_edge(k + 1, self.alpha));
         if k == 0 { high * share.sqrt() } else { low * exp(share * ln(high / low)) }

@@ -1,17 +1,14 @@
-//! Lafortune's model: a matt base and a few generalised cosine lobes.
+//! Lafortune's model: a diffuse base and a few generalised cosine lobes.
 //!
-//! f = k_d/π + Σ w [ C_t (wᵢₓ wₒₓ + wᵢ_y wₒ_y) + C_n wᵢ_z wₒ_z ]₊ⁿ (Lafortune, Foo, Torrance and Greenberg 1997, eq. 5,
-//! isotropic), 1/sr. C_t = −C, C_n = C: a mirror lobe; C_t = C_n = C: a retro lobe; C_t < 0, C_n < |C_t|: off-specular,
-//! its peak nearer to the horizon than the mirror direction. w is a spectrum, 1/sr; with C = 1 a lobe's albedo at normal
-//! incidence is 2π w/(n + 2).
+//! f = k_d/π + Σ w [ C_t (wᵢₓ wₒₓ + wᵢ_y wₒ_y) + C_n wᵢ_z wₒ_z ]₊ⁿ (Lafortune, Foo, Torrance and Greenberg 1997, eq. 5, isotropic), 1/sr. C_t = −C,
+//! C_n = C: a mirror lobe; C_t = C_n = C: a retro lobe; C_t < 0, C_n < |C_t|: off-specular, its peak nearer to the horizon than the mirror direction.
+//! w is a spectrum, 1/sr; with C = 1 a lobe's albedo at normal incidence is 2π w/(n + 2).
 //!
-//! A lobe is a power of the cosine about the axis C·wₒ, n of 0 to 10 000, and is drawn so; lobes are chosen by their
-//! albedo at the incidence. The albedo over all incidences is tabulated when the model is made: for a lobe of axis d (not
-//! of unit length) it is |d|ⁿ ∫ cosⁿγ [cos γ d̂_z + sin γ d̂ₛ cos φ]₊ dω, whose integral over φ is closed. Models that send
-//! back more than arrives, at any incidence and wavelength, are refused.
+//! A lobe is a power of the cosine about the axis C·wₒ, n of 0 to 10 000, and is sampled as such; lobes are chosen by their albedo at the incidence.
+//! The albedo over all incidences is tabulated when the model is built: for a lobe of axis d (not of unit length) it is |d|ⁿ ∫ cosⁿγ [cos γ d̂_z +
+//! sin γ d̂ₛ cos φ]₊ dω, whose integral over φ is closed. Models that reflect more than arrives, at any incidence and wavelength, are refused.
 //!
-//! Left out: anisotropic lobes (Cₓ ≠ C_y), which would need a direction along the surface; shadowing, beyond what the
-//! lobes were fitted to.
+//! Left out: anisotropic lobes (Cₓ ≠ C_y), which would need a direction along the surface; shadowing, beyond that included in the fitted lobes.
 
 use core::f32::consts::{FRAC_1_PI, TAU};
 
@@ -26,10 +23,10 @@ use super::gloss::{Gloss, GlossLobe, LobeCentre};
 use super::model::{BsdfFlags, BsdfModel, BsdfSample, BsdfValue, DiscreteSampler, Event, Passage, SurfaceModel};
 use super::parameter::{Parameter, Reflectance, ShadingPoint, TextureCheck};
 
-/// The most lobes that a model may have.
+/// Maximum number of lobes of a model.
 pub const MAX_LOBES: usize = 4;
 
-/// The sharpest lobe: about 0.7° wide, what f32 resolves with ease.
+/// The sharpest lobe: about 0.7° wide, well resolved in f32.
 const MAX_EXPONENT: f64 = 1e4;
 
 /// One generalised cosine lobe.
@@ -46,13 +43,13 @@ pub struct Lobe {
 }
 
 impl Lobe {
-    /// A lobe about the mirror direction that sends back `albedo` at normal incidence.
+    /// A lobe about the mirror direction with `albedo` at normal incidence.
     #[must_use]
     pub fn mirror(exponent: f64, albedo: &Spectrum) -> Self {
         Self::of_albedo(-1.0, 1.0, exponent, albedo)
     }
 
-    /// A lobe back towards where light comes from, with `albedo` at normal incidence.
+    /// A lobe back towards the incoming light, with `albedo` at normal incidence.
     #[must_use]
     pub fn retro(exponent: f64, albedo: &Spectrum) -> Self {
         Self::of_albedo(1.0, 1.0, exponent, albedo)
@@ -120,7 +117,7 @@ fn positive_part(a: f64, b: f64) -> f64 {
     2.0 * (a * end + b * maths::f64::sin(end))
 }
 
-/// A model: a matt base and lobes.
+/// A model: a diffuse base and lobes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lafortune {
     base: Reflectance,
@@ -133,14 +130,13 @@ impl Lafortune {
     /// A base of reflectance k_d under up to [`MAX_LOBES`] lobes.
     ///
     /// # Errors
-    /// Where there are too many lobes, one has no direction, an exponent or weight out of range, or the whole sends back
-    /// more than arrives.
+    /// If there are too many lobes, one has no direction, an exponent or weight is out of range, or the model reflects more than arrives.
     pub fn new(base: Reflectance, mut lobes: Vec<Lobe>) -> Result<Self, LafortuneError> {
         if lobes.len() > MAX_LOBES {
             return Err(LafortuneError::TooMany { lobes: lobes.len() });
         }
         lobes.iter().enumerate().try_for_each(|(i, lobe)| lobe.check(i))?;
-        // Nothing times a power beyond every number would be no number.
+        // Zero times an infinite power would be NaN.
         lobes.retain(|lobe| lobe.weight.max_value() > 0.0);
         let albedos = lobes.iter().map(|lobe| AlbedoTable::new(|cos| lobe.albedo(cos))).collect();
         let model = Self { base, lobes, albedos };
@@ -148,7 +144,7 @@ impl Lafortune {
         Ok(model)
     }
 
-    /// Refuses a base under which more is sent back than arrives.
+    /// Refuses a base under which more is reflected than arrives.
     fn refuse_gain(&self, base: &Spectrum) -> Result<(), EnergyGain> {
         let lobes = self.lobes.iter().zip(&self.albedos);
         let lobes: Vec<_> = lobes.map(|(lobe, albedo)| WeightedLobe { weight: &lobe.weight, albedo }).collect();
@@ -182,13 +178,13 @@ impl SurfaceModel for Lafortune {
     }
 }
 
-/// Why a Lafortune model is refused. Lobes are counted from 0.
+/// Error of a Lafortune model. Lobes are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LafortuneError {
     /// More lobes than a model may have.
     #[error("{lobes} lobes were given, but a Lafortune model has at most {MAX_LOBES}; leave out the weakest")]
     TooMany {
-        /// How many were given.
+        /// Number of lobes given.
         lobes: usize,
     },
     /// A lobe's factors give no direction.
@@ -197,7 +193,7 @@ pub enum LafortuneError {
          0 or more; mirror lobes have C_t = −C_n, retro lobes C_t = C_n"
     )]
     Factors {
-        /// The lobe.
+        /// Index of the lobe.
         lobe: usize,
         /// C_t.
         tangential: f64,
@@ -207,18 +203,18 @@ pub enum LafortuneError {
     /// An exponent is out of range.
     #[error("lobe {lobe} has the exponent {exponent}, but it must lie between 0 and {MAX_EXPONENT}; correct it")]
     Exponent {
-        /// The lobe.
+        /// Index of the lobe.
         lobe: usize,
-        /// What was given.
+        /// Value given.
         exponent: f64,
     },
     /// A weight is negative or not a number.
     #[error("lobe {lobe} has a weight that is negative or not finite at some wavelength; weights must be 0 or more")]
     Weight {
-        /// The lobe.
+        /// Index of the lobe.
         lobe: usize,
     },
-    /// More is sent back than arrives.
+    /// The model reflects more than arrives.
     #[error(transparent)]
     Energy(#[from] EnergyGain),
 }
@@ -232,7 +228,7 @@ pub struct LafortuneBsdf<'a, const N: usize> {
 }
 
 impl<const N: usize> LafortuneBsdf<'_, N> {
-    /// Base first, then the lobes, by what each sends back.
+    /// Base first, then the lobes, by the reflected light of each.
     fn discrete_sampler(&self, wo: Vec3) -> Option<DiscreteSampler<{ MAX_LOBES + 1 }>> {
         DiscreteSampler::new(core::array::from_fn(|k| match k.checked_sub(1) {
             None => self.base.mean(),
@@ -347,7 +343,7 @@ mod tests {
 
     #[test]
     fn a_lobe_without_weight_is_none() {
-        // 1.2¹⁰⁰⁰⁰ is beyond every number.
+        // 1.2¹⁰⁰⁰⁰ overflows.
         let lobe = Lobe { tangential: -1.2, normal: 1.0, exponent: 1e4, weight: Spectrum::constant(0.0) };
         let base = Reflectance::Spectrum(Spectrum::constant(0.5));
         let model = Lafortune::new(base, vec![lobe]).expect("a matt surface");

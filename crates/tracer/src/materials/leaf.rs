@@ -1,9 +1,9 @@
 //! Leaves, paper, lampshades: thin sheets that scatter light to both sides.
 //!
-//! f = ρ/π on the viewer's side, τ/π behind it (1/sr), at every pair of directions: Lambert's law twice. ρ is the
-//! reflectance, τ the transmittance, ρ + τ ≤ 1 at every wavelength. Both sides are alike. Sampled by the cosine, the side
-//! by its share of ρ + τ. (The bi-Lambertian leaf of canopy models: Ross 1981, *The Radiation Regime and Architecture of
-//! Plant Stands*, ch. II.) Left out: the waxy shine of leaves, and that their two sides differ.
+//! f = ρ/π on the viewer's side, τ/π behind it (1/sr), at every pair of directions: Lambert's law twice. ρ is the reflectance, τ the transmittance, ρ
+//! + τ ≤ 1 at every wavelength. Both sides are equal. Sampled by the cosine, the side by its fraction of ρ + τ. (The bi-Lambertian leaf of canopy
+//! models: Ross 1981, *The Radiation Regime and Architecture of Plant Stands*, ch. II.) Left out: the waxy shine of leaves, and differences between
+//! their two sides.
 
 use core::f32::consts::FRAC_1_PI;
 
@@ -39,7 +39,7 @@ impl SurfaceModel for Leaf {
         LeafBsdf::new(point.reflectance(&self.reflectance), point.reflectance(&self.transmittance))
     }
 
-    /// No wavelength sends on more than arrives: node by node for spectra, by its greatest value for a texture.
+    /// Checks that no wavelength gains energy: node by node for spectra, by its maximum value for a texture.
     fn check_energy(&self, check: &TextureCheck<'_>) -> Result<(), MaterialError> {
         let [r, t] = [&self.reflectance, &self.transmittance].map(|part| check.brightest(part));
         let greatest = r.nodes().iter().zip(t.nodes()).map(|(r, t)| r + t).fold(0.0, f32::max);

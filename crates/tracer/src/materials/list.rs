@@ -1,11 +1,11 @@
-//! The macro that makes one list of models the types [`super::Surface`] and [`super::Bsdf`].
+//! The macro that generates the types [`super::Surface`] and [`super::Bsdf`] from one list of models.
 
 /// Each row is `Variant(what the surface holds) from Model => what it is at a point,` under a line of documentation. The model is a
-/// [`super::model::SurfaceModel`]; what it is at a point a [`super::model::BsdfModel`]. Two members are no models and stand here: a surface that
-/// scatters nothing, and a mix, which scatters by its parts alone.
+/// [`super::model::SurfaceModel`]; at a point it becomes a [`super::model::BsdfModel`]. Two members are no models and stand here: a surface
+/// that scatters nothing, and a mix, which scatters by its parts alone.
 macro_rules! surfaces {
     ($( $(#[doc = $doc:literal])* $variant:ident($held:ty) from $model:ty => $bsdf:ty, )*) => {
-        /// How a surface scatters light.
+        /// Scattering model of a surface.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Surface {
             /// All light that arrives is absorbed: a pure emitter, or black.
@@ -82,29 +82,28 @@ macro_rules! surfaces {
                 }
             }
 
-            /// Whether light goes on in exact directions only, so that asking for a light drawn elsewhere is in vain.
+            /// True if light continues in exact directions only, so that light sampling is useless.
             #[must_use]
             #[inline]
             pub fn is_delta(&self) -> bool {
                 self.flags().delta
             }
 
-            /// Whether light may come from behind (wi.z < 0) by a finite density.
+            /// True if light may come from behind (wi.z < 0) by a finite density.
             #[must_use]
             #[inline]
             pub fn transmits(&self) -> bool {
                 self.flags().transmits
             }
 
-            /// Whether [`Bsdf::sample`] looks at the number that picks a lobe.
+            /// True if [`Bsdf::sample`] uses the number that selects a lobe.
             #[must_use]
             #[inline]
             pub fn has_parts(&self) -> bool {
                 self.flags().has_parts
             }
 
-            /// Value and density of a pair of directions; zero where `wo` is behind the surface, or light from there is
-            /// not let through.
+            /// Value and density of a pair of directions; zero if `wo` is behind the surface, or light from `wi` is not transmitted.
             #[must_use]
             pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
                 if wo.z <= 0.0 || wi.z == 0.0 || (wi.z < 0.0 && !self.transmits()) {
@@ -116,7 +115,7 @@ macro_rules! surfaces {
                 }
             }
 
-            /// What the choice among lights is told for the viewer's direction `wo`.
+            /// Data for light selection, for the viewer's direction `wo`.
             #[inline]
             pub(crate) fn gloss(&self, wo: Vec3) -> Gloss {
                 match self {
@@ -125,8 +124,8 @@ macro_rules! surfaces {
                 }
             }
 
-            /// A direction for light to come from; `None` where the light is absorbed. `choice` picks a lobe, `u` a
-            /// direction; both are uniform in [0, 1).
+            /// Samples a direction for light to come from; `None` if the light is absorbed. `choice` selects a lobe, `u` a direction; both
+            /// are uniform in [0, 1).
             #[must_use]
             pub fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
                 if wo.z <= 0.0 {

@@ -1,25 +1,25 @@
-//! A material: a surface with what it emits, and with what lies over it.
+//! A material: a surface with its emission, opacity and normal map.
 //!
-//! Mixes: each light path meets one of two materials, by chance.
+//! Mixes: each light path hits one of two materials, at random.
 //!
-//! f = (1 − w)·f_a + w·f_b: parts `a` and `b` side by side, finer than anything resolved, w the share of b. No density
-//! of the mix is ever needed: a path draws its material at every vertex, and is then a path over that material. The
-//! parts may be mixes themselves, but never, by any way, of themselves.
+//! f = (1 − w)·f_a + w·f_b: parts `a` and `b` side by side, finer than any resolution, w the fraction of b. No density of the mix is ever needed: a
+//! path samples its material at every vertex, and is then a path over that material. The parts may be mixes themselves, but may not contain
+//! themselves.
 
 use super::parameter::{Factor, Parameter};
 use super::{Surface, emission::Emission, model::Passage, shading::NormalMap};
 use crate::{MaterialId, textures::TextureId};
 
-/// A material: what happens to light at a surface, and what light starts there.
+/// A material: scattering and emission of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// How it scatters.
+    /// Scattering of the surface.
     pub surface: Surface,
-    /// What it emits; `None` where it does not glow.
+    /// Emission; `None` if it does not emit.
     pub emission: Option<Emission>,
-    /// Share of the surface that is there, 0 to 1: through the rest light goes straight. `None` where all of it is.
+    /// Opaque fraction of the surface, 0 to 1: through the rest light passes straight. `None` if it is fully opaque.
     pub opacity: Option<Factor>,
-    /// Finer normals than the mesh's.
+    /// Normal map.
     pub normal_map: Option<NormalMap>,
 }
 
@@ -30,7 +30,7 @@ impl Material {
         Self { surface: surface.into(), emission: None, opacity: None, normal_map: None }
     }
 
-    /// The textures that it reads; those of a mix's parts are not among them.
+    /// The textures that it reads, without those of a mix's parts.
     #[must_use]
     pub fn textures(&self) -> Vec<TextureId> {
         let of_surface = self.surface.parameters().into_iter().map(|p: Parameter<'_>| p.texture());
@@ -41,7 +41,7 @@ impl Material {
     }
 }
 
-/// What holds for a material or any of its parts.
+/// Properties of a material or any of its parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct MaterialFlags {
     /// Light may pass straight through.
@@ -65,10 +65,10 @@ impl MaterialFlags {
     }
 }
 
-/// The flags of each material. The mixes among them are free of circles.
+/// The flags of each material. No mix contains itself.
 pub(super) fn flags(materials: &[Material]) -> Vec<MaterialFlags> {
     let mut known: Vec<_> = materials.iter().map(own).collect();
-    // Every round takes the parts' flags one mix higher up: settled after as many as mixes are nested.
+    // Each iteration passes the parts' flags one mix higher up. It converges after as many iterations as mixes are nested.
     loop {
         let next: Vec<_> = materials.iter().zip(&known).map(|(m, own)| own.or(of_parts(m, &known))).collect();
         if next == known {
@@ -116,7 +116,7 @@ impl Mix {
     }
 }
 
-/// The part that `u` in [0, 1) falls on, and where in it, again in [0, 1).
+/// The part selected by `u` in [0, 1), and the place of `u` within it, again in [0, 1).
 pub(super) fn choose(mix: &Mix, weight: f32, u: f32) -> (MaterialId, f32) {
     let (part, u) = if u < weight { (mix.b, u / weight) } else { (mix.a, (u - weight) / (1.0 - weight)) };
     (part, u.clamp(0.0, 1.0_f32.next_down()))

@@ -12,8 +12,8 @@ use super::{
 use crate::textures::{ImageTexture, Lookup};
 use crate::{MaterialId, geometry::SurfacePoint};
 
-/// Materials and textures. Immutable; every texture and part that a material names is here, every reflectance lies in
-/// 0–1. The methods that take a material's id panic on one of another material_table.
+/// Materials and textures. Immutable; every texture and part that a material names is here, every reflectance lies in 0–1. The methods that
+/// take a material's id panic on one of another material_table.
 #[derive(Clone, Debug, Default)]
 pub struct MaterialTable {
     materials: Vec<Material>,
@@ -26,8 +26,7 @@ impl MaterialTable {
     /// Materials, in the order of their ids, and the textures they name.
     ///
     /// # Errors
-    /// Where a material names no texture or part, is mixed of itself, reflects more than arrives, or emits what is not
-    /// light.
+    /// If a material names a missing texture or part, is mixed of itself, reflects more than arrives, or has an invalid emission.
     pub fn new(materials: Vec<Material>, textures: Vec<ImageTexture>) -> Result<Self, MaterialError> {
         (0..materials.len()).try_for_each(|i| check::material(&materials, i, &textures))?;
         let flags = flags(&materials);
@@ -47,38 +46,37 @@ impl MaterialTable {
         &self.textures
     }
 
-    /// Why a tile of a texture could not be read while light was gathered, if one could not: the light is not to be used then.
+    /// Failure to read a tile of a texture during rendering, if there was one: the result must not be used then.
     #[must_use]
     pub fn texture_failure(&self) -> Option<&str> {
         self.textures.iter().find_map(|texture| texture.tiles().and_then(|(_, memory)| memory.failure()))
     }
 
-    /// Whether the strength of any surface's light changes over time.
+    /// True if the strength of any surface's light changes over time.
     #[must_use]
     pub fn is_modulated(&self) -> bool {
         self.materials.iter().any(|m| m.emission.as_ref().is_some_and(|emission| emission.modulation.is_some()))
     }
 
-    /// Whether any material lets light pass straight through.
+    /// True if any material passes light straight through.
     #[must_use]
     pub fn has_passages(&self) -> bool {
         self.has_passages
     }
 
-    /// Whether a material lets light pass straight through, or any of its parts does.
+    /// True if a material, or any of its parts, passes light straight through.
     #[must_use]
     pub fn lets_pass(&self, id: MaterialId) -> bool {
         self.flags[id.0 as usize].passage
     }
 
-    /// Whether a material, or any of its parts, has a normal map: only then does [`MaterialTable::shading_normal`] look at
-    /// tangents.
+    /// True if a material, or any of its parts, has a normal map: only then does [`MaterialTable::shading_normal`] use tangents.
     #[must_use]
     pub fn needs_tangents(&self, id: MaterialId) -> bool {
         self.flags[id.0 as usize].tangents
     }
 
-    /// Whether a material, or any of its parts, has a texture: only then is the width of a [`Lookup`] looked at.
+    /// True if a material, or any of its parts, has a texture: only then is the width of a [`Lookup`] used.
     #[must_use]
     pub fn needs_footprint(&self, id: MaterialId) -> bool {
         self.flags[id.0 as usize].footprint
@@ -90,8 +88,8 @@ impl MaterialTable {
         self.materials[id.0 as usize].emission.as_ref()
     }
 
-    /// Radiance (W·m⁻²·sr⁻¹·nm⁻¹) of a glowing side at a point: as much as the material's opacity leaves of `emission`,
-    /// so that it counts before the path decides whether the surface is there.
+    /// Radiance (W·m⁻²·sr⁻¹·nm⁻¹) of an emitting side at a point: `emission` times the material's opacity, as it counts before the path
+    /// decides whether the surface is hit or passed.
     pub(crate) fn radiance<const N: usize>(
         &self,
         id: MaterialId,
@@ -106,15 +104,15 @@ impl MaterialTable {
         }
     }
 
-    /// Share of a material's surface that is there at a point; 1 without an opacity.
+    /// Opaque fraction of a material's surface at a point; 1 without an opacity.
     #[must_use]
     pub fn opacity(&self, id: MaterialId, lookup: &Lookup) -> f32 {
         self.materials[id.0 as usize].opacity.map_or(1.0, |opacity| opacity.at(&self.textures, lookup))
     }
 
-    /// What share of light comes straight through a surface at a point: 1 − opacity + opacity × what the surface itself lets
-    /// pass. `cos` tells the cosine from the shading normal, in (0, 1], at which the material or a part of it is met.
-    /// `None` where nothing ever passes.
+    /// Fraction of light that comes straight through a surface at a point: 1 − opacity + opacity × the transmittance of the surface itself.
+    /// `cos` returns the cosine from the shading normal, in (0, 1], at which the material or a part of it is hit. `None` if nothing ever
+    /// passes.
     #[must_use]
     pub fn passage<const N: usize>(
         &self,
@@ -129,7 +127,7 @@ impl MaterialTable {
         })
     }
 
-    /// What the surface itself lets pass straight; of a mix the mean of its parts.
+    /// Straight transmittance of the surface itself; for a mix the mean of its parts.
     fn through<const N: usize>(
         &self,
         id: MaterialId,
@@ -150,8 +148,8 @@ impl MaterialTable {
         }
     }
 
-    /// Absorption coefficient inside a solid that this material bounds, 1/m; `None` where nothing is absorbed, or the
-    /// material is no solid's. The id is a resolved one.
+    /// Absorption coefficient inside a solid that this material bounds, 1/m; `None` if nothing is absorbed, or the material bounds no
+    /// solid. The id is a resolved one.
     #[must_use]
     pub fn absorption(&self, id: MaterialId) -> Option<&Spectrum> {
         match self.materials[id.0 as usize].surface.passage() {
@@ -160,14 +158,13 @@ impl MaterialTable {
         }
     }
 
-    /// Whether any material bounds a transparent solid.
+    /// True if any material bounds a transparent solid.
     #[must_use]
     pub fn has_solids(&self) -> bool {
         self.flags.iter().any(|t| t.solid)
     }
 
-    /// The material of the transparent solid that a material bounds: itself or, of a mix, its first part that is one; `None`
-    /// where it bounds none.
+    /// The material of the transparent solid that a material bounds: itself or, for a mix, its first such part; `None` if it bounds none.
     #[must_use]
     pub fn solid(&self, id: MaterialId) -> Option<MaterialId> {
         if !self.flags[id.0 as usize].solid {
@@ -179,7 +176,7 @@ impl MaterialTable {
         }
     }
 
-    /// Whether all surfaces absorb, or are diffuse with one spectrum each, and are wholly there and flat.
+    /// True if all surfaces absorb, or are diffuse with one spectrum each, and are fully opaque and flat.
     pub(crate) fn is_diffuse_only(&self) -> bool {
         self.materials.iter().all(|material| {
             let surface = matches!(material.surface, Surface::Absorber | Surface::Diffuse(Reflectance::Spectrum(_)));
@@ -187,14 +184,14 @@ impl MaterialTable {
         })
     }
 
-    /// Whether a material is a mix, so that [`MaterialTable::resolve`] needs a number.
+    /// True if a material is a mix, so that [`MaterialTable::resolve`] needs a number.
     #[must_use]
     pub fn is_mix(&self, id: MaterialId) -> bool {
         matches!(self.materials[id.0 as usize].surface, Surface::Mix(_))
     }
 
-    /// The material that a path meets at a point: of a mix the part that `u`, uniform in [0, 1), falls on, and so on
-    /// down; others are themselves.
+    /// The material that a path hits at a point: for a mix the part selected by `u`, uniform in [0, 1), and recursively its parts; other
+    /// materials are returned unchanged.
     #[must_use]
     pub fn resolve(&self, mut id: MaterialId, lookup: &Lookup, mut u: f32) -> MaterialId {
         while let Surface::Mix(parts) = &self.materials[id.0 as usize].surface {
@@ -203,8 +200,8 @@ impl MaterialTable {
         id
     }
 
-    /// The shading normal of a material at a point: the point's own, or bent by a normal map about unit tangents along
-    /// u and v (render frame). Without tangents there is nothing to bend by. The id is a resolved one.
+    /// The shading normal of a material at a point: the point's own, or bent by a normal map about unit tangents along u and v (render
+    /// frame). Without tangents the normal is unchanged. The id is a resolved one.
     #[must_use]
     pub fn shading_normal(
         &self,
@@ -232,8 +229,8 @@ impl MaterialTable {
         self.widened_bsdf(id, lookup, front, 0.0, wavelengths)
     }
 
-    /// The same with micro-facets of a roughness α of `min_alpha` at least: those of metals, coats, glass and paint, under the tables of
-    /// energy that they have by themselves. Other lobes are as they are.
+    /// The same with microfacets of a roughness α of at least `min_alpha`: those of metals, coats, glass and paint, with the energy tables
+    /// of their own roughness. Other lobes are unchanged.
     #[must_use]
     #[inline(always)]
     pub(crate) fn widened_bsdf<const N: usize>(
@@ -248,7 +245,7 @@ impl MaterialTable {
         self.materials[id.0 as usize].surface.resolve(&point)
     }
 
-    /// The same where [`MaterialTable::is_diffuse_only`].
+    /// The same if [`MaterialTable::is_diffuse_only`].
     #[inline(always)]
     pub(crate) fn diffuse_bsdf<const N: usize>(&self, id: MaterialId, wavelengths: &Wavelengths<N>) -> Bsdf<'_, N> {
         match &self.materials[id.0 as usize].surface {

@@ -1,9 +1,8 @@
-//! The GGX distribution of micro-facets with height-correlated Smith shadowing.
+//! The GGX distribution of microfacets with height-correlated Smith shadowing.
 //!
-//! D(m) = 1 / (π α² ((mₓ² + m_y²)/α² + m_z²)²) (Walter et al. 2007), isotropic, roughness α in (0, 1].
-//! Reflection: f = F · D · G₂ / (4 cos θₒ cos θᵢ), G₂ = 1/(1 + Λₒ + Λᵢ) (Heitz 2014). Facets are drawn from those
-//! visible (Heitz 2018) by the spherical-cap construction (Dupuy & Benyoub 2023). Light that a facet sends into
-//! another facet is left out: a rough white surface of α = 1 loses up to six tenths.
+//! D(m) = 1 / (π α² ((mₓ² + m_y²)/α² + m_z²)²) (Walter et al. 2007), isotropic, roughness α in (0, 1]. Reflection: f = F · D · G₂ / (4 cos θₒ cos
+//! θᵢ), G₂ = 1/(1 + Λₒ + Λᵢ) (Heitz 2014). Visible facets are sampled (Heitz 2018) by the spherical-cap construction (Dupuy & Benyoub 2023). Multiple
+//! scattering among facets is left out: a rough white surface of α = 1 loses up to six tenths.
 //!
 //! All directions are in the shading frame (z = normal), unit, on the side z > 0.
 
@@ -25,7 +24,7 @@ pub struct Ggx {
 }
 
 impl Ggx {
-    /// The facets of a surface of roughness `alpha` (0 to 1); `None` where it is smooth.
+    /// The facets of a surface of roughness `alpha` (0 to 1); `None` if it is smooth.
     #[must_use]
     pub fn of(alpha: f32) -> Option<Self> {
         (alpha >= MIRROR_ALPHA).then_some(Self { alpha })
@@ -51,7 +50,7 @@ impl Ggx {
         0.5 * self.density(m) * wi.z / (wi.z * self.slant(wo) + wo.z * self.slant(wi))
     }
 
-    /// Density by solid angle of the direction mirrored at a visible facet `m`, 1/sr.
+    /// Density by solid angle of the direction reflected at a visible facet `m`, 1/sr.
     #[must_use]
     pub fn reflect_pdf(self, wo: Vec3, m: Vec3) -> f32 {
         0.5 * self.density(m) / (wo.z + self.slant(wo))
@@ -63,24 +62,24 @@ impl Ggx {
         GlossLobe { about: LobeCentre::HalfVector, width: self.alpha, peak, f0 }
     }
 
-    /// G₂/G₁ = f cos θᵢ / (F · pdf) of a direction mirrored at a visible facet.
+    /// G₂/G₁ = f cos θᵢ / (F · pdf) of a direction reflected at a visible facet.
     pub(super) fn weight(self, wo: Vec3, wi: Vec3) -> f32 {
         let so = self.slant(wo);
         wi.z * (wo.z + so) / (wi.z * so + wo.z * self.slant(wi))
     }
 
-    /// Density by solid angle of the facet normals that `wo` sees, 1/sr: D · G₁ · (wo·m) / cos θₒ.
+    /// Density by solid angle of the facet normals visible from `wo`, 1/sr: D · G₁ · (wo·m) / cos θₒ.
     pub(super) fn visible_pdf(self, wo: Vec3, m: Vec3) -> f32 {
         2.0 * wo.dot(m) * self.density(m) / (wo.z + self.slant(wo))
     }
 
-    /// G₁: the share of facets facing `w` that it reaches, on whichever side of the surface.
+    /// G₁: the visible fraction of facets facing `w`, on either side of the surface.
     #[must_use]
     pub fn shadowing(self, w: Vec3) -> f32 {
         2.0 * w.z.abs() / (w.z.abs() + self.slant(w))
     }
 
-    /// A facet normal drawn from those that `wo` sees, by two numbers of [0, 1).
+    /// Samples a facet normal visible from `wo`, by two numbers of [0, 1).
     #[must_use]
     pub fn sample(self, wo: Vec3, u: Vec2) -> Vec3 {
         let stretched = Vec3::new(self.alpha * wo.x, self.alpha * wo.y, wo.z).normalize();
@@ -98,12 +97,12 @@ pub(super) fn half_vector(wo: Vec3, wi: Vec3) -> Vec3 {
     (wo + wi).normalize_or(Vec3::Z)
 }
 
-/// `w` mirrored at the unit vector `m`.
+/// `w` reflected at the unit vector `m`.
 pub(super) fn mirrored(w: Vec3, m: Vec3) -> Vec3 {
     m * (2.0 * w.dot(m)) - w
 }
 
-/// How the slopes of a rough surface's facets are distributed.
+/// Distribution of the slopes of a rough surface's facets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Distribution {
     /// GGX (Trowbridge and Reitz 1975, Walter et al. 2007): long tails, as measured surfaces have.
@@ -138,7 +137,7 @@ impl Facets {
         }
     }
 
-    /// Density by solid angle of the direction mirrored at a visible facet `m`, 1/sr.
+    /// Density by solid angle of the direction reflected at a visible facet `m`, 1/sr.
     pub(super) fn reflect_pdf(self, wo: Vec3, m: Vec3) -> f32 {
         match self {
             Self::Ggx(ggx) => ggx.reflect_pdf(wo, m),
@@ -146,7 +145,7 @@ impl Facets {
         }
     }
 
-    /// The lobe of facets of reflectance `f0` at normal incidence. A Gaussian of slopes has the same peak as GGX of its roughness.
+    /// The lobe of facets of reflectance `f0` at normal incidence. Beckmann has the same peak as GGX of its roughness.
     pub(super) fn gloss(self, wo: Vec3, f0: f32) -> GlossLobe {
         match self {
             Self::Ggx(ggx) => ggx.gloss(wo, f0),
@@ -154,7 +153,7 @@ impl Facets {
         }
     }
 
-    /// f cos θᵢ / (F · pdf) of a direction mirrored at a visible facet.
+    /// f cos θᵢ / (F · pdf) of a direction reflected at a visible facet.
     pub(super) fn weight(self, wo: Vec3, wi: Vec3) -> f32 {
         match self {
             Self::Ggx(ggx) => ggx.weight(wo, wi),
@@ -162,7 +161,7 @@ impl Facets {
         }
     }
 
-    /// A facet normal drawn from those that `wo` sees.
+    /// Samples a facet normal visible from `wo`.
     pub(super) fn sample(self, wo: Vec3, u: Vec2) -> Vec3 {
         match self {
             Self::Ggx(ggx) => ggx.sample(wo, u),

@@ -1,23 +1,23 @@
-//! Materials: how a surface scatters light, and what it emits.
+//! Materials: scattering and emission of surfaces.
 //!
 //! # Contract
-//! - A [`Material`] is a [`Surface`] and, where it has them, an [`Emission`], an opacity and a normal map.
-//! - At a point of a surface, [`MaterialTable::resolve`] follows mixes by chance, [`MaterialTable::shading_normal`] bends the normal,
-//!   and [`MaterialTable::bsdf`] evaluates textures and spectra once and gives a [`Bsdf`] for the path's wavelengths. Which side
-//!   is seen (`front`) matters to solids like glass alone.
+//! - A [`Material`] is a [`Surface`] and, optionally, an [`Emission`], an opacity and a normal map.
+//! - At a point of a surface, [`MaterialTable::resolve`] resolves mixes at random, [`MaterialTable::shading_normal`] bends the normal,
+//!   and [`MaterialTable::bsdf`] evaluates textures and spectra once and returns a [`Bsdf`] for the path's wavelengths. The visible
+//!   side (`front`) matters only to solids such as glass.
 //! - Directions `wo` (towards the viewer) and `wi` (towards the light) are unit vectors that point away from the
 //!   surface, in the shading frame: z is the shading normal on the side of `wo`, which has z > 0. Light with wi.z > 0 is
 //!   reflected, with wi.z < 0 transmitted.
-//! - `value_cos` is bsdf × |cos θᵢ| (1/sr), so that nothing divides by a cosine that vanishes. `weight` of a sample is
+//! - `value_cos` is bsdf × |cos θᵢ| (1/sr), so that there is no division by a vanishing cosine. `weight` of a sample is
 //!   bsdf × |cos θᵢ| / pdf. `pdf` is by solid angle, 1/sr, of the whole sampling routine.
-//! - Radiance is what is transported: where light comes from a medium of relative index η (the far side's over the
-//!   viewer's), values and weights hold its factor 1/η² (Veach 1997, section 5.2).
-//! - A mirrored or refracted direction has no finite density, nor has one that goes straight through: samples say so by
+//! - Radiance is transported: if light comes from a medium of relative index η (the far side's over the
+//!   viewer's), values and weights include its factor 1/η² (Veach 1997, section 5.2).
+//! - A reflected or refracted direction has no finite density, nor has one that goes straight through: samples state this by
 //!   their [`Event`], and evaluation leaves such parts out.
-//! - A model states its textures, what it lets pass and what holds for all directions itself (`model`); the list below takes every
-//!   question to it by a `match`.
-//! - Every bsdf is reciprocal, f(wo, wi)/n²(wi's side) = f(wi, wo)/n²(wo's side) where it transmits, and sends on no
-//!   more power than arrives; no input in range gives a NaN.
+//! - A model itself states its textures, its transmission and its direction-independent properties (`model`); the list below forwards every
+//!   call to it by a `match`.
+//! - Every bsdf is reciprocal, f(wo, wi)/n²(wi's side) = f(wi, wo)/n²(wo's side) if it transmits, and never gains
+//!   power; no input in range gives a NaN.
 
 mod beckmann;
 mod blinn_phong;
@@ -93,15 +93,15 @@ surfaces! {
     Diffuse(Reflectance) from Reflectance => DiffuseBsdf<N>,
     /// A smooth or rough metal.
     Conductor(Box<Conductor>) from Conductor => ConductorBsdf<N>,
-    /// A matt base under a clear coat.
+    /// A diffuse base under a clear coat.
     Coated(Box<Coated>) from Coated => CoatedBsdf<'a, N>,
-    /// A matt base with generalised cosine lobes.
+    /// A diffuse base with generalised cosine lobes.
     Lafortune(Box<Lafortune>) from Lafortune => LafortuneBsdf<'a, N>,
-    /// A matt base with a glossy lobe about the half vector.
+    /// A diffuse base with a glossy lobe about the half vector.
     BlinnPhong(Box<BlinnPhong>) from BlinnPhong => BlinnPhongBsdf<'a, N>,
     /// Metal flakes and pigment under a clear coat.
     CarPaint(Box<CarPaint>) from CarPaint => CarPaintBsdf<'a, N>,
-    /// A matt base with the sheen of fibres.
+    /// A diffuse base with the sheen of fibres.
     Cloth(Box<Cloth>) from Cloth => ClothBsdf<'a, N>,
     /// Retro-reflective sheeting.
     Sheeting(Box<Sheeting>) from Sheeting => SheetingBsdf<'a, N>,

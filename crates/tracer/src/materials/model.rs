@@ -1,5 +1,5 @@
-//! What a model of scattering must say: once for all points ([`SurfaceModel`]), and at one point for the wavelengths of one path
-//! ([`BsdfModel`]). `surfaces!` takes every question to the model by a `match`.
+//! The interface of a scattering model: once for all points ([`SurfaceModel`]), and at one point for the wavelengths of one path ([`BsdfModel`]).
+//! `surfaces!` forwards every call to the model by a `match`.
 
 use etendue_core::Spectral;
 use etendue_spectra::Spectrum;
@@ -18,65 +18,65 @@ pub(super) trait SurfaceModel {
     /// Every parameter that may be a texture.
     fn parameters(&self) -> Vec<Parameter<'_>>;
 
-    /// How light gets behind the surface other than by being scattered there.
+    /// Passage of light behind the surface, other than by scattering.
     fn passage(&self) -> Passage<'_>;
 
-    /// Evaluates textures and spectra at a point, once for all that is asked there.
+    /// Evaluates textures and spectra at a point, once for all calls there.
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> Self::Bsdf<'_, N>;
 
-    /// Refuses parameters, each within its range, with which together more would be sent on than arrives. There is no default: a
-    /// model that cannot gain energy says `Ok(())`.
+    /// Refuses parameters, each within its range, with which more would be reflected or transmitted than arrives. There is no default: a
+    /// model that cannot gain energy returns `Ok(())`.
     fn check_energy(&self, check: &TextureCheck<'_>) -> Result<(), MaterialError>;
 
-    /// The share of light that goes straight on, 0 to 1, at the cosine of incidence `cos` in (0, 1]: zero unless the
-    /// passage is [`Passage::Straight`].
+    /// The fraction of light that goes straight on, 0 to 1, at the cosine of incidence `cos` in (0, 1]: zero unless the passage is
+    /// [`Passage::Straight`].
     fn straight_transmittance<const N: usize>(&self, point: &ShadingPoint<'_, N>, cos: f32) -> Spectral<N>;
 }
 
-/// How light gets behind a surface other than by being scattered there.
+/// Passage of light behind a surface, other than by scattering.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Passage<'a> {
-    /// It does not.
+    /// No passage.
     None,
-    /// It goes straight on, as if nothing had been there ([`super::Event::Null`]).
+    /// Straight passage, as if there were no surface ([`super::Event::Null`]).
     Straight,
-    /// It enters the solid that the surface bounds. Its absorption coefficient, 1/m; `None` where it absorbs nothing.
+    /// Entry into the solid that the surface bounds. Its absorption coefficient, 1/m; `None` if it absorbs nothing.
     Solid(Option<&'a Spectrum>),
 }
 
 /// A model at one point, for the wavelengths of one path: the contract is that of [`super::Bsdf`].
 pub(super) trait BsdfModel<const N: usize>: Copy {
-    /// What holds for all directions.
+    /// Direction-independent properties.
     fn flags(&self) -> BsdfFlags;
 
     /// Value and density of a pair of directions, wo.z > 0; wi.z > 0 too unless the flags say `transmits`.
     fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N>;
 
-    /// What the choice among lights is told, wo.z > 0: [`Gloss::MATT`] where no lobe is narrow.
+    /// Data for light selection, wo.z > 0: [`Gloss::MATT`] if no lobe is narrow.
     fn gloss(&self, wo: Vec3) -> Gloss;
 
-    /// A direction for light to come from, wo.z > 0; `None` where the light is absorbed. `choice` picks a lobe, `u` a direction;
+    /// Samples a direction for light to come from, wo.z > 0; `None` if the light is absorbed. `choice` selects a lobe, `u` a direction;
     /// both are uniform in [0, 1).
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>>;
 }
 
-/// What holds for all directions at a point. There is no default: a model states each.
+/// Direction-independent properties at a point. There is no default: a model states each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct BsdfFlags {
-    /// Light goes on in exact directions only, so that asking for a light drawn elsewhere is in vain.
+    /// Light continues in exact directions only, so that light sampling is useless.
     pub(super) delta: bool,
     /// Light may come from behind (wi.z < 0) by a finite density.
     pub(super) transmits: bool,
-    /// [`BsdfModel::sample`] looks at the number that picks a lobe.
+    /// [`BsdfModel::sample`] uses the number that selects a lobe.
     pub(super) has_parts: bool,
 }
 
 impl BsdfFlags {
-    /// Of what reflects by a finite density through several lobes.
+    /// Flags of a model that reflects by a finite density through several lobes.
     pub(super) const LOBES: Self = Self { delta: false, transmits: false, has_parts: true };
 }
 
-/// What a bsdf says of a pair of directions.
+/// Value and density of a BSDF for a pair of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BsdfValue<const N: usize> {
     /// bsdf × |cos θᵢ|, 1/sr.
@@ -86,31 +86,31 @@ pub struct BsdfValue<const N: usize> {
 }
 
 impl<const N: usize> BsdfValue<N> {
-    /// Nothing goes this way.
+    /// No light along this pair of directions.
     pub const ZERO: Self = Self { value_cos: Spectral::ZERO, pdf: 0.0 };
 }
 
 /// Outcome of a path at a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// It was scattered, by a finite density.
+    /// Scattered, by a finite density.
     Scatter,
-    /// It was reflected or refracted in the one exact direction.
+    /// Reflected or refracted in the one exact direction.
     Specular,
-    /// It went straight on, as if nothing had been there: no scattering event. The path keeps the direction it had.
+    /// Passed straight on, as if there were no surface: no scattering event. The path keeps its direction.
     Null,
 }
 
-/// A direction drawn from a bsdf.
+/// A direction sampled from a BSDF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BsdfSample<const N: usize> {
-    /// Where light comes from; unit, never in the surface's plane.
+    /// Direction that light comes from; unit, never in the surface's plane.
     pub wi: Vec3,
-    /// bsdf × |cos θᵢ| / pdf; of an exact direction its reflectance or transmittance over the probability of choosing it.
+    /// bsdf × |cos θᵢ| / pdf; for an exact direction its reflectance or transmittance over the probability of choosing it.
     pub weight: Spectral<N>,
     /// Density of `wi`, 1/sr; 0 and without meaning for an exact direction.
     pub pdf: f32,
-    /// What happened.
+    /// The event.
     pub event: Event,
 }
 
@@ -125,7 +125,7 @@ impl<const N: usize> BsdfSample<N> {
 pub(super) struct DiscreteSampler<const K: usize>([f32; K]);
 
 impl<const K: usize> DiscreteSampler<K> {
-    /// Probabilities in proportion to `shares` (0 or more); `None` where all are zero.
+    /// Probabilities in proportion to `shares` (0 or more); `None` if all are zero.
     pub(super) fn new(shares: [f32; K]) -> Option<Self> {
         let total: f32 = shares.iter().sum();
         (total > 0.0).then(|| Self(shares.map(|s| s / total)))
@@ -136,7 +136,7 @@ impl<const K: usize> DiscreteSampler<K> {
         self.0[k]
     }
 
-    /// The lobe that `choice` in [0, 1) falls on; never one of no probability.
+    /// The lobe selected by `choice` in [0, 1); never one of zero probability.
     pub(super) fn draw(&self, choice: f32) -> usize {
         let mut left = choice;
         let mut last = 0;

@@ -6,23 +6,22 @@ use etendue_spectra::{Spectrum, upsample};
 use super::error::MaterialError;
 use crate::textures::{Channel, ImageTexture, Lookup, TextureId};
 
-/// A parameter that may be a texture. A model lists its own once: the ranges that are checked and the textures whose footprint is
-/// computed both follow from the list.
+/// A parameter that may be a texture. A model lists its own once: both the checked ranges and the textures with a computed footprint follow
+/// from the list.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Parameter<'a> {
     /// A reflectance or transmittance, 0 to 1 at every wavelength.
     Reflectance(&'a Reflectance),
-    /// A number, 0 to 1, and the words for it in refusals, with their article.
+    /// A number, 0 to 1, and its name in error messages, with its article.
     Factor(Factor, &'static str),
 }
 
 impl Parameter<'_> {
-    /// A roughness α.
     pub(super) fn alpha(alpha: Factor) -> Self {
         Self::Factor(alpha, "a roughness α")
     }
 
-    /// The texture that it is, if it is one.
+    /// Its texture, if it is one.
     pub(super) fn texture(&self) -> Option<TextureId> {
         match self {
             Self::Reflectance(reflectance) => reflectance.texture(),
@@ -31,7 +30,7 @@ impl Parameter<'_> {
     }
 }
 
-/// A number, dimensionless: a roughness, an opacity, the share of a mix.
+/// A number, dimensionless: a roughness, an opacity, the weight of a mix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Factor {
     /// The same everywhere.
@@ -47,7 +46,7 @@ impl From<f64> for Factor {
 }
 
 impl Factor {
-    /// The factor as a roughness α: a number must lie in 0 to 1. Textures are looked at when the material_table has them.
+    /// The factor as a roughness α: a number must lie in 0 to 1. Textures are checked when the material_table has them.
     pub(super) fn checked_alpha(self) -> Result<Self, MaterialError> {
         match self {
             Self::Number(alpha) if !(0.0..=1.0).contains(&alpha) => {
@@ -79,8 +78,8 @@ impl Factor {
 pub enum Reflectance {
     /// The same everywhere.
     Spectrum(Spectrum),
-    /// Linear sRGB colours of a texture, made reflectances by three basis spectra: r·Bᵣ + g·B_g + b·B_b. Linear, so
-    /// filtering colours is filtering spectra.
+    /// Linear sRGB colours of a texture, converted to reflectances by three basis spectra: r·Bᵣ + g·B_g + b·B_b. The conversion is linear,
+    /// so filtering colours is filtering spectra.
     Texture(TextureId),
 }
 
@@ -113,13 +112,13 @@ impl Reflectance {
 pub(super) struct ShadingPoint<'p, const N: usize> {
     /// All textures, by their ids.
     pub(super) textures: &'p [ImageTexture],
-    /// Where textures are read, and how wide.
+    /// Place and width of texture look-ups.
     pub(super) lookup: &'p Lookup,
-    /// Whether the viewer is on the side that the geometric normal points to: the outside of a solid.
+    /// True if the viewer is on the side that the geometric normal points to: the outside of a solid.
     pub(super) front: bool,
     /// Wavelengths of the path, nm.
     pub(super) wavelengths: &'p Wavelengths<N>,
-    /// The least roughness α that micro-facets have here: 0 where they are as they are.
+    /// Minimum roughness α of microfacets here: 0 if they are not widened.
     pub(super) min_alpha: f32,
 }
 
@@ -130,7 +129,7 @@ impl<const N: usize> ShadingPoint<'_, N> {
         reflectance.at(self.textures, self.lookup, self.wavelengths)
     }
 
-    /// The roughness α of micro-facets here that have `alpha` by themselves.
+    /// The roughness α of microfacets here whose own roughness is `alpha`.
     #[inline(always)]
     pub(super) fn widened(&self, alpha: f32) -> f32 {
         alpha.max(self.min_alpha)
@@ -143,13 +142,13 @@ impl<const N: usize> ShadingPoint<'_, N> {
     }
 }
 
-/// Rounding in the basis spectra may take white a little over 1.
+/// Rounding in the basis spectra may raise white a little over 1.
 pub(super) const WHITE: f32 = 1.0 + 1e-4;
 
 /// One material's parameters against the textures of its table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TextureCheck<'a> {
-    /// The material's place in the table, for refusals.
+    /// Index of the material in the table, for error messages.
     pub(super) material: usize,
     /// All textures, by their ids.
     pub(super) textures: &'a [ImageTexture],
@@ -164,8 +163,7 @@ impl<'a> TextureCheck<'a> {
         }
     }
 
-    /// A reflectance where it is greatest: a spectrum itself, of a texture its brightest colour at all wavelengths. The
-    /// parameter has been checked.
+    /// Maximum of a reflectance: a spectrum itself; for a texture its brightest colour at all wavelengths. The parameter has been checked.
     pub(super) fn brightest(&self, reflectance: &Reflectance) -> Spectrum {
         match reflectance {
             Reflectance::Spectrum(spectrum) => spectrum.clone(),
@@ -173,7 +171,7 @@ impl<'a> TextureCheck<'a> {
         }
     }
 
-    /// The texture of what only texture coordinates can place.
+    /// The texture of a quantity that only texture coordinates can place.
     pub(super) fn laid_by_uv(&self, what: &'static str, id: TextureId) -> Result<&'a ImageTexture, MaterialError> {
         let texture = self.find(id)?;
         if texture.needs_uv() { Ok(texture) } else { Err(MaterialError::Projected { material: self.material, what }) }

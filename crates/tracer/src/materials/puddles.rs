@@ -1,20 +1,20 @@
-//! Water that stands in the low parts of the ground.
+//! Water in the low parts of the ground.
 //!
-//! The ground's height is h · relief, h from a texture; where it lies below the level, water of the depth level − h · relief stands. A film over
-//! grains is as rough as they leave it; water deeper than the grains is flat but for the rings of falling drops. Between the two the slopes of
-//! both are mixed. Left out: the water's own outline as geometry, its absorption (a road's puddles are millimetres deep), flow.
+//! The ground's height is h · relief, h from a texture. Below the water level, water of the depth level − h · relief stands. A film over grains has
+//! the roughness that the grains leave. Water deeper than the grains is flat except for the rings of falling drops. Between the two, the slopes of
+//! both are mixed. Left out: the outline of the water as geometry, its absorption (a road's puddles are millimetres deep), flow.
 //!
-//! Rings of drops: a share of 1 % of the drops' kinetic energy goes into waves of 0.2 rad/mm (Le Méhauté 1988; Bliven, Sobieski and Craeye, IEEE
-//! J. Oceanic Eng. 24 (1999) 323), which friction damps at the rate 4 ν k² = 0.16 1/s. Rain of R mm/h brings R/3600 kg/(m² s); drops of 6.5 m/s
-//! thus hold waves of the energy 3.6e-4 R J/m² = (ρ g + σ k²) ⟨ζ²⟩, of the mean square slope k² ⟨ζ²⟩ = 1.15e-3 R. Measured roughness grows
-//! more slowly in heavy rain, and less in water shallower than the waves are long: it is an upper bound.
+//! Rings of drops: 1 % of the drops' kinetic energy goes into waves of 0.2 rad/mm (Le Méhauté 1988; Bliven, Sobieski and Craeye, IEEE J. Oceanic Eng.
+//! 24 (1999) 323), which friction damps at the rate 4 ν k² = 0.16 1/s. Rain of R mm/h brings R/3600 kg/(m² s). Drops of 6.5 m/s thus sustain waves of
+//! the energy 3.6e-4 R J/m² = (ρ g + σ k²) ⟨ζ²⟩, of the mean square slope k² ⟨ζ²⟩ = 1.15e-3 R. Measured roughness increases more slowly in heavy
+//! rain, and less in water shallower than the wavelength of the waves: this value is an upper bound.
 
 use super::{error::MaterialError, parameter::Factor};
 
-/// Mean square slope of water by rain, per mm/h.
+/// Mean square slope of water in rain, per mm/h.
 const SLOPE2_PER_MM_H: f64 = 1.15e-3;
 
-/// Water that stands in low parts.
+/// Water in low parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Puddles {
     pub(super) height: Factor,
@@ -25,7 +25,7 @@ pub struct Puddles {
     ripple_alpha: f32,
 }
 
-/// Heights of ground that water stands on.
+/// Heights of ground under water.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundRelief {
     /// Height of the highest place over the lowest, mm.
@@ -37,11 +37,12 @@ pub struct GroundRelief {
 }
 
 impl Puddles {
-    /// Water up to `level_mm` over the lowest place of ground whose heights are `height` (0 to 1) times `relief_mm`, of grains `grain_mm` high
-    /// on which a film is as rough as `film_alpha` (GGX α), in rain of `rain_mm_h`.
+    /// Water up to `level_mm` over the lowest place of ground whose heights are `height` (0 to 1) times `relief_mm`. Its grains are
+    /// `grain_mm` high; a film on them has the roughness `film_alpha` (GGX α). It rains at `rain_mm_h`.
     ///
     /// # Errors
-    /// Where a length is not positive and finite (the level: not finite or negative), the roughness not in 0 to 1, or the rain not in 0 to 150.
+    /// If a length is not positive and finite (the level: not finite or negative), the roughness not in 0 to 1, or the rain not in 0 to
+    /// 150.
     pub fn new(height: Factor, relief: GroundRelief, film_alpha: f64, rain_mm_h: f64) -> Result<Self, MaterialError> {
         let GroundRelief { relief_mm, level_mm, grain_mm } = relief;
         for (what, value) in [("relief", relief_mm), ("grain", grain_mm)] {
@@ -64,7 +65,7 @@ impl Puddles {
         Ok(Self { height, relief_mm, level_mm, grain_mm, film_alpha, ripple_alpha })
     }
 
-    /// Roughness where the height is `height`: that of a GGX distribution of the same mean square slope (α² = 2 σ²).
+    /// Roughness at the height `height`: that of a GGX distribution of the same mean square slope (α² = 2 σ²).
     pub(super) fn alpha(&self, height: f32) -> f32 {
         let depth = (self.level_mm - height * self.relief_mm) / self.grain_mm;
         let x = depth.clamp(0.0, 1.0);

@@ -1,19 +1,17 @@
 //! The shading frame at a point, seen from one side.
 //!
-//! Both normals are turned to the viewer's side of the true surface. Where interpolation or a normal map has turned the
-//! shading normal away from the viewer (at silhouettes of coarse meshes), it is bent back until the viewer is just above
-//! its horizon: no black seams. A direction counts only where true surface and shading frame agree on its side: no
-//! light leaks through a wall by an interpolated normal. What a mirror or glass sends to the wrong side leaves along the
-//! true surface instead, so that neither loses light.
+//! Both normals are turned to the viewer's side of the true surface. If interpolation or a normal map has turned the shading normal away from the
+//! viewer (at silhouettes of coarse meshes), it is bent back until the viewer is just above its horizon: no black seams. A direction counts only if
+//! true surface and shading frame agree on its side: no light leaks through a wall by an interpolated normal. Light that a mirror or glass sends to
+//! the wrong side leaves along the true surface instead, so that neither loses light.
 //!
-//! Normal maps: normals of a finer surface than the mesh has, told by colours.
+//! Normal maps: normals of a finer surface than the mesh, stored as colours.
 //!
-//! A texel (r, g, b), linear, 0 to 1, is the vector (2r − 1, 2g − 1, 2b − 1) of the tangent frame: x along ∂p/∂u, y along
-//! ∂p/∂v, z along the surface's own shading normal. Pictures have green up in the texture (OpenGL) or down (DirectX).
-//! The x and y parts are multiplied by the strength, the result is normalised. Filtered texels are shorter than unit
-//! vectors; the spread of normals that their length tells is left out, as is the displacement itself: outlines and
-//! shadows are those of the mesh. Where a picture repeats mirrored, its slopes are not turned about. Bytes of 127 and 128
-//! both stand next to 0: |x| below 1/254 is taken as 0, so that a flat map is flat.
+//! A texel (r, g, b), linear, 0 to 1, is the vector (2r − 1, 2g − 1, 2b − 1) of the tangent frame: x along ∂p/∂u, y along ∂p/∂v, z along the
+//! surface's own shading normal. Images have green up in the texture (OpenGL) or down (DirectX). The x and y parts are multiplied by the strength,
+//! the result is normalised. Filtered texels are shorter than unit vectors; the spread of normals that their length indicates is left out, as is the
+//! displacement itself: outlines and shadows are those of the mesh. If an image repeats mirrored, its slopes are not inverted. Bytes of 127 and 128
+//! are both next to 0: |x| below 1/254 is taken as 0, so that a flat map is flat.
 
 use etendue_core::Basis;
 use glam::{Vec2, Vec3};
@@ -22,7 +20,7 @@ use super::MaterialError;
 use crate::geometry::SurfacePoint;
 use crate::textures::{ImageTexture, Lookup, TextureId};
 
-/// Cosine that the viewer has at least in the shading frame.
+/// Minimum cosine of the viewer in the shading frame.
 const HORIZON: f32 = 1e-4;
 
 /// A shading frame on the side of the viewer.
@@ -30,9 +28,9 @@ const HORIZON: f32 = 1e-4;
 pub struct ShadingFrame {
     basis: Basis,
     geometric_normal: Vec3,
-    /// Towards the viewer, in the frame; z > 0.
+    /// Unit vector towards the viewer, in the frame; z > 0.
     pub wo: Vec3,
-    /// Whether the viewer is on the side that the surface's own geometric normal points to: the outside of a solid.
+    /// True if the viewer is on the side that the surface's own geometric normal points to: the outside of a solid.
     pub front: bool,
 }
 
@@ -67,26 +65,26 @@ impl ShadingFrame {
         self.geometric_normal.dot(direction)
     }
 
-    /// A unit direction of the render frame, in the shading frame: z > 0 on the viewer's side, z < 0 behind the
-    /// surface. `None` where true surface and shading frame disagree on its side.
+    /// A unit direction of the render frame, in the shading frame: z > 0 on the viewer's side, z < 0 behind the surface. `None` if true
+    /// surface and shading frame disagree on its side.
     #[must_use]
     pub fn inward(&self, direction: Vec3) -> Option<Vec3> {
         let local = self.basis.inward(direction);
         self.agrees(local, direction).then_some(local)
     }
 
-    /// A unit direction of the shading frame, in the render frame and of unit length again; `None` where true surface and shading
-    /// frame disagree on its side.
+    /// A unit direction of the shading frame, in the render frame and of unit length again; `None` if true surface and shading frame
+    /// disagree on its side.
     #[must_use]
     pub fn outward(&self, local: Vec3) -> Option<Vec3> {
         let direction = self.basis.outward(local);
-        // One step of Newton's towards unit length: what is off by a rounding or two is then off by its square.
+        // One Newton step towards unit length: an error of a rounding or two becomes its square.
         let direction = direction * (1.5 - 0.5 * direction.length_squared());
         self.agrees(local, direction).then_some(direction)
     }
 
-    /// A unit direction of the shading frame, in the render frame, brought to the side of the true surface that it has in the shading frame: where
-    /// they disagree, just off the plane of the true surface.
+    /// A unit direction of the shading frame, in the render frame, moved to the side of the true surface that it has in the shading frame.
+    /// If they disagree, it lies just off the plane of the true surface.
     #[must_use]
     pub fn outward_to_horizon(&self, local: Vec3) -> Vec3 {
         let normal = self.geometric_normal * 1.0_f32.copysign(local.z);
@@ -100,7 +98,7 @@ impl ShadingFrame {
     }
 }
 
-/// The shading normal, bent towards the viewer where it looks away.
+/// The shading normal, bent towards the viewer if it faces away.
 fn facing(normal: Vec3, geometric_normal: Vec3, to_viewer: Vec3) -> Vec3 {
     let cos = normal.dot(to_viewer);
     if cos >= HORIZON {
@@ -110,7 +108,7 @@ fn facing(normal: Vec3, geometric_normal: Vec3, to_viewer: Vec3) -> Vec3 {
     if bent.dot(to_viewer) > 0.0 { bent } else { geometric_normal }
 }
 
-/// Which way green points.
+/// Direction of the green channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Green {
     /// To greater v: y up (OpenGL).
@@ -137,7 +135,7 @@ impl NormalMap {
     /// The normals of a texture of linear colours, their slopes multiplied by `strength` (0 to 10, 1 as painted).
     ///
     /// # Errors
-    /// Where the strength is out of range.
+    /// If the strength is out of range.
     pub fn new(texture: TextureId, green: Green, strength: f64) -> Result<Self, MaterialError> {
         if !(0.0..=STRONGEST).contains(&strength) {
             return Err(MaterialError::NormalStrength { strength });
@@ -153,8 +151,8 @@ impl NormalMap {
         self.texture
     }
 
-    /// The normal about the unit `normal`, with unit tangents along u and v. The answer is unit, and on the side of
-    /// `normal`; it is `normal` itself where the tangents or the texel tell no direction.
+    /// The normal about the unit `normal`, with unit tangents along u and v. The result is unit, and on the side of `normal`; it is
+    /// `normal` itself if the tangents or the texel give no direction.
     pub(super) fn at(&self, textures: &[ImageTexture], lookup: &Lookup, normal: Vec3, [u, v]: [Vec3; 2]) -> Vec3 {
         let [r, g, b] = textures[self.texture.0 as usize].sample(lookup);
         let slopes = Vec3::new(centred(r) * self.slopes.x, centred(g) * self.slopes.y, centred(b).max(0.0));

@@ -1,12 +1,11 @@
-//! What facets send back after one reflection, by quadrature over their slopes (the rule of Gauss and Legendre).
+//! Light that facets reflect after one reflection, by quadrature over their slopes (Gauss–Legendre rule).
 //!
-//! A facet's normal is (−α x, −α y, 1) normalised; slopes have the density P(x, y), exp(−x² − y²)/π of Beckmann's and
-//! 1/(π (1 + x² + y²)²) of GGX. A viewer at the cosine μ, in the plane of x, sees each by (μ − α x s)₊/(μ (1 + Λₒ)),
-//! s = √(1 − μ²): these shares integrate to 1 (Heitz 2014). Of what it sees, (1 + Λₒ)/(1 + Λₒ + Λᵢ) leaves at once, the rest
-//! meets other facets, and so does all that a facet turns downwards. Light goes up for x between the roots of
-//! μ − 2 α x s − μ α² (x² + y²) = 0, so that the rule of Gauss and Legendre sees smooth pieces alone.
+//! A facet's normal is (−α x, −α y, 1) normalised; slopes have the density P(x, y), exp(−x² − y²)/π for Beckmann and 1/(π (1 + x² + y²)²) for GGX. A
+//! viewer at the cosine μ, in the plane of x, sees each by (μ − α x s)₊/(μ (1 + Λₒ)), s = √(1 − μ²); these weights integrate to 1 (Heitz 2014). Of
+//! the visible light, (1 + Λₒ)/(1 + Λₒ + Λᵢ) leaves at once. The rest hits other facets, and so does all light that a facet reflects downwards. Light
+//! goes up for x between the roots of μ − 2 α x s − μ α² (x² + y²) = 0, so that the Gauss–Legendre rule integrates smooth pieces only.
 //!
-//! The error is below 2e-5 at all cosines and α ≥ 1e-4, found beside the same rule of 64 nodes.
+//! The error is below 2e-5 at all cosines and α ≥ 1e-4, found by comparison with the same rule of 64 nodes.
 
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 use std::sync::LazyLock;
@@ -16,10 +15,9 @@ use glam::Vec3;
 
 use super::{beckmann::Beckmann, microfacet::Distribution};
 
-/// Slopes of Beckmann's facets beyond are left out: their share is exp(−30).
+/// Slopes of Beckmann's facets beyond are left out: their fraction is exp(−30).
 const STEEPEST: f64 = 5.5;
 
-/// 1/√π.
 const FRAC_1_SQRT_PI: f64 = 0.564_189_583_547_756_3;
 
 /// Facets of one roughness as a viewer at one cosine sees them.
@@ -33,7 +31,7 @@ pub(super) struct SeenFacets {
     shadow: f64,
 }
 
-/// From a coordinate of a strip to another.
+/// Interval of coordinates of a strip.
 #[derive(Clone, Copy)]
 struct Coordinates {
     low: f64,
@@ -43,20 +41,20 @@ struct Coordinates {
 /// Facets of one slope y.
 struct Strip {
     y: f64,
-    /// By how much the coordinate along x is stretched, see [`SeenFacets::slope`].
+    /// Stretch of the coordinate along x, see [`SeenFacets::slope`].
     stretch: f64,
     weight: f64,
 }
 
 impl SeenFacets {
-    /// Facets of roughness `alpha` from the cosine `cos`.
+    /// Facets of roughness `alpha` seen at the cosine `cos`.
     pub(super) fn new(distribution: Distribution, alpha: f32, cos: f32) -> Self {
         let (alpha, cos) = (f64::from(alpha), f64::from(cos).clamp(1e-7, 1.0));
         let sin = (1.0 - cos * cos).sqrt();
         Self { distribution, alpha, cos, sin, shadow: shadow(distribution, alpha, cos, sin) }
     }
 
-    /// Share of light that does not leave after one reflection, of facets that reflect everything: 1 − E.
+    /// Fraction of light that does not leave after one reflection, for facets that reflect everything: 1 − E.
     pub(super) fn lost(&self) -> f64 {
         let (above, below) = self.strips();
         let all = |strip: &Strip| strip.weight * self.along(strip, self.ends(strip), |_, _| 1.0);
@@ -71,15 +69,15 @@ impl SeenFacets {
         above.sum::<f64>() + below
     }
 
-    /// Share of light that leaves after one reflection, of facets whose reflectance `of` depends on the cosine at the facet
-    /// and on the cosine at which the light leaves.
+    /// Fraction of light that leaves after one reflection, for facets whose reflectance `of` depends on the cosine at the facet and on the
+    /// cosine at which the light leaves.
     pub(super) fn reflected(&self, of: impl Fn(f64, f64) -> f64) -> f64 {
         let light =
             |strip: &Strip| strip.weight * self.along(strip, self.upward(strip), |met, up| self.free(up) * of(met, up));
         self.strips().0.iter().map(light).sum()
     }
 
-    /// Strips of which a part sends light up, and those that send all of it down.
+    /// Strips that reflect part of the light up, and strips that reflect all of it down.
     fn strips(&self) -> ([Strip; 20], [Strip; 20]) {
         let end = match self.distribution {
             Distribution::Ggx => FRAC_PI_2,
@@ -106,7 +104,7 @@ impl SeenFacets {
         }
     }
 
-    /// The coordinate of a slope: the angle of GGX's arc tangent, the slope itself of Beckmann's.
+    /// The coordinate of a slope: the arc tangent for GGX, the slope itself for Beckmann.
     fn coordinate(&self, x: f64, stretch: f64) -> f64 {
         match self.distribution {
             Distribution::Ggx => atan(x / stretch),
@@ -126,13 +124,13 @@ impl SeenFacets {
         }
     }
 
-    /// Coordinates between which facets of a strip are seen.
+    /// Coordinates between which facets of a strip are visible.
     fn ends(&self, strip: &Strip) -> Coordinates {
         let at = |x| self.coordinate(x, strip.stretch);
         Coordinates { low: at(f64::NEG_INFINITY), high: at(self.cos / (self.alpha * self.sin)) }
     }
 
-    /// Coordinates between which facets of a strip send light up.
+    /// Coordinates between which facets of a strip reflect light up.
     fn upward(&self, strip: &Strip) -> Coordinates {
         let (steep, s) = (self.alpha * strip.y, self.sin);
         let root = (s * s + self.cos * self.cos * (1.0 - steep * steep)).max(0.0).sqrt();
@@ -142,7 +140,7 @@ impl SeenFacets {
         Coordinates { low: at(left), high: at(right.max(left)) }
     }
 
-    /// ∫ of what is seen along a strip, times a function of the cosine at the facet and of the reflected light's.
+    /// ∫ over the visible part of a strip, times a function of the cosine at the facet and of the reflected light's.
     fn along(&self, strip: &Strip, coordinates: Coordinates, of: impl Fn(f64, f64) -> f64) -> f64 {
         let Coordinates { low, high } = coordinates;
         let at = |(g, w): &(f64, f64)| {
@@ -183,7 +181,7 @@ const NODES: usize = 20;
 /// Nodes on [0, 1] and their weights, which sum to 1: exact for polynomials up to degree 39.
 pub(super) static GAUSS: LazyLock<[(f64, f64); NODES]> = LazyLock::new(|| core::array::from_fn(node));
 
-/// Newton's steps from Tricomi's estimate of a root of the Legendre polynomial.
+/// Newton's method from Tricomi's estimate of a root of the Legendre polynomial.
 fn node(i: usize) -> (f64, f64) {
     let n = NODES as f64;
     let mut x = etendue_core::maths::f64::cos(core::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5));

@@ -1,15 +1,15 @@
 //! A thin pane: window glass, a windscreen, film, as one surface without thickness of its own.
 //!
-//! Two smooth, parallel interfaces of index n with an absorbing sheet between. Light that enters is refracted, crosses
-//! the sheet, is reflected to and fro, and leaves on either side; the shares of all orders sum to geometric series. With
-//! ρ an interface's reflectance in one plane of polarisation and a = τ^(1/cos θₜ) the transmittance of one crossing (τ:
-//! internal transmittance along the normal, θₜ the angle inside, sin θₜ = sin θ/n),
+//! Two smooth, parallel interfaces of index n with an absorbing sheet between. Light that enters is refracted, crosses the sheet, is reflected back
+//! and forth, and leaves on either side; the contributions of all orders sum to geometric series. With ρ an interface's reflectance in one plane of
+//! polarisation and a = τ^(1/cos θₜ) the transmittance of one crossing (τ: internal transmittance along the normal, θₜ the angle inside, sin θₜ = sin
+//! θ/n),
 //!
 //! R = ρ + ρ (1 − ρ)² a² / (1 − ρ² a²),  T = (1 − ρ)² a / (1 − ρ² a²),
 //!
-//! each the mean of both planes, which is exact for unpolarised light (Stokes 1862; Born & Wolf, ch. 7.6, without
-//! interference). R + T = 1 where nothing is absorbed. What passes goes on straight ([`Event::Null`]); its shift aside,
-//! by up to the pane's thickness, is left out, as are interference, dispersion and dirt. Both sides are alike.
+//! each the mean of both planes, which is exact for unpolarised light (Stokes 1862; Born & Wolf, ch. 7.6, without interference). R + T = 1 if nothing
+//! is absorbed. Transmitted light goes straight on ([`Event::Null`]). Left out: its lateral shift by up to the pane's thickness, interference,
+//! dispersion and dirt. Both sides are equal.
 
 use etendue_core::{Spectral, maths};
 use glam::{Vec2, Vec3};
@@ -26,11 +26,11 @@ pub struct ThinSheet {
 }
 
 impl ThinSheet {
-    /// A pane of index `n` with the internal transmittance `transmittance` (0 to 1, along the normal, reflections taken
-    /// out) of its whole thickness.
+    /// A pane of index `n` with the internal transmittance `transmittance` (0 to 1, along the normal, without reflections) of its whole
+    /// thickness.
     ///
     /// # Errors
-    /// Where the index is out of range.
+    /// If the index is out of range.
     pub fn new(n: f64, transmittance: Reflectance) -> Result<Self, MaterialError> {
         if !DIELECTRIC_INDICES.contains(&n) {
             return Err(MaterialError::GlassIndex { n });
@@ -72,7 +72,7 @@ pub struct ThinSheetBsdf<const N: usize> {
 }
 
 impl<const N: usize> ThinSheetBsdf<N> {
-    /// What the pane reflects and what it lets pass at a cosine of incidence.
+    /// Reflectance and transmittance of the pane at a cosine of incidence.
     fn shares(&self, cos: f32) -> (Spectral<N>, Spectral<N>) {
         let cos = cos.clamp(0.0, 1.0);
         let planes = fresnel::planes(cos, self.n);
@@ -111,7 +111,7 @@ impl<const N: usize> BsdfModel<N> for ThinSheetBsdf<N> {
         if choice < share {
             return Some(BsdfSample::mirror(wo, reflected / share));
         }
-        // Where nothing passes, the share is 1; NaN where nothing at all goes on.
+        // If nothing passes, the fraction is 1; NaN if the pane neither reflects nor transmits.
         (share < 1.0).then(|| BsdfSample { wi: -wo, weight: passed / (1.0 - share), pdf: 0.0, event: Event::Null })
     }
 }
@@ -145,7 +145,7 @@ mod tests {
         }
     }
 
-    /// Rays followed order by order in f64, for one plane of polarisation.
+    /// Rays traced order by order in f64, for one plane of polarisation.
     fn followed(rho: f64, a: f64) -> (f64, f64) {
         let (mut reflected, mut passed, mut inside) = (rho, 0.0, 1.0 - rho);
         for order in 0..200 {

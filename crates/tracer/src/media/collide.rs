@@ -1,4 +1,4 @@
-//! Where light is next scattered.
+//! Sampling of the next scattering point of a ray.
 
 use etendue_core::random::{Draw, PathStream};
 use etendue_core::{Spectral, Wavelengths};
@@ -6,7 +6,7 @@ use etendue_core::{Spectral, Wavelengths};
 use super::media::{Media, MediaRay, free_flight};
 use super::phase::Phase;
 
-/// Flights, with those that met nothing, that one ray is followed by at most; beyond, its light is taken as lost.
+/// Maximum number of flights of one ray, including those that hit nothing; beyond, its light counts as lost.
 const MAX_FLIGHTS: u32 = 65_536;
 
 /// Random numbers of free flights.
@@ -14,22 +14,22 @@ const MAX_FLIGHTS: u32 = 65_536;
 pub struct FlightRandom<'s> {
     /// The stream.
     pub stream: &'s PathStream,
-    /// How many the path has used.
+    /// Number of random numbers that the path has used.
     pub draws: &'s mut u32,
 }
 
 /// A place where light is scattered.
 #[derive(Clone, Copy, Debug)]
 pub struct Collision<'a> {
-    /// Where along the ray, in lengths of its direction.
+    /// Ray parameter, in lengths of its direction.
     pub t: f32,
-    /// How it is scattered there.
+    /// Phase function there.
     pub phase: &'a Phase,
 }
 
 impl<'a> Media<'a> {
-    /// Follows a ray up to `end`, in lengths of its direction, or to where it is scattered; `None` where nothing scatters it. `throughput` is
-    /// weighted by what was absorbed and by the probabilities that were taken, zero where no light is left.
+    /// Follows a ray up to `end`, in lengths of its direction, or to the point where it is scattered; `None` if nothing scatters it.
+    /// `throughput` is weighted by absorption and by the sampled probabilities; it is zero if no light is left.
     pub fn collide<const N: usize>(
         &self,
         media_ray: MediaRay<'_>,
@@ -51,7 +51,7 @@ impl<'a> Media<'a> {
             t += free_flight(stream.one(Draw::FreeFlight, *flights)) / (piece.majorant_per_m * length_m);
             *flights += 1;
             if t >= piece.end {
-                // Exponential flights have no memory: on from the border as if from anew.
+                // Exponential flights have no memory: the flight starts again at the border.
                 t = piece.end;
                 continue;
             }
@@ -69,7 +69,7 @@ impl<'a> Media<'a> {
         None
     }
 
-    /// What happens at a tentative collision, drawn by what light counts that is scattered by each medium, or by none.
+    /// Samples the event at a tentative collision, by the light that each medium scatters, or that none does.
     fn event<const N: usize>(
         &self,
         media_ray: MediaRay<'_>,
@@ -106,7 +106,7 @@ impl<'a> Media<'a> {
             rest -= share;
         }
         if by_null <= 0.0 {
-            // Rounding has left a rest beyond the last share: as absorbed, which is rarer than any number of samples.
+            // Rounding has left a remainder beyond the last probability: treated as absorbed, which is rarer than any number of samples.
             *throughput = Spectral::ZERO;
             return Event::Absorbed;
         }

@@ -7,10 +7,10 @@ use glam::{DAffine3, DVec3, Vec3};
 use super::medium::{ForwardPeak, Medium, Optics};
 use super::{phase::Phase, shape::Hollow};
 
-/// What a medium counts for beside the part of a ray that lies in it, where light is drawn by middles of longer parts.
+/// Weight of a medium relative to the part of a ray that lies in it, if light is sampled at the middles of longer parts.
 const BESIDE: f32 = 0.05;
 
-/// Steps of ratio tracking along one ray at most. Where more would be needed, nothing comes through.
+/// Maximum number of steps of ratio tracking along one ray. If more are needed, nothing comes through.
 const MAX_STEPS: u32 = 4096;
 
 /// A ray through media.
@@ -18,7 +18,7 @@ const MAX_STEPS: u32 = 4096;
 pub struct MediaRay<'r> {
     /// The ray.
     pub ray: &'r Ray,
-    /// How forward peaks scatter it.
+    /// Treatment of forward peaks.
     pub peak: ForwardPeak,
 }
 
@@ -27,7 +27,7 @@ pub struct MediaRay<'r> {
 pub struct RandomCounter<'s> {
     /// The stream.
     pub stream: &'s PathStream,
-    /// Where its numbers begin.
+    /// First value of the counter.
     pub counter: u32,
 }
 
@@ -50,18 +50,17 @@ pub struct Media<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct PlacedMedium<'a> {
     pub(super) medium: &'a Medium,
-    /// From the render frame to the medium's own, where it stands still.
+    /// Transform from the render frame to the medium's own, if it does not move.
     to_local: Option<DAffine3>,
-    /// Where, about the origin of the render frame, parts of it are left out.
+    /// Parts of it that are left out near the origin of the render frame.
     pub(super) hollow: Option<Hollow>,
 }
 
 /// A part of a ray, in lengths of its direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
-    /// Where it ends.
     pub(super) end: f64,
-    /// The most that the extinction of all media in it may be, 1/m.
+    /// Maximum extinction of all media in it, 1/m.
     pub(super) majorant_per_m: f64,
 }
 
@@ -80,32 +79,32 @@ impl<'a> Media<'a> {
         Self { placed: media.iter().map(place).collect(), origin_m, interval }
     }
 
-    /// The same with parts of one medium, by its place in the list, left out about the origin of the render frame. Its density must be even.
+    /// Leaves out parts of one medium, by its index in the list, near the origin of the render frame. Its density must be uniform.
     #[must_use]
     pub fn hollowed(mut self, medium: usize, hollow: Hollow) -> Self {
         self.placed[medium].hollow = Some(hollow);
         self
     }
 
-    /// The phase function of a medium, by its place in the list.
+    /// The phase function of a medium, by its index in the list.
     #[must_use]
     pub fn phase(&self, medium: usize) -> &'a Phase {
         &self.placed[medium].medium.optics(ForwardPeak::Exact).phase
     }
 
-    /// Whether there are none.
+    /// True if there are no media.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.placed.is_empty()
     }
 
-    /// Beginning and end of a ray's part in a medium, before `end`; in lengths of the ray's direction.
+    /// Start and end of a ray's part in a medium, before `end`; in lengths of the ray's direction.
     pub(super) fn span(&self, placed: &PlacedMedium<'_>, ray: &Ray, end: f64) -> Option<RaySpan> {
         let (origin, direction) = self.local(placed, ray);
         placed.medium.shape.span(origin, direction, end).map(|(from, to)| RaySpan { from, to })
     }
 
-    /// How much of a ray up to `end` lies in a medium, between where it begins and ends there; in lengths of the ray's direction.
+    /// Length of a ray inside a medium up to `end`, between its entry and its exit; in lengths of the ray's direction.
     pub(super) fn inside(&self, placed: &PlacedMedium<'_>, ray: &Ray, span: RaySpan) -> f64 {
         let Some(solid) = placed.medium.shape.gaps() else { return span.to - span.from };
         let (origin, direction) = self.local(placed, ray);
@@ -124,13 +123,13 @@ impl<'a> Media<'a> {
         (to_local.transform_point3(origin), to_local.transform_vector3(direction))
     }
 
-    /// From where to where, before `end`, any medium lies along a ray; `None` where none does. In lengths of the ray's direction.
+    /// Start and end, before `end`, of the part of a ray that lies in any medium; `None` if none does. In lengths of the ray's direction.
     pub(crate) fn reach(&self, ray: &Ray, end: f64) -> Option<RaySpan> {
         let spans = self.placed.iter().filter_map(|placed| self.span(placed, ray, end));
         spans.reduce(|all, one| RaySpan { from: all.from.min(one.from), to: all.to.max(one.to) })
     }
 
-    /// What is scattered at `t` along a ray towards the unit `to`, of light that arrives from there: Σ β albedo p, 1/(m sr).
+    /// Scattering coefficient at `t` along a ray for light that arrives from the unit direction `to`: Σ β albedo p, 1/(m sr).
     pub(crate) fn scattering<const N: usize>(
         &self,
         media_ray: MediaRay<'_>,
@@ -151,9 +150,9 @@ impl<'a> Media<'a> {
         sum
     }
 
-    /// About how much of light that arrives at `t` along a ray from the unit `to` reaches the ray's beginning, 1/(m sr): the mean over the
-    /// wavelengths, but for the phase function, which is that of the first, and as if densities were even. For drawing by, above 0 all along a
-    /// ray that meets anything.
+    /// Approximate fraction of light arriving at `t` along a ray from the unit direction `to` that reaches the ray's start, 1/(m sr). It is
+    /// the mean over the wavelengths, except for the phase function, which is that of the first, and assumes uniform densities. For
+    /// importance sampling: positive all along a ray that hits anything.
     pub(crate) fn about<const N: usize>(&self, ray: &Ray, t: f64, to: Vec3, wavelengths: &Wavelengths<N>) -> f32 {
         let (mut scattered, mut depth) = (0.0, 0.0);
         for placed in &self.placed {
@@ -168,7 +167,7 @@ impl<'a> Media<'a> {
         scattered * exp(-depth) as f32
     }
 
-    /// The part of a ray from `t` on in which the same media lie.
+    /// The part of a ray from `t` on that lies in the same media.
     pub(super) fn piece(&self, media_ray: MediaRay<'_>, t: f64, end: f64) -> Piece {
         let MediaRay { ray, peak } = media_ray;
         let mut piece = Piece { end, majorant_per_m: 0.0 };
@@ -203,8 +202,8 @@ impl<'a> Media<'a> {
         placed.medium.density(point, self.interval.moment(ray.time_s))
     }
 
-    /// The share of light that comes through along a ray up to its `t_max`: exact where densities are even, else an unbiased estimate by
-    /// random numbers from the sub-counter of `random` on; estimates that are multiplied with each other need counters of their own.
+    /// Transmittance along a ray up to its `t_max`: exact for uniform densities, else an unbiased estimate by random numbers from the
+    /// sub-counter of `random` on. Estimates that are multiplied with each other need separate counters.
     #[must_use]
     pub fn transmittance<const N: usize>(
         &self,
@@ -224,7 +223,7 @@ impl<'a> Media<'a> {
                 (0..N).for_each(|k| depth[k] += f64::from(extinction[k]) * length * length_m);
             } else if placed.medium.unevenness.is_none() {
                 let inside = self.inside(placed, ray, span);
-                // No medium, no depth, however far.
+                // Without a medium the optical depth is zero, however long the ray.
                 (0..N)
                     .filter(|k| extinction[*k] > 0.0)
                     .for_each(|k| depth[k] += f64::from(extinction[k]) * inside * length_m);
@@ -266,25 +265,26 @@ impl<'a> Media<'a> {
     }
 }
 
-/// The first of [`MAX_STEPS`] counters of a medium's random numbers at a vertex: those of 256 media and 4096 vertices are apart.
+/// The first of [`MAX_STEPS`] counters of a medium's random numbers at a vertex: those of 256 media and 4096 vertices are distinct.
 fn counter_of(vertex: u32, medium: usize) -> u32 {
     vertex.wrapping_mul(256).wrapping_add(medium as u32 & 255).wrapping_mul(MAX_STEPS)
 }
 
-/// The optical depth that a flight is longer than with the probability 1 − u.
+/// The optical depth that a flight exceeds with the probability 1 − u.
 pub(super) fn free_flight(u: f32) -> f64 {
     -etendue_core::maths::f64::ln_1p(-f64::from(u))
 }
 
-/// Greatest number of steps of the quadrature along one ray.
+/// Maximum number of steps of the quadrature along one ray.
 const MAX_QUADRATURE_STEPS: f64 = 8192.0;
 
-/// Steps to the smallest eddy.
+/// Steps per smallest eddy.
 const STEPS_PER_EDDY: f64 = 6.0;
 
 impl Media<'_> {
-    /// ∫ density dt up to a ray's `t_max`, m, of each medium: the length of mean density that takes as much light. Infinite where the way is.
-    /// Uneven densities are summed at the middles of at least six steps to their smallest eddy, but of at most 8 192 steps.
+    /// ∫ density dt up to a ray's `t_max`, m, of each medium: the length of mean density with the same attenuation. Infinite for an
+    /// infinite length. Non-uniform densities are summed at the middles of at least six steps per smallest eddy, but of at most 8 192
+    /// steps.
     #[must_use]
     pub fn columns_m(&self, ray: &Ray) -> Vec<f64> {
         self.placed.iter().map(|placed| self.column_m(placed, ray)).collect()

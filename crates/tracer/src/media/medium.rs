@@ -1,7 +1,7 @@
 //! A medium that scatters and absorbs: fog, haze, spray, smoke.
 //!
-//! At a point the extinction coefficient is β(λ) · (1 + a n), n noise of mean zero, of which the share `albedo` is scattered, by the phase
-//! function. Left out: light that the medium itself gives off, and an albedo or a phase function that change from place to place.
+//! At a point the extinction coefficient is β(λ) · (1 + a n), with n noise of mean zero. Its fraction `albedo` is scattered, by the phase function.
+//! Left out: emission of the medium itself, and an albedo or a phase function that vary in space.
 
 use std::sync::Arc;
 
@@ -11,19 +11,19 @@ use glam::DVec3;
 
 use super::{noise::Noise, phase::Phase, shape::Shape};
 
-/// Why a medium is refused.
+/// Error of a medium.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MediumError {
     /// An extinction is negative or too large.
     #[error("an extinction of {value} 1/m was given, but it must be 0 to 1e6 at every wavelength; correct it")]
     Extinction {
-        /// What was given, 1/m.
+        /// Value given, 1/m.
         value: f32,
     },
     /// An albedo is out of range.
     #[error("an albedo of {value} was given, but it must be 0 to 1 at every wavelength; correct it")]
     Albedo {
-        /// What was given.
+        /// Value given.
         value: f32,
     },
     /// The motion takes a scale to zero.
@@ -31,25 +31,25 @@ pub enum MediumError {
     Transform,
 }
 
-/// How a medium's density changes from place to place.
+/// Variation of a medium's density in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unevenness {
     /// The noise, in the world.
     pub noise: Noise,
-    /// Deviation of the density at noise 1, as a share of the mean: 0 to 1.
+    /// Deviation of the density at noise 1, as a fraction of the mean: 0 to 1.
     pub amplitude: f64,
-    /// Velocity by which the noise drifts, m/s.
+    /// Drift velocity of the noise, m/s.
     pub wind_mps: DVec3,
 }
 
-/// What a medium does to light, at its mean density.
+/// Optical properties of a medium at its mean density.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Optics {
     /// Extinction coefficient, 1/m.
     pub(super) extinction: Arc<Spectrum>,
     pub(super) albedo: Arc<Spectrum>,
     pub(super) phase: Arc<Phase>,
-    /// Greatest extinction over wavelengths, 1/m.
+    /// Maximum extinction over wavelengths, 1/m.
     pub(super) greatest_per_m: f32,
 }
 
@@ -59,7 +59,7 @@ impl Optics {
         Self { extinction: Arc::new(extinction), albedo: Arc::new(albedo), phase, greatest_per_m }
     }
 
-    /// The same where light scattered by the forward peak, a share f, is taken as not scattered: β (1 − ω f), albedo ω (1 − f)/(1 − ω f).
+    /// The same if light scattered by the forward peak, a fraction f, counts as not scattered: β (1 − ω f), albedo ω (1 − f)/(1 − ω f).
     fn without_peak(&self) -> Self {
         let Some((share, phase)) = self.phase.without_peak() else { return self.clone() };
         let at = |of: &Spectrum, nm: f64| f64::from(of.at(nm as f32));
@@ -90,11 +90,11 @@ pub struct Medium {
 }
 
 impl Medium {
-    /// A medium of mean extinction coefficient `extinction` (1/m) and single-scattering `albedo`, that fills a `shape` whose frame is taken
-    /// to the world by `to_world`.
+    /// A medium of mean extinction coefficient `extinction` (1/m) and single-scattering `albedo` that fills a `shape`; `to_world`
+    /// transforms the shape's frame to the world.
     ///
     /// # Errors
-    /// Where a number is out of range, or the motion flattens the shape.
+    /// If a number is out of range, or the motion flattens the shape.
     pub fn new(
         extinction: Spectrum,
         albedo: Spectrum,
@@ -120,7 +120,7 @@ impl Medium {
         Ok(Self { exact, without_peak, unevenness: None, shape, to_world })
     }
 
-    /// The same, but light that is followed without peaks goes through it as if it were not there: for what turns little light and takes none.
+    /// The same, but absent for light that is traced without forward peaks: for media that deflect little light and absorb none.
     #[must_use]
     pub fn unless_without_peak(self) -> Self {
         let Optics { albedo, phase, .. } = &self.exact;
@@ -137,7 +137,7 @@ impl Medium {
         }
     }
 
-    /// The same with an uneven density.
+    /// Adds a non-uniform density.
     #[must_use]
     pub fn with_unevenness(self, unevenness: Unevenness) -> Self {
         let unevenness = Some(unevenness).filter(|unevenness| unevenness.amplitude != 0.0);
@@ -150,13 +150,13 @@ impl Medium {
         &self.exact.extinction
     }
 
-    /// Share of what it takes out of a beam that it scatters.
+    /// Fraction of the extinction that is scattered.
     #[must_use]
     pub fn albedo(&self) -> &Spectrum {
         &self.exact.albedo
     }
 
-    /// Whether it moves, or its unevenness drifts.
+    /// True if it moves, or its density variation drifts.
     #[must_use]
     pub fn moves(&self) -> bool {
         self.to_world.as_still().is_none() || self.unevenness.is_some_and(|of| of.wind_mps != DVec3::ZERO)
@@ -171,7 +171,7 @@ impl Medium {
         }
     }
 
-    /// The most that the density may be over its mean.
+    /// Maximum density over its mean.
     #[inline]
     pub(super) fn greatest_density(&self) -> f32 {
         self.unevenness.as_ref().map_or(1.0, |unevenness| 1.0 + unevenness.amplitude as f32)

@@ -1,11 +1,11 @@
 //! Media that light travels through: fog, haze, spray, smoke.
 //!
-//! A [`Medium`] says what a part of the world is filled with; [`Media`] are all of a view, asked along rays: where a ray is next scattered,
-//! and what share of light comes through. Where several lie in one another their coefficients add. They fill what objects leave free and
-//! pass through thin panes; solids of glass or water displace them.
+//! A [`Medium`] fills a part of the world; [`Media`] are all those of a view. Rays query them for the next scattering point and for the
+//! transmittance. The coefficients of overlapping media add. Media fill the space that objects leave free and pass through thin panes; solids of
+//! glass or water displace them.
 //!
-//! Distances are drawn by delta tracking (Woodcock et al. 1965) of all wavelengths together, with the chances of Kutz et al. ("Spectral and
-//! decomposition tracking", 2017); transmittance is exact where the density is even, and estimated by ratio tracking (Novák et al. 2014) where it is not.
+//! Distances are sampled by delta tracking (Woodcock et al. 1965) of all wavelengths together, with the probabilities of Kutz et al. ("Spectral and
+//! decomposition tracking", 2017). Transmittance is exact for uniform density, and otherwise estimated by ratio tracking (Novák et al. 2014).
 
 mod collide;
 #[allow(clippy::module_inception)]

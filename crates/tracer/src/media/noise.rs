@@ -1,4 +1,4 @@
-//! Gradient noise (Perlin, "Improving noise", 2002) in octaves: the unevenness of fog.
+//! Gradient noise (Perlin, "Improving noise", 2002) in octaves: the density variation of fog.
 
 use glam::{DVec3, UVec3};
 
@@ -7,11 +7,11 @@ use glam::{DVec3, UVec3};
 pub struct Noise {
     /// Size of the largest eddies (the lattice's step), m. Positive.
     pub scale_m: f64,
-    /// Octaves, 1 to 12, each of half the size of the one before.
+    /// Octaves, 1 to 12, each of half the size of the previous one.
     pub octaves: u32,
-    /// Strength of an octave beside the one before, 0 to 1.
+    /// Strength of an octave relative to the previous one, 0 to 1.
     pub gain: f64,
-    /// Which noise of all.
+    /// Seed.
     pub seed: u32,
 }
 
@@ -69,7 +69,7 @@ fn slope(hash: u32, p: DVec3) -> f64 {
     (if h & 1 == 0 { u } else { -u }) + (if h & 2 == 0 { v } else { -v })
 }
 
-/// A corner of the lattice scattered over all numbers (finaliser of MurmurHash3, Appleby 2011).
+/// Hash of a corner of the lattice (finaliser of MurmurHash3, Appleby 2011).
 fn hash(at: UVec3, seed: u32) -> u32 {
     let word = |h: u32, w: u32| {
         let mut h = h ^ w;

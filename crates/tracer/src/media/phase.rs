@@ -1,7 +1,7 @@
-//! Phase functions: how a medium scatters light by the angle from straight on.
+//! Phase functions: distribution of scattered light over the angle from the forward direction.
 //!
-//! All are normalised, ∫ p dω = 1 over the sphere, in 1/sr, and drawn exactly by themselves: what is drawn has the weight 1. An angle is
-//! given by v = 1 − cos θ, which is 0 straight on, since cosines near 1 have no digits left for narrow forward peaks.
+//! All are normalised, ∫ p dω = 1 over the sphere, in 1/sr, and sampled exactly: samples have the weight 1. An angle is given by v = 1 − cos θ, which
+//! is 0 straight on, since cosines near 1 have no digits left for narrow forward peaks.
 
 use core::f32::consts::{FRAC_1_PI, TAU};
 
@@ -18,7 +18,7 @@ const PER_SPHERE: f32 = 0.25 * FRAC_1_PI;
 /// A phase function.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Phase {
-    /// All directions alike.
+    /// Equal in all directions.
     Isotropic,
     /// Henyey and Greenstein (1941) of mean cosine g, −0.99 to 0.99.
     HenyeyGreenstein {
@@ -27,19 +27,19 @@ pub enum Phase {
     },
     /// Molecules: 3/(16π) (1 + cos² θ), Rayleigh (1871).
     Rayleigh,
-    /// By tables.
+    /// Tabulated.
     Table(SpectralTable),
 }
 
 /// Half angle of a forward peak, rad: 20°. Of 12 µm droplets under sun and sky it changes fog's radiance by less than 1 %.
 const PEAK_RAD: f64 = 20.0 / 180.0 * core::f64::consts::PI;
 
-/// Mean cosine from which on Henyey and Greenstein's function has a peak.
+/// Mean cosine from which on the Henyey–Greenstein function has a peak.
 const PEAKED: f32 = 0.5;
 
 impl Phase {
-    /// The same without its forward peak, and the share of light that the peak has, by wavelength; `None` where there is none. Light of the
-    /// peak goes on within 20° of where it went: where that makes no difference, it may be taken as not scattered at all (the δ
+    /// The phase function without its forward peak, and the fraction of light in the peak, by wavelength; `None` if there is none. Light of
+    /// the peak continues within 20° of its direction. If that makes no difference, it may be treated as not scattered at all (the δ
     /// approximation of Joseph, Wiscombe and Weinman 1976).
     pub(super) fn without_peak(&self) -> Option<(Spectrum, Self)> {
         let (share, table) = match self {
@@ -57,7 +57,8 @@ impl Phase {
         Some((share, Self::Table(table)))
     }
 
-    /// p, 1/sr, of light that travels on from the unit `from` to the unit `to`; of tables the mean over the wavelengths.
+    /// p, 1/sr, of light that is scattered from the unit direction `from` into the unit direction `to`; for tables the mean over the
+    /// wavelengths.
     #[must_use]
     pub fn density<const N: usize>(&self, from: Vec3, to: Vec3, wavelengths: &Wavelengths<N>) -> f32 {
         match self {
@@ -89,7 +90,7 @@ impl Phase {
         }
     }
 
-    /// A unit direction drawn by [`Phase::density`], for light that travels along the unit `from`.
+    /// Samples a unit direction by [`Phase::density`], for light that travels along the unit `from`.
     #[must_use]
     pub fn sample<const N: usize>(&self, from: Vec3, choice: f32, u: Vec2, wavelengths: &Wavelengths<N>) -> Vec3 {
         let v = match self {
@@ -115,7 +116,7 @@ fn henyey_greenstein(g: f32, v: f32) -> f32 {
     PER_SPHERE * (1.0 - g * g) / (below * below.sqrt())
 }
 
-/// v at which a share `u` of the light has been scattered less far.
+/// v below which a fraction `u` of the light is scattered.
 fn henyey_greenstein_at(g: f32, u: f32) -> f32 {
     if g.abs() < 1e-3 {
         return 2.0 * u;
@@ -156,7 +157,7 @@ mod tests {
         ]
     }
 
-    /// The density integrates to one, and what is drawn follows it: χ² over bins of equal expected counts in angle. 2·10⁵ draws.
+    /// The density integrates to one, and samples follow it: χ² over bins of equal expected counts in angle. 2·10⁵ samples.
     #[test]
     fn directions_are_drawn_by_the_density() {
         let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, 0.3);

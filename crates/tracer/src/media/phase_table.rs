@@ -1,7 +1,7 @@
-//! Phase functions by tables: droplets by Mie's series, and a fit to them.
+//! Tabulated phase functions: droplets by Mie's series, and a fit to them.
 //!
-//! Nodes lie at θ = π t², t even, which is finest in the forward peak; p is linear in v = 1 − cos θ between them and normalised as such,
-//! so that drawing by the table is exact. Between the table's wavelengths p is linear.
+//! Nodes lie at θ = π t² with equidistant t, finest in the forward peak. p is linear in v = 1 − cos θ between them and normalised as such, so that
+//! sampling the table is exact. Between the table's wavelengths p is linear.
 
 use core::{f32::consts::TAU, f64::consts::PI};
 
@@ -25,11 +25,11 @@ struct PhaseTable {
     v: Vec<f32>,
     /// p, 1/sr.
     density: Vec<f32>,
-    /// Share of light scattered less far than each node.
+    /// Fraction of light scattered by less than the angle of each node.
     below: Vec<f32>,
 }
 
-/// Ways out of a ball that are followed, the mirrored one first; what is left goes with the last.
+/// Orders of rays leaving a ball that are traced, the reflected one first; the remainder is added to the last.
 const ORDERS: u32 = 12;
 
 /// Rays over a ball's radius.
@@ -42,8 +42,8 @@ struct ScatteredPart {
     strength: f64,
 }
 
-/// What a ball of index n makes of even light. A ray that meets it at an angle of incidence i, refracted to r, leaves
-/// after p passages turned by 2 (i − r) + (p − 1)(π − 2 r), mirrored outside by π − 2 i (van de Hulst 1957, section 12.2).
+/// Scattering of uniform light by a ball of index n. A ray that hits it at an angle of incidence i, refracted to r, leaves after p passages
+/// deflected by 2 (i − r) + (p − 1)(π − 2 r), reflected outside by π − 2 i (van de Hulst 1957, section 12.2).
 fn balls(n: f64) -> impl Iterator<Item = ScatteredPart> {
     let ray = move |k: u32| {
         let b = (f64::from(k) + 0.5) / f64::from(RAYS);
@@ -63,7 +63,7 @@ fn balls(n: f64) -> impl Iterator<Item = ScatteredPart> {
     (0..RAYS).flat_map(ray)
 }
 
-/// Share of light that leaves after an order's passages, of an interface that mirrors a share.
+/// Fraction of light that leaves after an order's passages, for an interface of reflectance `mirrored`.
 fn of_order(order: u32, mirrored: f64) -> f64 {
     let through = (1.0 - mirrored) * (1.0 - mirrored);
     let inside = (1..order).fold(1.0, |share, _| share * mirrored);
@@ -80,7 +80,7 @@ fn angles() -> impl Iterator<Item = f64> {
 }
 
 impl PhaseTable {
-    /// A table of what is proportional to a phase function at the nodes' angles (rad): normalised here.
+    /// A table of values proportional to a phase function at the nodes' angles (rad), normalised here.
     fn new(values: &[f64]) -> Self {
         // 1 − cos θ = 2 sin²(θ/2), without loss.
         let v: Vec<f64> =
@@ -131,7 +131,6 @@ impl PhaseTable {
         ((1.0 - kept).max(0.0), Self::new(&cut))
     }
 
-    /// The cell of v.
     #[inline]
     fn cell(&self, v: f32) -> usize {
         // θ/2 by its sine and cosine.
@@ -156,7 +155,7 @@ impl PhaseTable {
         self.density[i] + share * (self.density[i + 1] - self.density[i])
     }
 
-    /// v below which the share `u` of the light lies.
+    /// v below which the fraction `u` of the light lies.
     fn sample(&self, u: f32) -> f32 {
         let i = self.below.partition_point(|below| *below <= u).clamp(1, STEPS) - 1;
         let rest = (u - self.below[i]) / TAU;
@@ -178,13 +177,13 @@ pub struct SpectralTable {
 }
 
 impl SpectralTable {
-    /// A phase function of the angle, rad, the same at all wavelengths and known but for a factor.
+    /// A phase function of the angle, rad, the same at all wavelengths and known up to a factor.
     pub(super) fn grey(of: impl Fn(f64) -> f64) -> Self {
         Self { nm: vec![550.0], tables: vec![PhaseTable::new(&angles().map(of).collect::<Vec<_>>())] }
     }
 
-    /// The same without its forward peak: within `within_rad` no more than at that angle; and the share of light that the peak had, by
-    /// wavelength.
+    /// The phase function without its forward peak: within `within_rad` at most its value at that angle. Also the fraction of light in the
+    /// peak, by wavelength.
     pub(super) fn without_peak(&self, within_rad: f64) -> (Spectrum, Self) {
         let (shares, tables): (Vec<f64>, Vec<PhaseTable>) =
             self.tables.iter().map(|table| table.without_peak(within_rad)).unzip();
@@ -231,8 +230,8 @@ impl SpectralTable {
         Some(Self::grey(value))
     }
 
-    /// Balls of a refractive index, far larger than light's waves, by geometric optics without diffraction: what a ball does to the light that
-    /// meets it. Both polarisations, up to twelve passages. Of water this holds the rainbows.
+    /// Balls of a refractive index, far larger than the wavelength, by geometric optics without diffraction: scattering of the light that
+    /// hits the ball. Both polarisations, up to twelve passages. For water this includes the rainbows.
     #[must_use]
     pub fn of_large_balls(index: &Spectrum) -> Self {
         let nm: Vec<f32> = (0..=8).map(|i| 380.0 + 42.5 * i as f32).collect();
@@ -249,13 +248,13 @@ impl SpectralTable {
         if share > 0.0 { low + share * (self.tables[i + 1].density(v) - low) } else { low }
     }
 
-    /// v drawn at a wavelength; `choice` takes one of the two tables that it lies between.
+    /// Samples v at a wavelength; `choice` selects one of the two tables around it.
     pub(super) fn sample(&self, nm: f32, choice: f32, u: f32) -> f32 {
         let (i, share) = self.place(nm);
         self.tables[if choice < share { i + 1 } else { i }].sample(u)
     }
 
-    /// The table below a wavelength, and the share of the next one.
+    /// The table below a wavelength, and the weight of the next one.
     fn place(&self, nm: f32) -> (usize, f32) {
         let above = self.nm.partition_point(|at| *at <= nm);
         if above == 0 || above == self.nm.len() {
@@ -281,7 +280,7 @@ mod tests {
         }
     }
 
-    /// The ratios of the fit to Mie's function that PHYSICS.md §18 states: 0.92 to 1.25 from 5° to 60°, 0.30 to 0.65 at 140°, 0.19 to 0.28
+    /// The ratios of the fit to Mie's function stated in PHYSICS.md §18: 0.92 to 1.25 from 5° to 60°, 0.30 to 0.65 at 140°, 0.19 to 0.28
     /// straight back.
     #[test]
     fn the_fit_is_as_far_from_the_series_as_others_find_it() {

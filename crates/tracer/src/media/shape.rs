@@ -1,4 +1,4 @@
-//! Where a medium is: all over, below a height, in a box, a ball or a closed mesh; in its own frame.
+//! Region of a medium: everywhere, below a height, in a box, a ball or a closed mesh; in its own frame.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::solid::Solid;
 /// The part of space that a medium fills.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// All of it.
+    /// All of space.
     Everywhere,
     /// Below z = `top_m`.
     Below {
@@ -31,8 +31,8 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Beginning and end of the part of a ray that lies inside, between 0 and `end` in lengths of `direction`; `None` where there is none. Of a
-    /// mesh from where the ray first enters to where it last leaves: between, gaps may be ([`Shape::gaps`]).
+    /// Start and end of the part of a ray that lies inside, between 0 and `end` in lengths of `direction`; `None` if there is none. For a
+    /// mesh from the ray's first entry to its last exit: gaps may lie between ([`Shape::gaps`]).
     pub(super) fn span(&self, origin: DVec3, direction: DVec3, end: f64) -> Option<(f64, f64)> {
         let (from, to) = match self {
             Self::Everywhere => (0.0, end),
@@ -55,14 +55,14 @@ impl Shape {
         (from < to).then_some((from, to))
     }
 
-    /// What is not convex, so that a ray may leave and enter it again.
+    /// The mesh, which is not convex, so that a ray may leave and enter it again.
     #[inline]
     pub(super) fn gaps(&self) -> Option<&Solid> {
         if let Self::Mesh(solid) = self { Some(solid) } else { None }
     }
 }
 
-/// Where x + d t lies between two ends; an empty span where it never does.
+/// Interval in which x + d t lies between two ends; empty if it never does.
 fn slab(x: f64, d: f64, low: f64, high: f64) -> (f64, f64) {
     if d == 0.0 {
         return if x >= low && x <= high {
@@ -75,7 +75,7 @@ fn slab(x: f64, d: f64, low: f64, high: f64) -> (f64, f64) {
     (a.min(b), a.max(b))
 }
 
-/// Where a line crosses a ball about the origin.
+/// Intersections of a line with a ball about the origin.
 fn ball(origin: DVec3, direction: DVec3, radius_m: f64) -> Option<(f64, f64)> {
     let length2 = direction.length_squared();
     let middle = -origin.dot(direction) / length2;
@@ -84,37 +84,37 @@ fn ball(origin: DVec3, direction: DVec3, radius_m: f64) -> Option<(f64, f64)> {
     (half2 > 0.0).then(|| (middle - half2.sqrt(), middle + half2.sqrt()))
 }
 
-/// A part of an even medium.
+/// A part of a uniform medium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HollowPart {
-    /// The distance from which on it is there, m.
+    /// Minimum distance of this part, m.
     pub from_m: f64,
-    /// The fraction of the medium that it is.
+    /// Fraction of the medium.
     pub fraction: f64,
 }
 
-/// Parts of an even medium, each of which begins at a distance of its own: nearer, particles are modelled by themselves.
+/// Parts of a uniform medium, each of which begins at a distance of its own: nearer, particles are modelled one by one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hollow {
-    /// In rising order of where they begin.
+    /// By increasing starting distance.
     parts: Vec<HollowPart>,
 }
 
 impl Hollow {
-    /// From the parts, whose fractions are 1 together.
+    /// From the parts, whose fractions sum to 1.
     #[must_use]
     pub fn new(mut parts: Vec<HollowPart>) -> Self {
         parts.sort_by(|a, b| a.from_m.total_cmp(&b.from_m));
         Self { parts }
     }
 
-    /// What share of the medium is there at a distance, m.
+    /// Fraction of the medium present at a distance, m.
     #[must_use]
     pub fn density(&self, distance_m: f64) -> f64 {
         self.parts.iter().take_while(|part| part.from_m <= distance_m).map(|part| part.fraction).sum()
     }
 
-    /// Length of a line through the medium between `from` and `to`, each part by its fraction; in lengths of the direction.
+    /// Length of a line through the medium between `from` and `to`, each part weighted by its fraction; in lengths of the direction.
     #[must_use]
     pub fn path_length(&self, origin: DVec3, direction: DVec3, from: f64, to: f64) -> f64 {
         let length2 = direction.length_squared();
@@ -162,7 +162,7 @@ mod tests {
         let step = (to - from) / f64::from(n);
         let at = |i: u32| hollow.density((origin + direction * (from + (f64::from(i) + 0.5) * step)).length());
         let sum: f64 = (0..n).map(at).sum::<f64>() * step;
-        // Three steps of the density, each met to half a step.
+        // Three steps of the density, each hit to half a step.
         assert!((hollow.path_length(origin, direction, from, to) - sum).abs() < 2.0 * step);
         assert_eq!((hollow.density(0.0), hollow.density(1e9)), (0.5, 1.0));
     }

@@ -1,19 +1,19 @@
 //! The inside of a closed mesh, as the parts of a line that lie in it.
 //!
-//! A point is inside where a ray from it crosses the surface an odd number of times. Crossings are found without gaps and without doubles at
-//! edges: in the plane across the line each triangle's edge functions, in f64, are the same but for their sign in both triangles of an edge (Woop, Benthin and
-//! Wald, "Watertight ray/triangle intersection", JCGT 2, 2013), and a line that meets an edge or a vertex exactly is taken for one beside it, the
-//! same for all triangles.
+//! A point is inside if a ray from it crosses the surface an odd number of times. Crossings are found without gaps and without duplicates at edges.
+//! In the plane across the line each triangle's edge functions, in f64, are equal up to sign in both triangles of an edge (Woop, Benthin and Wald,
+//! "Watertight ray/triangle intersection", JCGT 2, 2013). A line that hits an edge or a vertex exactly is treated as one next to it, the same for all
+//! triangles.
 
 use core::ops::Range;
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-/// Triangles of a leaf at most.
+/// Maximum number of triangles per leaf.
 const LEAF: usize = 4;
 
-/// Why a mesh has no inside.
+/// Error of a mesh without an inside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SolidError {
     /// Edges that an odd number of triangles share.
@@ -21,9 +21,9 @@ pub enum SolidError {
         "the mesh is open: {open} of its {all} edges belong to an odd number of triangles; close its holes, so that it has an inside"
     )]
     Open {
-        /// How many.
+        /// Number of such edges.
         open: usize,
-        /// Of how many.
+        /// Number of all edges.
         all: usize,
     },
     /// No triangles, or a vertex that is not finite.
@@ -48,15 +48,15 @@ struct Node {
     /// Its triangles.
     first: u32,
     count: u32,
-    /// The second of its halves, of which the first follows it; 0 for a leaf.
+    /// Index of the second half (the first one follows this node); 0 for a leaf.
     second: u32,
 }
 
 impl Solid {
-    /// The inside of triangles over vertices. Vertices at the same place are one.
+    /// The inside of triangles over vertices. Vertices at the same place are merged.
     ///
     /// # Errors
-    /// Where edges belong to an odd number of triangles, or there is nothing.
+    /// If edges belong to an odd number of triangles, or there are no triangles.
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Result<Self, SolidError> {
         let (vertices, numbers) = welded(positions);
         let renamed = triangles.iter().map(|triangle| triangle.map(|i| numbers[i as usize]));
@@ -75,14 +75,14 @@ impl Solid {
     pub(super) fn parts(&self, origin: DVec3, direction: DVec3, end: f64) -> Vec<(f64, f64)> {
         let mut crossings = self.crossings(origin, direction);
         crossings.sort_by(f64::total_cmp);
-        // All that is crossed from within: the ray begins inside.
+        // An odd number of crossings: the ray begins inside.
         let begins = if crossings.len() % 2 == 1 { Some(0.0) } else { None };
         let ends: Vec<f64> = begins.into_iter().chain(crossings).collect();
         let parts = ends.chunks_exact(2).map(|pair| (pair[0], pair[1].min(end)));
         parts.filter(|(from, to)| from < to).collect()
     }
 
-    /// Where a ray crosses the surface, in lengths of its direction, beyond its origin.
+    /// Crossings of a ray with the surface, in lengths of its direction, beyond its origin.
     fn crossings(&self, origin: DVec3, direction: DVec3) -> Vec<f64> {
         let (line, inverse) = (Line::new(origin, direction), direction.recip());
         let mut found = vec![];
@@ -104,7 +104,7 @@ impl Solid {
     }
 }
 
-/// Each place once, and the number of each vertex's.
+/// The distinct places, and the index of the place of each vertex.
 fn welded(positions: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
     let (mut vertices, mut known) = (vec![], BTreeMap::new());
     let number = |position: &DVec3| {
@@ -130,14 +130,14 @@ fn check_closed(triangles: &[[u32; 3]]) -> Result<(), SolidError> {
     if open > 0 { Err(SolidError::Open { open, all: edges.len() }) } else { Ok(()) }
 }
 
-/// Boxes over a range of triangles, halved by their number along the longest side.
+/// Boxes over a range of triangles, halved by count along the longest side.
 fn build(vertices: &[DVec3], triangles: &mut [[u32; 3]], range: Range<usize>, nodes: &mut Vec<Node>) {
     let Range { start: first, end } = range;
     let part = &mut triangles[first..end];
     let corners = || part.iter().flatten().map(|i| vertices[*i as usize]);
     let low = corners().reduce(DVec3::min).unwrap_or(DVec3::ZERO);
     let high = corners().reduce(DVec3::max).unwrap_or(DVec3::ZERO);
-    // Room for rounding where a ray runs along a side.
+    // Margin for rounding if a ray runs along a side.
     let room = DVec3::splat(1e-9 * low.abs().max(high.abs()).max_element());
     let at = nodes.len();
     nodes.push(Node {
@@ -160,12 +160,12 @@ fn build(vertices: &[DVec3], triangles: &mut [[u32; 3]], range: Range<usize>, no
 }
 
 impl Node {
-    /// Whether a ray may meet the box; certain only where it says no.
+    /// True if a ray may hit the box; false only if it certainly misses.
     fn is_met(&self, origin: DVec3, inverse: DVec3) -> bool {
         let (mut from, mut to) = (0.0_f64, f64::INFINITY);
         for axis in 0..3 {
             if inverse[axis].is_infinite() {
-                // Along two of the sides; 0 · ∞ in the plane of one says nothing.
+                // The ray is parallel to two of the sides; 0 · ∞ in the plane of one is undefined.
                 if origin[axis] < self.low[axis] || origin[axis] > self.high[axis] {
                     return false;
                 }
@@ -181,7 +181,7 @@ impl Node {
 /// A line in axes of its own: across it, and along it in lengths of its direction.
 struct Line {
     origin: DVec3,
-    /// The direction's greatest axis, and the two others.
+    /// Axis of the direction's largest component, and the two others.
     axes: [usize; 3],
     /// Slopes of the other two to that, and the length of that.
     shear: DVec3,
@@ -195,7 +195,7 @@ impl Line {
         Self { origin, axes: [x, y, along], shear: DVec3::new(direction[x] / z, direction[y] / z, z) }
     }
 
-    /// Where the line crosses a triangle, before or beyond its origin.
+    /// Ray parameter at which the line crosses a triangle, before or beyond its origin.
     fn crosses(&self, vertices: &[DVec3], triangle: &[u32; 3]) -> Option<f64> {
         let place = |i: u32| {
             let from = vertices[i as usize] - self.origin;
@@ -204,7 +204,7 @@ impl Line {
         };
         let [a, b, c] = triangle.map(place);
         let side = |a: DVec3, b: DVec3| a.x * b.y - a.y * b.x;
-        // On which side of an edge the line passes. Where it meets the edge: as one does that is moved by ε along x and ε² along y.
+        // The side of an edge on which the line passes. If it hits the edge, it is treated as moved by ε along x and ε² along y.
         let turns = |value: f64, a: DVec3, b: DVec3| match (value == 0.0, a.y == b.y) {
             (false, _) => value > 0.0,
             (true, false) => a.y > b.y,
@@ -217,7 +217,7 @@ impl Line {
     }
 }
 
-/// A box about a place, of two triangles a side: its vertices, and triangles that follow `first` others.
+/// A box about a place, of two triangles per side: its vertices, and triangles whose vertices follow `first` others.
 #[cfg(test)]
 pub(crate) fn cuboid(centre: DVec3, half: DVec3, first: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let sign = |bit: u32| if bit == 0 { -1.0 } else { 1.0 };
@@ -264,7 +264,7 @@ mod tests {
         assert!(met > 500, "{met}");
     }
 
-    /// Rays exactly through edges, diagonals of sides and vertices, from outside and from the middle: neither lost nor counted twice.
+    /// Rays exactly through edges, diagonals of sides and vertices, from outside and from the middle: neither missed nor counted twice.
     #[test]
     fn edges_and_vertices_are_crossed_once() {
         let (vertices, triangles) = cuboid(DVec3::ZERO, DVec3::ONE, 0);

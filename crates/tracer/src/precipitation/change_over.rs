@@ -1,10 +1,9 @@
-//! How far about a camera particles are modelled one by one.
+//! Distances from a camera up to which particles are modelled one by one.
 //!
-//! A class of diameter D is modelled where a particle covers `smallest_px` of a pixel's width or more: up to D/(smallest_px · p), p the
-//! angle of a pixel. Where that would be more than `most` particles that pass through the cone that is seen while it is exposed, all distances
-//! are taken back by one factor.
-//! Farther away, and nearer than `clear_m`, no particle of the class is modelled; farther away the class is part of the medium. A particle is
-//! there by the distance of its centre at the ray's time, the medium by that of the point: together they are the whole class at every distance.
+//! A class of diameter D is modelled if a particle covers `smallest_px` of a pixel's width or more: up to D/(smallest_px · p), p the angle of a
+//! pixel. If more than `most` such particles would pass through the visible cone during the exposure, all distances are reduced by one factor.
+//! Farther away, and nearer than `clear_m`, no particle of the class is modelled; farther away the class is part of the medium. A particle is present
+//! by the distance of its centre at the ray's time, the medium by that of the point: together they are the whole class at every distance.
 
 use core::f64::consts::PI;
 
@@ -13,37 +12,37 @@ use glam::DVec3;
 
 use super::size_law::SizeClass;
 
-/// Below this distance a class is not modelled, m: drops on the camera itself.
+/// Minimum distance of a modelled class, m: nearer drops would be on the camera itself.
 const LEAST_M: f64 = 0.02;
 
-/// What a camera resolves.
+/// Resolution of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolution {
     /// Angle of a pixel, rad.
     pub pixel_rad: f64,
-    /// Share of a pixel's width from which on a particle is modelled.
+    /// Minimum width of a modelled particle, as a fraction of a pixel's width.
     pub smallest_px: f64,
-    /// Particles that are modelled at most during an exposure, in the mean.
+    /// Maximum mean number of particles modelled during an exposure.
     pub most: f64,
-    /// How long it lasts, s.
+    /// Exposure time, s.
     pub exposure_s: f64,
-    /// Distance from the camera within which nothing falls, m.
+    /// Distance from the camera within which there are no particles, m.
     pub clear_m: f64,
 }
 
-/// Up to which distance each class is modelled.
+/// Distance up to which each class is modelled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChangeOver {
-    /// Distance within which nothing falls, m.
+    /// Distance within which there are no particles, m.
     pub clear_m: f64,
-    /// By class, m; `clear_m` where none is modelled.
+    /// By class, m; `clear_m` if none is modelled.
     pub radii_m: Vec<f64>,
-    /// Particles in the region at a moment, in the mean.
+    /// Mean number of particles in the region at a time.
     pub expected: f64,
 }
 
 impl ChangeOver {
-    /// That of a camera which sees a region.
+    /// The change-over of a camera that sees a region.
     #[must_use]
     pub fn new(classes: &[SizeClass], resolution: &Resolution, region: &SeenRegion) -> Self {
         let clear_m = resolution.clear_m;
@@ -51,7 +50,7 @@ impl ChangeOver {
         let share = (region.solid_angle_sr() / (4.0 * PI)).min(1.0);
         let cone = |r: f64| 4.0 / 3.0 * PI * share * r * r * r;
         let at_a_moment = |class: &SizeClass, r: f64| class.number_per_m3 * (cone(r) - cone(clear_m));
-        // What falls into the ball about the camera meanwhile, all of which may cross the cone.
+        // Particles that fall into the ball about the camera during the exposure; all of them may cross the cone.
         let falling =
             |class: &SizeClass, r: f64| class.number_per_m3 * PI * r * r * class.speed_mps * resolution.exposure_s;
         let count = |scale: f64, of: &dyn Fn(&SizeClass, f64) -> f64| -> f64 {
@@ -67,14 +66,14 @@ impl ChangeOver {
         Self { clear_m, radii_m: classes.iter().map(radius).collect(), expected: count(scale, &at_a_moment) }
     }
 
-    /// The greatest distance, m.
+    /// Maximum distance, m.
     #[must_use]
     pub fn farthest_m(&self) -> f64 {
         self.radii_m.iter().copied().fold(0.0, f64::max)
     }
 }
 
-/// The greatest scale below 1 that fits, by bisection; 0 where none does.
+/// The maximum scale below 1 that fits, by bisection; 0 if none does.
 fn greatest(fits: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..50 {
@@ -96,7 +95,7 @@ impl SeenRegion {
     /// All directions.
     pub const EVERYWHERE: Self = Self { axis: DVec3::X, half_angle_rad: core::f64::consts::PI, margin_m: 0.0 };
 
-    /// The cone about unit `directions`, each with room of `room_rad`, whose rays start within `margin_m` of the origin.
+    /// The cone about unit `directions`, each with a margin of `room_rad`, whose rays start within `margin_m` of the origin.
     #[must_use]
     pub fn around(directions: &[DVec3], room_rad: f64, margin_m: f64) -> Self {
         let Some(axis) = directions.iter().sum::<DVec3>().try_normalize() else { return Self::EVERYWHERE };
@@ -111,12 +110,12 @@ impl SeenRegion {
         core::f64::consts::TAU * (1.0 - cos(self.half_angle_rad))
     }
 
-    /// Whether a ray along a unit direction, from within the margin, sees nothing but the region.
+    /// True if a ray along a unit direction, from within the margin, sees only the region.
     pub(super) fn holds(&self, direction: DVec3) -> bool {
         self.half_angle_rad >= core::f64::consts::PI || direction.dot(self.axis) >= cos(self.half_angle_rad)
     }
 
-    /// Whether a ball may be seen; certain only where it says no.
+    /// True if a ball may be visible; false only if it certainly is not.
     pub(super) fn may_see(&self, centre_m: DVec3, radius_m: f64) -> bool {
         let (distance, radius) = (centre_m.length(), radius_m + self.margin_m);
         if distance <= radius || self.half_angle_rad >= core::f64::consts::PI {

@@ -1,8 +1,8 @@
-//! Which particles exist, and where: a pure function of seed and time.
+//! The set of particles and their places: a pure function of seed and time.
 //!
-//! Each class has a lattice of cubes that moves with the class's velocity, over all of space. Whether and where particles are in a cube is
-//! hashed from the cube's place, the class and the seed: a Poisson number of mean four, even places, sizes by the law. Nothing is stored; who
-//! looks at a part of space lists its cubes.
+//! Each class has a lattice of cubes that moves with the class's velocity, over all of space. The particles of a cube are hashed from the cube's
+//! place, the class and the seed: a Poisson number of mean four, uniform places, sizes by the law. Nothing is stored; a query for a part of space
+//! lists its cubes.
 
 use etendue_core::TimeInterval;
 use etendue_core::maths::f64::{cbrt, exp};
@@ -15,7 +15,7 @@ use super::size_law::{SizeClass, SizeLaw};
 /// Mean number of particles of a cube.
 const MEAN: f64 = 4.0;
 
-/// Particles of a cube at most: a Poisson number of mean 4 is beyond once in 10¹⁶ cubes.
+/// Maximum number of particles of a cube: a Poisson number of mean 4 is larger once in 10¹⁶ cubes.
 const MOST: u32 = 40;
 
 /// Rain or snow.
@@ -42,7 +42,7 @@ pub struct Particle {
 }
 
 impl Particle {
-    /// Where its centre is at a simulated time, in the world, m.
+    /// Its centre at a simulated time, in the world, m.
     #[must_use]
     pub fn at(&self, time_s: f64) -> DVec3 {
         self.start_m + self.velocity_mps * time_s
@@ -74,7 +74,7 @@ impl Field {
         self.top_m
     }
 
-    /// What an image loses to all particles, 1/m.
+    /// Extinction of an image by all particles, 1/m.
     #[must_use]
     pub fn extinction_per_m(&self) -> f64 {
         self.classes.iter().map(|class| class.extinction_per_m).sum()
@@ -86,8 +86,8 @@ impl Field {
         self.wind_mps - DVec3::Z * self.classes[class].speed_mps
     }
 
-    /// The particles that may be seen at some time of an interval from about `origin_m` (world), within the distances of a change-over;
-    /// some more beside. In an order that depends on nothing but the question.
+    /// The particles that may be visible at some time of an interval from near `origin_m` (world), within the distances of a change-over;
+    /// some others may be included. Their order depends only on the arguments.
     #[must_use]
     pub fn about(
         &self,
@@ -148,7 +148,7 @@ fn poisson(u: f64) -> u32 {
     count
 }
 
-/// From which to which share of a `way` from a point lies within a ball about the origin; `None` where none does.
+/// The fractions of a displacement `way` from a point between which it lies within a ball about the origin; `None` if no part of it does.
 fn within(from: DVec3, way: DVec3, radius_m: f64) -> Option<[f64; 2]> {
     let length2 = way.length_squared();
     if length2 == 0.0 {
@@ -185,7 +185,7 @@ impl Search<'_> {
         self.field.velocity_mps(self.class)
     }
 
-    /// Half of the way during the interval, m.
+    /// Half of the displacement during the interval, m.
     fn swept_m(&self) -> DVec3 {
         self.velocity() * (0.5 * self.interval.length_s())
     }
@@ -219,8 +219,8 @@ impl Search<'_> {
         particle.at(self.interval.middle_s()).z <= self.field.top_m
     }
 
-    /// Whether what is within a ball of the lattice at the time 0 may be seen in the interval: the part of its way that lies about the camera,
-    /// if any does, in a ball of its own.
+    /// True if the content of a ball of the lattice at the time 0 may be visible in the interval. The test uses the part of its path near
+    /// the camera, if there is one, in a ball of its own.
     fn may_hold(&self, centre_m: DVec3, radius_m: f64) -> bool {
         let middle = centre_m + self.velocity() * self.interval.middle_s() - self.origin_m;
         let (from, way) = (middle - self.swept_m(), 2.0 * self.swept_m());

@@ -1,13 +1,13 @@
 //! Rain and snow.
 //!
-//! - `size_law`: laws of sizes, speeds and shapes of rain and snow, with their sources, and what follows from them: rate, extinction,
+//! - `size_law`: laws of sizes, speeds and shapes of rain and snow, with their sources, and the resulting rate, extinction and
 //!   visibility; a law in narrow ranges of size (classes), whose particles fall together.
-//! - `field`: which particles exist and where: a pure function of seed and time.
-//! - `change_over`: what part of space a camera sees, and how far about it particles are modelled one by one.
-//! - `near`: those of one view, and the medium beyond them; how a drop refracts a ray.
+//! - `field`: the set of particles and their places: a pure function of seed and time.
+//! - `change_over`: the part of space that a camera sees, and the distance up to which particles are modelled one by one.
+//! - `near`: those of one view, and the medium beyond them; refraction of a ray by a drop.
 //!
-//! One particle falls straight and evenly, with the speed of its class and the wind's. Left out: turbulence, tumbling and oscillation,
-//! particles that collide, and shelter by objects: it rains through roofs.
+//! A particle falls straight and at constant speed, that of its class plus the wind. Left out: turbulence, tumbling and oscillation, colliding
+//! particles, and shelter by objects: it rains through roofs.
 
 mod change_over;
 mod field;

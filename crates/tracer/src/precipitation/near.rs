@@ -1,9 +1,9 @@
 //! The particles of one view, and the medium beyond them.
 //!
-//! A ray from the camera meets particles and the hollowed medium; a ray that has been scattered meets the whole medium and no particle. Each is
-//! whole by itself, so that light is right in the mean: what is simplified is that rain seen in a mirror has no single drops. Where caustics are
-//! off, light behind the first matt surface or scattering goes through precipitation unhindered: over the tens of metres between the surfaces
-//! of a scene it turns some per cent of the light, mostly by less than 40°, and takes none.
+//! A ray from the camera hits particles and the hollowed medium; a ray that has been scattered hits the whole medium and no particle. Each is
+//! complete by itself, so that light is right in the mean. The simplification is that rain seen in a mirror has no single drops. If caustics are off,
+//! light behind the first diffuse surface or scattering passes through precipitation unattenuated. Over the tens of metres between the surfaces of a
+//! scene, precipitation deflects some per cent of the light, mostly by less than 40°, and absorbs none.
 
 use std::sync::Arc;
 
@@ -17,12 +17,12 @@ use crate::accel::{Simd, Streak, Streaks};
 use crate::materials::fresnel;
 use crate::media::{Hollow, HollowPart, Media, Medium, MediumError, Phase, Shape, SpectralTable};
 
-/// Mean cosine of what a crystal of ice does to light that meets it, without diffraction: that of grains of snow by geometric optics (Warren,
-/// Rev. Geophys. 20, 1982: 0.89 with the half that is diffracted straight on).
+/// Mean cosine of scattering by an ice crystal, without diffraction: that of snow grains by geometric optics (Warren, Rev. Geophys. 20,
+/// 1982: 0.89 with the half that is diffracted straight on).
 const SNOW_G: f32 = 0.78;
 
 impl Field {
-    /// All of the field as a medium: light that meets a particle, by geometric optics.
+    /// The whole field as a medium: light that hits a particle, by geometric optics.
     ///
     /// # Errors
     /// None for a law within its range.
@@ -39,7 +39,7 @@ impl Field {
         Ok(medium.unless_without_peak())
     }
 
-    /// What of the medium is left out about a camera.
+    /// The parts of the medium that are left out near a camera.
     #[must_use]
     pub fn hollow(&self, change_over: &ChangeOver) -> Hollow {
         let whole = self.extinction_per_m();
@@ -97,18 +97,17 @@ pub struct NearParticles<'a> {
     index: Option<&'static Spectrum>,
 }
 
-/// A particle that a ray has met.
+/// A particle that a ray has hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParticleHit {
-    /// Where along the ray, in lengths of its direction.
+    /// Ray parameter, in lengths of its direction.
     pub t: f32,
-    /// Which one of the view.
+    /// Index of the particle in the view.
     pub particle: u32,
 }
 
 impl<'a> NearParticles<'a> {
-    /// Those of a view, `media` being those of the same view and `medium` the place of the
-    /// field's own among them.
+    /// The particles of a view. `media` are those of the same view and `medium` is the index of the field's own among them.
     #[must_use]
     pub fn new(
         field: &Field,
@@ -127,14 +126,14 @@ impl<'a> NearParticles<'a> {
         Self { region: *region, streaks, media: media.hollowed(medium, field.hollow(change_over)), phase, index }
     }
 
-    /// How many particles there are.
+    /// Number of particles.
     #[must_use]
     pub fn count(&self) -> usize {
         self.streaks.streaks().len()
     }
 
-    /// Whether particles are modelled along a unit direction from the camera. Where they are not, the whole medium stands for them: behind
-    /// drops on a wind-screen rays look where the camera's region did not reach.
+    /// True if particles are modelled along a unit direction from the camera. If not, the whole medium represents them: behind drops on a
+    /// windscreen, rays look beyond the camera's region.
     #[must_use]
     pub fn looks_along(&self, direction: Vec3) -> bool {
         self.region.holds(direction.as_dvec3())
@@ -146,18 +145,18 @@ impl<'a> NearParticles<'a> {
         &self.media
     }
 
-    /// How particles scatter light in the mean.
+    /// Mean phase function of the particles.
     pub(crate) fn phase(&self) -> &'a Phase {
         self.phase
     }
 
-    /// The first particle that a ray meets before `end`.
+    /// The first particle that a ray hits before `end`.
     #[must_use]
     pub fn closest(&self, ray: &Ray, end: f32) -> Option<ParticleHit> {
         self.streaks.closest(ray, end).map(|(t, particle)| ParticleHit { t, particle })
     }
 
-    /// The ray that leaves a drop, from its centre; `None` for a flake. `drawn` as numbers in [0, 1).
+    /// The ray that leaves a drop, from its centre; `None` for a flake. `drawn` are numbers in [0, 1).
     pub(crate) fn refracted(
         &self,
         ray: &Ray,
@@ -170,7 +169,7 @@ impl<'a> NearParticles<'a> {
         let centre = streak.centre(ray.time_s);
         let half_m = streak.half_m.map(f64::from);
         let scale = DVec3::new(half_m[0], half_m[0], half_m[1]);
-        // On the spheroid, as rounding has left it.
+        // On the spheroid, up to rounding.
         let place = (ray.at(hit.t) - centre).as_dvec3();
         let place = place / (place / scale).length();
         let incident = DropRay { place_m: place, direction: ray.direction.as_dvec3().normalize() };
@@ -181,24 +180,24 @@ impl<'a> NearParticles<'a> {
 
 // A ray through a drop: a spheroid of water about an upright axis.
 //
-// At each interface one of both ways is drawn, by Fresnel's equations of one polarisation, which is drawn at the first and kept. (In a ball the plane
-// of incidence is the same at all; in a flattened drop it turns a little, and the polarisation with it, which is left out.) Water absorbs nothing
-// over millimetres.
+// At each interface reflection or refraction is sampled, by Fresnel's equations of one polarisation, which is sampled at the first
+// interface and kept. (In a ball the plane of incidence is the same at all interfaces; in a flattened drop it turns a little, and the
+// polarisation with it, which is left out.) Water absorbs nothing over millimetres.
 
-/// Greatest number of passages through a drop that are traced; what is left comes out with the last.
+/// Maximum number of passages through a drop that are traced; the remainder leaves with the last.
 const MAX_PASSAGES: u32 = 12;
 
 /// A ray at the surface of a drop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DropRay {
-    /// Where, from the drop's centre, m.
+    /// Position relative to the drop's centre, m.
     pub(crate) place_m: DVec3,
-    /// Where to; unit.
+    /// Unit direction.
     pub(crate) direction: DVec3,
 }
 
-/// Traces a ray that hits a spheroid of given half-axes and index `n`, and returns the ray that leaves it.
-/// `drawn` are numbers in [0, 1), one for each interface and one for the polarisation.
+/// Traces a ray that hits a spheroid of given half-axes and index `n`, and returns the ray that leaves it. `drawn` are numbers in [0, 1),
+/// one for each interface and one for the polarisation.
 pub(crate) fn refracted(
     half_width_m: f64,
     half_height_m: f64,

@@ -1,34 +1,34 @@
-//! Exponential laws of size, and what follows from them.
+//! Exponential laws of size, and the quantities derived from them.
 //!
-//! N(d) = N₀ exp(−Λ d): d is a drop's diameter, or the diameter that a flake has when molten. A flake itself is larger, by its density.
+//! N(d) = N₀ exp(−Λ d): d is a drop's diameter, or the diameter of a flake when molten. A flake itself is larger, by its density.
 
 use core::f64::consts::PI;
 
 use etendue_core::maths::f64::{cbrt, exp, exp_m1, ln_1p, pow};
 
-/// Why a law is refused.
+/// Error of a size law.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SizeLawError {
     /// A rate beyond the measurements that a law was fitted to.
     #[error("a rate of {rate_mm_h} mm/h was given, but the law of sizes holds from {low} to {high} mm/h; correct it")]
     Rate {
-        /// What was given, mm/h of water.
+        /// Value given, mm/h of water.
         rate_mm_h: f64,
-        /// The least rate, mm/h.
+        /// Minimum rate, mm/h.
         low: f64,
-        /// The greatest rate, mm/h.
+        /// Maximum rate, mm/h.
         high: f64,
     },
 }
 
-/// What falls.
+/// Kind of precipitation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Hydrometeor {
     Drop,
     Flake(Crystals),
 }
 
-/// How many particles of each size are in the air.
+/// Number density of particles by size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SizeLaw {
     /// N₀, 1/(m³ mm).
@@ -36,16 +36,16 @@ pub struct SizeLaw {
     /// Λ, 1/mm.
     pub(super) lambda: f64,
     pub(super) what: Hydrometeor,
-    /// The rate that was asked for, mm/h.
+    /// The requested rate, mm/h.
     pub(super) rate_mm_h: f64,
 }
 
 impl SizeLaw {
-    /// Rain by Marshall and Palmer's law at a rate, mm/h. With the speeds of [`terminal_speed_mps`] it brings 5 to 18 % more water than that;
-    /// [`SizeLaw::rescaled`] mends it.
+    /// Rain by Marshall and Palmer's law at a rate, mm/h. With the speeds of [`terminal_speed_mps`] it brings 5 to 18 % more water than
+    /// that; [`SizeLaw::rescaled`] corrects this.
     ///
     /// # Errors
-    /// Where the rate is not within 0.1 to 150 mm/h.
+    /// If the rate is not within 0.1 to 150 mm/h.
     pub fn rain(rate_mm_h: f64) -> Result<Self, SizeLawError> {
         check_rate(rate_mm_h, RAIN_RATES)?;
         let [n0, lambda] = marshall_palmer(rate_mm_h);
@@ -55,26 +55,26 @@ impl SizeLaw {
     /// Snow by Sekhon and Srivastava's law at a rate, mm/h of water.
     ///
     /// # Errors
-    /// Where the rate is not within 0.1 to 3 mm/h.
+    /// If the rate is not within 0.1 to 3 mm/h.
     pub fn snow(rate_mm_h: f64, crystals: Crystals) -> Result<Self, SizeLawError> {
         check_rate(rate_mm_h, SNOW_RATES)?;
         let [n0, lambda] = sekhon_srivastava(rate_mm_h);
         Ok(Self { n0, lambda, what: Hydrometeor::Flake(crystals), rate_mm_h })
     }
 
-    /// The same with N₀ rescaled, so that the particles with their speeds bring the rate that was asked for.
+    /// The same with N₀ rescaled, so that the particles with their speeds bring the requested rate.
     #[must_use]
     pub fn rescaled(self) -> Self {
         Self { n0: self.n0 * self.rate_mm_h / self.carried_mm_h(), ..self }
     }
 
-    /// The rate that was asked for, mm/h of water.
+    /// The requested rate, mm/h of water.
     #[must_use]
     pub fn rate_mm_h(&self) -> f64 {
         self.rate_mm_h
     }
 
-    /// Whether it is snow.
+    /// True for snow.
     #[must_use]
     pub fn is_snow(&self) -> bool {
         matches!(self.what, Hydrometeor::Flake(_))
@@ -92,19 +92,19 @@ impl SizeLaw {
         self.lambda
     }
 
-    /// The greatest size of the field, mm: drops break up beyond 6 mm; of flakes that of the water in them.
+    /// Maximum size of the field, mm: drops break up beyond 6 mm; for flakes that of the water in them.
     #[must_use]
     pub fn greatest_mm(&self) -> f64 {
         if self.is_snow() { 8.0 } else { 6.0 }
     }
 
-    /// Particles a cubic metre, of all sizes.
+    /// Particles per cubic metre, of all sizes.
     #[must_use]
     pub fn number_per_m3(&self) -> f64 {
         self.n0 / self.lambda
     }
 
-    /// What meteorologists measure over a narrow beam, 1/m: twice the cross-sections of spheres, half of it by diffraction.
+    /// Extinction as meteorologists measure it over a narrow beam, 1/m: twice the cross-sections of spheres, half of it by diffraction.
     #[must_use]
     pub fn meteorological_extinction_per_m(&self) -> f64 {
         match self.what {
@@ -128,7 +128,7 @@ impl SizeLaw {
         SizeRange { low_mm: 0.0, high_mm: self.greatest_mm() }
     }
 
-    /// The water that the particles bring with their speeds, mm/h.
+    /// The water rate carried by the particles with their speeds, mm/h.
     #[must_use]
     pub fn carried_mm_h(&self) -> f64 {
         // mm³/m³ · m/s to mm/h.
@@ -136,7 +136,7 @@ impl SizeLaw {
         3.6e-3 * self.integral(self.all_sizes(), |d| volume(d) * self.speed_mps(d))
     }
 
-    /// Diameter of the sphere of a particle's volume, mm, of the size `d` mm.
+    /// Diameter of the sphere of a particle's volume, mm, for the size `d` mm.
     #[must_use]
     pub fn diameter_mm(&self, d: f64) -> f64 {
         match self.what {
@@ -145,7 +145,7 @@ impl SizeLaw {
         }
     }
 
-    /// Speed of fall, m/s, of the size `d` mm.
+    /// Speed of fall, m/s, for the size `d` mm.
     #[must_use]
     pub fn speed_mps(&self, d: f64) -> f64 {
         match self.what {
@@ -154,7 +154,7 @@ impl SizeLaw {
         }
     }
 
-    /// Height over width of the size `d` mm.
+    /// Height over width for the size `d` mm.
     #[must_use]
     pub fn axis_ratio(&self, d: f64) -> f64 {
         match self.what {
@@ -163,7 +163,7 @@ impl SizeLaw {
         }
     }
 
-    /// Cross-section as seen from the side, m², of the size `d` mm: that of a spheroid of the particle's volume.
+    /// Cross-section as seen from the side, m², for the size `d` mm: that of a spheroid of the particle's volume.
     #[must_use]
     pub fn cross_section_m2(&self, d: f64) -> f64 {
         let across = self.diameter_mm(d) * 1e-3;
@@ -184,7 +184,7 @@ impl SizeLaw {
     }
 }
 
-/// The rates that a law holds for.
+/// Range of validity of a law, in rates.
 #[derive(Clone, Copy)]
 pub(super) struct RateRange {
     low_mm_h: f64,
@@ -197,7 +197,8 @@ fn check_rate(rate_mm_h: f64, range: RateRange) -> Result<(), SizeLawError> {
     if rate_mm_h >= low && rate_mm_h <= high { Ok(()) } else { Err(SizeLawError::Rate { rate_mm_h, low, high }) }
 }
 
-/// Rates that rain may have, mm/h: from drizzle to a cloudburst. Marshall and Palmer measured up to some 25 mm/h; others have used the law up to 150.
+/// Legal rates of rain, mm/h: from drizzle to a cloudburst. Marshall and Palmer measured up to some 25 mm/h; others have used the law up to
+/// 150.
 const RAIN_RATES: RateRange = RateRange { low_mm_h: 0.1, high_mm_h: 150.0 };
 
 /// N₀, 1/(m³ mm), and Λ, 1/mm, by Marshall and Palmer ("The distribution of raindrops with size", J. Meteorol. 5, 1948) at a rate, mm/h:
@@ -207,7 +208,7 @@ fn marshall_palmer(rate_mm_h: f64) -> [f64; 2] {
 }
 
 /// Terminal speed of a drop of a diameter in mm, m/s: 9.65 − 10.3 exp(−0.6 D) (Atlas, Srivastava and Sekhon, Rev. Geophys. 11, 1973), of
-/// 0.1 to 6 mm; 0 where the formula is below.
+/// 0.1 to 6 mm; 0 if the formula is negative.
 #[must_use]
 pub fn terminal_speed_mps(diameter_mm: f64) -> f64 {
     (9.65 - 10.3 * exp(-0.6 * diameter_mm)).max(0.0)
@@ -220,14 +221,14 @@ pub fn axis_ratio(diameter_mm: f64) -> f64 {
     if diameter_mm > 1.0 { (1.03 - 0.062 * diameter_mm).min(1.0) } else { 1.0 }
 }
 
-/// Rates that snow may have, mm/h of water.
+/// Legal rates of snow, mm/h of water.
 const SNOW_RATES: RateRange = RateRange { low_mm_h: 0.1, high_mm_h: 3.0 };
 
 /// Density of ice, g/cm³.
 const ICE: f64 = 0.917;
 
-/// What flakes are made of, which decides how large, dense and quick they are at the same rate: visibility in snow of one rate differs by
-/// 3 to 10 times with it (Rasmussen et al., J. Appl. Meteorol. 38, 1999).
+/// Kind of snow crystals, which determines the size, density and speed of flakes at the same rate: visibility in snow of one rate differs
+/// by 3 to 10 times with it (Rasmussen et al., J. Appl. Meteorol. 38, 1999).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Crystals {
     /// Dry, feathery: half the density of aggregates.
@@ -248,7 +249,7 @@ fn sekhon_srivastava(rate_mm_h: f64) -> [f64; 2] {
 }
 
 impl Crystals {
-    /// Density over that of aggregates of the same size. The factors are a choice that spans what Rasmussen found.
+    /// Density over that of aggregates of the same size. The factors are a choice that spans Rasmussen's range.
     fn density_factor(self) -> f64 {
         match self {
             Self::Dendrites => 0.5,
@@ -265,8 +266,8 @@ impl Crystals {
         by_law.max(cbrt(cube / ICE))
     }
 
-    /// Speed of fall, m/s: 1 m/s for an aggregate of 1 mm, and as the root of density times diameter by the balance of weight and drag;
-    /// within 1 to 2 m/s, as flakes fall.
+    /// Speed of fall, m/s: 1 m/s for an aggregate of 1 mm, otherwise proportional to the root of density times diameter by the balance of
+    /// weight and drag; limited to 1 to 2 m/s, the range of real flakes.
     pub(super) fn speed_mps(self, melted_mm: f64) -> f64 {
         let flake = self.flake_mm(melted_mm);
         let ratio = if flake > 0.0 { melted_mm / flake } else { 1.0 };
@@ -280,9 +281,9 @@ pub(super) const CLASSES: u32 = 40;
 /// A range of sizes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SizeRange {
-    /// The least, mm.
+    /// Minimum, mm.
     pub low_mm: f64,
-    /// The greatest, mm.
+    /// Maximum, mm.
     pub high_mm: f64,
 }
 
@@ -291,13 +292,13 @@ pub struct SizeRange {
 pub struct SizeClass {
     /// Its sizes.
     pub range: SizeRange,
-    /// How many, 1/m³.
+    /// Number density, 1/m³.
     pub number_per_m3: f64,
-    /// Speed of fall, m/s: that which brings the class's water.
+    /// Speed of fall, m/s: the one that gives the class's water rate.
     pub speed_mps: f64,
     /// Cross-sections as seen from the side, 1/m: the extinction of an image.
     pub extinction_per_m: f64,
-    /// Diameter of the middle size, m, by which it is told whether a pixel resolves the class.
+    /// Diameter of the middle size, m, which determines whether a pixel resolves the class.
     pub diameter_m: f64,
 }
 
@@ -322,7 +323,7 @@ impl SizeClass {
         }
     }
 
-    /// The size, mm, below which the share `u` of the class's particles are.
+    /// The size, mm, below which the fraction `u` of the class's particles lies.
     pub(super) fn size_mm(&self, law: &SizeLaw, u: f64) -> f64 {
         let SizeRange { low_mm: low, high_mm: high } = self.range;
         low - ln_1p(u * exp_m1(-law.lambda_per_mm() * (high - low))) / law.lambda_per_mm()

@@ -1,10 +1,8 @@
-//! From a hit to the point of the surface, and how large textures and shapes are about it.
+//! From a hit to the point of the surface, and the scales of textures and shapes there.
 //!
-//! From a hit to the point of the surface.
-//!
-//! Positions are made from the primitive, not from the ray: a triangle's from barycentric coordinates, a sphere's by
-//! putting the ray's point back onto the sphere, both in f64. Their error is then that of rounding to f32, whatever the
-//! length of the ray (after Wächter & Binder 2019, "A fast and robust method for avoiding self-intersection").
+//! Positions are computed from the primitive, not from the ray: a triangle's from barycentric coordinates, a sphere's by projecting the ray's point
+//! back onto the sphere, both in f64. Their error is then that of rounding to f32, whatever the length of the ray (after Wächter & Binder 2019, "A
+//! fast and robust method for avoiding self-intersection").
 
 use core::f64::consts::{PI, TAU};
 
@@ -22,7 +20,7 @@ pub(super) fn sphere_footprint(radius_m: f64, placed: &InstanceTransform) -> Foo
     Footprint { uv_per_m, local_per_m: local_per_m(placed) }
 }
 
-/// How texture coordinates change along a vector of a mesh's own frame in the plane of a triangle.
+/// Change of texture coordinates along a vector of a mesh's own frame in the plane of a triangle.
 pub(super) fn uv_along(mesh: &MeshPose<'_>, primitive: u32, vector: DVec3) -> DVec2 {
     let Some(uvs) = mesh.uvs(primitive) else { return DVec2::ZERO };
     let [a, b, c] = mesh.corners(primitive).map(Vec3::as_dvec3);
@@ -34,8 +32,7 @@ pub(super) fn uv_along(mesh: &MeshPose<'_>, primitive: u32, vector: DVec3) -> DV
     (b - a) * weights.x + (c - a) * weights.y
 }
 
-/// How longitude (turns) and latitude (half turns) change along a vector at a point of a sphere about the origin; zero
-/// at the poles.
+/// Change of longitude (turns) and latitude (half turns) along a vector at a point of a sphere about the origin; zero at the poles.
 pub(super) fn globe_along(point: DVec3, vector: DVec3) -> DVec2 {
     let east = DVec3::Z.cross(point);
     let (flat, square) = (east.length(), point.length_squared());
@@ -118,8 +115,8 @@ pub(super) fn of_mesh(
     }
 }
 
-/// The interpolated normal in the render frame, on the side of the triangle's own, `flat`, and in the mesh's frame; unit.
-/// In f32, but for lengths of which f32 has no squares.
+/// The interpolated normal in the render frame, on the side of the triangle's own, `flat`, and in the mesh's frame; unit. In f32, except
+/// for lengths whose squares f32 cannot hold.
 fn bent(
     mesh: &MeshPose<'_>,
     primitive: u32,
@@ -140,7 +137,7 @@ fn bent(
     (normal * (side / squares[1].sqrt()), own * (1.0 / squares[0].sqrt()))
 }
 
-/// Squared lengths whose numbers f32 holds to all digits, and which are no remainders of normals that cancel.
+/// Range of squared lengths that f32 holds to all digits, and that are no remainders of cancelling normals.
 const MODERATE: core::ops::RangeInclusive<f32> = 1e-6..=1e20;
 
 pub(super) fn of_sphere(
@@ -177,12 +174,11 @@ pub(super) fn weights(u: f64, v: f64) -> [f64; 3] {
 
 /// Normals at a point of a mesh, in f64.
 pub(super) struct Normals {
-    /// Of the triangle's plane in the render frame, by its winding in its own frame; unit.
+    /// Normal of the triangle's plane in the render frame, by its winding in its own frame; unit.
     geometric: DVec3,
-    /// The interpolated one in the render frame, on the side of the geometric one, which takes its place where there is
-    /// none; unit.
+    /// Interpolated normal in the render frame, on the side of the geometric one, which replaces it if there is none; unit.
     pub(super) shading: DVec3,
-    /// For shading, in the mesh's own frame, of whatever length.
+    /// Shading normal in the mesh's own frame, of any length.
     local: DVec3,
 }
 

@@ -1,13 +1,12 @@
 //! Ground truth along a ray.
 //!
-//! The accelerator, which works in f32, names the primitive; distance, position and normal are then solved again in
-//! f64 against that primitive: a plane through the triangle's corners, or a sphere. The error is that of f64 at every
-//! incidence, not that of f32 over the cosine.
+//! The accelerator, which works in f32, returns the primitive; distance, position and normal are then solved again in f64 against that primitive: a
+//! plane through the triangle's corners, or a sphere. The error is that of f64 at every incidence, not that of f32 over the cosine.
 //!
-//! The accelerator's ray is the exact one rounded to f32, some 1e-7 of the distance beside it. At a silhouette the exact
-//! ray may therefore miss the triangle named, and where that is small, far away or nearly edge-on, its plane leads
-//! anywhere. A plane is believed up to 1e-3 of the triangle beyond its edges (the least barycentric weight is −1e-3 or
-//! more). Beyond that, the answer is that of the accelerator's ray, solved in f64: a point of the triangle's edge.
+//! The accelerator's ray is the exact one rounded to f32, some 1e-7 of the distance off it. At a silhouette the exact ray may therefore miss the
+//! returned triangle. If that is small, far away or nearly edge-on, the intersection with its plane may be anywhere. A plane is accepted up to 1e-3
+//! of the triangle beyond its edges (the least barycentric weight is −1e-3 or more). Beyond that, the result is that of the accelerator's ray, solved
+//! in f64: a point of the triangle's edge.
 
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
@@ -16,22 +15,22 @@ use super::point::{self, Normals};
 use super::{Hit, RenderSpace};
 use crate::geometry::{InstanceTransform, MeshPose, Shape, SurfacePoint, sphere};
 
-/// How far beyond its triangle, in barycentric weights, a plane is believed.
+/// Maximum distance beyond its triangle, in barycentric weights, at which a plane is accepted.
 const BEYOND: f64 = 1e-3;
 
-/// Origin and direction in a mesh's frame, and where along the exact ray the line begins, m.
+/// Origin and direction in a mesh's frame, and the distance along the exact ray at which the line begins, m.
 type Line = (DVec3, DVec3, f64);
 
-/// What a ray meets, exactly.
+/// First hit of a ray, exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
     /// Distance from the ray's origin, m.
     pub distance_m: f64,
-    /// The point met, in the world, m.
+    /// The point hit, in the world, m.
     pub position_m: DVec3,
     /// Unit shading normal in the world, on the side of the surface's winding (outwards for spheres).
     pub normal: DVec3,
-    /// Place of the instance in the world's list.
+    /// Index of the instance in the world's list.
     pub instance: u32,
     /// Primitive within the instance's shape.
     pub primitive: u32,
@@ -43,13 +42,13 @@ pub struct Truth {
     pub material: u32,
 }
 
-/// After so many surfaces that are passed, the next is taken as it is. Rays go on from one to the next by the least
-/// step; among surfaces closer together than that they might turn in circles.
+/// Maximum number of passed surfaces; the next one is accepted in any case. Rays move from one to the next by the minimum step; among
+/// surfaces closer together than that they might loop.
 const MAX_PASSES: usize = 4096;
 
 impl RenderSpace<'_> {
-    /// What the ray from `origin_m` (render frame, m) along `direction` (any length) meets first that `accept` takes at `time_s`
-    /// (as [`Ray::time_s`]); it goes straight on through other points. `None` for the background.
+    /// The first hit of the ray from `origin_m` (render frame, m) along `direction` (any length) that `accept` accepts, at `time_s` (as
+    /// [`Ray::time_s`]); the ray passes straight through other points. `None` for the background.
     #[must_use]
     pub fn truth(
         &self,
@@ -72,12 +71,12 @@ impl RenderSpace<'_> {
         Some(self.solve(origin_m, direction, &rounded, &hit))
     }
 
-    /// The exact ray from `origin_m` along `direction` (unit) against the primitive that `rounded` has met.
+    /// The exact ray from `origin_m` along `direction` (unit) against the primitive that `rounded` has hit.
     fn solve(&self, origin_m: DVec3, direction: DVec3, rounded: &Ray, hit: &Hit) -> Truth {
         let instance = &self.world.instances()[hit.instance as usize];
         let placed = &*self.placed_at(hit.instance, rounded.time_s);
         let (origin, along) = placed.line_to_local(origin_m, direction);
-        // Where the rounded ray begins, along the exact one.
+        // Start of the rounded ray, along the exact one.
         let passed = rounded.origin != origin_m.as_vec3();
         let start = if passed { (rounded.origin.as_dvec3() - origin_m).dot(direction) } else { 0.0 };
         let (t, normal, slot) = match instance.shape {
@@ -104,26 +103,26 @@ impl RenderSpace<'_> {
     }
 }
 
-/// The line that the accelerator follows in a mesh's frame, which begins at `start`.
+/// The accelerator's line in a mesh's frame, which begins at `start`.
 fn traced(placed: &InstanceTransform, rounded: &Ray, start: f64) -> Line {
     let (origin, direction) = placed.ray_to_local(rounded);
     (origin.as_vec3().as_dvec3(), direction.as_vec3().as_dvec3(), start)
 }
 
-/// Where the first of `lines` that meets the triangle does so.
+/// The hit of the first of `lines` that hits the triangle.
 fn on_mesh(mesh: &MeshPose<'_>, placed: &InstanceTransform, hit: &Hit, lines: [Line; 2]) -> (f64, DVec3, usize) {
     let corners = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
     let meets = |(t, u, v): &(f64, f64, f64)| *t > 0.0 && u.min(*v).min(1.0 - u - v) >= -BEYOND;
     let solve =
         |(origin, along, start): Line| plane(corners, origin, along).filter(meets).map(|(t, u, v)| (start + t, u, v));
     let solved = lines.into_iter().find_map(solve);
-    // A ray in the plane itself has no better answer than the accelerator's.
+    // A ray in the plane itself has no better result than the accelerator's.
     let (t, u, v) = solved.unwrap_or((lines[1].2 + f64::from(hit.t), f64::from(hit.u), f64::from(hit.v)));
     let normals = Normals::of_mesh(mesh, hit.primitive, point::weights(u, v), placed);
     (t, normals.shading, usize::from(mesh.mesh().slots()[hit.primitive as usize]))
 }
 
-/// Where a ray meets a triangle's plane: t, and the barycentric weights of vertices 1 and 2 there.
+/// Intersection of a ray with a triangle's plane: t, and the barycentric weights of vertices 1 and 2 there.
 pub(super) fn plane([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<(f64, f64, f64)> {
     let (along, across) = (b - a, c - a);
     let normal = along.cross(across);
@@ -134,7 +133,7 @@ pub(super) fn plane([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> O
     (t.is_finite() && u.is_finite() && v.is_finite()).then_some((t, u, v))
 }
 
-/// Where a line meets a sphere: for a ray that has passed other points, the root nearest to what the accelerator found.
+/// Intersection of a line with a sphere: for a ray that has passed other points, the root nearest to the accelerator's.
 fn on_sphere(
     radius_m: f64,
     placed: &InstanceTransform,
@@ -142,7 +141,7 @@ fn on_sphere(
     direction: DVec3,
     passed_to: Option<f64>,
 ) -> (f64, DVec3, usize) {
-    // A ray that only its f32 form grazes: the point of closest approach.
+    // A ray that hits the sphere only after rounding to f32: the point of closest approach.
     let abreast = -origin.dot(direction) / direction.length_squared();
     let t = match (sphere::roots(radius_m, origin, direction), passed_to) {
         (Some([near, far]), Some(about)) if (far - about).abs() < (near - about).abs() => far,

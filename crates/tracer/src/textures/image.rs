@@ -1,10 +1,9 @@
-//! A picture as a texture, filtered by its footprint.
+//! An image as a texture, filtered by its footprint.
 //!
-//! Bilinear between texels; between halved resolutions linear in the logarithm of the footprint (trilinear, Williams
-//! 1983). A footprint more than twice as long as wide, as of a road in the distance, is read in up to eight places along
-//! its long side (after Schilling, Knittel & Strasser 1996, "Texram"), each over its short side, or twice that where the
-//! places would leave gaps. Longer footprints are read with gaps: nothing is blurred further, and the samples of the pixel
-//! fill them.
+//! Bilinear between texels; between halved resolutions linear in the logarithm of the footprint (trilinear, Williams 1983). A footprint more than
+//! twice as long as wide, such as of a distant road, is read in up to eight places along its long side (after Schilling, Knittel & Strasser 1996,
+//! "Texram"), each over its short side, or twice that if the places would leave gaps. Longer footprints are read with gaps: nothing is blurred
+//! further, and the samples of the pixel fill them.
 
 use std::sync::Arc;
 
@@ -17,31 +16,31 @@ use super::texels::{Store, Texel, TexelEncoding, Texels, TextureError, TiledErro
 use super::tiled::{TileMemory, TiledLevel, levels};
 use super::{Channel, Lookup, Wrap};
 
-/// Most readings along a long footprint.
+/// Maximum number of readings along a long footprint.
 const MAX_PROBES: f32 = 8.0;
 
-/// How texels become a value.
+/// Interpolation of texels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Filter {
-    /// Between the four nearest texels; the footprint is not looked at.
+    /// Between the four nearest texels; the footprint is not used.
     Bilinear,
-    /// And between the two resolutions nearest to the footprint, along its long side.
+    /// Also between the two resolutions nearest to the footprint, along its long side.
     #[default]
     Trilinear,
 }
 
-/// How a texture is laid over a surface and read.
+/// Placement of a texture on a surface, and its filtering.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// What lies beyond the edges, along u and v.
+    /// Value beyond the edges, along u and v.
     pub wrap: [Wrap; 2],
-    /// How texels become a value.
+    /// Interpolation of texels.
     pub filter: Filter,
-    /// Picture coordinates = surface coordinates × `scale` + `offset`.
+    /// Image coordinates = surface coordinates × `scale` + `offset`.
     pub scale: Vec2,
     /// See `scale`.
     pub offset: Vec2,
-    /// Where the coordinates come from.
+    /// Source of the coordinates.
     pub projection: Projection,
 }
 
@@ -53,7 +52,7 @@ impl Sampling {
         if self.projection.is_legal() { Ok(()) } else { Err(TextureError::Projection) }
     }
 
-    /// Texels of a picture a unit of coordinates, along u and v.
+    /// Texels of an image per unit of coordinates, along u and v.
     fn density(&self, width: u32, height: u32) -> Vec2 {
         (Vec2::new(width as f32, height as f32) * self.scale).abs()
     }
@@ -71,15 +70,15 @@ impl Default for Sampling {
     }
 }
 
-/// A picture over a surface. Its `Debug` text leaves out the texels.
+/// An image on a surface. Its `Debug` text leaves out the texels.
 #[derive(Clone)]
 pub struct ImageTexture {
     colours: Colours,
-    /// The alpha channel's resolutions; empty where there is none.
+    /// The alpha channel's resolutions; empty if there is none.
     alpha: Vec<Level<f32>>,
     sampling: Sampling,
     ranges: [(f32, f32); 3],
-    /// Texels a unit of coordinates, along u and v.
+    /// Texels per unit of coordinates, along u and v.
     density: Vec2,
 }
 
@@ -87,7 +86,7 @@ pub struct ImageTexture {
 #[derive(Clone)]
 enum Colours {
     Held(Vec<Level<Vec3>>),
-    /// With the mean of the picture.
+    /// With the mean of the image.
     Tiled(Vec<TiledLevel>, Vec3),
 }
 
@@ -106,10 +105,10 @@ impl core::fmt::Debug for ImageTexture {
 }
 
 impl ImageTexture {
-    /// A picture of `width` × `height` texels, rows from the top.
+    /// An image of `width` × `height` texels, rows from the top.
     ///
     /// # Errors
-    /// Where the texels do not fill the picture, one is not finite, or the placement is not legal.
+    /// If the texels do not fill the image, one is not finite, or the placement is not legal.
     pub fn new(width: u32, height: u32, texels: Texels, sampling: Sampling) -> Result<Self, TextureError> {
         check_size(width, height, texels.len())?;
         sampling.check()?;
@@ -121,11 +120,11 @@ impl ImageTexture {
         Ok(Self { colours, alpha: vec![], sampling, ranges, density })
     }
 
-    /// A picture of `width` × `height` texels whose tiles a [`PyramidWriter`](super::PyramidWriter) made; they are read into `memory` where they
-    /// are looked up.
+    /// An image of `width` × `height` texels whose tiles a [`PyramidWriter`](super::PyramidWriter) has written; they are read into `memory`
+    /// at look-up.
     ///
     /// # Errors
-    /// As [`ImageTexture::new`], or where the tiles cannot be read.
+    /// As [`ImageTexture::new`], or if the tiles cannot be read.
     pub fn tiled(
         width: u32,
         height: u32,
@@ -143,8 +142,8 @@ impl ImageTexture {
         Ok(Self { colours, alpha: vec![], sampling, ranges, density: sampling.density(width, height) })
     }
 
-    /// The same with an alpha channel, 0 (nothing there) to 255. Colours are filtered by it, so that what cannot be seen
-    /// gives no colour to what can.
+    /// Adds an alpha channel, 0 (transparent) to 255. Colours are filtered by it, so that invisible texels do not affect the colour of
+    /// visible ones.
     ///
     /// # Errors
     /// As [`ImageTexture::new`].
@@ -166,13 +165,13 @@ impl ImageTexture {
         Ok(Self { colours, alpha, sampling, ranges, density: sampling.density(width, height) })
     }
 
-    /// Whether the picture has an alpha channel.
+    /// True if the image has an alpha channel.
     #[must_use]
     pub fn has_alpha(&self) -> bool {
         !self.alpha.is_empty()
     }
 
-    /// Whether the picture is laid out by texture coordinates, which a surface must then have.
+    /// True if the image is placed by texture coordinates, which a surface must then have.
     #[must_use]
     pub fn needs_uv(&self) -> bool {
         self.sampling.projection == Projection::Uv
@@ -200,7 +199,7 @@ impl ImageTexture {
         channel.of(self.sample(lookup))
     }
 
-    /// Not a part of the code about pictures in memory.
+    /// Separate from the code for images in memory.
     #[inline(never)]
     fn filtered_in_tiles(&self, levels: &[TiledLevel], place: &Place) -> Vec3 {
         self.filtered(levels, place)
@@ -208,7 +207,7 @@ impl ImageTexture {
 
     fn filtered<T: Texel>(&self, levels: &[impl Resolution<T>], place: &Place) -> T {
         let placed = place.uv * self.sampling.scale + self.sampling.offset;
-        // Coordinates so far out that they overflow have no place in the picture: its corner stands for them.
+        // Coordinates that overflow have no place in the image: its corner is used.
         let uv = if placed.is_finite() { placed } else { Vec2::ZERO };
         let across = place.width * (self.density.x * self.density.y).sqrt();
         let along = (place.long * self.density).length();
@@ -223,7 +222,7 @@ impl ImageTexture {
         sum * (1.0 / count)
     }
 
-    /// The value at picture coordinates, over a round footprint of a width in texels.
+    /// The value at image coordinates, over a round footprint of a width in texels.
     fn trilinear<T: Texel>(&self, levels: &[impl Resolution<T>], uv: Vec2, texels: f32) -> T {
         let wrap = self.sampling.wrap;
         let (s, t) = (wrap[0].fold(uv.x), 1.0 - wrap[1].fold(uv.y));
@@ -237,7 +236,7 @@ impl ImageTexture {
         fine.towards(coarse, lod - i as f32)
     }
 
-    /// Mean of the whole picture, linear.
+    /// Mean of the whole image, linear.
     #[must_use]
     pub fn mean(&self) -> Vec3 {
         let base = match &self.colours {
@@ -249,7 +248,7 @@ impl ImageTexture {
         (sum / (f64::from(base.width) * f64::from(base.height))).as_vec3()
     }
 
-    /// Least and greatest value of any colour channel.
+    /// Minimum and maximum of any colour channel.
     #[must_use]
     pub fn range(&self) -> (f32, f32) {
         self.ranges
@@ -257,7 +256,7 @@ impl ImageTexture {
             .fold((f32::INFINITY, f32::NEG_INFINITY), |all, one| (all.0.min(one.0), all.1.max(one.1)))
     }
 
-    /// Bounds of one channel's values; those of the luminance are the bounds that the colours' own give it.
+    /// Bounds of one channel's values; for luminance the bounds follow from those of the colours.
     #[must_use]
     pub fn channel_range(&self, channel: Channel) -> (f32, f32) {
         if channel == Channel::Alpha && self.has_alpha() {
@@ -266,7 +265,7 @@ impl ImageTexture {
         (channel.of(self.ranges.map(|r| r.0)), channel.of(self.ranges.map(|r| r.1)))
     }
 
-    /// Columns and rows of the picture.
+    /// Columns and rows of the image.
     #[must_use]
     pub fn size(&self) -> (u32, u32) {
         match &self.colours {
@@ -275,7 +274,7 @@ impl ImageTexture {
         }
     }
 
-    /// Memory of the texels of all resolutions, bytes; none of a picture whose tiles are read where they are looked up.
+    /// Memory of the texels of all resolutions, bytes; zero for an image whose tiles are read at look-up.
     #[must_use]
     pub fn texel_bytes(&self) -> usize {
         let colours = match &self.colours {
@@ -285,7 +284,7 @@ impl ImageTexture {
         colours + self.alpha.iter().map(Level::bytes).sum::<usize>()
     }
 
-    /// Of a picture whose tiles are read where they are looked up: their bytes, and the memory into which they are read.
+    /// For an image whose tiles are read at look-up: their bytes, and the memory into which they are read.
     #[must_use]
     pub fn tiles(&self) -> Option<(u64, &Arc<TileMemory>)> {
         match &self.colours {
@@ -306,7 +305,7 @@ fn check_size(width: u32, height: u32, found: usize) -> Result<(), TextureError>
     if fits { Ok(()) } else { Err(TextureError::Size { width, height, found }) }
 }
 
-/// The resolutions that a way of filtering needs.
+/// The resolutions that a filter needs.
 fn halvings<T: Texel>(base: Level<T>, sampling: &Sampling) -> Vec<Level<T>> {
     if sampling.filter == Filter::Trilinear { pyramid(base) } else { vec![base] }
 }

@@ -1,19 +1,19 @@
-//! A picture at halved resolutions, averaged by area in linear light.
+//! An image at halved resolutions, averaged by area in linear light.
 //!
-//! Where a picture has an alpha channel, colours are averaged by it too: what cannot be seen gives no colour to what can.
+//! If an image has an alpha channel, colours are weighted by it too: invisible texels do not affect the colour of visible ones.
 
 use glam::Vec3;
 
 use super::projection::Wrap;
 use super::texels::{Store, Texel};
 
-/// One resolution of a picture, wherever its texels are.
+/// One resolution of an image, in memory or in tiles.
 pub(super) trait Resolution<T> {
     /// Bilinear interpolation at `s` (to the right) and `t` (downwards), both folded into [0, 1].
     fn bilinear(&self, s: f32, t: f32, wrap: [Wrap; 2]) -> T;
 }
 
-/// One resolution of a picture in memory.
+/// One resolution of an image in memory.
 #[derive(Clone, Debug)]
 pub(super) struct Level<T: Texel> {
     pub(super) width: u32,
@@ -35,13 +35,13 @@ impl<T: Texel> Level<T> {
         self.store.get(y * self.width as usize + x)
     }
 
-    /// Half as wide and as high (at least 1); every texel the mean of the area it covers, so that the mean is kept for
-    /// odd sizes too.
+    /// Half as wide and as high (at least 1); every texel is the mean of the area it covers, so that the mean is preserved for odd sizes
+    /// too.
     fn halved(&self) -> Self {
         self.coarser(|share| share.mean(|i, j| self.texel(i, j)))
     }
 
-    /// A level of half the size, each texel of its share of this one.
+    /// A level of half the size, each texel computed from the area of this one that it covers.
     fn coarser(&self, texel: impl Fn(Share<'_>) -> T) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let columns: Vec<Vec<_>> = (0..width).map(|x| overlaps(x, width, self.width).collect()).collect();
@@ -64,7 +64,7 @@ impl<T: Texel> Resolution<T> for Level<T> {
     }
 }
 
-/// The columns and rows that a coarse texel covers, with their shares of it.
+/// The columns and rows that a coarse texel covers, with their weights.
 #[derive(Clone, Copy)]
 pub(super) struct Share<'a> {
     pub(super) columns: &'a [(usize, f32)],
@@ -86,7 +86,7 @@ pub(super) fn neighbours(x: f32, count: u32, wrap: Wrap) -> (usize, usize, f32) 
     (wrap.neighbour(i, count), wrap.neighbour(i + 1, count), x - low)
 }
 
-/// The fine texels that coarse texel `j` covers along one axis, with their shares of it.
+/// The fine texels that coarse texel `j` covers along one axis, with their weights.
 pub(super) fn overlaps(j: u32, coarse: u32, fine: u32) -> impl Iterator<Item = (usize, f32)> {
     let ratio = f64::from(fine) / f64::from(coarse);
     let (low, high) = (f64::from(j) * ratio, f64::from(j + 1) * ratio);
@@ -97,7 +97,7 @@ pub(super) fn overlaps(j: u32, coarse: u32, fine: u32) -> impl Iterator<Item = (
     })
 }
 
-/// A picture and all its halvings, down to one texel.
+/// An image and all its halvings, down to one texel.
 pub(super) fn pyramid<T: Texel>(base: Level<T>) -> Vec<Level<T>> {
     let mut levels = vec![base];
     while let Some(last) = levels.last().filter(|l| l.width > 1 || l.height > 1) {
@@ -107,7 +107,7 @@ pub(super) fn pyramid<T: Texel>(base: Level<T>) -> Vec<Level<T>> {
     levels
 }
 
-/// The same for colours that count by the alpha of a pyramid of the same size.
+/// The same for colours weighted by the alpha of a pyramid of the same size.
 pub(super) fn weighted_pyramid(base: Level<Vec3>, alpha: &[Level<f32>]) -> Vec<Level<Vec3>> {
     let mut levels = vec![base];
     for visible in &alpha[..alpha.len() - 1] {

@@ -1,11 +1,11 @@
-//! Textures: numbers over a surface.
+//! Textures: values over a surface.
 //!
 //! # Conventions
-//! - Texture coordinates: u to the right, v up, (0, 0) the bottom-left corner of the picture (as OBJ files have it).
+//! - Texture coordinates: u to the right, v up, (0, 0) the bottom-left corner of the image (as in OBJ files).
 //!   Rows of texels are stored from the top.
 //! - Texels are box-shaped; their centres lie at half-integers. Filtering is done in linear light.
-//! - A lookup names its footprint, of what it stands for: the width of its short side, in texture coordinates and in the
-//!   shape's own frame, and where it is longer one way, that side with its direction.
+//! - A look-up states its footprint: the width of its short side, in texture coordinates and in the
+//!   shape's own frame, and its long side with its direction if it is elongated.
 
 mod image;
 mod mipmap;
@@ -20,28 +20,28 @@ pub use projection::{Projection, Wrap};
 pub use texels::{Channel, TexelEncoding, Texels, TextureError, TiledError};
 pub use tiled::{PyramidWriter, TileMemory};
 
-/// A texture's place in the tracer's list.
+/// Index of a texture in the tracer's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TextureId(pub u32);
 
-/// Where a texture is asked, and how widely.
+/// Place and footprint of a texture look-up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lookup {
     /// Texture coordinates.
     pub uv: Vec2,
     /// Width of the footprint's short side in texture coordinates; 0 for a point.
     pub width: f32,
-    /// The footprint's long side in texture coordinates, from end to end; zero where it is round.
+    /// The footprint's long side in texture coordinates, from end to end; zero if it is round.
     pub long: Vec2,
-    /// The point in the shape's own frame less `origin`, m.
+    /// The point in the shape's own frame minus `origin`, m.
     pub local: Vec3,
-    /// What `local` is relative to, m: zero but for meshes far from their file's origin.
+    /// Origin of `local`, m: zero except for meshes far from their file's origin.
     pub origin: DVec3,
     /// The surface's unit normal there in the shape's own frame.
     pub local_normal: Vec3,
     /// Width of the footprint's short side in the shape's own frame, m; 0 for a point.
     pub width_local: f32,
-    /// The footprint's long side in the shape's own frame, m, from end to end; zero where it is round.
+    /// The footprint's long side in the shape's own frame, m, from end to end; zero if it is round.
     pub long_local: Vec3,
 }
 

@@ -1,18 +1,18 @@
-//! How a picture is laid over a surface, and what lies beyond its edge.
+//! Placement of an image on a surface, and its continuation beyond the edges.
 //!
 //! - By texture coordinates.
-//! - From three sides, where a shape has none or they are poor: the picture is projected along each axis of the shape's
-//!   own frame, one of its widths `size_m` metres wide (so u = place / size), and the three readings are blended by
+//! - From three sides (triplanar), if a shape has no or poor texture coordinates: the image is projected along each axis of the shape's
+//!   own frame, with a width of `size_m` metres (so u = place / size), and the three readings are blended by
 //!   |nₐ|ᵏ / Σ |n|ᵏ, n the shape's normal, k the sharpness: 1 blends widely, 16 only near the edges. On the sides ±x and
-//!   ±y the picture stands upright (v along z) and reads from left to right as seen from outside; on ±z v runs along y.
-//!   Where projections blend, contrast is lost; at a slant the picture is stretched by up to √3.
+//!   ±y the image is upright (v along z) and reads from left to right as seen from outside; on ±z v runs along y.
+//!   Where projections blend, contrast is lost; at a slant the image is stretched by up to √3.
 
 use etendue_core::maths::f32::pow;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 use super::Lookup;
 
-/// How a picture is laid over a surface.
+/// Placement of an image on a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Projection {
     /// By the surface's texture coordinates.
@@ -20,14 +20,14 @@ pub enum Projection {
     Uv,
     /// From three sides.
     Triplanar {
-        /// Width and height of the picture in the shape's own frame, m.
+        /// Width and height of the image in the shape's own frame, m.
         size_m: f32,
         /// The exponent k, 1 to 64.
         sharpness: f32,
     },
 }
 
-/// A place in a picture's coordinates: the middle of the footprint, its short side's width, its long side.
+/// A place in an image's coordinates: the middle of the footprint, its short side's width, its long side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
     pub(super) uv: Vec2,
@@ -45,7 +45,7 @@ impl Projection {
         }
     }
 
-    /// Reads `value` where the projection leads to, blended.
+    /// Reads `value` at the projected places, blended.
     #[inline]
     pub(super) fn read<T>(self, lookup: &Lookup, wrap: [Wrap; 2], value: impl Fn(&Place) -> T) -> T
     where
@@ -62,14 +62,14 @@ impl Projection {
     }
 }
 
-/// Shares of the three axes, which sum to 1.
+/// Weights of the three axes, which sum to 1.
 fn weights(normal: Vec3, sharpness: f32) -> [f32; 3] {
     let most = normal.abs().max_element();
-    // Written so that a normal without direction is one along z.
+    // Written so that a normal without direction counts as one along z.
     if !(most > 0.0 && most.is_finite()) {
         return [0.0, 0.0, 1.0];
     }
-    // Of the greatest part, so that powers do not vanish.
+    // Relative to the largest component, so that powers do not vanish.
     let powers = (normal.abs() / most).to_array().map(|n| if n > 0.0 { pow(n, sharpness) } else { 0.0 });
     let sum = powers[0] + powers[1] + powers[2];
     powers.map(|p| p / sum)
@@ -90,20 +90,20 @@ fn sides(lookup: &Lookup, per_m: f32, wrap: [Wrap; 2]) -> [Place; 3] {
     core::array::from_fn(|i| Place { uv: places[i], width, long: longs[i] })
 }
 
-/// What a texture shows outside 0–1 along one axis.
+/// Continuation of a texture outside 0–1 along one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
-    /// The picture again.
+    /// The image repeated.
     #[default]
     Repeat,
     /// The texels of the edge.
     Clamp,
-    /// The picture mirrored, and again.
+    /// The image mirrored, and repeated.
     Mirror,
 }
 
 impl Wrap {
-    /// A coordinate brought into [0, 1].
+    /// A coordinate folded into [0, 1].
     pub(super) fn fold(self, x: f32) -> f32 {
         match self {
             Self::Repeat => x - x.floor(),
@@ -115,7 +115,7 @@ impl Wrap {
         }
     }
 
-    /// A coordinate, however large, as one near 0 that shows the same.
+    /// Replaces any coordinate, however large, by one near 0 with the same value.
     pub(super) fn near(self, x: f64) -> f32 {
         match self {
             Self::Repeat | Self::Mirror => (x - 2.0 * (0.5 * x).floor()) as f32,
@@ -123,8 +123,7 @@ impl Wrap {
         }
     }
 
-    /// A texel index of −1 to `count`, brought into 0 to `count` − 1. A mirrored picture's neighbour at the edge is the
-    /// edge itself.
+    /// A texel index of −1 to `count`, folded into 0 to `count` − 1. A mirrored image's neighbour at the edge is the edge itself.
     pub(super) fn neighbour(self, i: i32, count: u32) -> usize {
         let last = count as i32 - 1;
         let i = match self {
@@ -163,7 +162,7 @@ mod tests {
         let lookup =
             Lookup { local: Vec3::new(0.2, 0.6, 1.0), origin, local_normal: Vec3::Z, ..Lookup::point(Vec2::ZERO) };
         let read = |wrap| triplanar.read(&lookup, [wrap; 2], |place| place.uv);
-        // x = 500 000.45, y = 5 400 002.1: 250 000.225 and 2 700 001.05 pictures.
+        // x = 500 000.45, y = 5 400 002.1: 250 000.225 and 2 700 001.05 images.
         assert!((read(Wrap::Mirror) - Vec2::new(0.225, 1.05)).length() < 1e-6, "{}", read(Wrap::Mirror));
         assert_eq!(read(Wrap::Clamp), Vec2::new(250_000.22, 2_700_001.0));
     }

@@ -5,18 +5,18 @@ use core::ops::{Add, Mul};
 use etendue_spectra::colour::{self, XYZ_FROM_SRGB};
 use glam::Vec3;
 
-/// The texels of a picture, row by row from the top.
+/// The texels of an image, row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Texels {
-    /// Bytes a channel, sRGB-encoded (IEC 61966-2-1).
+    /// One byte per channel, sRGB-encoded (IEC 61966-2-1).
     Srgb8(Vec<[u8; 3]>),
-    /// Bytes a channel, linear: 255 is 1.
+    /// One byte per channel, linear: 255 is 1.
     Linear8(Vec<[u8; 3]>),
     /// Linear numbers.
     Float(Vec<[f32; 3]>),
 }
 
-/// What the texels of a picture are.
+/// Encoding of the texels of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TexelEncoding {
     /// [`Texels::Srgb8`].
@@ -28,7 +28,7 @@ pub enum TexelEncoding {
 }
 
 impl TexelEncoding {
-    /// The linear values of bytes; `None` of texels that are no bytes.
+    /// The linear values of bytes; `None` for texels that are no bytes.
     pub(super) fn table(self) -> Option<Box<[f32; 256]>> {
         match self {
             Self::Srgb8 => Some(table(colour::decode_byte)),
@@ -42,7 +42,7 @@ impl Texels {
     /// Adds more of the same kind at the end.
     ///
     /// # Panics
-    /// Where they are of another kind.
+    /// If they are of another kind.
     pub fn append(&mut self, more: Self) {
         match (self, more) {
             (Self::Srgb8(all), Self::Srgb8(more)) | (Self::Linear8(all), Self::Linear8(more)) => all.extend(more),
@@ -59,15 +59,15 @@ impl Texels {
     }
 }
 
-/// What a texel is: a colour, or a number.
+/// Value of a texel: a colour, or a number.
 pub(super) trait Texel: Copy + Add<Output = Self> + Mul<f32, Output = Self> {
-    /// As files hold it in bytes.
+    /// Its encoding in bytes in files.
     type Bytes: Copy + Clone + core::fmt::Debug;
-    /// Nothing.
+    /// Zero.
     const NOTHING: Self;
     /// The value of bytes, by a table of the linear values of a byte.
     fn decoded(bytes: Self::Bytes, linear: &[f32; 256]) -> Self;
-    /// `self` at `t` = 0, `other` at 1.
+    /// Linear interpolation: `self` at `t` = 0, `other` at 1.
     fn towards(self, other: Self, t: f32) -> Self;
 }
 
@@ -97,7 +97,7 @@ impl Texel for f32 {
     }
 }
 
-/// Texels with what it takes to read them.
+/// Texels with the tables to decode them.
 #[derive(Clone, Debug)]
 pub(super) enum Store<T: Texel> {
     Bytes { texels: Vec<T::Bytes>, linear: Box<[f32; 256]> },
@@ -142,7 +142,7 @@ fn table(decode: impl Fn(u8) -> f32) -> Box<[f32; 256]> {
     Box::new(core::array::from_fn(|i| decode(i as u8)))
 }
 
-/// Which number of a picture is read.
+/// Channel of an image that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
     /// Red.
@@ -151,9 +151,9 @@ pub enum Channel {
     Green,
     /// Blue.
     Blue,
-    /// How opaque a texel is, of pictures that say so; 1 of others.
+    /// Opacity of a texel; 1 for images without alpha.
     Alpha,
-    /// The luminance of the linear colour, 1 for white; of a grey picture, its grey.
+    /// The luminance of the linear colour, 1 for white; for a grey image, its grey.
     Luminance,
 }
 
@@ -167,30 +167,30 @@ impl Channel {
             Self::Alpha => 1.0,
             Self::Luminance => {
                 let [wr, wg, wb] = XYZ_FROM_SRGB[1].map(|w| w as f32);
-                // Rounding must not take white beyond 1.
+                // Rounding must not raise white above 1.
                 (wr * r + wg * g + wb * b).clamp(r.min(g).min(b), r.max(g).max(b))
             }
         }
     }
 }
 
-/// Why a texture is refused.
+/// Error of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TextureError {
-    /// The texels do not fill the picture.
+    /// The texels do not fill the image.
     #[error("a picture of {width} × {height} needs as many texels, but {found} were given; check its size")]
     Size {
         /// Columns.
         width: u32,
         /// Rows.
         height: u32,
-        /// Texels given.
+        /// Number of texels given.
         found: usize,
     },
     /// A texel is not a finite number.
     #[error("texel {texel} of the picture is not a finite number; correct the file")]
     NonFinite {
-        /// The texel, counted by rows from the top.
+        /// Index of the texel, by rows from the top.
         texel: usize,
     },
     /// The size or sharpness of a projection from three sides is out of range.
@@ -201,13 +201,13 @@ pub enum TextureError {
     Placement,
 }
 
-/// Why a picture in tiles is refused.
+/// Error of an image in tiles.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TiledError {
-    /// As any picture.
+    /// Error of any image.
     #[error(transparent)]
     Texture(#[from] TextureError),
-    /// A tile cannot be written or read; in words for the user.
+    /// A tile cannot be written or read; text for the user.
     #[error("{0}")]
     Tiles(String),
 }

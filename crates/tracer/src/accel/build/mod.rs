@@ -1,8 +1,8 @@
 //! Trees over triangles and over boxes.
 //!
-//! - `reference`, `pieces`: what they are built over: padded boxes, of large triangles several.
-//! - `partition`: where a range is cut, by the surface area heuristic.
-//! - `top_down`: ranges cut in two, again and again.
+//! - `reference`, `pieces`: padded boxes over which trees are built, several for a large triangle.
+//! - `partition`: splits of a range, by the surface area heuristic.
+//! - `top_down`: ranges split in two, recursively.
 //! - `reinsertion`: better places for subtrees, by the obvhs library.
 //!
 //! The same boxes give the same tree, whatever the number of threads.
@@ -18,15 +18,14 @@ use partition::{Cut, Range, cut, halve};
 use reference::Reference;
 use reinsertion::Effort;
 
-/// Of the largest subtrees of a mesh. Twice as many gave 3 % fewer nodes a ray in the street, for 15 % more time to build.
+/// For the largest subtrees of a mesh. Twice as many gave 3 % fewer nodes per ray in the street, for 15 % more time to build.
 const LARGEST: Effort = Effort { apart: 0.06, tried: 1.0 };
-/// Of half of a mesh's subtrees. All of them, or more of them tried, gave no better trees.
+/// For half of a mesh's subtrees. All of them, or more of them tried, gave no better trees.
 const HALF: Effort = Effort { apart: 0.5, tried: 0.3 };
-/// Of a tree over instances, which are few.
+/// For a tree over instances, which are few.
 const ALL: Effort = Effort { apart: 1.0, tried: 0.2 };
 
-/// A binary tree over triangles with the given corners; empty without triangles. Of a large triangle there may be several
-/// leaves.
+/// A binary tree over triangles with the given corners; empty without triangles. A large triangle may have several leaves.
 pub(super) fn over_triangles(
     count: usize,
     corners: impl Fn(u32) -> [Vec3; 3] + Sync,
@@ -45,8 +44,8 @@ pub(super) fn over_triangles(
     }
 }
 
-/// A binary tree over triangles that move, each in its box for all of an interval; empty without triangles. Places found at times in between
-/// may be rounded out of those boxes by a unit in the last place of f32, 1.2e-7 of their coordinates, for which there is room too.
+/// A binary tree over triangles that move, each in its box for the whole interval; empty without triangles. Positions interpolated at times
+/// in between may be rounded out of those boxes by a unit in the last place of f32, 1.2e-7 of their coordinates; the padding includes this.
 pub(super) fn over_moving(count: usize, swept: impl Fn(u32) -> Box3 + Sync, quality: Accelerator) -> Vec<BinaryNode> {
     let mut references = reference::swept(count, &swept);
     let binary = build_top_down(&mut references);
@@ -63,15 +62,15 @@ pub(super) fn over_boxes(boxes: &[Box3]) -> Vec<BinaryNode> {
     reinsertion::improved(build_top_down(&mut references), ALL)
 }
 
-// Trees from the top down: a range of references is cut in two again and again ([`super::partition`]).
+// Trees built from the top down: a range of references is split in two recursively ([`super::partition`]).
 //
-// What is below a node has its place before it is built, since a range of n references becomes 2n − 1 nodes: so any thread
-// can build any range, and the tree is the same for any number of them.
+// The nodes of a subtree have their places before it is built, since a range of n references becomes 2n − 1 nodes. Any thread can therefore
+// build any range, and the tree is the same for any number of them.
 
 /// Ranges of fewer references are built by one thread.
 const ALONE: usize = 2048;
-/// Cuts one below the other, after which ranges are halved by number: what lies within each other in ever smaller boxes
-/// would be cut off one by one.
+/// Depth of splits beyond which ranges are halved by count: primitives nested in ever smaller boxes would otherwise be split off one by
+/// one.
 const DEEPEST: u32 = 64;
 
 /// The binary tree over references, which change places; empty without references.
@@ -85,12 +84,11 @@ fn build_top_down(references: &mut [Reference]) -> Vec<BinaryNode> {
     nodes
 }
 
-/// Where what is below a node stands.
+/// Place of the nodes below a node.
 #[derive(Clone, Copy)]
 struct Growth {
     /// Index of the first child.
     first: u32,
-    /// Cuts above.
     depth: u32,
 }
 

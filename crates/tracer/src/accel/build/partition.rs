@@ -1,24 +1,24 @@
-//! Where a range of references is cut in two: the surface area heuristic over bins.
+//! Splits of a range of references in two: the surface area heuristic over bins.
 //!
-//! The cut is the plane between bins of the centres' box, on any axis, at which the sum over both sides of (area of the box ×
-//! number of primitives) is least (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies").
-//! References change places within their range, in the same way whatever the number of threads.
+//! The split is the plane between bins of the centres' box, on any axis, at which the sum over both sides of (area of the box × number of primitives)
+//! is least (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies"). References are reordered within their range, in the same
+//! way whatever the number of threads.
 
 use glam::Vec4;
 
 use super::reference::{Extent, Reference};
 
-/// Ranges of fewer references are cut between 8 bins an axis, others between 32.
+/// Ranges of fewer references are split between 8 bins per axis, others between 32.
 const FEW: usize = 64;
-/// Ranges that are longer are put into bins in pieces, by as many threads as there are.
+/// Longer ranges are binned in pieces, by as many threads as there are.
 const PIECE: usize = 1 << 15;
 
-/// What is known of a range of references.
+/// Bounds of a range of references.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Range {
-    /// The box about all of them.
+    /// The box of all of them.
     pub(super) extent: Extent,
-    /// The box about their centres.
+    /// The box of their centres.
     centres: Extent,
 }
 
@@ -50,13 +50,13 @@ impl Range {
     }
 }
 
-/// Two ranges made of one: how many references are in the first, and what is known of both.
+/// Two ranges split from one: number of references in the first, and the bounds of both.
 pub(super) struct Cut {
     pub(super) at: usize,
     pub(super) ranges: [Range; 2],
 }
 
-/// Cuts two references or more so that each side has at least one.
+/// Splits two references or more so that each side has at least one.
 pub(super) fn cut(references: &mut [Reference], range: &Range) -> Cut {
     let best = match references.len() {
         ..=2 => None,
@@ -69,7 +69,7 @@ pub(super) fn cut(references: &mut [Reference], range: &Range) -> Cut {
     }
 }
 
-/// Cuts references into halves by number, along the axis on which their centres spread most.
+/// Splits references into halves by count, along the axis on which their centres spread most.
 pub(super) fn halve(references: &mut [Reference], range: &Range) -> Cut {
     let axis = range.longest_axis();
     let along = |r: &Reference| r.centre()[axis];
@@ -85,7 +85,7 @@ fn cut_anywhere(references: &[Reference]) -> Cut {
     Cut { at, ranges: [Range::of(&references[..at]), Range::of(&references[at..])] }
 }
 
-/// What `of` says of pieces of a long range, put together from the first to the last; of a short one, of it as a whole.
+/// Applies `of` to pieces of a long range and combines the results from the first to the last; applies it to a short range as a whole.
 #[inline(always)]
 fn in_pieces<T: Send>(
     references: &[Reference],
@@ -104,9 +104,9 @@ fn in_pieces<T: Send>(
 #[derive(Clone, Copy, Debug)]
 struct Grid {
     low: Vec4,
-    /// Bins a unit of length; 0 on an axis without extent.
+    /// Bins per unit of length; 0 on an axis without extent.
     scale: Vec4,
-    /// One less than there are.
+    /// Number of bins minus one.
     last: u32,
 }
 
@@ -132,7 +132,7 @@ impl Grid {
     }
 }
 
-/// What has fallen into a range of bins.
+/// Contents of a range of bins.
 #[derive(Clone, Copy, Debug)]
 struct Share {
     extent: Extent,
@@ -188,7 +188,7 @@ impl<const B: usize> Bins<B> {
         self
     }
 
-    /// The best plane of an axis; `None` where all are in one bin.
+    /// The best plane of an axis; `None` if all are in one bin.
     #[inline(always)]
     fn plane(&self, axis: usize) -> Option<Plane> {
         let (extents, counts) = (&self.extents[axis], &self.counts[axis]);
@@ -213,7 +213,7 @@ impl<const B: usize> Bins<B> {
     }
 }
 
-/// A plane before a bin of an axis, and what it parts.
+/// A plane before a bin of an axis, and both of its sides.
 #[derive(Clone, Copy, Debug)]
 struct Plane {
     cost: f32,
@@ -222,7 +222,7 @@ struct Plane {
     extents: [Extent; 2],
 }
 
-/// The best of all planes between so many bins an axis; `None` where all centres are in one place.
+/// The best of all planes between the bins of each axis; `None` if all centres coincide.
 #[inline(never)]
 fn best_plane<const B: usize>(references: &[Reference], range: &Range) -> Option<(Grid, Plane)> {
     let grid = Grid::new(&range.centres, B);
@@ -232,7 +232,7 @@ fn best_plane<const B: usize>(references: &[Reference], range: &Range) -> Option
     Some((grid, best))
 }
 
-/// Puts those before the plane first.
+/// Moves those before the plane to the front.
 fn partition(references: &mut [Reference], grid: &Grid, plane: &Plane) -> Cut {
     let is_before = |centre| grid.bin(centre, plane.axis) < plane.bin;
     let (mut begin, mut end) = (0, references.len());

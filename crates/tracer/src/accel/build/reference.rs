@@ -1,4 +1,4 @@
-//! What trees are built over: boxes of primitives.
+//! Input of tree construction: boxes of primitives.
 
 use glam::{Vec3, Vec3A, Vec4};
 use obvhs::splits::split_triangle;
@@ -6,16 +6,16 @@ use rayon::prelude::*;
 
 use crate::accel::boxes::Box3;
 
-/// Makes the bits of any primitive's number (below 2³⁰) those of a plain f32: arithmetic with subnormal numbers, such as small
-/// whole numbers are, takes a hundred times as long even in a lane that nobody reads.
+/// Turns the bits of any primitive's number (below 2³⁰) into those of a normal f32. Small integers as bits are subnormal numbers, whose
+/// arithmetic takes a hundred times as long even in an unused lane.
 const PLAIN: u32 = 0x4000_0000;
 
 /// The box of a primitive or of a piece of it, and the primitive's number: 32 bytes, in two registers of four lanes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reference {
-    /// Least coordinates; the fourth lane holds the bits of the primitive's number and takes no part in arithmetic.
+    /// Minimum coordinates; the fourth lane holds the bits of the primitive's number and takes no part in arithmetic.
     low: Vec4,
-    /// Greatest coordinates; the fourth lane is 0.
+    /// Maximum coordinates; the fourth lane is 0.
     high: Vec4,
 }
 
@@ -32,7 +32,7 @@ impl Reference {
         Box3 { low: self.low.truncate(), high: self.high.truncate() }
     }
 
-    /// Half the sum of least and greatest coordinates; without meaning in the fourth lane.
+    /// Half the sum of minimum and maximum coordinates; without meaning in the fourth lane.
     #[inline(always)]
     pub(super) fn centre(&self) -> Vec4 {
         self.low * 0.5 + self.high * 0.5
@@ -47,7 +47,6 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// The box about nothing.
     pub(super) const NOTHING: Self = Self { low: Vec4::INFINITY, high: Vec4::NEG_INFINITY };
 
     #[inline(always)]
@@ -67,7 +66,7 @@ impl Extent {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// Half the area of the surface; of the box about nothing, without meaning.
+    /// Half the area of the surface; for the empty box, without meaning.
     #[inline(always)]
     pub(super) fn half_area(&self) -> f32 {
         let e = self.high - self.low;
@@ -78,7 +77,6 @@ impl Extent {
         self.low
     }
 
-    /// Edges of the box.
     pub(super) fn size(&self) -> Vec4 {
         self.high - self.low
     }
@@ -88,23 +86,22 @@ impl Extent {
     }
 }
 
-// References to triangles: one each, but several to a triangle that is large beside the others, each about a piece of it.
+// References to triangles: one each, but several to a triangle that is large compared with the others, each for a piece of it.
 //
-// Large triangles make large boxes which many rays enter in vain. Cutting them before the tree is built (Ernst, Greiner 2007,
-// "Early split clipping for bounding volume hierarchies") costs little; a piece's box is enlarged by what the whole
-// triangle's box needs.
+// Large triangles have large boxes, which many rays enter without a hit. Splitting them before the tree is built (Ernst, Greiner 2007,
+// "Early split clipping for bounding volume hierarchies") costs little. The box of a piece has the padding of the whole triangle's box.
 
-/// Boxes that are this many times as large as the mean are worth cutting.
+/// Ratio of a box's area to the mean from which it is worth splitting.
 const LARGE: f32 = 3.0;
-/// A cut must make the areas' sum smaller by this factor.
+/// Minimum factor by which a split must reduce the sum of areas.
 const GAIN: f32 = 1.8;
-/// The same where the box is not much larger than the mean.
+/// The same if the box is not much larger than the mean.
 const GAIN_OF_SMALL: f32 = 1.6;
 /// Places tried along the longest axis, and one more.
 const PLACES: u32 = 12;
-/// A quarter more than the padding, 1.5e-7 of the coordinates, for a rounding of what moves.
+/// A quarter more than the padding, 1.5e-7 of the coordinates, for the rounding of moving vertices.
 const ROUNDED: f32 = 1.25;
-/// Cuts one below the other: at most 2¹² pieces.
+/// Maximum depth of splits: at most 2¹² pieces.
 const DEEPEST: u32 = 12;
 
 /// A reference to each of `count` triangles with the given corners.
@@ -116,7 +113,7 @@ pub(super) fn whole(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) 
     (0..count as u32).into_par_iter().map(reference).collect()
 }
 
-/// A reference to each of `count` triangles that move, by the box about all places of each.
+/// A reference to each of `count` triangles that move, by the box of all positions of each.
 pub(super) fn swept(count: usize, bounds: &(impl Fn(u32) -> Box3 + Sync)) -> Vec<Reference> {
     let reference = |triangle| {
         let bounds = bounds(triangle);
@@ -125,7 +122,7 @@ pub(super) fn swept(count: usize, bounds: &(impl Fn(u32) -> Box3 + Sync)) -> Vec
     (0..count as u32).into_par_iter().map(reference).collect()
 }
 
-/// As [`whole`], with several references to a triangle that is large beside the others.
+/// As [`whole`], with several references to a triangle that is large compared with the others.
 pub(super) fn cut_large(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<Reference> {
     let mut references = whole(count, corners);
     let limits = Limits::new(&references);
@@ -145,7 +142,7 @@ pub(super) fn cut_large(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Syn
     references
 }
 
-/// Areas (half of the surface) from which boxes are cut.
+/// Areas (half of the surface) from which boxes are split.
 struct Limits {
     large: f32,
     /// Below this a smaller gain is enough.
@@ -179,7 +176,7 @@ fn cut(corners: &[Vec3; 3], bounds: Box3, limits: &Limits, depth: u32, pieces: &
     }
 }
 
-/// The two boxes about what a plane across the longest axis parts, and the sum of their areas, where that is least.
+/// The two boxes of the parts on both sides of a plane across the longest axis, and the sum of their areas, at its minimum.
 fn best_cut(corners: &[Vec3; 3], bounds: &Box3) -> Option<(f32, [Box3; 2])> {
     let size = bounds.high - bounds.low;
     let axis = (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });

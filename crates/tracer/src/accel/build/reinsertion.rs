@@ -1,7 +1,7 @@
-//! Better places for subtrees, by the obvhs library; this file and the cutting of large triangles are all that know it.
+//! Better places for subtrees, by the obvhs library. Only this file and the splitting of large triangles use it.
 //!
-//! Subtrees are taken out and put in where they cost least, over and over (Meister, Bittner 2018, "Parallel reinsertion for
-//! bounding volume hierarchy optimization"). Most is won among the largest: below them the tree may stay as it is.
+//! Subtrees are removed and inserted where they cost least, repeatedly (Meister, Bittner 2018, "Parallel reinsertion for bounding volume hierarchy
+//! optimization"). Most is gained with the largest: below them the tree may stay as it is.
 
 use glam::{DVec3, Vec3};
 use obvhs::bvh2::{Bvh2, DEFAULT_MAX_STACK_DEPTH};
@@ -9,20 +9,19 @@ use obvhs::{aabb::Aabb, bvh2::node::Bvh2Node, bvh2::reinsertion::ReinsertionOpti
 
 use crate::accel::boxes::{BinaryKind, BinaryNode, Box3};
 
-/// More boxes than this about one point are a crowd. The library compares all of them with each other: a thousand times a
-/// thousand steps are still nothing.
+/// Maximum number of boxes about one point. The library compares all of them with each other: a thousand times a thousand steps are still
+/// negligible.
 const CROWD: usize = 2000;
 
-/// How much is tried.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
-    /// Share of the inner nodes, the largest first, that are taken apart.
+    /// Fraction of the inner nodes, the largest first, that are opened.
     pub(super) apart: f32,
-    /// Share of what is then there that is tried for a better place.
+    /// Fraction of the resulting nodes that is tried for a better place.
     pub(super) tried: f32,
 }
 
-/// A better tree over the same primitives, or the same where they are crowded.
+/// A better tree over the same primitives, or the same tree if too many of them coincide.
 pub(super) fn improved(binary: Vec<BinaryNode>, effort: Effort) -> Vec<BinaryNode> {
     if binary.is_empty() || is_crowded(&binary) {
         return binary;
@@ -32,7 +31,7 @@ pub(super) fn improved(binary: Vec<BinaryNode>, effort: Effort) -> Vec<BinaryNod
     put_together(&top, &binary)
 }
 
-/// The area that the given share of inner nodes exceeds or reaches.
+/// The area that the given fraction of inner nodes exceeds or reaches.
 fn least_area(binary: &[BinaryNode], share: f32) -> f32 {
     let is_inner = |node: &&BinaryNode| matches!(node.kind(), BinaryKind::Inner(_));
     let mut areas: Vec<f32> = binary.iter().filter(is_inner).map(|node| node.bounds.half_area()).collect();
@@ -43,8 +42,8 @@ fn least_area(binary: &[BinaryNode], share: f32) -> f32 {
     *areas.select_nth_unstable_by(rank, |a, b| b.total_cmp(a)).1
 }
 
-/// The inner nodes of `least_area` or more for the library, level by level, since it takes the first nodes for the largest.
-/// Its leaves' primitives are the nodes below by their indices.
+/// The inner nodes of `least_area` or more for the library, level by level, since it expects the largest nodes first. The primitives of its
+/// leaves are the indices of the nodes below.
 fn top(binary: &[BinaryNode], least_area: f32) -> Bvh2 {
     let (mut nodes, mut primitives) = (Vec::new(), Vec::new());
     let (mut level, mut depth) = (vec![0_u32], 0);
@@ -72,14 +71,13 @@ fn top(binary: &[BinaryNode], least_area: f32) -> Bvh2 {
     Bvh2 { nodes, primitive_indices: primitives, max_depth, ..Bvh2::default() }
 }
 
-/// Where a node comes from.
 #[derive(Clone, Copy)]
 enum Source {
     Top(u32),
     Below(u32),
 }
 
-/// The tree of the library's top and what was below it, in the order of binary trees.
+/// The tree of the library's top and the subtrees below it, in the order of binary trees.
 fn put_together(top: &Bvh2, binary: &[BinaryNode]) -> Vec<BinaryNode> {
     let bounds = |source| match source {
         Source::Top(node) => {
@@ -114,7 +112,7 @@ fn put_together(top: &Bvh2, binary: &[BinaryNode]) -> Vec<BinaryNode> {
     whole
 }
 
-/// A leaf of the top is what is below it.
+/// Replaces a leaf of the top by the subtree below it.
 fn resolved(source: Source, top: &Bvh2) -> Source {
     match source {
         Source::Top(node) if top.nodes[node as usize].prim_count > 0 => {
@@ -124,7 +122,7 @@ fn resolved(source: Source, top: &Bvh2) -> Source {
     }
 }
 
-/// Whether some point is the centre of a crowd, at a resolution of 2⁻²¹ of the whole.
+/// True if more than [`CROWD`] centres coincide, at a resolution of 2⁻²¹ of the whole.
 fn is_crowded(binary: &[BinaryNode]) -> bool {
     let Some(whole) = binary.first().map(|root| root.bounds).filter(|_| binary.len() > CROWD) else { return false };
     let leaves = binary.iter().filter(|node| matches!(node.kind(), BinaryKind::Leaf(_)));
@@ -133,7 +131,7 @@ fn is_crowded(binary: &[BinaryNode]) -> bool {
     cells.chunk_by(|a, b| a == b).any(|cell| cell.len() > CROWD)
 }
 
-/// Three times 21 bits of where a point lies in a box.
+/// Position of a point in a box, three times 21 bits.
 fn cell(point: Vec3, whole: &Box3) -> u64 {
     let extent = (whole.high - whole.low).as_dvec3().max(DVec3::splat(f64::MIN_POSITIVE));
     let steps = (point - whole.low).as_dvec3() / extent * f64::from((1 << 21) - 1);

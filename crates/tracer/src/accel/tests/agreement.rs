@@ -70,9 +70,9 @@ fn the_tree_finds_what_brute_force_finds() {
     check_against_brute_force(&medley(), 2000, 8.0);
 }
 
-/// An independent oracle: the f64 intersection by Cramer's rule. Where it and the accelerator differ, the ray must pass
-/// an edge within 1e-4 of a triangle's size or meet two surfaces within 1e-4 of its length (f32 rounds to 6e-8; rays
-/// that graze a triangle at 1e-3 multiply that).
+/// An independent oracle: the f64 intersection by Cramer's rule. Where it and the accelerator differ, the ray must pass an edge within 1e-4
+/// of a triangle's size or hit two surfaces within 1e-4 of its length (f32 rounds to 6e-8; rays that graze a triangle at 1e-3 multiply
+/// that).
 #[test]
 fn the_tree_finds_what_f64_finds() {
     let mesh = soup(150, 8);
@@ -89,7 +89,7 @@ fn the_tree_finds_what_f64_finds() {
         };
         differences += u32::from(!same);
     }
-    // Some 150 · 1e-4 of the rays pass an edge as near as that.
+    // Some 150 · 1e-4 of the rays pass an edge this closely.
     assert!(differences <= 4, "{differences} of 4000 rays differ");
 }
 
@@ -101,7 +101,7 @@ fn cramer(corners: [Vec3; 3], ray: &Ray) -> Option<f64> {
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0).then_some(t)
 }
 
-/// On a machine without AVX2 both are the plain lanes, and the test says nothing.
+/// On a machine without AVX2 both are the plain lanes, and the test has no effect.
 #[test]
 fn instruction_sets_give_the_same_bits() {
     let bits = |h: Hit| (h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.instance, h.primitive);
@@ -131,8 +131,8 @@ fn a_ray_is_occluded_where_it_meets_something_before_its_end() {
     }
 }
 
-/// Corners written out in the render frame are rounded by 6e-8 of 10 m there: of 20 000 rays some pass an edge as near as that, and
-/// distances differ by that over the sine at which they meet the surface.
+/// Merged corners in the render frame are rounded by 6e-8 of 10 m: of 20 000 rays some pass an edge this closely, and distances differ by
+/// that over the sine at which they hit the surface.
 #[test]
 fn instances_written_out_are_met_as_instances_are() {
     let world = medley();

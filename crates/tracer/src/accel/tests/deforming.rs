@@ -13,7 +13,7 @@ fn interval(start_s: f64, end_s: f64) -> TimeInterval {
     TimeInterval::new(start_s, end_s).expect("in order")
 }
 
-/// A mesh whose vertices go to other places near their own, frame by frame, `times_s` with that of a loop's return.
+/// A mesh whose vertices move to other places near their own, frame by frame; `times_s` includes that of a loop's return.
 fn deformed(mesh: &Mesh, reach: f64, times_s: &[f64], repeat: Repeat, seed: u32) -> Mesh {
     let mut random = Random::new(seed);
     let frames = times_s.len() - usize::from(repeat == Repeat::Loop);
@@ -38,7 +38,7 @@ fn flight(random: &mut Random) -> Track {
     Track::new(&keys, Interpolation::Smooth).expect("a legal track")
 }
 
-/// Soups and spheres that deform; some stand still, some fly about, one is no animation.
+/// Soups and spheres that deform; some are static, some move, one has no animation.
 fn medley(seed: u32) -> World {
     let mut random = Random::new(seed);
     let mut builder = WorldBuilder::new();
@@ -69,7 +69,8 @@ fn rays(count: u32, seed: u32, interval: TimeInterval) -> impl Iterator<Item = R
     })
 }
 
-/// Where a ray meets a triangle first, all in f64: vertices between those of the two frames beside the time, by their own formula.
+/// The first hit of a ray on a triangle, all in f64: vertices interpolated between the two frames around the time, by an independent
+/// formula.
 fn oracle(world: &World, interval: TimeInterval, ray: &Ray) -> Option<(f64, u32, u32)> {
     let (o, d) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
     let time_s = interval.moment(ray.time_s);
@@ -108,7 +109,7 @@ fn cramer([a, b, c]: [DVec3; 3], o: DVec3, d: DVec3) -> Option<f64> {
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some(t)
 }
 
-/// As of what moves as a whole: f32 and f64 differ for few rays in ten thousand, which pass an edge or meet two surfaces at once.
+/// As for rigid motion: f32 and f64 differ for few rays in ten thousand, which pass an edge or hit two surfaces at once.
 #[test]
 fn vertices_are_met_where_they_are_at_the_ray_s_time() {
     let (mut differences, mut hits) = (0, 0);
@@ -148,7 +149,7 @@ fn boxes_about_moving_vertices_lose_nothing() {
     }
 }
 
-/// On a machine without AVX2 both are the plain lanes, and the test says nothing.
+/// On a machine without AVX2 both are the plain lanes, and the test has no effect.
 #[test]
 fn instruction_sets_give_the_same_bits_of_moving_vertices() {
     let bits = |h: Hit| (h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.instance, h.primitive);
@@ -161,7 +162,7 @@ fn instruction_sets_give_the_same_bits_of_moving_vertices() {
     }
 }
 
-/// At a single moment, and where the first or last frame holds, there is the mesh of the vertices of that time and nothing else.
+/// At a single time, and where the first or last frame holds, the result is the mesh of the vertices of that time.
 #[test]
 fn a_moment_of_deformation_is_a_still_mesh() {
     for (start_s, end_s) in [(0.4, 0.4), (0.61, 0.61), (-9.0, -2.0), (50.0, 60.0)] {
@@ -181,7 +182,7 @@ fn a_moment_of_deformation_is_a_still_mesh() {
             });
             let interval = interval(start_s, end_s);
             let views = worlds.each_ref().map(|world| world.render_space_with(DVec3::ZERO, interval, Simd::Auto));
-            // Several are written out, one is not.
+            // Several are merged, a single one is not.
             assert!(views.iter().all(|view| view.placed(0).is_merged() == (count > 1)));
             for ray in rays(1000, 33, interval) {
                 let [a, b] = views.each_ref().map(|view| view.closest(&ray));
@@ -194,7 +195,7 @@ fn a_moment_of_deformation_is_a_still_mesh() {
     }
 }
 
-/// Rays from inside of a closed mesh that deforms, at its edges and corners as they are at the ray's time.
+/// Rays from inside a closed mesh that deforms, at its edges and corners as they are at the ray's time.
 fn escapes(mesh: &Mesh, reach: f64, inside: &[DVec3], seed: u32) -> usize {
     let mut random = Random::new(seed);
     let animated = deformed(mesh, reach, &[0.1, 0.3, 0.5, 0.6], Repeat::Loop, seed);
@@ -239,8 +240,8 @@ fn nothing_escapes_from_closed_bodies_that_deform() {
     }
 }
 
-/// A square that opens from lying (z up) to standing (x back) about the y axis within 1 s: its point, its normals and its texture are
-/// those of the time, while the straight ways of its vertices shorten it in between.
+/// A square that opens from lying (z up) to standing (x back) about the y axis within 1 s: its point, its normals and its texture are those
+/// of the time, while the straight paths of its vertices shorten it in between.
 #[test]
 fn surfaces_follow_their_vertices() {
     let frame = |far: Vec3, normal: Vec3| VertexFrame {
@@ -257,7 +258,7 @@ fn surfaces_follow_their_vertices() {
     let world = builder.build().expect("legal");
     let view = world.render_space_with(DVec3::ZERO, interval(0.0, 1.0), Simd::Auto);
     for time_s in [0.0_f32, 0.25, 0.5, 0.75] {
-        // Its far edge is at (1 − t, t); it is met half-way, from above.
+        // Its far edge is at (1 − t, t); it is hit half-way, from above.
         let (x, z) = (0.5 * (1.0 - time_s), 0.5 * time_s);
         let ray = Ray::new(Vec3::new(x, 0.3, 5.0), Vec3::NEG_Z, time_s);
         let hit = view.closest(&ray).expect("a hit");
@@ -278,7 +279,7 @@ fn surfaces_follow_their_vertices() {
     }
 }
 
-/// What opens in a later frame is kept from the first; what never has an area, and a triangle of the same vertices, is not.
+/// A triangle that opens in a later frame is kept from the first on; one that never has an area, and one of the same vertices, is dropped.
 #[test]
 fn triangles_are_dropped_by_all_frames() {
     let flat = vec![Vec3::ZERO, Vec3::X, Vec3::X * 2.0, Vec3::Y];

@@ -1,4 +1,4 @@
-//! Worlds and rays at the edge of sense.
+//! Degenerate worlds and rays.
 
 use super::shapes::{Random, instance, mesh, world_of};
 use crate::MaterialId;
@@ -38,7 +38,7 @@ fn twenty_thousand_coincident_triangles_are_one() {
     assert_eq!(world.render_space(DVec3::ZERO).closest(&Ray::new(Vec3::ZERO, Vec3::X, 0.0)).map(|h| h.t), Some(1.0));
 }
 
-/// Boxes within boxes, which no tree can part, 20 000 deep.
+/// Nested boxes, which no tree can separate, 20 000 deep.
 #[test]
 fn nested_triangles_overflow_nothing() {
     let count = 20_000_u32;
@@ -149,13 +149,13 @@ fn rays_that_would_overflow_are_refused_and_all_others_meet() {
     assert!(here.check_reach(DVec3::X * 20.0, TimeInterval::default()).is_err(), "the camera is too far away");
 }
 
-/// At a box of 2e8 m, the camera 1.7 m above it was taken to be in it, and saw its bottom.
+/// At a box of 2e8 m, the camera 1.7 m above it was once treated as inside, and saw its bottom.
 #[test]
 fn a_mesh_into_which_the_camera_would_be_rounded_is_refused() {
     let down = Ray::new(Vec3::ZERO, Vec3::NEG_Z, 0.0);
     let (camera, top) = (DVec3::Z * 1.7, DVec3::ZERO);
     for half in [1e3_f32, 1e6, 1e7] {
-        // A corner below and a face above make the box.
+        // A corner below and a face above define the box.
         let corners = vec![
             Vec3::splat(-half),
             Vec3::new(half, 0.0, half),

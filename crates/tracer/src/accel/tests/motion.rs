@@ -1,4 +1,4 @@
-//! What moves: against brute force at each ray's own time, by every instruction set, without gaps.
+//! Moving instances: against brute force at each ray's own time, by every instruction set, without gaps.
 
 use super::agreement::brute_force;
 use super::shapes::{Random, bumpy, icosphere, instance, mesh, soup, spindle, tracked};
@@ -34,7 +34,7 @@ fn track(random: &mut Random, reach: f64) -> Track {
     Track::new(&keys, how).expect("a legal track")
 }
 
-/// Soups and spheres, most of which turn, grow and fly about; every fifth stands still.
+/// Soups and spheres, most of which rotate, grow and move; every fifth is static.
 fn medley(seed: u32) -> World {
     let mut random = Random::new(seed);
     let mut builder = WorldBuilder::new();
@@ -64,7 +64,7 @@ fn rays(count: u32, reach: f64, seed: u32, interval: TimeInterval) -> impl Itera
     })
 }
 
-/// Where a ray meets a primitive: all in the world and in f64, by the instance's own track.
+/// The hit of a ray on a primitive: all in the world and in f64, by the instance's own track.
 fn oracle(world: &World, interval: TimeInterval, origin_m: DVec3, ray: &Ray) -> Option<(f64, u32, u32)> {
     let (o, d) = (ray.origin.as_dvec3() + origin_m, ray.direction.as_dvec3());
     let mut best: Option<(f64, u32, u32)> = None;
@@ -97,8 +97,8 @@ fn cramer([a, b, c]: [DVec3; 3], o: DVec3, d: DVec3) -> Option<f64> {
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some(t)
 }
 
-/// The accelerator and f64 differ where a ray passes an edge within 1e-4 of a triangle's size, or meets two surfaces within 1e-4
-/// of its length: of some 800 triangles, a few rays in ten thousand.
+/// The accelerator and f64 differ where a ray passes an edge within 1e-4 of a triangle's size, or hits two surfaces within 1e-4 of its
+/// length: of some 800 triangles, a few rays in ten thousand.
 #[test]
 fn what_moves_is_met_where_it_is_at_the_ray_s_time() {
     let (mut differences, mut hits) = (0, 0);
@@ -141,7 +141,7 @@ fn boxes_of_the_interval_lose_nothing() {
     }
 }
 
-/// On a machine without AVX2 both are the plain lanes, and the test says nothing.
+/// On a machine without AVX2 both are the plain lanes, and the test has no effect.
 #[test]
 fn instruction_sets_give_the_same_bits_in_motion() {
     let bits = |h: Hit| (h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.instance, h.primitive);
@@ -154,7 +154,7 @@ fn instruction_sets_give_the_same_bits_in_motion() {
     }
 }
 
-/// At a single moment, before the first key and after the last, what moves is met as what stands still there.
+/// At a single time, before the first key and after the last, moving instances are hit as static ones at the same place.
 #[test]
 fn a_moment_of_motion_is_a_still_world() {
     let world = medley(30);
@@ -197,8 +197,8 @@ fn a_still_world_does_not_look_at_time() {
     }
 }
 
-/// A ball that flies by at 30 m/s, 10 m ahead: met at 10 m − √(r² − y²), y its height at that time; f32 rounds 10 m to 1e-6, and
-/// the root near the ball's edge enlarges what the ray's height is rounded by.
+/// A ball that moves past at 30 m/s, 10 m ahead: hit at 10 m − √(r² − y²), y its height at that time. f32 rounds 10 m to 1e-6, and the root
+/// near the ball's edge amplifies the rounding of the ray's height.
 #[test]
 fn a_flying_ball_is_met_where_it_is() {
     let keys = [key(0.0, DVec3::new(10.0, -30.0, 0.0)), key(2.0, DVec3::new(10.0, 30.0, 0.0))];
@@ -218,7 +218,7 @@ fn a_flying_ball_is_met_where_it_is() {
     }
 }
 
-/// Rays from inside of a closed mesh in motion, at its edges and corners as they are at the ray's time.
+/// Rays from inside a closed mesh in motion, at its edges and corners as they are at the ray's time.
 fn escapes(mesh: &Mesh, inside: &[DVec3], seed: u32) -> usize {
     let mut random = Random::new(seed);
     let mut builder = WorldBuilder::new();
@@ -262,7 +262,7 @@ fn nothing_escapes_from_closed_bodies_in_motion() {
     }
 }
 
-/// Still instances are written out as ever; one that moves is not.
+/// Static instances are merged as usual; a moving one is not.
 #[test]
 fn what_moves_is_not_written_out() {
     let mut builder = WorldBuilder::new();
@@ -290,8 +290,8 @@ fn motion_through_a_flat_shape_is_refused() {
     assert_eq!(builder.build().err(), Some(WorldError::Flattened { instance: 0 }));
 }
 
-/// A mesh of a unit of 1e-11 m that comes along from 5 m to 20 m away, and a small sphere that leaves for 2e12 m: within reach
-/// for one interval, not for another.
+/// A mesh of a unit of 1e-11 m that moves from 5 m to 20 m away, and a small sphere that moves to 2e12 m: within reach for one interval,
+/// not for another.
 #[test]
 fn reach_holds_over_the_interval() {
     let tiny = Key { scale: DVec3::splat(1e-11), ..key(0.0, DVec3::X * 5.0) };

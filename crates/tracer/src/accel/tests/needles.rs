@@ -17,7 +17,7 @@ fn needles(count: u32, seed: u32) -> Mesh {
     let mut random = Random::new(seed);
     let mut positions = Vec::with_capacity(3 * count as usize);
     for _ in 0..count {
-        // Lengths and widths of all orders.
+        // Lengths and widths of all orders of magnitude.
         let length = 10.0 * etendue_core::maths::f64::pow(1e-4, random.unit());
         let width = length * 1e-2 * etendue_core::maths::f64::pow(1e-3, random.unit());
         let (tip, along) = (random.cube() * 10.0, random.direction());
@@ -45,7 +45,7 @@ fn rays(mesh: &Mesh, count: u32) -> Vec<Ray> {
     (0..count).map(|_| ray()).collect()
 }
 
-/// The least t at which a ray meets any triangle, and the least number of those it meets there.
+/// The least t at which a ray hits any triangle, and the least number of those it hits there.
 fn brute_force(halves: &[Half], ray: &Ray) -> Option<(u32, u32)> {
     let local = LocalRay::new(ray.origin, ray.direction);
     let spread = RayLanes::new(Plain, &local);

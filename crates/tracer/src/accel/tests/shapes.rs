@@ -46,7 +46,6 @@ impl Random {
         }
     }
 
-    /// A rotation.
     pub(crate) fn rotation(&mut self) -> DMat3 {
         let z = self.direction();
         let x = z.cross(self.direction()).normalize();
@@ -110,7 +109,7 @@ fn subdivide(positions: &mut Vec<Vec3>, triangles: &[[u32; 3]]) -> Vec<[u32; 3]>
     triangles.iter().flat_map(four).collect()
 }
 
-/// A closed body over a grid: a bumpy top, walls, and a flat floor at z = −1. Grid points stand at whole numbers.
+/// A closed body over a grid: a bumpy top, walls, and a flat floor at z = −1. Grid points are at integers.
 pub(crate) fn bumpy(cells: u32) -> Mesh {
     let mut random = Random::new(5);
     let row = cells + 1;
@@ -169,7 +168,7 @@ pub(crate) fn world_of(mesh: Mesh, to_world: DAffine3) -> World {
     builder.build().expect("a legal world")
 }
 
-/// The same world, and one in which the mesh has company far away, so that a view may write it out ([`super::super::merged`]).
+/// The same world, and one with a second mesh far away, so that a view may merge both ([`super::super::merged`]).
 pub(crate) fn alone_and_merged(mesh: Mesh, to_world: DAffine3) -> [World; 2] {
     let mut builder = WorldBuilder::new();
     let id = builder.add_mesh(mesh.clone());
@@ -191,7 +190,7 @@ pub(crate) fn soup(count: u32, seed: u32) -> Mesh {
     mesh(positions, (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect())
 }
 
-/// A world of soups and spheres, turned, stretched and mirrored.
+/// A world of soups and spheres, rotated, stretched and mirrored.
 pub(crate) fn medley() -> World {
     let mut random = Random::new(77);
     let mut builder = WorldBuilder::new();

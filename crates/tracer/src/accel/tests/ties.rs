@@ -1,4 +1,4 @@
-//! Surfaces at the same place: the least identity is met, whatever the tree.
+//! Surfaces at the same place: the least identity is hit, whatever the tree.
 
 use super::shapes::{Random, instance, mesh};
 use crate::accel::WorldBuilder;

@@ -16,7 +16,7 @@ fn targets(mesh: &Mesh, random: &mut Random) -> Vec<Vec3> {
     edges.flat_map(|(a, b)| [a, a + (b - a) * 0.5, a + (b - a) * random.unit() as f32]).collect()
 }
 
-/// Placements: none, a turn with a stretch, and far away in the world.
+/// Placements: none, a rotation with a stretch, and far away in the world.
 fn placements(random: &mut Random) -> Vec<DAffine3> {
     let stretched = random.rotation() * DMat3::from_diagonal(DVec3::new(0.2, 3.0, 1.0));
     let mirrored = random.rotation() * DMat3::from_diagonal(DVec3::new(-40.0, 40.0, 40.0));
@@ -27,7 +27,7 @@ fn placements(random: &mut Random) -> Vec<DAffine3> {
     ]
 }
 
-/// Counts the rays from inside a closed mesh that meet nothing.
+/// Counts the rays from inside a closed mesh that hit nothing.
 fn escapes(view: &RenderSpace<'_>, to_render: &DAffine3, inside: &[DVec3], targets: &[Vec3]) -> usize {
     let from = |o: &DVec3| to_render.transform_point3(*o).as_vec3();
     let at = |t: &Vec3| to_render.transform_point3(t.as_dvec3()).as_vec3();
@@ -36,7 +36,7 @@ fn escapes(view: &RenderSpace<'_>, to_render: &DAffine3, inside: &[DVec3], targe
     rays.filter(lost).count()
 }
 
-/// Shoots from points inside at every edge, in every placement, with the camera near and at some distance.
+/// Traces rays from points inside to every edge, in every placement, with the camera near and at some distance.
 fn check_from_inside(mesh: &Mesh, inside: &[DVec3]) {
     let mut random = Random::new(3);
     let targets = targets(mesh, &mut random);
@@ -86,7 +86,7 @@ fn nothing_escapes_from_a_spindle_of_needles() {
     assert_eq!(escapes(&world.render_space(DVec3::ZERO), &DAffine3::IDENTITY, &inside, &targets), 0);
 }
 
-/// Grid points and edges stand at whole numbers, so these rays go exactly through corners and along edges.
+/// Grid points and edges are at integers, so these rays go exactly through corners and along edges.
 #[test]
 fn nothing_escapes_along_the_axes() {
     let world = world_of(bumpy(8), DAffine3::IDENTITY);
@@ -113,7 +113,7 @@ fn nothing_enters_a_sphere_of_triangles() {
         let view = world.render_space(camera);
         for target in &targets {
             let to = target.as_dvec3() - camera;
-            // Triangles of this sphere are turned from its radius by up to 6°.
+            // Triangles of this sphere are tilted from its radius by up to 6°.
             if to.normalize().dot(target.as_dvec3()) > -0.2 {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! The path tracer against itself: ways of finding light, roulette, wavelengths, repetition.
+//! The path tracer against itself: strategies of finding light, roulette, wavelengths, repetition.
 
 use super::*;
 use crate::integrator::path_tracer::SceneEffects;
@@ -44,7 +44,8 @@ fn drawn_light_and_met_light_agree() {
     }
 }
 
-/// Surroundings beside a sun that outshines them, and one that does not: even ones, which are then not drawn at all, and some with a bright patch.
+/// Surroundings with a sun that is brighter than them, and one that is not: uniform ones, which are then not sampled at all, and some with
+/// a bright patch.
 #[test]
 fn surroundings_beside_a_sun_are_found_however_they_are_drawn() {
     for (texel, radiance) in [(1.0, 2e3), (1.0, 2.0), (400.0, 2e3), (400.0, 2.0)] {
@@ -93,7 +94,7 @@ fn lights_are_counted_by_kind() {
 
 #[test]
 fn a_lamp_far_from_the_origin_of_its_mesh_still_shines() {
-    // The camera stands at the origin; the lamp's own frame is 100 km away, where f32 resolves 8 mm.
+    // The camera is at the origin; the lamp's own frame is 100 km away, where f32 resolves 8 mm.
     let mut scene = Scene::default();
     let (floor, lamp) = (
         scene.material(matt(0.5), None),
@@ -149,7 +150,7 @@ fn paths_of_one_four_and_eight_wavelengths_agree_where_nothing_disperses() {
     assert!(one > 0.0 && four.0.iter().chain(&eight.0).all(|v| (v - one).abs() <= 1e-6 * one), "{one} {four:?}");
 }
 
-/// One scene by the code of every row that has what it needs: matt surfaces, sun, sky and lamps; alone and sharing tails.
+/// One scene by the code of every row that has the effects it needs: diffuse surfaces, sun, sky and lamps; alone and sharing tails.
 #[test]
 fn code_made_for_a_scene_gives_the_same_bits() {
     let ready = mixed(matt(0.8));
@@ -166,7 +167,7 @@ fn code_made_for_a_scene_gives_the_same_bits() {
     };
     let matt = by(SceneEffects::DiffuseOnly);
     assert_eq!(by(SceneEffects::NoMedia), matt);
-    // Where there may be media, no path shares anything.
+    // With possible media, no path shares anything.
     assert_eq!(by(SceneEffects::All)[..64], matt[..64]);
 }
 

@@ -20,8 +20,8 @@ fn looks(ready: &Ready, targets: &[[f32; 3]], samples: u32, settings: PathSettin
     estimates(&PathTracer::new(&view, &ready.material_table, &lights, settings), targets, samples, false)
 }
 
-/// Matt, coated (smooth and rough), translucent and mirroring floors, with a sky, a glowing ball, a mirror, gaps and a pane, and all matt in the sun; light drawn and
-/// met, or drawn alone: the weights hold all draws and branches.
+/// Diffuse, coated (smooth and rough), translucent and mirroring floors, with a sky, an emitting ball, a mirror, gaps and a pane, and an
+/// all-diffuse scene in the sun. Light is sampled and hit, or sampled alone: the weights include all samples and branches.
 #[test]
 fn branches_leave_every_mean() {
     let half = || Reflectance::Spectrum(Spectrum::constant(0.45));
@@ -37,7 +37,7 @@ fn branches_leave_every_mean() {
     }
 }
 
-/// As wet streets are rendered: smooth and glossy surfaces that send no light of lamps to matt ones, with widened lobes.
+/// Settings of wet streets: smooth and glossy surfaces that send no light of light sources to diffuse ones, with widened lobes.
 #[test]
 fn branches_leave_what_is_left_out() {
     for floor in [paint(0.6, 0.2), paint(0.6, 0.0), aluminium(0.1)] {
@@ -48,7 +48,7 @@ fn branches_leave_what_is_left_out() {
     }
 }
 
-/// Without a sun, which is met by chance in few samples, light that is only met has the mean of light that is drawn, too.
+/// Without a sun, which few samples hit by chance, light that is only hit has the mean of light that is sampled, too.
 #[test]
 fn light_that_branches_meet_is_weighed_by_all_of_them() {
     let mut ready = corner(matt(0.7), true);
@@ -78,7 +78,7 @@ fn branches_leave_every_mean_in_fog_and_under_a_guide() {
     }
 }
 
-/// In the sun, clear of all shadows, a pixel's error comes from the second surface on.
+/// In the sun, away from all shadows, a pixel's error comes from the second surface on.
 #[test]
 fn branches_lower_the_error_as_more_samples_do() {
     let ready = corner(matt(0.7), false);
@@ -93,7 +93,7 @@ fn branches_lower_the_error_as_more_samples_do() {
     assert!(branched < 0.4 * few && (branched / many - 1.0).abs() < 0.27, "{few} {branched} {many}");
 }
 
-/// What n draws tell of a light is n times the density of one.
+/// The density of a light with n samples is n times the density with one.
 #[test]
 fn densities_are_those_of_all_draws() {
     let ready = corner(matt(0.7), true);
@@ -114,7 +114,7 @@ fn densities_are_those_of_all_draws() {
     }
 }
 
-/// The same bits without branches, and for the same branches again.
+/// The same bits without branches, and for the same branches repeated.
 #[test]
 fn one_branch_is_the_path_itself() {
     let ready = corner(paint(0.6, 0.2), true);

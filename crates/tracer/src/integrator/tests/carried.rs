@@ -1,4 +1,4 @@
-//! Lamps in motion: every ray is lit by the lamp of its own time.
+//! Moving lamps: every ray is lit by the lamp of its own time.
 
 use super::motion::{look, shutter};
 use super::*;
@@ -7,10 +7,10 @@ use etendue_core::TimeInterval;
 use etendue_core::track::{Interpolation, Key};
 use glam::{DMat3, DQuat};
 
-/// Where the lamps look down: their x axis.
+/// Axes of lamps that point down: their x axis.
 const DOWN: DMat3 = DMat3::from_cols(DVec3::NEG_Z, DVec3::Y, DVec3::X);
 
-/// A car in a curve at about 15 m/s, and what sways on it by `sway` rad about x.
+/// A car in a curve at about 15 m/s, and a frame on it that sways by `sway` rad about x.
 fn carried(place: DVec3, sway: f64) -> Motion {
     let turn = |angle: f64, axis: DVec3| {
         let (sin, cos) = maths::f64::sin_cos(0.5 * angle);
@@ -74,7 +74,7 @@ fn scene(floor: Surface, openings: &[Option<Opening>]) -> Ready {
     scene.ready()
 }
 
-/// Floors in the light of all of them, by every way of finding it.
+/// Floors in the light of all of them, by every strategy of finding it.
 #[test]
 fn lamps_in_motion_are_those_of_the_frozen_world() {
     for (floor, open) in [(matt(0.8), &openings()[..]), (paint(0.6, 0.3), &openings()[1..])] {
@@ -96,8 +96,8 @@ fn lamps_in_motion_are_those_of_the_frozen_world() {
     }
 }
 
-/// One lamp alone, so that its choice is sure: draws, radiances and densities are those of the lamp that stands there, to the
-/// rounding of f32 of places some 10 m away seen from 0.3 m. What is drawn is met, and nothing before it.
+/// One lamp alone, so that its choice is certain: samples, radiances and densities are those of a static lamp at that place, to the
+/// rounding of f32 of places some 10 m away seen from 0.3 m. The ray of a sample hits the lamp, and nothing before it.
 #[test]
 fn a_moving_lamp_is_the_frozen_lamp_of_its_moment() {
     for opening in openings() {
@@ -127,7 +127,7 @@ fn a_moving_lamp_is_the_frozen_lamp_of_its_moment() {
                 )
             };
             let (Some(sample), Some(expected)) = (ask(&lights, &receiver), ask(&frozen, &still)) else { continue };
-            // The cone that a ball fills is drawn about a basis that does not turn with the lamp.
+            // The cone of a ball is sampled about a basis that does not rotate with the lamp.
             if opening.is_none_or(|opening| opening.mesh().is_some()) {
                 assert!((sample.direction - expected.direction).length() < 1e-4, "{sample:?} {expected:?}");
                 let [value, other] = [sample, expected].map(|sample| sample.radiance[1] / sample.pdf);
@@ -147,7 +147,7 @@ fn a_moving_lamp_is_the_frozen_lamp_of_its_moment() {
             let met = LightHit { receiver: &receiver, point: &point, direction: ray.direction, distance_m: hit.t };
             let seen = lights.of_opening(&point, ray.direction, query(&TimeInterval::default())).expect("it shines");
             assert!((seen[1] - sample.radiance[1]).abs() <= 1e-3 * sample.radiance[1], "{seen:?} {sample:?}");
-            // A ray to the far side of a stretched ball meets the near one.
+            // A ray to the far side of a stretched ball hits the near one.
             let relative = lights.light_pdf(&met) / sample.pdf;
             let stretched = opening.is_some_and(|opening| opening == openings()[5].expect("an opening"));
             assert!((relative - 1.0).abs() < 0.02 || stretched, "{relative}");

@@ -41,7 +41,7 @@ fn a_glowing_cavity_has_its_geometric_sum() {
     }
 }
 
-/// Paths that do not branch, and such as do.
+/// Paths that do not branch, and paths that do.
 fn branched(max_bounces: u32) -> [PathSettings; 2] {
     [1, 4].map(|branches| PathSettings { branches, ..bounces(max_bounces) })
 }
@@ -61,7 +61,7 @@ fn a_bounce_more_adds_its_term() {
 
 #[test]
 fn a_sphere_lights_a_plane_by_its_closed_form() {
-    // E = π L (r/d)² cos θ where the sphere is wholly above the horizon.
+    // E = π L (r/d)² cos θ if the sphere is wholly above the horizon.
     for (centre, radius) in
         [(DVec3::new(0.0, 0.0, 2.0), 0.5), (DVec3::new(3.0, 0.0, 2.0), 1.5), (DVec3::new(4.0, 1.0, 9.0), 1e-3)]
     {

@@ -1,4 +1,4 @@
-//! Many lights over glossy surfaces: the choice that knows of gloss leaves means as they are.
+//! Many lights over glossy surfaces: light selection by gloss leaves means unchanged.
 
 use super::*;
 use crate::lights::{Lamp, Profile};
@@ -6,7 +6,7 @@ use crate::materials::glossy_surfaces;
 use etendue_core::LightSampling;
 use glam::DMat3;
 
-/// Lamps in two rows along a road, unlike in strength.
+/// Lamps in two rows along a road, of different strengths.
 fn road_lamps() -> Vec<Lamp> {
     let one = |i: u32| {
         let at =
@@ -24,7 +24,7 @@ fn floor_under(surface: &Surface, lamps: Vec<Lamp>) -> Ready {
     scene.ready()
 }
 
-/// Each lamp by itself is found without any chance: their sum is the answer.
+/// A single lamp is found without chance: the sum over all single lamps is the reference.
 #[test]
 fn many_lamps_together_give_the_sum_of_each_alone() {
     let rays = [ray([-6.0, 0.0, 1.3], [9.0, 0.4, 0.0]), ray([-6.0, 0.0, 1.3], [30.0, -1.0, 0.0])];
@@ -34,13 +34,13 @@ fn many_lamps_together_give_the_sum_of_each_alone() {
             let expected: f64 = road_lamps().into_iter().map(alone).sum();
             let together = floor_under(&surface, road_lamps()).look(look, 256, bounces(1));
             agrees(&together, expected);
-            // 8192 draws; seen: 4 % of three Lafortune lobes, of which two are told; the choice blind to gloss had up to 25 %.
+            // 8192 samples; measured: 4 % for three Lafortune lobes, two of which are described; selection without gloss had up to 25 %.
             assert!(together.standard_error() < 0.06 * expected, "{name}: {together:?} of {expected}");
         }
     }
 }
 
-/// A glossy floor among glowing squares and spheres, a sun and a picture of the surroundings.
+/// A glossy floor among emitting squares and spheres, a sun and an image of the surroundings.
 #[test]
 fn drawn_and_met_light_agree_on_gloss() {
     for (name, surface) in glossy_surfaces() {
@@ -71,7 +71,7 @@ fn drawn_and_met_light_agree_on_gloss() {
     }
 }
 
-/// Lights drawn by their irradiance alone: the same light, and more noise where a narrow lobe mirrors lamps.
+/// Lights sampled by their irradiance alone: the same light, and more noise where a narrow lobe reflects lamps.
 #[test]
 fn lights_drawn_without_regard_to_gloss_give_the_same() {
     let look = ray([-6.0, 0.0, 1.3], [30.0, -1.0, 0.0]);
@@ -82,14 +82,14 @@ fn lights_drawn_without_regard_to_gloss_give_the_same() {
         let (gloss, irradiance) = (by(LightSampling::Gloss), by(LightSampling::Irradiance));
         agree(&irradiance, &gloss);
         let ratio = irradiance.standard_error() / gloss.standard_error();
-        // Where all lamps are told apart both ways are exact to ten thousandths, whatever their ratio.
+        // If all lamps are resolved both methods are exact to ten thousandths, whatever their ratio.
         assert!(ratio > 0.9 || gloss.standard_error() < 1e-4 * gloss.mean, "{name}: {ratio}, {gloss:?}");
         noisier += u32::from(ratio > 2.0);
     }
     assert!(noisier >= 2, "{noisier} surfaces mirror lamps here");
 }
 
-/// Of a varnished ball that a wet road mirrors: without caustics, the lamp that the ball mirrors is left out, however light is found.
+/// A wet road reflects a varnished ball: without caustics, the lamp that the ball reflects is left out, however light is found.
 #[test]
 fn what_gloss_shows_of_a_mirror_is_left_out_in_both_ways_of_finding_it() {
     let surfaces = glossy_surfaces();
@@ -116,8 +116,8 @@ fn what_gloss_shows_of_a_mirror_is_left_out_in_both_ways_of_finding_it() {
     assert!(with.mean > without.mean + 5.0 * uncertainty, "{with:?} {without:?}");
 }
 
-/// What a matt floor sees of a small lamp in a ball of each glossy surface: with widened lobes, the same light however it is found, in fewer rare
-/// samples.
+/// Light of a small lamp that a ball of each glossy surface reflects on a diffuse floor: with widened lobes, the same light however it is
+/// found, in fewer rare samples.
 #[test]
 fn widened_lobes_are_told_alike_by_both_ways_of_finding_light() {
     let mut quieter = 0;

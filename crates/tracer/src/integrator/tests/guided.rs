@@ -1,4 +1,4 @@
-//! Paths that a guide leads against paths that go by the surface alone.
+//! Guided paths against paths that sample the surface alone.
 
 use super::media::fog;
 use super::sharing::{TARGETS, corner, estimates};
@@ -7,14 +7,14 @@ use crate::guiding::{Guide, Training};
 use crate::materials::Leaf;
 use crate::media::{Media, Phase, Shape as Region};
 
-/// Paths that are followed before.
+/// Number of training paths.
 const PATHS: u32 = 1 << 14;
 
 fn settings(strategies: Strategies) -> PathSettings {
     PathSettings { max_bounces: 6, strategies, ..PathSettings::default() }
 }
 
-/// The `path`th path towards one of the targets, of a replicate that no picture has.
+/// The `path`th path towards one of the targets, of a replicate that no image has.
 fn asked(targets: &[[f32; 3]], path: u32) -> FieldRay {
     let pixel = Pixel { x: path % 64, y: path / 64 };
     let address = PixelAddress { frame: FrameAddress::default(), pixel, replicate: u32::MAX };
@@ -22,7 +22,7 @@ fn asked(targets: &[[f32; 3]], path: u32) -> FieldRay {
     FieldRay { ray, stream: PathStream::new(&address, path), lit: TimeInterval::default() }
 }
 
-/// What paths towards the targets find, in the order that they are given in.
+/// The radiance found by paths towards the targets, in the given order.
 pub(super) fn learnt(tracer: &PathTracer<'_>, targets: &[[f32; 3]], paths: impl Iterator<Item = u32>) -> Guide {
     let training = Training::default();
     paths.for_each(|path| tracer.train(&asked(targets, path), &WAVELENGTHS, &training));
@@ -51,7 +51,8 @@ fn looks(
     targets.iter().map(towards).collect()
 }
 
-/// Matt, coated, translucent and mixed floors, with a sky, a glowing ball, a mirror and a pane, and all matt in the sun; light drawn and met, or drawn alone.
+/// Diffuse, coated, translucent and mixed floors, with a sky, an emitting ball, a mirror and a pane, and an all-diffuse scene in the sun;
+/// light sampled and hit, or sampled alone.
 #[test]
 fn a_guide_leaves_every_mean() {
     let half = || Reflectance::Spectrum(Spectrum::constant(0.45));
@@ -65,7 +66,7 @@ fn a_guide_leaves_every_mean() {
     }
 }
 
-/// Paths through a fog whose first matt surface lies before, between and behind scatterings in it.
+/// Paths through a fog whose first diffuse surface lies before, between and behind scatterings in it.
 #[test]
 fn a_guide_leaves_every_mean_in_fog() {
     let ready = corner(matt(0.7), false);
@@ -81,7 +82,8 @@ fn a_guide_leaves_every_mean_in_fog() {
     assert!(led.iter().zip(&alone).any(|(a, b)| a.mean != b.mean), "the guide leads paths");
 }
 
-/// A glowing ball and a sky that guided rays meet by chance alone, and beside light that is drawn: their weights hold the guide's density.
+/// An emitting ball and a sky that guided rays hit by chance alone, and together with sampled light: their weights include the guide's
+/// density.
 #[test]
 fn light_that_is_met_by_a_guided_path_is_weighed_by_its_density() {
     let mut ready = corner(matt(0.7), true);
@@ -95,7 +97,7 @@ fn light_that_is_met_by_a_guided_path_is_weighed_by_its_density() {
     }
 }
 
-/// Points in the shadow of the walls' corner, which a small part of what they see lights.
+/// Points in the shadow of the walls' corner, lit by a small part of their surroundings.
 #[test]
 fn a_guide_lowers_the_error_of_indirect_light() {
     let ready = corner(matt(0.7), false);
@@ -121,7 +123,7 @@ fn the_order_in_which_paths_are_followed_changes_no_bit() {
     assert_ne!(forwards, TARGETS.map(|target| replicate(&tracer, &ray([-2.0, -2.0, 2.0], target), 64, 0).to_bits()));
 }
 
-/// Paths that share their tails look at them along directions whose densities hold the guide's.
+/// Paths that share their tails use directions whose densities include the guide's.
 #[test]
 fn tails_are_shared_under_a_guide() {
     let ready = corner(matt(0.7), false);

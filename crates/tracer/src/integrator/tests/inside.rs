@@ -16,7 +16,7 @@ fn glass(absorption: Option<f64>) -> Surface {
     Surface::Dielectric(Box::new(Dielectric::new(1.5, 0.0, absorption).expect("glass")))
 }
 
-/// n² (1 − R) t/(1 − R t²) in the middle of a ball of which light keeps t over a radius.
+/// n² (1 − R) t/(1 − R t²) in the middle of a ball with the transmittance t over a radius.
 fn middle(t: f64) -> f64 {
     let r = 0.04;
     2.25 * (1.0 - r) * t / (1.0 - r * t * t)
@@ -32,7 +32,7 @@ fn corners(half: f32) -> impl Iterator<Item = Vec3> {
     (0..8).map(move |i: u32| (Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32) * 2.0 - 1.0) * half)
 }
 
-/// Its first so many sides, normals outwards.
+/// Its first `count` sides, normals outwards.
 fn sides(count: usize) -> impl Iterator<Item = [u32; 3]> {
     let sides = [[1, 3, 7, 5], [0, 4, 6, 2], [2, 6, 7, 3], [0, 1, 5, 4], [4, 5, 7, 6], [0, 2, 3, 1]];
     sides.into_iter().take(count).flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
@@ -55,7 +55,7 @@ fn light_is_absorbed_on_its_way_to_a_camera_inside_a_ball() {
 
 #[test]
 fn the_other_levels_absorb_as_well() {
-    // One scattering event: what the ball's surface refracts, n² (1 − R) t; mirrored light is followed no further.
+    // One scattering event: the light that the ball's surface refracts, n² (1 − R) t; reflected light is traced no further.
     for level in [Integrator::Flat, Integrator::Direct] {
         let mut scene = even_light();
         let ball = scene.material(glass(Some(ABSORPTION)), None);
@@ -63,7 +63,7 @@ fn the_other_levels_absorb_as_well() {
         let r = 0.04;
         let once = 2.25 * (1.0 - r) * maths::f64::exp(-ABSORPTION);
         let estimate = look(scene, 1, level);
-        // The flat level takes what is mirrored for light of the surroundings too.
+        // The flat level uses light of the surroundings for reflections too.
         let mirrored = if level == Integrator::Flat { r * maths::f64::exp(-ABSORPTION) } else { 0.0 };
         agrees(&estimate, once + mirrored);
     }

@@ -4,13 +4,13 @@ use super::*;
 use crate::lights::{Cone, Lamp, Profile};
 use glam::DMat3;
 
-/// A lamp of `intensity` that looks down (its x axis) from a height above the origin.
+/// A lamp of `intensity` that points down (its x axis) from a height above the origin.
 fn lamp(height_m: f64, intensity: f64, profile: Profile) -> Lamp {
     let axes = DMat3::from_cols(DVec3::NEG_Z, DVec3::Y, DVec3::X);
     Lamp::new(DVec3::new(0.0, 0.0, height_m), axes, Spectrum::constant(intensity), profile).expect("a lamp")
 }
 
-/// Radiance of a white floor under lamps, `x` beside the origin.
+/// Radiance of a white floor under lamps, at a distance `x` from the origin.
 fn below(lamps: Vec<Lamp>, x: f32) -> f64 {
     let mut scene = Scene { sources: Sources { lamps, ..Sources::default() }, ..Scene::default() };
     let floor = scene.material(matt(1.0), None);
@@ -57,7 +57,7 @@ fn lamps_add_up_and_a_block_shades_them() {
     agrees(&estimate, (3.0 + 5.0) / 8.0 * 0.5_f64.sqrt() / PI);
 }
 
-/// A room of many glowing surfaces of unlike strength, with a sun and a picture about it.
+/// A room of many emitting surfaces of different strengths, with a sun and an image of the surroundings.
 fn many() -> Ready {
     let mut scene = Scene::default();
     scene.sources.suns =

@@ -5,7 +5,7 @@ use crate::lights::{Lamp, Profile};
 use etendue_core::Integrator;
 use glam::DMat3;
 
-/// A white floor under a sky of radiance 1 and a lamp at 2 m, with a black block between lamp and origin; seen beside it.
+/// A white floor under a sky of radiance 1 and a lamp at 2 m, with a black block between lamp and origin; seen next to it.
 fn floor(integrator: Integrator, x: f32) -> ReplicateEstimate {
     let lamp = Lamp::new(DVec3::Z * 2.0, DMat3::IDENTITY, Spectrum::constant(8.0), Profile::Isotropic).expect("a lamp");
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
@@ -18,8 +18,8 @@ fn floor(integrator: Integrator, x: f32) -> ReplicateEstimate {
     scene.ready().look(&ray([x, 2.0, 0.9], [x, 0.0, 0.0]), 1024, settings)
 }
 
-/// Share of the sky that a square of half side 0.5 at height 1 hides from the point below its centre, weighed by the
-/// cosine: 4/π · (a/√(1+a²)) · atan(a/√(1+a²)) with a = 0.5 (Howell, configuration C-11, four corners).
+/// Fraction of the sky that a square of half side 0.5 at height 1 hides from the point below its centre, weighted by the cosine: 4/π ·
+/// (a/√(1+a²)) · atan(a/√(1+a²)) with a = 0.5 (Howell, configuration C-11, four corners).
 fn hidden() -> f64 {
     let s = 0.5 / 1.25_f64.sqrt();
     4.0 / PI * s * maths::f64::atan2(s, 1.0)
@@ -29,11 +29,11 @@ fn hidden() -> f64 {
 fn flat_is_unshadowed_and_direct_is_shadowed() {
     agrees(&floor(Integrator::Flat, 0.0), 1.0 + 8.0 / 4.0 / PI);
     agrees(&floor(Integrator::Direct, 0.0), 1.0 - hidden());
-    // Nothing throws light back onto the floor, so the whole path is direct light.
+    // Nothing reflects light back onto the floor, so the whole path is direct light.
     agrees(&floor(Integrator::Path, 0.0), 1.0 - hidden());
 }
 
-/// A white wall of a white box of radiance 1: its own glow, direct light, and all of it.
+/// A white wall of a white box of radiance 1: its own emission, direct light, and all light.
 #[test]
 fn only_paths_gather_light_of_other_surfaces() {
     let look = |integrator| {

@@ -40,7 +40,8 @@ fn up() -> Ray {
     Ray::new(Vec3::ZERO, Vec3::Z, 0.0)
 }
 
-/// In even light of 1 a fog that absorbs nothing shows 1, however dense, uneven, or forward it scatters, seen from inside and outside.
+/// In uniform light of 1 a fog that absorbs nothing shows 1, however dense, non-uniform, or forward-scattering, seen from inside and
+/// outside.
 #[test]
 fn fog_in_a_furnace_is_not_seen() {
     let ball = Region::Ball { radius_m: 4.0 };
@@ -86,7 +87,8 @@ fn fog_within_a_mesh_in_a_furnace_is_not_seen() {
     }
 }
 
-/// A mesh that is a box gives what the box gives, and one of two parts what two boxes give; transmittance to the bits, light by its estimate.
+/// A mesh that is a box gives the same as the box, and one of two parts the same as two boxes; transmittance to the bit, light by its
+/// estimate.
 #[test]
 fn fog_within_a_mesh_is_that_within_its_shape() {
     let mut scene = Scene::default();
@@ -117,7 +119,7 @@ fn fog_within_a_mesh_is_that_within_its_shape() {
     agree(&of_boxes, &of_mesh);
 }
 
-/// What only the air sends, and what comes from elsewhere, are the whole: of a wall, of the sky, and in a box that the camera is half inside.
+/// Airlight, and light from elsewhere, sum to the whole: for a wall, for the sky, and in a box that half encloses the camera.
 #[test]
 fn airlight_is_a_part_of_the_light() {
     let mut scene = even_surroundings();
@@ -130,7 +132,7 @@ fn airlight_is_a_part_of_the_light() {
     for (ray, behind) in [(up(), 2.0), (Ray::new(Vec3::ZERO, -Vec3::Z, 0.0), 1.0)] {
         let whole = look(&ready, &media, &ray, 2048, settings);
         let air = look(&ready, &media, &ray, 2048, PathSettings { only_airlight: true, ..settings });
-        // The same random numbers: what is left is the light from behind, of which exp(−0.6) comes through.
+        // The same random numbers: the difference is the light from behind, with the transmittance exp(−0.6).
         let expected = behind * maths::f64::exp(-0.6);
         let error = whole.standard_error().max(1e-4);
         assert!((whole.mean - air.mean - expected).abs() < 4.0 * error, "{whole:?} {air:?} {expected}");
@@ -140,7 +142,8 @@ fn airlight_is_a_part_of_the_light() {
     assert_eq!(clear.mean, 0.0);
 }
 
-/// exp(−β d) of a glowing wall's light comes through a fog that only absorbs, exactly; and through an uneven one in the mean over its places.
+/// The transmittance of an emitting wall's light is exp(−β d) through a fog that only absorbs, exactly; and through a non-uniform one in
+/// the mean over its places.
 #[test]
 fn the_law_of_beer_and_lambert_through_fog() {
     let mut scene = Scene::default();
@@ -158,14 +161,14 @@ fn the_law_of_beer_and_lambert_through_fog() {
     agrees(&seen, 2.0 * maths::f64::exp(-1.3));
 }
 
-/// No noise is the same as an even fog, by light that arrives, not by bits: 1 + 0 n.
+/// Noise of amplitude 0 is the same as a uniform fog, by radiance, not by bits: 1 + 0 n.
 #[test]
 fn noise_of_no_amplitude_is_even() {
     let even = fog(0.1, 0.9, FORWARD, Region::Everywhere);
     assert_eq!(uneven(even.clone(), 0.0), even);
 }
 
-/// A box and a ball about all that is lit hold the fog that is everywhere: what lies beyond sends exp(−50) back.
+/// A box and a ball around all that is lit, filled with the fog, equal the fog everywhere: light from beyond is attenuated by exp(−50).
 #[test]
 fn fog_about_the_whole_scene_is_that_everywhere() {
     let mut scene = Scene::default();
@@ -218,8 +221,8 @@ fn light_of_a_lamp_scattered_once() {
     }
 }
 
-/// The same in two uneven fogs in one another, and where media lie apart with nothing between them: transmittances of both legs and of both
-/// media are estimates that are multiplied, so that their random numbers must not depend on each other.
+/// The same in two overlapping non-uniform fogs, and where media lie apart with nothing between them. Transmittances of both legs and of
+/// both media are estimates that are multiplied, so that their random numbers must be independent.
 #[test]
 fn light_of_a_lamp_scattered_once_in_uneven_fog() {
     let lamp_at = DVec3::new(3.0, 0.0, 8.0);
@@ -269,8 +272,8 @@ fn light_of_a_lamp_scattered_once_in_uneven_fog() {
     }
 }
 
-/// Without caustics light of the forward peak counts as not scattered: in a furnace nothing changes, and of a lamp's light the sum over all
-/// scatterings stays the same as far as directions within 20° are alike. Compared through thick fog on a matt floor under a sun.
+/// Without caustics light of the forward peak counts as not scattered. In a furnace nothing changes; for a lamp's light the sum over all
+/// scatterings stays the same as far as directions within 20° are equal. Compared through thick fog on a diffuse floor under a sun.
 #[test]
 fn without_the_peak_a_floor_in_fog_is_as_bright() {
     let seen = |caustics| {
@@ -284,19 +287,19 @@ fn without_the_peak_a_floor_in_fog_is_as_bright() {
         look(&scene.ready(), &layer, &Ray::new(Vec3::ZERO, Vec3::NEG_Z, 0.0), 1024, settings)
     };
     let (all, cut) = (seen(true), seen(false));
-    // The peak's half-angle of 20° lowers the sun's mean cosine by at most 3 % (half of its square), and mostly by far less.
+    // The peak's half-angle of 20° lowers the sun's mean cosine by at most 3 % (half of its square), and usually by far less.
     assert!((all.mean / cut.mean - 1.0).abs() < 0.02 + 4.0 * all.standard_error() / all.mean);
     assert!(cut.standard_error() < all.standard_error());
 }
 
-/// How much darker than the fog around it a black disc of an angular diameter looks at a distance, in even light: exp(−β d) where it is small.
+/// Contrast between fog and a black disc of an angular diameter at a distance, in uniform light: exp(−β d) if it is small.
 fn contrast(distance_m: f64, diameter_rad: f64, extinction_per_m: f64, samples: u32) -> ReplicateEstimate {
     let mut scene = even_surroundings();
     let black = scene.material(Surface::Absorber, None);
     let (far, half) = (distance_m as f32, (0.5 * diameter_rad * distance_m) as f32);
     scene.square(Vec3::new(0.0, 0.0, far), half, black);
     let to_world = Motion::still(DAffine3::from_translation(DVec3::Z * 0.5 * distance_m));
-    // A ball about target and eye.
+    // A ball around target and camera.
     let ball = Region::Ball { radius_m: 0.75 * distance_m };
     let (extinction, albedo) = (Spectrum::constant(extinction_per_m), Spectrum::constant(1.0));
     let medium = [Medium::new(extinction, albedo, FORWARD, ball, to_world).expect("legal")];
@@ -304,9 +307,9 @@ fn contrast(distance_m: f64, diameter_rad: f64, extinction_per_m: f64, samples: 
     look(&scene.ready(), &medium, &up(), samples, settings)
 }
 
-/// A black target of 0.04° in fog of 100 m visibility at 2 %: |T − exp(−β d)| < 0.002 at any distance, and 2 % at 100 m. Fog as near before it as
-/// it is wide lies in its shadow, so that it looks darker by some exp(−β d) β a, a its half width and the factor that of the forward peak: with
-/// g = 0.85 one of 0.1° at 30 m shows 0.3116 for 0.3092.
+/// A black target of 0.04° in fog of 100 m visibility at 2 %: |T − exp(−β d)| < 0.002 at any distance, and 2 % at 100 m. Fog in front of
+/// it, within a distance of its width, lies in its shadow, so that it looks darker by some exp(−β d) β a, a its half width and the factor
+/// that of the forward peak: with g = 0.85 one of 0.1° at 30 m shows 0.3116 instead of 0.3092.
 #[test]
 fn the_contrast_of_a_small_target_falls_as_koschmieder_says() {
     let beta = -maths::f64::ln(0.02) / 100.0;
@@ -317,7 +320,7 @@ fn the_contrast_of_a_small_target_falls_as_koschmieder_says() {
         assert!(seen.standard_error() < 0.0007, "{}", seen.standard_error());
         assert!((through - law).abs() < 0.002, "{distance_m}: {through} {law} ± {}", seen.standard_error());
     }
-    // Of a wide one that is felt.
+    // For a wide one this effect is noticeable.
     let wide = contrast(60.0, 20_f64.to_radians(), beta, 1024);
     assert!(1.0 - wide.mean > maths::f64::exp(-beta * 60.0) + 4.0 * wide.standard_error(), "{}", 1.0 - wide.mean);
 }

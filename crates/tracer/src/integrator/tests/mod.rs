@@ -41,10 +41,10 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 const WAVELENGTHS: Wavelengths<4> = Wavelengths { nm: [450.0, 520.0, 600.0, 680.0], pdf: [1.0 / 400.0; 4] };
 
-/// The wavelengths that lights are chosen by.
+/// The wavelengths of light selection.
 const VISIBLE: WavelengthRange = WavelengthRange { low_nm: 380.0, high_nm: 780.0 };
 
-/// What lights are evaluated at, averaged over an interval.
+/// Arguments for the evaluation of lights, averaged over an interval.
 fn query(interval: &TimeInterval) -> EmissionQuery<'_, 4> {
     EmissionQuery { wavelengths: &WAVELENGTHS, interval }
 }
@@ -56,7 +56,7 @@ struct Glow {
     sides: EmissionSides,
 }
 
-/// What a test asks: surfaces, and what shines from infinity.
+/// Scene of a test: surfaces, and light from infinity.
 #[derive(Default)]
 struct Scene {
     builder: WorldBuilder,
@@ -140,7 +140,7 @@ fn replicate(tracer: &PathTracer<'_>, ray: &Ray, samples: u32, replicate: u32) -
     replicate_over(tracer, ray, TimeInterval::default(), samples, replicate)
 }
 
-/// The same with lights averaged over a time.
+/// The same with lights averaged over an interval.
 fn replicate_over(tracer: &PathTracer<'_>, ray: &Ray, lit: TimeInterval, samples: u32, replicate: u32) -> f64 {
     let pixel = Pixel { x: 3, y: 4 };
     let address = PixelAddress { frame: FrameAddress { seed: 5, ..FrameAddress::default() }, pixel, replicate };

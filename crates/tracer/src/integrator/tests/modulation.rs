@@ -1,4 +1,4 @@
-//! Lights whose strength goes up and down: every way of finding them sees the mean level of the time that is asked for.
+//! Lights whose strength changes over time: every strategy of finding them uses the mean level of the requested interval.
 
 use super::*;
 use crate::geometry::MeshId;
@@ -18,13 +18,13 @@ fn over(start_s: f64, length_s: f64) -> TimeInterval {
     TimeInterval::new(40.0 + start_s, 40.0 + start_s + length_s).expect("in order")
 }
 
-/// Of mean 1: 5 for a fifth of 8 ms.
+/// Mean 1: 5 for a fifth of 8 ms.
 fn pulses() -> Waveform {
     let pulses = Pulses { frequency_hz: 125.0, duty: 0.2, edges_s: [1e-3, 0.5e-3], peak: 5.0 };
     Waveform::pulses(&pulses).expect("legal").later(0.01)
 }
 
-/// Of those, what rows of 2 ms see: dark ones, edges, and the plateau.
+/// Exposures of rows of 2 ms in these pulses: dark ones, edges, and the plateau.
 fn rows() -> [TimeInterval; 4] {
     [over(0.0, 1.4e-3), over(1e-3, 2e-3), over(2.55e-3, 0.7e-3), over(0.0, 0.02)]
 }
@@ -57,7 +57,7 @@ enum Kind {
 const KINDS: [Kind; 5] = [Kind::Point, Kind::Opening, Kind::Ball, Kind::Square, Kind::Moving];
 
 impl Scene {
-    /// A glowing material.
+    /// An emitting material.
     fn glowing(&mut self, radiance: f64, modulation: Option<Modulation>) -> MaterialId {
         let material = self.material(matt(0.3), Some(Glow { radiance, sides: EmissionSides::Both }));
         self.materials[material.0 as usize].emission.as_mut().expect("glows").modulation = modulation;
@@ -135,7 +135,7 @@ fn lit_floor(floor: Surface, kind: Kind, waveform: Option<Waveform>) -> Ready {
 
 const FROM: [f32; 3] = [-2.0, -2.0, 2.0];
 
-/// Pulses over rows of a rolling shutter: what is seen is the closed form's level times the steady light, by each way of finding it.
+/// Pulses over rows of a rolling shutter: the result is the closed form's level times the constant light, by each strategy of finding it.
 #[test]
 fn every_light_is_as_strong_as_its_mean_over_the_time_asked_for() {
     for (floor, kind) in KINDS.into_iter().flat_map(|kind| [(matt(0.8), kind), (paint(0.6, 0.3), kind)]) {
@@ -165,11 +165,11 @@ fn every_light_is_as_strong_as_its_mean_over_the_time_asked_for() {
     assert!(levels[0] == 0.0 && levels[1] > 0.1 && levels[2] > 4.0 && levels[3] > 0.9, "{levels:?}");
 }
 
-/// Seen directly, without a draw.
+/// Seen directly, without light sampling.
 #[test]
 fn a_light_that_is_seen_has_the_level_of_its_row() {
     for kind in [Kind::Opening, Kind::Ball, Kind::Square] {
-        // From below: the lamp shines down.
+        // From below: the lamp points down.
         let towards = ray([-0.3, -0.4, 0.1], [0.3, 0.2, 1.0]);
         let see = |waveform, lit| look(&lit_floor(matt(0.5), kind, waveform), &towards, lit, bounces(0), 1).mean;
         let steady = see(None, rows()[0]);
@@ -199,7 +199,7 @@ fn a_panel_goes_through_its_rows_from_the_top() {
             let z = 0.4 - 0.2 * f32::from(seen);
             let found = look(&ready, &ray([0.1, -3.0, 0.0], [0.1, 0.0, z]), lit, bounces(0), 1).mean;
             let expected = if seen == lit_row { 10.0 } else { 0.0 };
-            // Times of 40 s are told to 7e-15 s, of 1 ms.
+            // Times of 40 s are resolved to 7e-15 s, compared with 1 ms.
             assert!((found - expected).abs() < 1e-5, "row {lit_row}, seen {seen}: {found}");
         }
     }
@@ -207,7 +207,7 @@ fn a_panel_goes_through_its_rows_from_the_top() {
     assert!([0.4, 0.0, -0.3].map(whole).iter().all(|mean| (mean - 2.0).abs() < 1e-5));
 }
 
-/// Two lamps, of which one is dark during the view's interval: no draw falls on it.
+/// Two lamps, one of which is dark during the view's interval: it is never sampled.
 #[test]
 fn a_light_that_is_dark_throughout_is_never_drawn() {
     let blink = Waveform::programme(&[(10.0, 0.0), (1.0, 1.0)], true).expect("legal").later(35.0);
@@ -238,7 +238,7 @@ fn a_light_that_is_dark_throughout_is_never_drawn() {
     assert!(all == 200 && of_lamp > 20 && of_lamp < 180, "{all} {of_lamp}");
 }
 
-/// Two rays of a group that look at the lamp's pulse and pause: sharing tails between them would mix the two.
+/// Two rays of a group that see the lamp's pulse and pause: sharing tails between them would mix the two.
 #[test]
 fn tails_are_shared_under_one_light_only() {
     let mut scene = Scene::default();

@@ -1,4 +1,4 @@
-//! Light in motion: every ray sees and is lit by the world of its own time.
+//! Moving lights: every ray sees and is lit by the world of its own time.
 
 use super::*;
 use crate::lights::{LightHit, LightSampleContext};
@@ -11,7 +11,7 @@ pub(super) fn shutter() -> TimeInterval {
     TimeInterval::new(SHUTTER.0, SHUTTER.1).expect("in order")
 }
 
-/// Past `centre`, turning and growing.
+/// A track through `centre`, with rotation and growth.
 fn track(centre: DVec3, velocity: DVec3) -> Track {
     let key = |part: f64| {
         let (sin, cos) = maths::f64::sin_cos(0.4 * part);
@@ -25,7 +25,7 @@ fn track(centre: DVec3, velocity: DVec3) -> Track {
     Track::new(&[-1.0, 0.1, 0.9].map(key), Interpolation::Smooth).expect("legal")
 }
 
-/// What glows: a square, a lone triangle, a ball, and one stretched; each on its own way.
+/// Emitters: a square, a lone triangle, a ball, and a stretched one; each on its own path.
 fn moving(floor: Surface, sides: EmissionSides) -> Scene {
     let mut scene = Scene::default();
     let floor = scene.material(floor, None);
@@ -77,7 +77,7 @@ pub(super) fn look(
     ReplicateEstimate::of(&means).expect("replicates")
 }
 
-/// Rays of a time within the shutter see what is seen when the world is frozen at that time, by every way of finding light.
+/// Rays of a time within the shutter see the same as in a world frozen at that time, by every strategy of finding light.
 #[test]
 fn light_in_motion_is_that_of_the_frozen_world() {
     for (floor, sides) in [(matt(0.8), EmissionSides::Front), (paint(0.6, 0.3), EmissionSides::Both)] {
@@ -98,7 +98,7 @@ fn light_in_motion_is_that_of_the_frozen_world() {
     }
 }
 
-/// One light alone, so that its choice is sure: draws and densities are those of the frozen light, to the bit.
+/// One light alone, so that its choice is certain: samples and densities are those of the frozen light, to the bit.
 #[test]
 fn a_moving_light_is_the_frozen_light_of_its_moment() {
     for number in 0..4 {
@@ -136,7 +136,7 @@ fn a_moving_light_is_the_frozen_light_of_its_moment() {
                 lights.light_pdf(&LightHit { receiver: &receiver, point: &point, direction, distance_m })
             };
             assert_eq!(density(&lights), density(&frozen));
-            // A ray to the far side of a stretched ball meets the near one.
+            // A ray to the far side of a stretched ball hits the near one.
             let relative = density(&lights) / sample.pdf;
             assert!((relative - 1.0).abs() < 0.02 || number > 1, "{relative}");
         }
@@ -144,7 +144,7 @@ fn a_moving_light_is_the_frozen_light_of_its_moment() {
     }
 }
 
-/// What is nowhere estimated as dark: for each receiver and moment, of light that comes there the choice gives some.
+/// No light is estimated as dark where it is not: each light that reaches a receiver at a time has a positive probability.
 #[test]
 fn the_choice_among_moving_lights_leaves_none_out() {
     let ready = moving(matt(0.5), EmissionSides::Front).ready();
@@ -172,7 +172,7 @@ fn the_choice_among_moving_lights_leaves_none_out() {
     assert!(met > 300, "{met}");
 }
 
-/// Four rays of a group, two at one time and two at others: sharing tails among all of them would blur their moments.
+/// Four rays of a group, two at one time and two at others: sharing tails among all of them would mix their times.
 #[test]
 fn tails_are_shared_at_one_time_only() {
     let ready = moving(matt(0.8), EmissionSides::Both).ready();

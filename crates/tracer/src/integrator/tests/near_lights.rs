@@ -1,4 +1,4 @@
-//! Lights close to what they light: a strip in a recess, a few centimetres from its walls.
+//! Lights close to the surfaces that they light: a strip in a recess, a few centimetres from its walls.
 
 use super::*;
 
@@ -42,7 +42,7 @@ fn a_strip_close_by_gives_its_closed_form_with_little_noise() {
         for strategies in [Strategies::Both, Strategies::Lights] {
             let estimate = look(at, strategies, 64);
             agrees(&estimate, expected);
-            // Drawn by area, 3.7 % at the first of them.
+            // Sampled by area, 3.7 % at the first of them.
             assert!(estimate.standard_error() < 0.002 * expected, "{at:?} {strategies:?}: {estimate:?}");
         }
         agrees(&look(at, Strategies::Scattering, 1024), expected);

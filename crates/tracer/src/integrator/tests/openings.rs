@@ -1,11 +1,11 @@
-//! Lamps with an opening: against sums over their surface, the lamps that they are from afar, and each way of finding their light.
+//! Lamps with an opening: against sums over their surface, against point lamps from afar, and each strategy of finding their light.
 
 use super::*;
 use crate::lights::{Cone, Lamp, LightHit, LightSampleContext, Opening, OpeningBody, Profile, head_lamp};
 use etendue_stats::chi_square;
 use glam::DMat3;
 
-/// Axes of a lamp that looks down: its x axis.
+/// Axes of a lamp that points down: its x axis.
 const DOWN: DMat3 = DMat3::from_cols(DVec3::NEG_Z, DVec3::Y, DVec3::X);
 
 fn spot() -> Profile {
@@ -48,7 +48,7 @@ impl Scene {
     }
 }
 
-/// Patches of an opening's surface in the world: place, normal times area, and whether either side shines.
+/// Patches of an opening's surface in the world: place, and normal times area.
 fn patches(opening: &Opening, to_world: DAffine3, n: usize) -> Vec<(DVec3, DVec3)> {
     let Some(mesh) = opening.mesh() else { return ball(to_world, 4 * n) };
     let triangles =
@@ -81,13 +81,13 @@ fn ball(to_world: DAffine3, n: usize) -> Vec<(DVec3, DVec3)> {
     (0..n * n).map(of).collect()
 }
 
-/// Whether it shines to both sides.
+/// True if it emits from both sides.
 fn is_flat(opening: &Opening) -> bool {
     let flat = |mesh: &Mesh, axis: usize| mesh.positions().iter().all(|place| place[axis] == 0.0);
     opening.mesh().is_some_and(|mesh| (0..3).any(|axis| flat(&mesh, axis)))
 }
 
-/// Irradiance at (x, 0, 0), of normal +z, as the sum over patches of L cos θ cos θ′ dA/d² with L = I/A; `visible` tells which patches
+/// Irradiance at (x, 0, 0), of normal +z, as the sum over patches of L cos θ cos θ′ dA/d² with L = I/A; `visible` is true for patches that
 /// are not shaded.
 fn by_sum(opening: &Opening, at: DVec3, profile: &Profile, x: f64, visible: impl Fn(DVec3) -> bool) -> f64 {
     let lamp = Lamp::new(at, DOWN, Spectrum::constant(1.0), profile.clone()).expect("a lamp");
@@ -178,7 +178,7 @@ fn each_way_of_finding_the_light_gives_the_same_on_glossy_planes() {
     }
 }
 
-/// Openings of every shape with spots, a head lamp's beam and lamps alike in all directions, some close to the floor.
+/// Openings of every shape with spots, a headlamp's beam and isotropic lamps, some close to the floor.
 fn many() -> Ready {
     let mut scene = Scene::default();
     let floor = scene.material(paint(0.5, 0.3), None);
@@ -213,11 +213,11 @@ fn many_openings_agree_in_both_ways_of_finding_them() {
     }
 }
 
-/// Points that ask for light: near, far, grazing and beside.
+/// Receivers: near, far, grazing and lateral.
 const ASKING: [Vec3; 4] =
     [Vec3::new(0.0, 0.0, 0.3), Vec3::new(0.4, 0.1, 0.95), Vec3::new(2.0, -1.0, 0.4), Vec3::new(-0.25, 0.0, 0.7)];
 
-/// Draws for each of them.
+/// Samples for each of them.
 const DRAWS: u32 = 10_000;
 
 /// More than the triangles of any shape.
@@ -233,7 +233,7 @@ fn points_are_drawn_by_the_densities_told() {
         let lights = ready.lights(&view);
         let flat = is_flat(&shape);
         let to_world = ready.world.instances()[0].to_world.as_still().expect("still");
-        // A triangle of the mesh; of a sphere by halves and sixteen turns.
+        // A triangle of the mesh; for a sphere by halves and sixteen sectors.
         let cell = |primitive: u32, local: Vec3| match shape.mesh() {
             Some(_) => primitive as usize,
             None => {
@@ -243,7 +243,7 @@ fn points_are_drawn_by_the_densities_told() {
         };
         for from in ASKING {
             let receiver = LightSampleContext::matt(from, Vec3::ZERO);
-            // The density told of what is met in a direction, its cell and the cosine it is met at; `None` where nothing is.
+            // The density of the light hit in a direction, its cell and the cosine of the hit; `None` if nothing is hit.
             let told = |direction: Vec3| {
                 let hit_ray = Ray::new(from, direction, 0.0);
                 let hit = view.closest(&hit_ray)?;
@@ -263,10 +263,10 @@ fn points_are_drawn_by_the_densities_told() {
                 else {
                     continue;
                 };
-                // At the rim a ray may pass by for rounding.
+                // At the edge a ray may miss by rounding.
                 let Some((pdf, cell, cos)) = told(sample.direction) else { continue };
                 counts[cell] += 1;
-                // At 0.3 m places have 24 bits, directions to the limb of a ball of 5 cm 18, over the cosine twice.
+                // At 0.3 m positions have 24 bits, directions to the limb of a ball of 5 cm 18, over the cosine twice.
                 assert!(
                     (pdf / sample.pdf - 1.0).abs() < 4e-6 / (cos * cos) + 2e-5,
                     "{shape:?} {from} {k}: {pdf} {}",
@@ -282,7 +282,7 @@ fn points_are_drawn_by_the_densities_told() {
                 expected[cell] += f64::from(pdf) * sr * f64::from(DRAWS);
             }
             let (sum, count) = (expected.iter().sum::<f64>(), counts.iter().sum::<u64>());
-            // Patches near a horizon are cut as a whole. Of ellipsoids, drawn by area, the far side is not met.
+            // Patches near a horizon are cut as a whole. The far side of ellipsoids, which are sampled by area, is not hit.
             let scale = count as f64 / sum;
             assert!((scale - 1.0).abs() < 0.02, "{shape:?} {from}: {count} met for densities of {sum}");
             let whole = shape.mesh().is_none() || count > 9_950;
@@ -296,8 +296,8 @@ fn points_are_drawn_by_the_densities_told() {
 
 #[test]
 fn a_penumbra_is_as_wide_as_the_opening_says() {
-    // A disc of 0.3 m at x = 0.1, 4 m above the floor; a plate at half the height covers what lies beyond x = 0.1: the penumbra is
-    // as wide as the disc, about x = 0.1.
+    // A disc of 0.3 m at x = 0.1, 4 m above the floor; a plate at half the height covers the region beyond x = 0.1: the penumbra is as wide
+    // as the disc, about x = 0.1.
     let disc = opening(OpeningBody::Cylinder(0), [0.0, 0.3, 0.3]);
     let at = above(4.0);
     for (x, full) in [(-0.06, Some(1.0)), (0.0, None), (0.1, None), (0.2, None), (0.26, Some(0.0))] {
@@ -342,6 +342,6 @@ fn a_mirror_shows_the_opening() {
     let seen = ready.look(&ray([-1.0, 0.0, 1.0], [0.0; 3]), 4, bounces(2)).mean;
     let own = Vec3::new(0.5_f32.sqrt(), 0.0, -(0.5_f32.sqrt()));
     let bare = f64::from(spot().value(own) / shapes()[4].seen_area_m2(own));
-    // Aluminium sends back some nine tenths.
+    // Aluminium reflects some nine tenths.
     assert!((0.85..0.95).contains(&(seen / bare)), "{seen} {bare}");
 }

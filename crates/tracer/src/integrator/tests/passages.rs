@@ -7,7 +7,7 @@ use crate::materials::{Dielectric, Factor, Green, NormalMap, ThinSheet};
 use crate::textures::{Channel, ImageTexture, Sampling, Texels, TextureId};
 use glam::DMat3;
 
-/// What lights a floor from above through a screen.
+/// Light source above a floor, behind a screen.
 enum Source {
     Lamp,
     Sun,
@@ -50,7 +50,7 @@ fn a_screen_lets_its_share_through_however_the_light_is_found() {
     for source in [Source::Lamp, Source::Sun, Source::Square] {
         let open = through(None, &source, Strategies::Both).mean;
         for strategies in [Strategies::Both, Strategies::Scattering, Strategies::Lights] {
-            // Lamps without extent are found in one way alone, which no strategy leaves out.
+            // Lamps without extent are found by light sampling only, which no strategy leaves out.
             let half = through(screen(0.4), &source, strategies);
             let allowed = 3.5 * half.standard_error() + 1e-3 * open;
             assert!((half.mean - 0.6 * open).abs() < allowed, "{strategies:?}: {} {}", half.mean, 0.6 * open);
@@ -75,7 +75,7 @@ fn a_pane_lets_light_straight_through_and_loses_what_it_reflects() {
     }
 }
 
-/// Whether light of a scene is the same however it is found.
+/// Checks that the light of a scene is the same however it is found.
 fn found_alike(ready: &Ready, from: [f32; 3], max_bounces: u32) {
     let look = |strategies| {
         let settings = PathSettings { strategies, max_bounces, ..PathSettings::default() };
@@ -87,7 +87,7 @@ fn found_alike(ready: &Ready, from: [f32; 3], max_bounces: u32) {
     agree(&look(Strategies::Lights), &both);
 }
 
-/// A floor under a ball that glows on both sides and is not wholly there.
+/// A floor under a ball that emits from both sides and is partly transparent.
 fn thin_ball(opacity: Factor, textures: Vec<ImageTexture>, stretched: DVec3) -> Ready {
     let mut scene = Scene::default();
     let floor = scene.material(matt(0.8), None);
@@ -115,7 +115,7 @@ fn gaps_by_a_picture_lie_where_the_picture_has_them() {
     found_alike(&thin_ball(opacity, vec![picture], DVec3::ONE), [1.0, -1.5, 0.8], 1);
 }
 
-/// A matt ball beside a glowing one, both inside a ball of tinted glass.
+/// A diffuse ball next to an emitting one, both inside a ball of tinted glass.
 #[test]
 fn light_from_a_lamp_inside_tinted_glass_is_tinted_however_it_is_found() {
     for alpha in [0.0, 0.2] {
@@ -158,7 +158,7 @@ fn a_pane_of_bent_normals_passes_the_same_to_all_ways_of_finding_light() {
     found_alike(&ready, [0.3, -0.3, 0.4], 1);
 }
 
-/// A solid of glass before a glowing wall, seen square on.
+/// A solid of glass in front of an emitting wall, seen square on.
 #[test]
 fn a_solid_of_glass_absorbs_by_its_thickness() {
     let look = |absorption: Option<f64>| {
@@ -168,7 +168,7 @@ fn a_solid_of_glass_absorbs_by_its_thickness() {
             scene.material(Surface::Dielectric(Box::new(glass)), None),
             scene.material(Surface::Absorber, Some(Glow { radiance: 1.0, sides: EmissionSides::Both })),
         );
-        // A block 0.2 m thick: two squares, the lower one turned down.
+        // A block 0.2 m thick: two squares, the lower one facing down.
         scene.square(Vec3::new(0.0, 0.0, 0.2), 5.0, glass);
         let down = [(-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)].map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec();
         scene.mesh(down, vec![[0, 1, 2], [0, 2, 3]], glass);
@@ -182,8 +182,8 @@ fn a_solid_of_glass_absorbs_by_its_thickness() {
     agrees(&look(Some(3.0)), of(maths::f64::exp(-0.6)));
 }
 
-/// In even light from everywhere a clear solid cannot be seen: what it mirrors, refracts and reflects inside is as bright
-/// as what it hides.
+/// In uniform light from everywhere a clear solid is invisible: the light it reflects, refracts and reflects inside is as bright as the
+/// background it hides.
 #[test]
 fn clear_glass_vanishes_in_even_light() {
     for (alpha, least) in [(0.0, 1.0), (0.1, 0.8)] {
@@ -197,8 +197,8 @@ fn clear_glass_vanishes_in_even_light() {
         let ready = scene.ready();
         for height in [0.0, 0.5, 0.95] {
             let estimate = ready.look(&ray([3.0, 0.0, height], [0.0, 0.0, height]), 512, settings);
-            // A rough surface loses what facets would scatter twice, most near the critical angle: seen, 3 % at half of
-            // the radius and 14 % at its edge, where light goes round inside.
+            // A rough surface loses multiple scattering among facets, most near the critical angle: measured, 3 % at half of the radius and
+            // 14 % at its edge, where light goes round inside.
             let noise = 3.0 * estimate.standard_error() + 1e-5;
             assert!(
                 estimate.mean <= 1.0 + noise && estimate.mean >= least - noise,

@@ -7,7 +7,7 @@ use crate::precipitation::{
     ChangeOver, Crystals, Field, NearParticles, Resolution, SeenRegion, SizeLaw, ViewPlacement,
 };
 
-/// Mean radiance over rays that start about the origin within a cone along x, from 32 replicates, with what falls or without.
+/// Mean radiance over rays that start near the origin within a cone along x, from 32 replicates, with precipitation or without.
 fn look(ready: &Ready, law: SizeLaw, settings: PathSettings) -> (ReplicateEstimate, f64) {
     let field = Field::new(law, DVec3::new(0.0, 4.0, 0.0), 5.0, 9);
     let interval = TimeInterval::new(0.0, 0.02).expect("legal");
@@ -41,7 +41,7 @@ fn under(environment: Environment) -> Ready {
     Scene { sources: Sources { environment: Some(environment), ..Sources::default() }, ..Scene::default() }.ready()
 }
 
-/// A sky and a floor that sends back all light, so that none is lost in rain below.
+/// A sky and a floor that reflects all light, so that none is lost in rain below.
 fn furnace() -> Ready {
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
     let mut scene = Scene { sources: Sources { environment, ..Sources::default() }, ..Scene::default() };
@@ -50,8 +50,8 @@ fn furnace() -> Ready {
     scene.ready()
 }
 
-/// In even light of 1 nothing that falls is seen, near or far. Spheroids scatter a little unlike the balls of the phase function, so that light
-/// that is both drawn and found is not quite whole: 1e-3 is allowed, of the tenth of the rays that meet drops.
+/// In uniform light of 1 precipitation is invisible, near or far. Spheroids scatter slightly differently from the balls of the phase
+/// function, so that light that is both sampled and hit is not quite complete: 1e-3 is allowed, of the tenth of the rays that hit drops.
 #[test]
 fn rain_and_snow_in_a_furnace_are_not_seen() {
     let settings = PathSettings { max_bounces: 400, roulette_start: 400, ..PathSettings::default() };
@@ -63,7 +63,7 @@ fn rain_and_snow_in_a_furnace_are_not_seen() {
     }
 }
 
-/// In front of darkness drops show what is about them, and are dark where all is.
+/// In front of darkness drops show their surroundings, and are dark if everything is.
 #[test]
 fn rain_is_bright_before_a_dark_wall_and_dark_where_nothing_shines() {
     let settings = PathSettings { max_bounces: 4, ..PathSettings::default() };
@@ -81,7 +81,8 @@ fn rain_is_bright_before_a_dark_wall_and_dark_where_nothing_shines() {
     scene.mesh(wall, vec![[0, 1, 2], [0, 2, 3]], black);
     let law = SizeLaw::rain(150.0).expect("legal");
     let (seen, _) = look(&scene.ready(), law, settings);
-    // 30 m of β as of an image: what is lost is replaced by light of the surroundings, of which the wall hides a part about the direction of sight.
+    // 30 m of β as of an image: lost light is replaced by light of the surroundings, a part of which the wall hides around the viewing
+    // direction.
     let lost = 30.0 * Field::new(law, DVec3::ZERO, 500.0, 0).extinction_per_m();
     assert!(seen.mean > 0.2 * lost && seen.mean < 1.1 * lost, "{seen:?} {lost}");
     let (dark, _) = look(&under(Environment::Uniform(Spectrum::constant(0.0))), law, settings);

@@ -3,7 +3,7 @@
 use super::*;
 use crate::materials::{Factor, Leaf, Mix, ThinSheet};
 
-/// Rays of a group, which meet different surfaces.
+/// Rays of a group, which hit different surfaces.
 pub(super) const TARGETS: [[f32; 3]; 7] = [
     [0.2, 0.1, 0.0],
     [0.25, 0.1, 0.0],
@@ -14,8 +14,8 @@ pub(super) const TARGETS: [[f32; 3]; 7] = [
     [1.97, 1.2, 0.6],
 ];
 
-/// A floor and two walls under the sun, with balls and a pane; with a sky, a glowing ball, a mirror, walls of two materials
-/// with gaps and a cellar, or all matt.
+/// A floor and two walls under the sun, with balls and a pane; with a sky, an emitting ball, a mirror, walls of two materials with gaps and
+/// a cellar, or all diffuse.
 pub(super) fn corner(floor: Surface, glows: bool) -> Ready {
     let mut scene = Scene::default();
     let sky = Environment::Uniform(Spectrum::constant(0.3));
@@ -42,7 +42,7 @@ pub(super) fn corner(floor: Surface, glows: bool) -> Ready {
     scene.ready()
 }
 
-/// A material of two parts, some of it not there.
+/// A material of two parts, partly transparent.
 fn spotted(scene: &mut Scene, a: MaterialId) -> MaterialId {
     let b = scene.material(aluminium(0.3), None);
     let wall = scene.material(Surface::Mix(Mix { a, b, weight: Factor::Number(0.4) }), None);
@@ -127,7 +127,7 @@ fn what_neighbours_find_lowers_the_error() {
     let relative = |e: &ReplicateEstimate| e.variance_of_mean / (e.mean * e.mean);
     let error = |shared| looks(&ready, &close, 64, shared).iter().map(relative).sum::<f64>();
     let (alone, together) = (error(false), error(true));
-    // In the sun, clear of all shadows: their errors come from the second surface on, and each of the sixteen gets four
-    // tails a sample in place of one. A quarter is expected; the rest is room for the error of the errors (31 of freedom).
+    // In the sun, away from all shadows, their errors come from the second surface on, and each of the sixteen receives four tails per
+    // sample instead of one. A quarter is expected; the rest is a margin for the error of the errors (31 degrees of freedom).
     assert!(together < 0.4 * alone, "{together} for {alone}");
 }

@@ -1,4 +1,4 @@
-//! Sides of surfaces: what glows, what leaks, what is seen.
+//! Sides of surfaces: emission, light leaks, visibility.
 
 use super::*;
 use crate::materials::Dielectric;
@@ -59,8 +59,8 @@ fn a_viewer_below_the_shading_horizon_sees_no_black_seam() {
     assert!(estimate.mean > 0.4 && estimate.mean <= 1.0, "{estimate:?}");
 }
 
-/// A cylinder of 24 flat sides whose normals are those of the round one, closed by flat ends: near its silhouette the shading normal looks away from
-/// the viewer by up to 7.5°.
+/// A cylinder of 24 flat sides whose normals are those of the round one, closed by flat ends: near its silhouette the shading normal faces
+/// away from the viewer by up to 7.5°.
 fn coarse_cylinder(scene: &mut Scene, material: MaterialId) {
     const SIDES: u32 = 24;
     let around = |i: u32| {
@@ -83,11 +83,11 @@ fn coarse_cylinder(scene: &mut Scene, material: MaterialId) {
     scene.mesh_with_normals(at, normals, triangles, material);
 }
 
-/// In even light of 1 what absorbs nothing is not seen, also where the shading normal sends light to the wrong side of a facet.
+/// In uniform light of 1 a body that absorbs nothing is invisible, also where the shading normal sends light to the wrong side of a facet.
 #[test]
 fn coarse_glass_loses_no_light_at_its_silhouette() {
     let settings = PathSettings { max_bounces: 400, roulette_start: 400, ..PathSettings::default() };
-    // Rough glass loses what its facets would scatter twice.
+    // Rough glass loses multiple scattering among its facets.
     for (alpha, least_mean, least) in [(0.0, 0.999, 0.99), (0.02, 0.997, 0.96)] {
         let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
         let mut scene = Scene { sources: Sources { environment, ..Sources::default() }, ..Scene::default() };
@@ -106,8 +106,8 @@ fn coarse_glass_loses_no_light_at_its_silhouette() {
     }
 }
 
-/// A coarse mirror in even light of 1 has the reflectances of its metal, from the 0.87 of aluminium at its pseudo-Brewster angle on, up to its silhouette. (Mitsuba 3.9.1, which
-/// has 0.46 at the silhouette of such a cylinder, is 0.9 % darker in the mean.)
+/// A coarse mirror in uniform light of 1 has the reflectances of its metal, from the 0.87 of aluminium at its pseudo-Brewster angle on, up
+/// to its silhouette. (Mitsuba 3.9.1, which has 0.46 at the silhouette of such a cylinder, is 0.9 % darker in the mean.)
 #[test]
 fn a_coarse_mirror_loses_no_light_at_its_silhouette() {
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));

@@ -1,4 +1,4 @@
-//! What an opening is like, and how large it is seen.
+//! The body of an opening, and its projected area.
 
 use core::f64::consts::{PI, TAU};
 
@@ -8,19 +8,19 @@ use glam::{DAffine3, DMat3, DVec3, Vec3};
 use super::mesh::{self, SIDES, polygon_area};
 use crate::{geometry::Mesh, lights::profile::Profile};
 
-/// Least and greatest extent of an opening, m.
+/// Minimum and maximum extent of an opening, m.
 const EXTENTS_M: [f64; 2] = [1e-4, 100.0];
 
-/// Least cosine that a flat face is seen at; beyond, it is taken for as wide as at this one.
+/// Minimum cosine at which the area of a flat face is evaluated; closer to its plane, the area is that at this cosine.
 const LEAST_COS: f32 = 1e-3;
 
-/// Share of the flux that a flat opening may lose towards its own plane. A lamp alike in all directions loses half of [`LEAST_COS`].
+/// Maximum fraction of the flux that a flat opening may lose towards its own plane. An isotropic lamp loses half of [`LEAST_COS`].
 const MOST_LOST: f64 = 0.01;
 
-/// Directions in the plane of a flat opening that its loss is summed over: steps of 0.1°.
+/// Directions in the plane of a flat opening over which its loss is summed: steps of 0.1°.
 const AROUND: u32 = 3600;
 
-/// Why an opening is refused.
+/// Error of an opening.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum OpeningError {
     /// An extent is out of range.
@@ -33,45 +33,45 @@ pub enum OpeningError {
         /// Along the lamp's axes, m.
         extents_m: [f64; 3],
     },
-    /// The lamp shines along the plane of its opening.
+    /// The lamp emits along the plane of its opening.
     #[error(
         "the lamp sends {:.1} % of its light along the plane of its flat opening, where the opening has no area to send it from: \
          turn the opening towards the light, or give a body (sphere, tube)",
         100.0 * share
     )]
     EdgeOn {
-        /// Share of the flux that would be lost.
+        /// Fraction of the flux that would be lost.
         share: f64,
     },
 }
 
-/// What an opening is like.
+/// Body of an opening.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OpeningBody {
-    /// A box, or a rectangle where it has no extent along one axis.
+    /// A box, or a rectangle if it has no extent along one axis.
     Box,
-    /// A cylinder along the lamp's axis of this number (0 x, 1 y, 2 z), or a disc where it has no extent along it. Elliptic where
-    /// its other extents differ.
+    /// A cylinder along the lamp's axis of this number (0 x, 1 y, 2 z), or a disc if it has no extent along it. Elliptic if its other
+    /// extents differ.
     Cylinder(usize),
     /// A sphere, or an ellipsoid.
     Ellipsoid,
 }
 
-/// A luminous opening, about the lamp's place, in the lamp's frame (x forward, y left, z up).
+/// A luminous opening about the lamp's position, in the lamp's frame (x forward, y left, z up).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Opening {
     pub(super) body: OpeningBody,
     /// Half extents along the lamp's axes, m.
     pub(super) half_m: DVec3,
-    /// Area of one side of the faces across x, y and z, m²; 0 where there is none.
+    /// Area of one side of the faces across x, y and z, m²; 0 if there is no such face.
     faces_m2: Vec3,
 }
 
 impl Opening {
-    /// An opening of extents along the lamp's x, y and z, m.
+    /// An opening with extents along the lamp's x, y and z, m.
     ///
     /// # Errors
-    /// Where an extent is not 0.0001 to 100 m, but for one of a flat opening, which is 0.
+    /// If an extent is not 0.0001 to 100 m, except one of a flat opening, which is 0.
     pub fn new(body: OpeningBody, extents_m: [f64; 3]) -> Result<Self, OpeningError> {
         let [least, most] = EXTENTS_M;
         let legal = |axis: usize| (least..=most).contains(&extents_m[axis]);
@@ -88,17 +88,17 @@ impl Opening {
         }
     }
 
-    /// Whether `profile` can leave the opening.
+    /// Checks that `profile` can leave the opening.
     ///
     /// # Errors
-    /// Where more than a hundredth of the light would have to leave along the plane of a flat opening.
+    /// If more than a hundredth of the light would leave along the plane of a flat opening.
     pub fn check(&self, profile: &Profile) -> Result<(), OpeningError> {
         let share = self.lost_share(profile);
         if share > MOST_LOST { Err(OpeningError::EdgeOn { share }) } else { Ok(()) }
     }
 
-    /// Share of a profile's flux that is lost along the plane of a flat opening, ∫ (1 − |c|/10⁻³) dc dφ over |c| < 10⁻³ with the cosine c
-    /// from the plane's normal; 0 of bodies.
+    /// Fraction of a profile's flux that is lost along the plane of a flat opening, ∫ (1 − |c|/10⁻³) dc dφ over |c| < 10⁻³ with the cosine
+    /// c from the plane's normal; 0 for bodies.
     #[must_use]
     pub fn lost_share(&self, profile: &Profile) -> f64 {
         let Some(axis) = self.flat_axis().filter(|_| profile.flux_sr() > 0.0) else { return 0.0 };
@@ -106,7 +106,7 @@ impl Opening {
             let (sin, cos) = sin_cos(TAU * f64::from(k) / f64::from(AROUND));
             let mut direction = DVec3::ZERO;
             (direction[(axis + 1) % 3], direction[(axis + 2) % 3]) = (cos, sin);
-            // Thirds of the triangle's base are its root mean square, about.
+            // Thirds of the triangle's base are approximately its root mean square.
             let at = |cos: f64| {
                 let mut aside = direction;
                 aside[axis] = cos;
@@ -124,7 +124,7 @@ impl Opening {
         (0..3).find(|axis| self.half_m[*axis] == 0.0)
     }
 
-    /// Area seen from far along the unit `direction` of the lamp's frame, m²: positive.
+    /// Projected area seen from far along the unit `direction` of the lamp's frame, m²: positive.
     #[must_use]
     pub fn seen_area_m2(&self, direction: Vec3) -> f32 {
         let faces = self.faces_m2;
@@ -141,14 +141,14 @@ impl Opening {
         }
     }
 
-    /// The least of these areas, m².
+    /// Minimum of these areas, m².
     pub(in crate::lights) fn least_area_m2(&self) -> f32 {
         let axes = [Vec3::X, Vec3::Y, Vec3::Z];
-        // Seen areas of bodies are least along an axis, those of flat openings in their plane.
+        // Projected areas of bodies are smallest along an axis, those of flat openings in their plane.
         axes.into_iter().map(|axis| self.seen_area_m2(axis)).fold(f32::INFINITY, f32::min)
     }
 
-    /// Radius of the sphere about the lamp's place that holds it, m.
+    /// Radius of the sphere about the lamp's position that holds it, m.
     pub(in crate::lights) fn reach_m(&self) -> f64 {
         match self.body {
             OpeningBody::Ellipsoid => self.half_m.max_element(),
@@ -162,7 +162,7 @@ impl Opening {
         }
     }
 
-    /// Its surface in the frame that [`Opening::to_lamp`] takes to the lamp's; `None` of a sphere of radius 1.
+    /// Its surface in the frame that [`Opening::to_lamp`] transforms to the lamp's; `None` for a sphere of radius 1.
     #[must_use]
     pub fn mesh(&self) -> Option<Mesh> {
         match self.body {
@@ -172,7 +172,7 @@ impl Opening {
         }
     }
 
-    /// How many parallelograms of two triangles its mesh begins with; polygons of [`SIDES`] triangles follow.
+    /// Number of parallelograms of two triangles with which its mesh begins; polygons of [`SIDES`] triangles follow.
     pub(super) fn parallelograms(&self) -> usize {
         match (self.body, self.flat_axis()) {
             (OpeningBody::Box, Some(_)) => 1,
@@ -182,7 +182,7 @@ impl Opening {
         }
     }
 
-    /// From the frame of its mesh or sphere to the lamp's.
+    /// Transform from the frame of its mesh or sphere to the lamp's.
     #[must_use]
     pub fn to_lamp(&self) -> DAffine3 {
         match self.body {
@@ -192,7 +192,7 @@ impl Opening {
     }
 }
 
-/// Areas across x, y and z of one side of the faces; of an ellipsoid those of its sections.
+/// Areas across x, y and z of one side of the faces; for an ellipsoid those of its sections.
 fn faces_m2(body: OpeningBody, half: DVec3) -> Vec3 {
     let across = |axis: usize| half[(axis + 1) % 3] * half[(axis + 2) % 3];
     let areas = DVec3::new(across(0), across(1), across(2));

@@ -1,8 +1,8 @@
-//! The facets of an opening as seen by a receiver: parallelograms, and polygons that stand for discs.
+//! The facets of an opening as seen by a receiver: parallelograms, and polygons that approximate discs.
 //!
-//! One facet is drawn in proportion to about the solid angle it fills, A h / (d² + A/4)^{3/2} with the height h of the receiver above its
-//! plane and the distance d from its middle; of a body only those that face the receiver, which no other part of a convex body hides. A
-//! parallelogram is then drawn by solid angle from near by and by area from afar (`lights/triangle.rs`), a polygon by area.
+//! One facet is sampled in proportion to its approximate solid angle, A h / (d² + A/4)^{3/2} with the height h of the receiver above its plane and
+//! the distance d from its middle. Of a body only the facets that face the receiver are sampled; no other part of a convex body hides them. A
+//! parallelogram is sampled by solid angle from near by and by area from afar (`lights/triangle.rs`), a polygon by area.
 
 use etendue_core::warp::uniform_triangle;
 use glam::{DAffine3, Vec2, Vec3};
@@ -12,16 +12,16 @@ use super::mesh::{self, SIDES, corner};
 use crate::lights::{LightHit, ROUNDING, SurfaceSample, solid_angle_pdf};
 use crate::{MaterialId, geometry::Mesh, lights::triangle::TriangleLight};
 
-/// Facets at most: those of a tube with its two ends.
+/// Maximum number of facets: those of a tube with its two ends.
 const MOST: usize = SIDES as usize + 2;
 
 /// The facets of an opening in the render frame.
 #[derive(Clone, Debug)]
 pub(in crate::lights) struct Facets {
     facets: Vec<Facet>,
-    /// How many parallelograms there are, which come first.
+    /// Number of parallelograms; they come first.
     parallelograms: usize,
-    /// Whether they shine to both sides.
+    /// True if they emit from both sides.
     both: bool,
 }
 
@@ -43,28 +43,28 @@ enum Form {
 /// An affine image of a regular polygon.
 #[derive(Clone, Debug)]
 struct Polygon {
-    /// From the middle, the images of the unit vectors.
+    /// Images of the unit vectors, from the middle.
     axes: [Vec3; 2],
     /// Distance of the corners from the middle before the map.
     reach: f32,
     error_m: f32,
 }
 
-/// A point that was drawn, and how far the accelerator may see it elsewhere: off its plane, and before it along the ray.
+/// A sampled point, and how far the accelerator may see it elsewhere: off its plane, and before it along the ray.
 pub(in crate::lights) struct FacetSample {
     pub(in crate::lights) surface: SurfaceSample,
     pub(in crate::lights) error_m: f32,
     pub(in crate::lights) early_m: f32,
 }
 
-/// What each facet counts for a receiver.
+/// The weight of each facet for a receiver.
 struct Weights {
     of: [f32; MOST],
     total: f32,
 }
 
 impl Facets {
-    /// The facets of an opening's mesh; `None` where rounding leaves one no area.
+    /// The facets of an opening's mesh; `None` if rounding leaves one no area.
     pub(in crate::lights) fn new(
         opening: &Opening,
         mesh: &Mesh,
@@ -89,7 +89,7 @@ impl Facets {
         Some(Self { facets, parallelograms, both: opening.flat_axis().is_some() })
     }
 
-    /// How many triangles the mesh of these facets has.
+    /// Number of triangles of the mesh of these facets.
     pub(in crate::lights) fn triangles(&self) -> usize {
         2 * self.parallelograms + SIDES as usize * (self.facets.len() - self.parallelograms)
     }
@@ -107,7 +107,7 @@ impl Facets {
         weights
     }
 
-    /// A point for a receiver; `None` where no facet faces it.
+    /// Samples a point for a receiver; `None` if no facet faces it.
     pub(in crate::lights) fn sample(&self, from: Vec3, u: Vec2) -> Option<FacetSample> {
         let weights = self.weights(from);
         let (chosen, within) = weights.fall(u.x)?;
@@ -117,7 +117,7 @@ impl Facets {
         (drawn.surface.pdf > 0.0).then_some(drawn)
     }
 
-    /// Density by which [`Facets::sample`] gives the direction to a point that was hit, 1/sr.
+    /// Density with which [`Facets::sample`] returns the direction to a point that was hit, 1/sr.
     pub(in crate::lights) fn pdf(&self, hit: &LightHit<'_>) -> f32 {
         let weights = self.weights(hit.receiver.position);
         let facet = self.facet_of(hit.point.primitive as usize);
@@ -139,7 +139,7 @@ impl Weights {
         if self.total > 0.0 { self.of[facet] / self.total } else { 0.0 }
     }
 
-    /// The facet that `u` in [0, 1) falls on, and where in it.
+    /// The facet selected by `u` in [0, 1), and the place of `u` within it.
     fn fall(&self, u: f32) -> Option<(usize, f32)> {
         let mut rest = u * self.total;
         let mut chosen = None;

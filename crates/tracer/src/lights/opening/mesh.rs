@@ -1,5 +1,5 @@
-//! Openings as meshes: parallelograms of two triangles first, then polygons as fans about their middles. Faces look outward, flat ones
-//! along their axis.
+//! Openings as meshes: parallelograms of two triangles first, then polygons as fans about their middles. Faces point outward, flat ones along their
+//! axis.
 
 use core::f64::consts::{PI, TAU};
 
@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::Mesh;
 
-/// Sides of the polygons that stand for circles.
+/// Sides of the polygons that approximate circles.
 pub(super) const SIDES: u32 = 48;
 
 const STEP: f64 = TAU / SIDES as f64;
@@ -23,7 +23,7 @@ pub(super) fn tube_reach() -> f64 {
     0.5 * STEP / sin(0.5 * STEP)
 }
 
-/// Area of a polygon whose corners lie at this distance from its middle.
+/// Area of a polygon whose corners have this distance from its middle.
 pub(super) fn polygon_area(reach: f64) -> f64 {
     PI * reach * reach * sin(STEP) / STEP
 }
@@ -34,7 +34,7 @@ pub(super) fn corner(side: u32, reach: f64) -> [f64; 2] {
     [reach * cos, reach * sin]
 }
 
-/// A box of half sides, or a rectangle where one is zero.
+/// A box of half sides, or a rectangle if one is zero.
 pub(super) fn cuboid(half: DVec3) -> Mesh {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let mut corners = Vec::new();
@@ -51,7 +51,7 @@ pub(super) fn cuboid(half: DVec3) -> Mesh {
     meshed(&corners, triangles.collect())
 }
 
-/// A cylinder of half extents along an axis, or a disc where it has none along it.
+/// A cylinder of half extents along an axis, or a disc if it has none along it.
 pub(super) fn cylinder(half: DVec3, along: usize) -> Mesh {
     let (p, q) = ((along + 1) % 3, (along + 2) % 3);
     let flat = half[along] == 0.0;

@@ -1,4 +1,4 @@
-//! Seen areas against the meshes, flux, and what is refused.
+//! Projected areas against the meshes, flux, and refusals.
 
 use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::sin_cos;
@@ -12,7 +12,7 @@ fn opening(body: OpeningBody, extents_m: [f64; 3]) -> Opening {
     Opening::new(body, extents_m).expect("an opening")
 }
 
-/// A box, a rectangle, a tube, an elliptic disc, and all that is flat turned about.
+/// A box, a rectangle, a tube, an elliptic disc, and all flat bodies in other orientations.
 fn meshed() -> Vec<Opening> {
     vec![
         opening(OpeningBody::Box, [0.3, 0.1, 0.05]),
@@ -25,7 +25,7 @@ fn meshed() -> Vec<Opening> {
     ]
 }
 
-/// Directions of equal share, n²: a lattice of rank one.
+/// n² directions of equal weight: a lattice of rank one.
 fn directions(n: usize) -> impl Iterator<Item = DVec3> {
     (0..n * n).map(move |k| {
         let z = -1.0 + 2.0 * ((k as f64 * 0.754_877_666_246_69 + 0.5) % 1.0);
@@ -35,7 +35,7 @@ fn directions(n: usize) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Area of an opening's mesh seen from afar: of a body what faces there, of a flat one either side.
+/// Projected area of an opening's mesh seen from afar: for a body the facing part, for a flat opening either side.
 fn by_mesh(mesh: &Mesh, both: bool, direction: DVec3) -> f64 {
     let seen = |primitive: usize| {
         let [a, b, c] = mesh.corners(primitive as u32).map(|corner| corner.as_dvec3());
@@ -50,7 +50,7 @@ fn seen_areas_are_those_of_the_meshes() {
     for opening in meshed() {
         let (mut ratios, mut count) = (0.0, 0.0);
         let (mesh, flat) = (opening.mesh().expect("a mesh"), opening.flat_axis());
-        // Flat openings that are all but edge-on have a least area.
+        // Flat openings that are nearly edge-on have a minimum area.
         for direction in directions(40).filter(|d| flat.is_none_or(|axis| d[axis].abs() > 2e-3)) {
             let seen = f64::from(opening.seen_area_m2(direction.as_vec3()));
             let meshed = by_mesh(&mesh, flat.is_some(), direction);
@@ -59,7 +59,7 @@ fn seen_areas_are_those_of_the_meshes() {
             assert!((seen / meshed - 1.0).abs() < allowed, "{opening:?} {direction}: {seen} {meshed}");
             (ratios, count) = (ratios + seen / meshed, count + 1.0);
         }
-        // Of tubes the mean width is the circle's; that of an ellipse's polygon turns with its axes.
+        // For tubes the mean width is the circle's; that of an ellipse's polygon rotates with its axes.
         assert!((ratios / count - 1.0).abs() < 1e-4, "{opening:?}: {}", ratios / count);
     }
 }
@@ -68,7 +68,7 @@ fn seen_areas_are_those_of_the_meshes() {
 fn an_ellipsoid_is_seen_as_its_support_says() {
     let [a, b, c] = [0.3, 0.2, 0.1];
     let ball = opening(OpeningBody::Ellipsoid, [2.0 * a, 2.0 * b, 2.0 * c]);
-    // The mean seen area of a convex body is a quarter of its surface (Cauchy 1841); by the sections along the axes.
+    // The mean projected area of a convex body is a quarter of its surface (Cauchy 1841); by the sections along the axes.
     for (axis, area) in [(Vec3::X, b * c), (Vec3::Y, c * a), (Vec3::Z, a * b)] {
         assert!((f64::from(ball.seen_area_m2(axis)) / (PI * area) - 1.0).abs() < 1e-6);
     }
@@ -78,7 +78,7 @@ fn an_ellipsoid_is_seen_as_its_support_says() {
     }
 }
 
-/// Flux that leaves an opening, over that of the profile: ∫ value · A(mesh)/A(seen) dΩ.
+/// Flux that leaves an opening, over that of the profile: ∫ value · A(mesh)/A(projected) dΩ.
 fn kept_flux(opening: &Opening, profile: &Profile) -> f64 {
     let n = 200;
     let (mesh, flat) = (opening.mesh().expect("a mesh"), opening.flat_axis().is_some());

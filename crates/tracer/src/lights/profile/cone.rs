@@ -1,8 +1,8 @@
 //! A spot: 1 within an inner field angle, 0 beyond an outer one, smooth between.
 //!
-//! With c the cosine of the angle from +x, c_i and c_o those of the half angles, t = (c − c_o)/(c_i − c_o): value = 1 for
-//! t ≥ 1, 0 for t ≤ 0, t² (3 − 2 t) between. Its integral is exactly 2π ((1 − c_i) + (c_i − c_o)/2). Equal angles make a
-//! sharp edge. Cosines are kept as 1 − c, so that narrow spots keep their digits.
+//! With c the cosine of the angle from +x, c_i and c_o those of the half angles, t = (c − c_o)/(c_i − c_o): value = 1 for t ≥ 1, 0 for t ≤ 0, t² (3 −
+//! 2 t) between. Its integral is exactly 2π ((1 − c_i) + (c_i − c_o)/2). Equal angles give a sharp edge. Cosines are stored as 1 − c, so that narrow
+//! spots keep their digits.
 
 use core::f64::consts::{PI, TAU};
 
@@ -20,7 +20,7 @@ pub struct Cone {
     spread: Spread,
 }
 
-/// Why a spot is refused.
+/// Error of a spot.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ConeError {
     /// The angles are out of order or of range.
@@ -37,10 +37,10 @@ pub enum ConeError {
 }
 
 impl Cone {
-    /// A spot of full value up to the half angle `inner_rad` and none beyond `outer_rad`.
+    /// A spot of full value up to the half angle `inner_rad` and zero beyond `outer_rad`.
     ///
     /// # Errors
-    /// Where not 0 ≤ inner ≤ outer ≤ π, or the outer angle is zero.
+    /// If not 0 ≤ inner ≤ outer ≤ π, or the outer angle is zero.
     pub fn new(inner_rad: f64, outer_rad: f64) -> Result<Self, ConeError> {
         let legal = 0.0 <= inner_rad && inner_rad <= outer_rad && outer_rad <= PI && outer_rad > 0.0;
         let outer = one_minus_cos(outer_rad);

@@ -1,10 +1,9 @@
-//! A picture projected into space: a mask as a slide projector holds it before its lamp.
+//! An image projected into space: a mask like a slide in front of the lamp of a projector.
 //!
-//! The picture fills a field of a horizontal and a vertical full angle about +x, its right edge to the right of who looks
-//! along +x, its top row up. A unit direction (x, y, z) with x > 0 meets it at (−y/x / tan(h/2), z/x / tan(v/2)), each in
-//! −1…1; the value is that of the texels, linear between their centres, held from the outermost centres to the edge, and
-//! zero outside. It is a factor on the intensity: a plane across the axis gets cos³ less aside, as behind any small lamp.
-//! Left out: colours, the blur of a real projector.
+//! The image fills a field of a horizontal and a vertical full angle about +x. Its right edge is on the right as seen along +x, its top row up. A
+//! unit direction (x, y, z) with x > 0 crosses it at (−y/x / tan(h/2), z/x / tan(v/2)), each in −1…1. The value is that of the texels, linear between
+//! their centres, held from the outermost centres to the edge, and zero outside. It is a factor on the intensity: a plane across the axis receives
+//! cos³ less off the axis, as behind any small lamp. Left out: colours, the blur of a real projector.
 
 use core::f64::consts::PI;
 
@@ -13,23 +12,23 @@ use glam::{DVec3, Vec2, Vec3};
 
 use super::spread::{GAUSS, Node, Spread};
 
-/// Why a mask is refused.
+/// Error of a mask.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MaskImageError {
-    /// The texels do not fill the picture.
+    /// The texels do not fill the image.
     #[error("a mask of {width} × {height} needs as many texels, but {found} were given; check its size")]
     Size {
         /// Columns.
         width: usize,
         /// Rows.
         height: usize,
-        /// Texels given.
+        /// Number of texels given.
         found: usize,
     },
     /// A texel is negative or not finite.
     #[error("texel {texel} of the mask is negative or not a finite number; correct the picture")]
     Texel {
-        /// The texel, counted by rows from the top.
+        /// Index of the texel, by rows from the top.
         texel: usize,
     },
     /// The field is out of range.
@@ -68,10 +67,10 @@ impl core::fmt::Debug for MaskImage {
 }
 
 impl MaskImage {
-    /// A picture of factors, rows from the top, over a field of full angles.
+    /// An image of factors, rows from the top, over a field of full angles.
     ///
     /// # Errors
-    /// Where the texels do not fill the picture, one is negative or not finite, or an angle is not between 0 and π.
+    /// If the texels do not fill the image, one is negative or not finite, or an angle is not between 0 and π.
     pub fn new(
         width: usize,
         height: usize,
@@ -103,7 +102,7 @@ impl MaskImage {
         if place.abs().max_element() > 1.0 { 0.0 } else { self.at(place) }
     }
 
-    /// The value at a place of the picture: to the right and upwards, −1…1.
+    /// The value at a place of the image: to the right and upwards, −1…1.
     fn at(&self, place: Vec2) -> f32 {
         let (w, h) = (self.width as f32, self.height as f32);
         let x = ((0.5 + 0.5 * place.x) * w - 0.5).clamp(0.0, w - 1.0);

@@ -1,12 +1,12 @@
-//! How a lamp's intensity is spread over directions.
+//! Distribution of a lamp's intensity over directions.
 //!
 //! # Contract
-//! A [`Profile`] is a function of the unit direction away from the lamp, in the lamp's own frame (x forward, y left,
-//! z up); what it is measured in is its owner's: a factor, or candela. It is finite and never negative, and knows
+//! A [`Profile`] is a function of the unit direction away from the lamp, in the lamp's own frame (x forward, y left, z up). Its owner defines its
+//! unit: a factor, or candela. It is finite and never negative, and provides
 //! - [`Profile::value`]: the function,
 //! - [`Profile::flux_sr`]: its integral over all directions, sr times the unit of the value,
-//! - [`Profile::peak`] and [`Profile::on_axis`]: its greatest value, and that along its [`Profile::axis`],
-//! - its [`Spread`], by which lamps are chosen.
+//! - [`Profile::peak`] and [`Profile::on_axis`]: its maximum, and its value along its [`Profile::axis`],
+//! - its [`Spread`], for the selection of lamps.
 //!
 //! A profile belongs to directions in space: a mask shapes the light in the whole volume that it crosses.
 
@@ -28,7 +28,7 @@ pub use photometric_grid::{PhotometricAxes, PhotometricGrid, PhotometricGridErro
 
 pub(in crate::lights) use spread::Spread;
 
-/// The spread of a lamp's intensity.
+/// Distribution of a lamp's intensity.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Profile {
     /// 1 in every direction.
@@ -37,14 +37,13 @@ pub enum Profile {
     Cone(Cone),
     /// A measured grid.
     PhotometricGrid(PhotometricGrid),
-    /// A picture, projected along +x.
+    /// An image, projected along +x.
     MaskImage(MaskImage),
     /// One profile seen through another: their product.
     Masked(MaskedProfile),
 }
 
-/// The product of two profiles. Its integrals are taken over directions of the one that reaches less far, the `mask` where
-/// both reach as far.
+/// The product of two profiles. Its integrals are taken over the directions of the narrower one, or of the `mask` if both are equally wide.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MaskedProfile {
     lamp: Box<Profile>,
@@ -78,13 +77,13 @@ impl Profile {
         self.spread().flux_sr
     }
 
-    /// The greatest value. Of a masked profile that of the directions its integrals are taken over.
+    /// Maximum value. For a masked profile, over the directions of its integrals.
     #[must_use]
     pub fn peak(&self) -> f64 {
         self.spread().peak
     }
 
-    /// Where the profile aims: straight down for a grid of type C, forward for all others.
+    /// The profile's axis: straight down for a grid of type C, forward for all others.
     #[must_use]
     pub fn axis(&self) -> Vec3 {
         match self {
@@ -111,8 +110,8 @@ impl Profile {
     }
 }
 
-/// The nodes of the profile that reaches less far, their values times those of the other: so they are dense enough for a
-/// narrow spot behind a wide mask.
+/// The nodes of the narrower profile, their values times those of the other. They are thus dense enough for a narrow spot behind a wide
+/// mask.
 fn product(lamp: &Profile, mask: &Profile) -> Vec<Node> {
     let narrower = lamp.spread().reach_rad < mask.spread().reach_rad;
     let (of, factor) = if narrower { (lamp, mask) } else { (mask, lamp) };

@@ -4,16 +4,15 @@
 //! - type C: all planes share the vertical axis; the vertical angle γ is counted from straight down, the horizontal one C
 //!   anticlockwise seen from above, C = 0 towards +x: (sin γ cos C, sin γ sin C, −cos γ);
 //! - type A: all planes share the vertical axis; V is counted from the horizontal upwards, H clockwise seen from above
-//!   (to the right): (cos V cos H, −cos V sin H, sin V). The sphere of UN regulations for head lamps is this one;
+//!   (to the right): (cos V cos H, −cos V sin H, sin V). The sphere of UN regulations for headlamps is this one;
 //! - type B: all planes share the horizontal axis; V turns the plane about it, H lies in the plane, to the right:
 //!   (cos H cos V, −sin H, cos H sin V).
 //!
-//! The axis (0, 0) of types A and B is the lamp's +x; LM-63 lets that of type B hang straight down, which is a matter of
-//! how the lamp is placed.
+//! The axis (0, 0) of types A and B is the lamp's +x. In LM-63 that of type B points straight down; this is a matter of the lamp's placement.
 //!
-//! Linear in each angle between neighbours, so exact at the points of the grid; zero outside it. A grid of a single
-//! horizontal angle is the same at all that its type has. One of type C whose last plane is short of 360° and whose first is 0° closes.
-//! Fluxes are integrals of just this function, exact: ∫ (a + b φ) sin φ dφ along the polar angle, the mean across it.
+//! The function is linear in each angle between neighbours, so exact at the points of the grid, and zero outside it. A grid of a single horizontal
+//! angle is the same at all horizontal angles of its type. A grid of type C whose last plane is below 360° and whose first is 0° closes. Fluxes are
+//! exact integrals of this function: ∫ (a + b φ) sin φ dφ along the polar angle, the mean across it.
 
 use etendue_core::maths::f32::{acos, asin, atan2};
 use etendue_core::maths::f64::sin_cos;
@@ -21,7 +20,7 @@ use glam::{DVec3, Vec3};
 
 use super::spread::{GAUSS, Node, Spread};
 
-/// What the two angles of a grid mean.
+/// Meaning of the two angles of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PhotometricAxes {
     /// Vertical polar axis, zero straight ahead.
@@ -32,7 +31,7 @@ pub enum PhotometricAxes {
     C,
 }
 
-/// The angles that a grid may have.
+/// Legal angles of a grid.
 #[derive(Clone, Copy)]
 struct AngleLimits {
     low_deg: f64,
@@ -57,20 +56,19 @@ impl AngleInterval {
         self.from_deg + fraction * (self.to_deg - self.from_deg)
     }
 
-    /// The same by an angle later.
+    /// The interval shifted by an angle.
     fn later(self, angle_deg: f64) -> Self {
         Self { from_deg: angle_deg + self.from_deg, to_deg: angle_deg + self.to_deg }
     }
 }
 
-/// A cell of a grid.
 #[derive(Clone, Copy)]
 struct GridCell {
     vertical: AngleInterval,
     horizontal: AngleInterval,
 }
 
-/// Why a grid is refused.
+/// Error of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PhotometricGridError {
     /// Angles are missing, out of order or out of range.
@@ -81,11 +79,11 @@ pub enum PhotometricGridError {
     Angles {
         /// "vertical" or "horizontal".
         which: &'static str,
-        /// The least legal one, degrees.
+        /// Minimum legal angle, degrees.
         low: f64,
-        /// The greatest legal one, degrees.
+        /// Maximum legal angle, degrees.
         high: f64,
-        /// The greatest legal difference, degrees.
+        /// Maximum legal difference, degrees.
         span: f64,
     },
     /// The values do not fill the grid.
@@ -97,13 +95,13 @@ pub enum PhotometricGridError {
         vertical: usize,
         /// Horizontal angles.
         horizontal: usize,
-        /// Values given.
+        /// Number of values given.
         found: usize,
     },
     /// A value is negative or not finite.
     #[error("value {value} of the grid is negative or not a finite number; correct it")]
     Value {
-        /// Its place, counted from 0, vertical angles first.
+        /// Its index, from 0, vertical angles first.
         value: usize,
     },
 }
@@ -134,7 +132,7 @@ impl PhotometricGrid {
     /// A grid: `values` holds all vertical angles of the first horizontal angle, then those of the next (as LM-63 does).
     ///
     /// # Errors
-    /// Where angles do not rise or leave their range, values do not fill the grid, or one is negative or not finite.
+    /// If angles do not rise or leave their range, values do not fill the grid, or one is negative or not finite.
     pub fn new(
         axes: PhotometricAxes,
         vertical_deg: Vec<f32>,
@@ -158,7 +156,7 @@ impl PhotometricGrid {
         Ok(web)
     }
 
-    /// What the angles mean.
+    /// Meaning of the angles.
     #[must_use]
     pub fn axes(&self) -> PhotometricAxes {
         self.axes
@@ -191,8 +189,7 @@ impl PhotometricGrid {
         &self.spread
     }
 
-    /// Cells of the grid, row by row. A single horizontal angle is that of sectors
-    /// over the whole range.
+    /// Cells of the grid, row by row. A single horizontal angle represents sectors over the whole range.
     fn cells(&self) -> Vec<GridCell> {
         let horizontal = match self.horizontal_deg.nodes() {
             [_] => self.axes.sectors(),
@@ -206,7 +203,6 @@ impl PhotometricGrid {
         self.cells().into_iter().map(|cell| self.cell_flux_sr(cell)).sum()
     }
 
-    /// Flux of one cell.
     fn cell_flux_sr(&self, cell: GridCell) -> f64 {
         let GridCell { vertical: v, horizontal: h } = cell;
         let at = |v: f64, h: f64| f64::from(self.at_deg(v as f32, h as f32));
@@ -224,7 +220,7 @@ impl PhotometricGrid {
         }
     }
 
-    /// Four directions a cell.
+    /// Four directions per cell.
     pub(super) fn nodes(&self) -> Vec<Node> {
         self.cells().into_iter().flat_map(|cell| self.cell_nodes(cell)).collect()
     }
@@ -259,7 +255,7 @@ impl PhotometricAxes {
         }
     }
 
-    /// What a single horizontal angle stands for: the whole range in steps of 5°.
+    /// The range of a single horizontal angle: the whole range in steps of 5°.
     fn sectors(self) -> Vec<AngleInterval> {
         let AngleLimits { low_deg, high_deg, .. } = self.horizontal_limits();
         let edge_deg = |i: u32| low_deg + 5.0 * f64::from(i);
@@ -311,7 +307,7 @@ fn checked(angles: Vec<f32>, which: &'static str, limits: AngleLimits) -> Result
     if first < low || last > high || last - first > span || vertical_line { Err(fault) } else { Ok(axis) }
 }
 
-/// A grid of type C from 0° whose last plane is short of the whole turn gets its first plane there again.
+/// Closes a grid of type C from 0° whose last plane is below 360°: its first plane is added at 360°.
 fn closed(axes: PhotometricAxes, mut angles: Vec<f32>, mut values: Vec<f32>, rows: usize) -> (Vec<f32>, Vec<f32>) {
     let open = angles.len() > 1 && angles.first() == Some(&0.0) && angles.last().is_some_and(|l| *l < 360.0);
     if axes == PhotometricAxes::C && open && angles.last().is_some_and(|l| *l > 180.0) {
@@ -321,10 +317,10 @@ fn closed(axes: PhotometricAxes, mut angles: Vec<f32>, mut values: Vec<f32>, row
     (angles, values)
 }
 
-/// How far beyond the outermost angles rounding may take one of f32 that was made from a direction.
+/// Maximum distance beyond the outermost angles by which rounding may move an f32 angle computed from a direction.
 pub(super) const EDGE_DEG: f32 = 1e-4;
 
-/// Rising numbers.
+/// Increasing numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis {
     nodes: Vec<f32>,
@@ -341,7 +337,7 @@ pub(super) struct GridPosition {
 }
 
 impl Axis {
-    /// `None` where there are none or too many, one is not finite, or they do not rise.
+    /// `None` if there are none or too many, one is not finite, or they do not increase.
     pub(super) fn new(nodes: Vec<f32>) -> Option<Self> {
         let rise = nodes.windows(2).all(|w| w[0] < w[1]) && nodes.iter().all(|n| n.is_finite());
         if nodes.is_empty() || nodes.len() > usize::from(u16::MAX) || !rise {
@@ -357,7 +353,7 @@ impl Axis {
         &self.nodes
     }
 
-    /// Where `x` lies; `None` outside. A single number is everywhere.
+    /// Position of `x`; `None` outside. A single number holds everywhere.
     pub(super) fn find(&self, x: f32) -> Option<GridPosition> {
         let last = self.nodes.len() - 1;
         if last == 0 {
@@ -381,7 +377,7 @@ impl Axis {
     }
 }
 
-/// The interval in which step `step` of as many as there are numbers begins.
+/// The interval in which step `step` begins; there are as many steps as numbers.
 fn begin(nodes: &[f32], step: usize) -> u16 {
     let (first, last) = (nodes[0], nodes[nodes.len() - 1]);
     let x = first + (last - first) * step as f32 / (nodes.len() - 1).max(1) as f32;

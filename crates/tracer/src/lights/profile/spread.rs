@@ -1,4 +1,4 @@
-//! What the choice of lamps knows of a profile: how much light, and into which cone.
+//! Data of a profile for the selection of lamps: amount of light, and its cone.
 
 use etendue_core::{maths, maths::f64::sin_cos};
 use glam::{DVec3, Vec3};
@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 pub(in crate::lights) struct Spread {
     /// ∫ value dΩ.
     pub(in crate::lights) flux_sr: f64,
-    /// The greatest value.
+    /// Maximum value.
     pub(in crate::lights) peak: f64,
     /// Mean direction of the light, unit.
     pub(in crate::lights) axis: Vec3,
@@ -18,11 +18,11 @@ pub(in crate::lights) struct Spread {
     pub(in crate::lights) reach_rad: f32,
 }
 
-/// Share of the flux within the core.
+/// Fraction of the flux within the core.
 const CORE: f64 = 0.9;
 
 impl Spread {
-    /// That of a profile of value 1 everywhere.
+    /// The spread of a profile of value 1 everywhere.
     pub(super) const EVERYWHERE: Self = Self {
         flux_sr: 4.0 * core::f64::consts::PI,
         peak: 1.0,
@@ -31,19 +31,19 @@ impl Spread {
         reach_rad: core::f32::consts::PI,
     };
 
-    /// The spread of what `nodes` sum up.
+    /// The spread of the distribution that `nodes` sum up.
     pub(super) fn of(nodes: &[Node]) -> Self {
         let flux_sr: f64 = nodes.iter().map(Node::flux).sum();
         let peak = nodes.iter().map(|n| f64::from(n.value)).fold(0.0, f64::max);
         let mean: DVec3 = nodes.iter().map(|n| n.direction.as_dvec3() * n.flux()).sum();
-        // A mean that is short beside its terms is rounding: the light goes everywhere alike.
+        // A mean that is short compared with its terms is rounding: the light is isotropic.
         let axis = if mean.length() > 1e-6 * flux_sr { mean.normalize().as_vec3() } else { Vec3::X };
         let (core_rad, reach_rad) = half_angles(nodes, axis, flux_sr);
         Self { flux_sr, peak, axis, core_rad, reach_rad }
     }
 }
 
-/// Core and reach about `axis`, by steps of half a degree; the reach with room for what lies between nodes.
+/// Core and reach about `axis`, by steps of half a degree; the reach with a margin for directions between nodes.
 fn half_angles(nodes: &[Node], axis: Vec3, flux_sr: f64) -> (f32, f32) {
     const STEPS: usize = 360;
     let mut shells = [0.0; STEPS];
@@ -64,16 +64,16 @@ fn half_angles(nodes: &[Node], axis: Vec3, flux_sr: f64) -> (f32, f32) {
     ((0.5 * steps as f32).to_radians().min(reach), reach)
 }
 
-/// A direction with its share of the integral.
+/// A direction with its part of the integral.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    /// Unit, lamp's frame.
+    /// Unit vector in the lamp's frame.
     pub(super) direction: Vec3,
-    /// The profile there.
+    /// Value of the profile there.
     pub(super) value: f32,
-    /// Solid angle that it stands for, sr.
+    /// Solid angle that it represents, sr.
     pub(super) weight_sr: f64,
-    /// How far the directions it stands for may be from it, rad.
+    /// Maximum angle between it and the directions that it represents, rad.
     pub(super) spacing_rad: f32,
 }
 
@@ -90,7 +90,7 @@ pub(super) const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_8
 const RINGS: usize = 128;
 const SECTORS: usize = 256;
 
-/// Directions about +x whose cosine is at least 1 − `one_minus_cos`, each standing for the same solid angle.
+/// Directions about +x whose cosine is at least 1 − `one_minus_cos`, each representing the same solid angle.
 pub(super) fn cap(one_minus_cos: f64, value: impl Fn(Vec3) -> f32) -> Vec<Node> {
     let weight_sr = core::f64::consts::TAU * one_minus_cos / (RINGS * SECTORS) as f64;
     let spacing_rad = 2.0 * weight_sr.sqrt() as f32;

@@ -28,7 +28,7 @@ fn a_spot_has_its_closed_flux_and_its_edges() {
     for (inner_deg, outer_deg) in [(0.0_f64, 30.0_f64), (10.0, 10.0), (0.05, 0.1), (60.0, 180.0)] {
         let cone = Cone::new(inner_deg.to_radians(), outer_deg.to_radians()).expect("a spot");
         let summed: f64 = cone.nodes().iter().map(spread::Node::flux).sum();
-        // The midpoint rule in 128 rings loses or wins half a ring at a sharp edge, of 128.
+        // The midpoint rule in 128 rings errs by half a ring at a sharp edge, of 128.
         let profile = Profile::Cone(cone);
         assert!((summed / profile.flux_sr() - 1.0).abs() < 5e-3, "{inner_deg}–{outer_deg}: {summed}");
         for (angle, inside) in [(0.999 * inner_deg, true), (1.001 * outer_deg, false)] {
@@ -60,7 +60,7 @@ fn grids_of_one_value_have_the_flux_of_their_part_of_the_sphere() {
         let summed: f64 = web.nodes().iter().map(spread::Node::flux).sum();
         let profile = Profile::PhotometricGrid(web);
         assert!((isotropic_flux(&profile) - share).abs() < 1e-6, "{profile:?}");
-        // Two nodes an interval of up to 45°: the error of Gauss' rule for a cosine is (π/4)⁵/4320.
+        // Two nodes per interval of up to 45°: the error of Gauss' rule for a cosine is (π/4)⁵/4320.
         assert!((summed / profile.flux_sr() - 1.0).abs() < 1e-3, "{profile:?}: {summed}");
     }
 }
@@ -135,7 +135,7 @@ fn a_mask_cuts_what_it_covers() {
     let spot = Cone::new(0.2, 0.3).expect("a spot");
     let whole = spot.spread().flux_sr;
     let masked = Profile::masked(Profile::Cone(spot), Profile::MaskImage(half));
-    // Odd about the middle: the mask lets half of the spot pass.
+    // Odd about the middle: half of the spot passes the mask.
     assert!((masked.flux_sr() / whole - 0.5).abs() < 2e-3, "{}", masked.flux_sr() / whole);
     assert_eq!(masked.value(towards(-0.35_f64.to_degrees(), 0.0)), 0.0);
     assert!(masked.value(towards(5.0, 0.0)) > masked.value(towards(-5.0, 0.0)));

@@ -1,4 +1,4 @@
-//! Where a light or a cluster is, how strong, and into which cone it shines.
+//! Bounds of a light or a cluster: position, strength, and cone of emission.
 
 use core::f32::consts::{FRAC_PI_2, PI};
 
@@ -8,19 +8,19 @@ use glam::Vec3;
 /// Bounds of a light or of a cluster of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::lights) struct LightBounds {
-    /// Least and greatest coordinates, render frame, m.
+    /// Minimum and maximum coordinates, render frame, m.
     pub(in crate::lights) low: Vec3,
     pub(in crate::lights) high: Vec3,
-    /// Radius of a sphere about the middle of these that holds all, m.
+    /// Radius of a sphere about the middle of these that holds everything, m.
     pub(in crate::lights) radius: f32,
     /// Mean intensity along the axis, W·sr⁻¹·nm⁻¹.
     pub(in crate::lights) intensity: f64,
-    /// Unit axis, and half angles (rad): light goes along the axis up to `theta_o`, and falls beyond it to none at
-    /// `theta_e` more.
+    /// Unit axis, and half angles (rad): the intensity is constant up to `theta_o` from the axis, and falls beyond it to zero at `theta_o`
+    /// + `theta_e`.
     pub(in crate::lights) axis: Vec3,
     pub(in crate::lights) theta_o: f32,
     pub(in crate::lights) theta_e: f32,
-    /// Whether it is one lamp, with an opening or without.
+    /// True if it is one lamp, with an opening or without.
     pub(in crate::lights) is_lamp: bool,
 }
 
@@ -29,7 +29,7 @@ impl LightBounds {
         self.low * 0.5 + self.high * 0.5
     }
 
-    /// The cone that the light goes along.
+    /// The cone of full intensity.
     fn cone(&self) -> Cone {
         Cone { axis: self.axis, half_angle_rad: self.theta_o }
     }
@@ -41,7 +41,7 @@ impl LightBounds {
         Self {
             low,
             high,
-            // Room for the rounding of the middle.
+            // Margin for the rounding of the middle.
             radius: (high * 0.5 - low * 0.5).length() * (1.0 + 1e-5),
             intensity: self.intensity + other.intensity,
             axis,
@@ -59,8 +59,8 @@ impl LightBounds {
         core::f64::consts::TAU * (1.0 - cos) + core::f64::consts::FRAC_PI_2 * fall
     }
 
-    /// What a cluster costs a tree: intensity × squared radius × orientation. The radius takes the place of the area of the
-    /// box in the paper, which is zero for lamps in a row.
+    /// Cost of a cluster in a tree: intensity × squared radius × orientation. The radius replaces the area of the box in the paper, which
+    /// is zero for lamps in a row.
     pub(super) fn cost(&self) -> f64 {
         self.intensity * f64::from(self.radius) * f64::from(self.radius) * self.orientation()
     }
@@ -74,7 +74,7 @@ struct Cone {
 }
 
 impl Cone {
-    /// The least cone about two.
+    /// The smallest cone about two.
     fn union(self, other: Self) -> Self {
         let (wide, narrow) = if self.half_angle_rad >= other.half_angle_rad { (self, other) } else { (other, self) };
         let between = angle(wide.axis, narrow.axis);
@@ -88,7 +88,7 @@ impl Cone {
             return Self { half_angle_rad: PI, ..wide };
         }
         let (sin, cos) = maths::f32::sin_cos(half - wide.half_angle_rad);
-        // Room for rounding.
+        // Margin for rounding.
         Self { axis: (wide.axis * cos + aside * sin).normalize(), half_angle_rad: (half + 1e-5).min(PI) }
     }
 }
@@ -99,7 +99,7 @@ fn angle(a: Vec3, b: Vec3) -> f32 {
 }
 
 impl LightBounds {
-    /// Of a surface: matt light from one side (`normal`) or all.
+    /// Bounds of a surface: diffuse emission from one side (`normal`) or all.
     pub(in crate::lights) fn of_surface(points: &[Vec3], intensity: f64, normal: Option<Vec3>) -> Self {
         let low = points.iter().copied().reduce(Vec3::min).unwrap_or_default();
         let high = points.iter().copied().reduce(Vec3::max).unwrap_or_default();

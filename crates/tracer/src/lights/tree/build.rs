@@ -1,9 +1,8 @@
-//! Building the tree: surface area and orientation heuristic (Conty Estevez and Kulla 2018), eight children a node.
+//! Construction of the tree: surface area and orientation heuristic (Conty Estevez and Kulla 2018), eight children per node.
 //!
-//! A node's lights are halved again and again, always the dearest part, by the best of the planes between twelve bins
-//! along each axis, until there are eight parts; each part of several lights becomes a node. Lights that no plane parts
-//! (coincident ones), and those far down, are halved by count, so that the tree is never deeper than
-//! [`DEEP`] + log₂ n.
+//! The lights of a node are halved repeatedly, always the part of the highest cost, by the best of the planes between twelve bins along each axis,
+//! until there are eight parts. Each part of several lights becomes a node. Lights that no plane separates (coincident ones), and those at deep
+//! levels, are halved by count, so that the tree is never deeper than [`DEEP`] + log₂ n.
 
 use core::ops::Range;
 
@@ -29,7 +28,7 @@ struct Builder {
 }
 
 impl LightTree {
-    /// A tree over lights; `None` where none of them shines.
+    /// Builds a tree over lights; `None` if none of them emits.
     pub(in crate::lights) fn new(lights: &[LightBounds]) -> Option<Self> {
         tree(lights)
     }
@@ -48,7 +47,7 @@ fn tree(lights: &[LightBounds]) -> Option<LightTree> {
     Some(LightTree { nodes, parents, leaves, scale, per_irradiance: (1.0 / scale) as f32 })
 }
 
-/// Lights beside each other in the list.
+/// A contiguous range of lights in the list.
 struct Part {
     range: Range<usize>,
     bounds: LightBounds,
@@ -103,7 +102,7 @@ impl Builder {
         Part { range, bounds }
     }
 
-    /// Puts the lights of a part in order so that those before the place told are one half.
+    /// Sorts the lights of a part so that those before the returned index are one half.
     fn halve(&mut self, part: &Part, level: u32) -> usize {
         let items = &mut self.items[part.range.clone()];
         let half = items.len() / 2;
@@ -122,7 +121,7 @@ impl Builder {
     }
 }
 
-/// The axis and plane of least cost; `None` where all middles coincide.
+/// The axis and plane of minimum cost; `None` if all middles coincide.
 fn best_plane(items: &[Item], part: &Part) -> Option<(usize, f32)> {
     let (mut low, mut high) = (items[0].0.centre(), items[0].0.centre());
     for (bounds, _) in items {
@@ -162,7 +161,7 @@ fn join(a: Option<LightBounds>, b: Option<LightBounds>) -> Option<LightBounds> {
     }
 }
 
-/// What each cut between bins costs, but for cuts that leave one side empty.
+/// Cost of each cut between bins, except cuts that leave one side empty.
 fn cut_costs(bins: &[Option<LightBounds>; BINS]) -> impl Iterator<Item = (usize, f64)> {
     let mut above = [None; BINS];
     let mut sum = None;
@@ -178,7 +177,7 @@ fn cut_costs(bins: &[Option<LightBounds>; BINS]) -> impl Iterator<Item = (usize,
     })
 }
 
-/// Items that fulfil `first` before those that do not; how many do.
+/// Moves items that fulfil `first` before those that do not; returns their number.
 fn partition(items: &mut [Item], first: impl Fn(&Item) -> bool) -> usize {
     let mut before = 0;
     for i in 0..items.len() {

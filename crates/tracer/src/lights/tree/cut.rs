@@ -1,37 +1,38 @@
-//! The cut of the tree that a receiver chooses from.
+//! The cut of the tree from which a receiver chooses.
 //!
-//! Clusters are opened before anything is chosen, from the root on, until [`OPENED`] nodes are open; of what is left one is drawn. (Conty
-//! Estevez and Kulla 2018 open clusters that are near in the same manner, and sample each.) Opened are:
+//! Clusters are opened before the choice, from the root on, until [`OPENED`] nodes are open. One of the resulting slots is sampled. (Conty Estevez
+//! and Kulla 2018 open near clusters in the same manner, and sample each.) Opened are:
 //!
-//! - For a glossy receiver, as the mean of a narrow lobe over a cluster tells nothing of the one lamp in it that is mirrored: those that would
-//!   count more than [`MATTERS`] of the whole estimate if all their light came from that place in them which the lobes favour most.
-//! - For a matt receiver in view, as the estimate of a cluster that it stands in or near is rough: those that count more than
-//!   [`MATTERS_TO_MATT`]. Elsewhere on a path this does not pay for its time.
+//! - For a glossy receiver, clusters whose weight would exceed [`MATTERS`] of the whole estimate if all their light came from the place in them
+//!   that the lobes favour most. The mean of a narrow lobe over a cluster contains no information on the one lamp in it that is reflected.
+//! - For a diffuse receiver in view, clusters whose weight exceeds [`MATTERS_TO_MATT`], as the estimate of a cluster around or near the receiver
+//!   is rough. Elsewhere on a path this is not worth its time.
 
 use super::light_tree::{LightTree, Slot, TreeQuery, mix};
 use super::node::{GlossyWeights, LANES, Node};
 use crate::{lights::ReceiverGloss, lights::light_sample::LampIrradiance};
 
-/// Nodes opened at most.
+/// Maximum number of opened nodes.
 const OPENED: usize = 16;
 
-/// Share of the whole estimate, as the root's children make it, above which a cluster's greatest estimate has it opened. Between 0.1
-/// and 0.5 the error of the wet street changes by a hundredth, and its time by a twentieth.
+/// Fraction of the whole estimate, as computed from the root's children, above which a cluster's maximum estimate has it opened. Between
+/// 0.1 and 0.5 the error of the wet street changes by a hundredth, and its time by a twentieth.
 const MATTERS: f32 = 0.3;
 
-/// The same for a matt receiver, of what a cluster counts. With 0.1 the street at night gains 1.8 instead of 2.0 times, wet 1.05 instead of 1.10 times.
+/// The same for a diffuse receiver, for a cluster's weight. With 0.1 the street at night gains 1.8 instead of 2.0 times, wet 1.05 instead
+/// of 1.10 times.
 const MATTERS_TO_MATT: f32 = 0.02;
 
-/// Lights and clusters of all that a receiver chooses from, by their slots.
+/// Lights and clusters from which a receiver chooses, by their slots.
 pub(in crate::lights) struct Cut {
     /// Node × [`LANES`] + lane.
     slots: [u32; OPENED * LANES],
-    /// What each counts raised by the gloss; in the end by what they share the draws.
+    /// Weight of each slot raised by the gloss; finally its selection probability.
     shares: [f32; OPENED * LANES],
-    /// What each counts for a matt receiver.
+    /// Weight of each slot for a diffuse receiver.
     plain: [f32; OPENED * LANES],
     len: usize,
-    /// Sum of what they count.
+    /// Sum of the weights.
     total: f32,
 }
 
@@ -46,7 +47,7 @@ impl LightTree {
         cut
     }
 
-    /// The cut of a matt receiver.
+    /// The cut of a diffuse receiver.
     #[inline(always)]
     fn matt_cut<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Cut {
         let weigh = |node| {
@@ -58,7 +59,7 @@ impl LightTree {
         cut
     }
 
-    /// Opens clusters whose `greatest` count exceeds a share of the whole; the total is not yet known.
+    /// Opens clusters whose `greatest` weight exceeds a fraction of the whole; the total is not yet known.
     #[inline(always)]
     fn cut(
         &self,
@@ -106,18 +107,18 @@ impl Cut {
         self.len += 1;
     }
 
-    /// Sum of what all count, raised by the gloss.
+    /// Sum of all weights, raised by the gloss.
     pub(super) fn total(&self) -> f32 {
         self.total
     }
 
-    /// The slot that `u` in [0, 1) falls on, its probability, and where in it `u` lies; `None` where nothing counts.
+    /// The slot selected by `u` in [0, 1), its probability, and the place of `u` within it; `None` if all weights are zero.
     pub(super) fn draw(&self, u: f64) -> Option<(Slot, f32, f64)> {
         let (i, share, within) = draw(&self.shares[..self.len], u)?;
         Some((slot_of(self.slots[i]), share, within))
     }
 
-    /// The probability of a slot; `None` where it is no part of the cut.
+    /// The probability of a slot; `None` if it is no part of the cut.
     pub(super) fn share(&self, slot: Slot) -> Option<f32> {
         let i = self.slots[..self.len].iter().position(|other| *other == coded(slot))?;
         Some(share(&self.shares[..self.len], i))
@@ -132,13 +133,13 @@ fn slot_of(code: u32) -> Slot {
     Slot { node: code / LANES as u32, lane: (code % LANES as u32) as u8 }
 }
 
-/// What a receiver chooses from first.
+/// The first choice of a receiver.
 #[expect(
     clippy::large_enum_variant,
     reason = "lives on the stack for one draw; a box would cost an allocation at each vertex"
 )]
 pub(in crate::lights) enum Start {
-    /// The one light that there is, or none.
+    /// The only light, or none.
     Only,
     /// The root's children, by their weights.
     Root([f32; LANES]),
@@ -147,7 +148,7 @@ pub(in crate::lights) enum Start {
 }
 
 impl LightTree {
-    /// Where the way down starts.
+    /// Start of the descent.
     #[inline(always)]
     pub(in crate::lights) fn start<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Start {
         if self.len() == 1 {
@@ -162,7 +163,7 @@ impl LightTree {
 }
 
 impl Start {
-    /// The slot that `u` in [0, 1) falls on, its probability, and where in it `u` lies; `None` where nothing counts.
+    /// The slot selected by `u` in [0, 1), its probability, and the place of `u` within it; `None` if all weights are zero.
     pub(super) fn draw(&self, u: f64) -> Option<(Slot, f32, f64)> {
         match self {
             Self::Only => Some((Slot::default(), 1.0, u)),
@@ -174,7 +175,7 @@ impl Start {
         }
     }
 
-    /// The probability of a slot; `None` where it is not among those that are chosen from first.
+    /// The probability of a slot; `None` if it is not part of the first choice.
     pub(super) fn share(&self, slot: Slot) -> Option<f32> {
         match self {
             Self::Only => Some(1.0),
@@ -184,15 +185,15 @@ impl Start {
     }
 }
 
-/// The share of a weight in the sum of its row.
+/// The fraction of a weight in the sum of its row.
 pub(super) fn share(weights: &[f32], index: usize) -> f32 {
     let total: f32 = weights.iter().sum();
     if total > 0.0 { weights[index] / total } else { 0.0 }
 }
 
-/// The weight of a row that `u` in [0, 1) falls on, its share, and where in it `u` lies, in [0, 1); `None` where the row has none.
+/// The weight of a row selected by `u` in [0, 1), its fraction, and the place of `u` within it, in [0, 1); `None` if the row has none.
 pub(super) fn draw(weights: &[f32], u: f64) -> Option<(usize, f32, f64)> {
-    // As f64, in which no sum of these loses a weight that the share would count: the sum of f32 may differ by some roundings.
+    // As f64, in which no sum of these loses a weight that the fraction would include: the sum of f32 may differ by some roundings.
     let mut rest = u * weights.iter().map(|weight| f64::from(*weight)).sum::<f64>();
     let mut chosen = None;
     for (index, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {

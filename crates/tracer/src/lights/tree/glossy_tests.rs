@@ -1,4 +1,4 @@
-//! The tree's probabilities for glossy receivers: told alike in both ways, as draws fall, and higher for what is mirrored.
+//! The tree's probabilities for glossy receivers: equal in both functions and to the frequencies of samples, and higher for reflected lights.
 
 use super::tests::{direction, lamp, lamps, number};
 use super::*;
@@ -13,10 +13,10 @@ use etendue_core::Wavelengths;
 use etendue_stats::chi_square;
 use glam::{DVec3, Vec2, Vec3};
 
-/// Chance that a set of right tests fails.
+/// Probability that a set of correct tests fails.
 const SIGNIFICANCE: f64 = 1e-4;
 
-/// A receiver at `position` on a level surface, seen from `to_viewer`, and what it scatters; `None` where no lobe is bright.
+/// A receiver at `position` on a level surface, seen from `to_viewer`, and its scattering; `None` if no lobe is bright.
 fn receiver(surface: &Surface, position: Vec3, to_viewer: Vec3) -> Option<(LightSampleContext, impl Fn(Vec3) -> f32)> {
     let table = MaterialTable::new(vec![Material::new(surface.clone())], vec![]).expect("a material");
     let point = SurfacePoint {
@@ -49,7 +49,7 @@ fn receiver(surface: &Surface, position: Vec3, to_viewer: Vec3) -> Option<(Light
 /// Directions of viewers: steep, slanting and grazing.
 const VIEWERS: [[f32; 3]; 3] = [[0.1, 0.05, 1.0], [-1.0, 0.3, 0.8], [0.4, -1.0, 0.06]];
 
-/// Calls `f` with every glossy surface as these viewers see it, by its name.
+/// Calls `f` with every glossy surface as seen by these viewers, by its name.
 fn each_receiver(mut f: impl FnMut(&str, &LightSampleContext, &dyn Fn(Vec3) -> f32)) {
     for (name, surface) in glossy_surfaces() {
         let mut told = false;
@@ -81,7 +81,7 @@ fn frequencies_of_draws_are_the_probabilities_told() {
         let draws = 50_000;
         let mut counts = vec![0_u64; lamps.len() + 1];
         for i in 0..draws {
-            // Irregular, unlike the points of a grid: the fraction of a great multiple.
+            // Irregular, unlike the points of a grid: the fraction of a large multiple.
             let u = (number(i, 0) * 7_919.0 + number(i, 1) * 104_729.0).fract();
             let chosen = tree.pick(&question, &start, u);
             if let Some((light, told)) = chosen {
@@ -91,7 +91,7 @@ fn frequencies_of_draws_are_the_probabilities_told() {
         }
         let mut told: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&question, &start, i))).collect();
         let none = 1.0 - told.iter().sum::<f64>();
-        // A few branches may hold lamps below the horizon alone; rounding of f32 in some hundred sums.
+        // A few branches may hold only lamps below the horizon; rounding of f32 in some hundred sums.
         assert!((-1e-4..0.05).contains(&none), "{name}: {none}");
         told.push(none.max(0.0));
         let expected: Vec<_> = told.iter().map(|p| p * f64::from(draws)).collect();
@@ -116,7 +116,7 @@ fn no_lamp_that_a_glossy_surface_sees_is_lost() {
     });
 }
 
-/// What is scattered of the lamp drawn, over its probability: its spread is the error of one draw.
+/// Scattered light of the sampled lamp, over its probability: its spread is the error of one sample.
 #[test]
 fn what_is_mirrored_is_drawn_as_often_as_it_counts() {
     let spread = |i: u32| {
@@ -149,5 +149,5 @@ fn what_is_mirrored_is_drawn_as_often_as_it_counts() {
     assert!(worst < WORST && worst_blind > 10.0 * WORST, "{worst}, blind {worst_blind}");
 }
 
-/// Relative variance of one draw of 300 lamps; seen: 2.3, and 188 of the choice blind to gloss.
+/// Relative variance of one sample of 300 lamps; measured: 2.3, and 188 for selection without gloss.
 const WORST: f64 = 4.6;

@@ -1,21 +1,20 @@
-//! Which local light to ask: a tree over all that shines in the scene, walked anew for each receiver.
+//! Selection of a local light: a tree over all emitters in the scene, traversed for each receiver.
 //!
-//! After Conty Estevez and Kulla 2018 ("Importance sampling of many lights with adaptive tree splitting"): clusters know
-//! a sphere about them, their intensity and a cone that holds their light; from these follows a bound-like estimate of
-//! the irradiance that they give a receiver, and a cluster is entered with a probability in proportion to it. Changed
-//! here: nodes have eight children, whose estimates are made four at once; leaves that are lamps are weighed by
-//! their own intensity towards the receiver. A draw costs O(log n). [`LightTree::probability`] walks the way to a light
-//! through the same arithmetic in the same order, so that it tells the bits that [`LightTree::pick`] told.
+//! After Conty Estevez and Kulla 2018 ("Importance sampling of many lights with adaptive tree splitting"). A cluster stores a bounding sphere, its
+//! intensity and the cone of its light. From these follows a bound-like estimate of the irradiance at a receiver. A cluster is entered with a
+//! probability proportional to this estimate. Differences here: nodes have eight children, whose estimates are computed four at once; leaves that are
+//! lamps are weighted by their own intensity towards the receiver. A sample costs O(log n). [`LightTree::probability`] follows the path to a light
+//! with the same arithmetic in the same order, so that it returns the same bits as [`LightTree::pick`].
 //!
-//! An estimate is zero only where the light surely is (behind the emitter, below the receiver's horizon).
+//! An estimate is zero only where the light is certainly zero (behind the emitter, below the receiver's horizon).
 //!
-//! Measured on a street at night (lamps of a batwing grid of type C in two rows, 15 m apart, 7 m high, four bounces; mean relative
-//! variance of a pixel at 4 samples × time, against a choice of all lamps alike): 50 lamps 2.33 → 0.075 at 1.7 times the
-//! time, 1 000 lamps 12.0 → 0.14 at 2 times the time. Keeping one of two to four candidates by resampling (Talbot, Cline
-//! and Egbert 2005) takes another half to nine tenths off the variance of direct light alone, but with bounces costs more
-//! time than it saves (0.141 → 0.194, 0.247, 0.340 variance × µs for two, three, four of 50 lamps): left out.
+//! Measured on a street at night (lamps of a batwing grid of type C in two rows, 15 m apart, 7 m high, four bounces; mean relative variance of a
+//! pixel at 4 samples × time, against a uniform choice among all lamps): 50 lamps 2.33 → 0.075 at 1.7 times the time, 1 000 lamps 12.0 → 0.14 at 2
+//! times the time. Choosing one of two to four candidates by resampling (Talbot, Cline and Egbert 2005) reduces the variance of direct light alone by
+//! another half to nine tenths, but with bounces costs more time than it saves (0.141 → 0.194, 0.247, 0.340 variance × µs for two, three, four of 50
+//! lamps): left out.
 //!
-//! A glossy receiver's lobes raise the estimates (`lights/gloss.rs`), and it chooses from a finer cut of the tree, as does a matt one in view
+//! A glossy receiver's lobes raise the estimates (`lights/gloss.rs`), and it chooses from a finer cut of the tree, as does a diffuse one in view
 //! ([`cut`]); docs/decisions/light-choice.md has the figures.
 
 mod bounds;
@@ -38,8 +37,8 @@ pub(super) use cut::Start;
 pub(super) use light_tree::{LightTree, MATT_SHARE, TreeQuery};
 
 impl LightTree {
-    /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver, unless
-    /// there is but one light. `start` is this receiver's.
+    /// The light selected by `u` in [0, 1), and its probability; `None` if nothing reaches the receiver, unless there is only one light.
+    /// `start` is this receiver's.
     pub(super) fn pick<F: Fn(u32) -> LampIrradiance>(
         &self,
         question: &TreeQuery<'_, F>,
@@ -57,7 +56,7 @@ impl LightTree {
         Some((child.index as usize, probability))
     }
 
-    /// The probability by which [`LightTree::pick`] gives a light.
+    /// The probability with which [`LightTree::pick`] returns a light.
     pub(super) fn probability<F: Fn(u32) -> LampIrradiance>(
         &self,
         question: &TreeQuery<'_, F>,
@@ -67,20 +66,20 @@ impl LightTree {
         self.reach(question, start, self.leaves[light])
     }
 
-    /// Probability of coming to a slot.
+    /// Probability of reaching a slot.
     fn reach<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start, slot: Slot) -> f32 {
         if let Some(share) = start.share(slot) {
             return share;
         }
         let above = match slot.node {
-            // What is on no way from the start was weighed and counts nothing.
+            // A slot that cannot be reached from the start has been evaluated and has zero weight.
             0 => 0.0,
             node => self.reach(question, start, self.parents[node as usize]),
         };
         if above > 0.0 { above * share(&self.shares(slot.node, question), usize::from(slot.lane)) } else { 0.0 }
     }
 
-    /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer where the greatest cluster is near.
+    /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer if the largest cluster is near.
     pub(super) fn irradiance<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f64 {
         let mut weights = match start {
             Start::Cut(cut) => return self.scale * f64::from(cut.total()),

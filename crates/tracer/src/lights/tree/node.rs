@@ -1,14 +1,13 @@
-//! A node's eight clusters, weighed for a receiver.
+//! A node's eight clusters, weighted for a receiver.
 //!
-//! A cluster of intensity I (W·sr⁻¹·nm⁻¹) within a sphere of radius r about c, its light within the half angle θ_o of an
-//! axis and, falling by the cosine, θ_e beyond. Seen from a receiver at the distance d under the half angle θ_u
-//! (sin θ_u = r/d), θ from the axis and θ_i from the receiver's normal, it counts
+//! A cluster has the intensity I (W·sr⁻¹·nm⁻¹) within a sphere of radius r about c. Its light lies within the half angle θ_o of an axis and, falling
+//! by the cosine, θ_e beyond. It is seen from a receiver at the distance d under the half angle θ_u (sin θ_u = r/d), θ from the axis and θ_i from the
+//! receiver's normal. Its weight is
 //!
 //! I · cos max(θ − θ_o − θ_u, 0) · cos max(θ_i − θ_u, 0) / max(d², r²/4),
 //!
-//! nothing where the first angle exceeds θ_e or the second a right angle, and the cosines are 1 from inside the sphere.
-//! A single point thus counts its irradiance. For a glossy receiver the last cosine grows by what its lobes send of light from
-//! there (`lights/gloss.rs`).
+//! and zero if the first angle exceeds θ_e or the second a right angle. The cosines are 1 from inside the sphere. The weight of a single point is
+//! thus its irradiance. For a glossy receiver the last cosine increases by the light that its lobes reflect from there (`lights/gloss.rs`).
 
 use glam::Vec3;
 
@@ -34,9 +33,8 @@ pub(super) struct Node {
     sin_o: Lanes,
     cos_e: Lanes,
     children: [u32; LANES],
-    /// How many children there are.
     used: u8,
-    /// By bits: which children are nodes, and which are lamps.
+    /// Bit masks: children that are nodes, and children that are lamps.
     nodes: u8,
     lamps: u8,
 }
@@ -48,13 +46,13 @@ pub(super) struct Child {
     pub(super) is_node: bool,
 }
 
-/// Cosine that light beyond the axis' own cone keeps at least, within θ_e.
+/// Minimum cosine of light beyond the axis' own cone, within θ_e.
 const DIM: f32 = 0.02;
 
-/// What rounding may do to a cosine here; nothing is taken for dark or below the horizon that is not so by this much.
+/// Margin for the rounding of a cosine: a cluster counts as dark or below the horizon only by more than this.
 const MARGIN: f32 = 1e-4;
 
-/// Share of r² that d² is not taken below: a receiver among the lights is near to one of them.
+/// Minimum of d² as a fraction of r²: a receiver among the lights is near to one of them.
 const INSIDE: f32 = 0.25;
 
 impl Node {
@@ -83,18 +81,18 @@ impl Node {
         self.lamps >> lane & 1 == 1
     }
 
-    /// Whether a child is more than a point.
+    /// True if a child is more than a point.
     pub(super) fn has_extent(&self, lane: usize) -> bool {
         self.radius2[lane] > 0.0
     }
 
-    /// Whether a child is as good as a point from `position`.
+    /// True if a child can be treated as a point from `position`.
     pub(super) fn is_far(&self, lane: usize, position: Vec3) -> bool {
         (self.centre_of(lane) - position).length_squared() > 4.0 * self.radius2[lane]
     }
 
-    /// What a child may count for a receiver to whom it counts `weights`, if all its light came from that place in it which the
-    /// lobes favour most.
+    /// Maximum weights of the children for a receiver with the weights `weights`, if all light of a child came from the place in it that
+    /// the lobes favour most.
     pub(super) fn greatest(
         &self,
         lane: usize,
@@ -104,7 +102,7 @@ impl Node {
     ) -> f32 {
         let way = self.centre_of(lane) - receiver.position;
         let (distance2, radius2) = (way.length_squared(), self.radius2[lane]);
-        // From within the light may come from everywhere.
+        // From inside, the light may come from everywhere.
         let cone = (distance2 > radius2)
             .then(|| DirectionCone { axis: way / distance2.sqrt(), sin: (radius2 / distance2).sqrt() });
         weights.plain[lane] + weights.faced[lane] * gloss.greatest(cone)
@@ -114,14 +112,14 @@ impl Node {
         Vec3::new(self.centre[0][lane], self.centre[1][lane], self.centre[2][lane])
     }
 
-    /// What each child counts for a receiver: four children at a time, the second four where there are any.
+    /// The weight of each child for a receiver: four children at a time, the second four if there are any.
     pub(super) fn weights(&self, receiver: &LightSampleContext) -> Lanes {
         let mut weights = [0.0; LANES];
         self.fill(receiver, |from, reached| weights[from..from + 4].copy_from_slice(&reached.plain()));
         weights
     }
 
-    /// What each child counts for a receiver of this gloss, and what it counts for a matt one.
+    /// The weight of each child for a receiver of this gloss, and for a diffuse one.
     pub(super) fn glossy_weights(&self, receiver: &LightSampleContext, gloss: &ReceiverGloss) -> GlossyWeights {
         let mut weights = GlossyWeights::default();
         self.fill(receiver, |from, reached| {
@@ -140,12 +138,12 @@ impl Node {
         }
     }
 
-    /// What reaches the receiver of four children from lane `from` on. In small steps without branches, each over all four, so that
-    /// the compiler lets them go side by side.
+    /// Four children as seen by the receiver, from lane `from` on. In small steps without branches, each over all four, so that the
+    /// compiler vectorises them.
     #[inline(always)]
     fn four(&self, from: usize, receiver: &LightSampleContext) -> VisibleClusters {
         let (p, n) = (receiver.position, receiver.normal);
-        // 1 where light counts from everywhere, and the cosine then does not.
+        // 1 if light counts from everywhere; the cosine then does not count.
         let everywhere = if n == Vec3::ZERO { 1.0 } else { 0.0 };
         let lanes = |of: &Lanes| -> Four { each(|i| of[from + i]) };
         let (radius2, sin_o, cos_o) = (lanes(&self.radius2), lanes(&self.sin_o), lanes(&self.cos_o));
@@ -187,29 +185,29 @@ struct VisibleClusters {
     /// Unit, towards them.
     directions: [Four; 3],
     sin_u: Four,
-    /// Whether the receiver is within the cluster's sphere.
+    /// True if the receiver is within the cluster's sphere.
     is_inside: [bool; 4],
     emits: Four,
     receives: Four,
     intensity: Four,
-    /// Squared distance, m², or a little more from within or near by.
+    /// Squared distance, m²; slightly more from inside or near by.
     far2: Four,
 }
 
 impl VisibleClusters {
-    /// What it counts for a matt receiver.
+    /// Weight for a diffuse receiver.
     #[inline(always)]
     fn plain(&self) -> Four {
         self.counted([0.0; 4])
     }
 
-    /// What it counts for a glossy one.
+    /// Weight for a glossy receiver.
     #[inline(always)]
     fn raised(&self, gloss: &ReceiverGloss) -> Four {
         self.counted(gloss.relative_four(self.directions, self.sin_u))
     }
 
-    /// What it counts for a receiver that faces it.
+    /// Weight for a receiver that faces it.
     #[inline(always)]
     fn faced(&self) -> Four {
         let seen = each(|i| if self.is_inside[i] { 1.0 } else { self.emits[i] });
@@ -224,7 +222,7 @@ impl VisibleClusters {
     }
 }
 
-/// What eight children count for a glossy receiver, for a matt one in its place, and for one that faces them.
+/// Weights of eight children for a glossy receiver, for a diffuse one in its place, and for one that faces them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct GlossyWeights {
     pub(super) raised: Lanes,

@@ -1,4 +1,4 @@
-//! The tree's probabilities: shares of one, told alike in both ways, never zero where light arrives.
+//! The tree's probabilities: they sum to one, are equal in both functions, and are never zero where light arrives.
 
 use super::*;
 use crate::lights::LightSampleContext;
@@ -8,7 +8,7 @@ use etendue_core::{TimeInterval, WavelengthRange};
 use etendue_spectra::Spectrum;
 use glam::{DMat3, DVec3, Vec3};
 
-/// A fixed row of numbers in [0, 1): steps of irrational numbers.
+/// A fixed sequence of numbers in [0, 1): multiples of irrational numbers.
 pub(super) fn number(i: u32, k: u32) -> f64 {
     let steps = [0.618_033_988_75, 0.754_877_666_25, 0.569_840_290_998, 0.819_172_513_396, 0.324_717_957_24];
     (steps[k as usize % 5] * f64::from(i + 1) + 0.137 * f64::from(k)).fract()
@@ -37,7 +37,7 @@ pub(super) fn lamps(count: u32, centre: DVec3, size: f64, decades: f64) -> Vec<L
     (0..count).map(one).collect()
 }
 
-/// Calls `f` with a tree over lamps and questions of receivers near and far, facing all ways or none, in view or not.
+/// Calls `f` with a tree over lamps and queries of receivers near and far, facing all directions or none, in view or not.
 fn ask(
     lamps: &[LampLight],
     size: f64,
@@ -56,7 +56,7 @@ fn ask(
     }
 }
 
-/// Relative variance of one draw for a receiver: what each lamp gives it, over the probability of its draw.
+/// Relative variance of one sample for a receiver: the contribution of each lamp, over the probability of its selection.
 fn variance_of_a_draw(lamps: &[LampLight], tree: &LightTree, receiver: &LightSampleContext) -> f64 {
     let question = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
     let start = tree.start(&question);
@@ -127,10 +127,10 @@ fn no_light_that_arrives_is_lost() {
     }
 }
 
-/// Relative variance of one draw of 80 lamps, mean of 40 receivers; seen: 0.13, and 1.11 out of view.
+/// Relative variance of one sample of 80 lamps, mean of 40 receivers; measured: 0.13, and 1.11 out of view.
 const MOST_IN_VIEW: f64 = 0.26;
 
-/// A receiver in view looks into the clusters that it stands among.
+/// A receiver in view uses the lamps inside the clusters around it.
 #[test]
 fn in_view_lamps_are_drawn_as_they_count() {
     let lamps = lamps(80, DVec3::ZERO, 60.0, 1.0);
@@ -148,8 +148,8 @@ fn in_view_lamps_are_drawn_as_they_count() {
     assert!(seen < MOST_IN_VIEW && unseen > 4.0 * MOST_IN_VIEW, "{seen}, out of view {unseen}");
 }
 
-/// Two spots beside the receiver that shine past it, back to back so that their cluster seems to shine everywhere, must
-/// not take the weak light of far lamps from it.
+/// Two spots near the receiver that point past it, back to back so that their cluster seems to emit everywhere, must not remove the weak
+/// light of far lamps.
 #[test]
 fn an_estimate_is_zero_only_where_nothing_arrives() {
     let narrow = || Profile::Cone(Cone::new(0.1, 0.2).expect("a spot"));

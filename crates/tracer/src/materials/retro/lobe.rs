@@ -1,4 +1,4 @@
-//! The lobe of a sheeting: its value, its albedo and how it is drawn.
+//! The lobe of a sheeting: its value, its albedo and its sampling.
 
 use core::f32::consts::{PI, TAU};
 
@@ -12,23 +12,23 @@ use crate::materials::energy::AlbedoTable;
 /// The widest cut-off, degrees.
 pub(super) const WIDEST_DEG: f64 = 10.0;
 
-/// The largest entrance angle that ASTM E810 measures: beyond, the bsdf is held instead of R_A, which so falls.
+/// The largest entrance angle that ASTM E810 measures: beyond, the BSDF is constant and R_A falls.
 pub(super) const GRAZING_DEG: f64 = 60.0;
 
 /// Steps between the first and the last observation angle, and from there to the widest cut-off.
 const STEPS: usize = 24;
 
-/// f_r = R_A(α, β)/(cos β cos ν) less what the base gives, not below 0, cut off at some α.
+/// f_r = R_A(α, β)/(cos β cos ν) minus the base's BSDF, at least 0, cut off at some α.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RetroLobe {
     table: RetroTable,
-    /// The base's bsdf (luminous, under illuminant A), which R_A as measured holds already, 1/sr.
+    /// The base's BSDF (luminous, under illuminant A), included in measured R_A, 1/sr.
     beneath: f32,
-    /// Cosine below which those of β and ν are held.
+    /// Minimum cosine of β and ν.
     least_cos: f32,
     /// Edges of cells of the observation angle, as 1 − cos α; the last is the cut-off.
     edges: Vec<f32>,
-    /// For each entrance angle of the table, the share of what is sent back that lies below each edge.
+    /// For each entrance angle of the table, the fraction of reflected light below each edge.
     cumulative: Vec<Vec<f32>>,
     /// ∫ f cos θᵢ dωᵢ at colour 1.
     pub(super) albedo: AlbedoTable,
@@ -44,8 +44,8 @@ fn angle(one_minus_cos: f32) -> f32 {
     2.0 * asin((0.5 * one_minus_cos).sqrt().min(1.0))
 }
 
-/// All edges that a table may have: 0, the first observation angle, by equal ratios to the last, and on to the widest
-/// cut-off. The number of those up to the last observation angle comes second.
+/// All possible edges of a table: 0, the first observation angle, by equal ratios to the last, and on to the widest cut-off. The number of
+/// those up to the last observation angle comes second.
 fn edges(table: &RetroTable) -> (Vec<f32>, usize) {
     let (first, last) = table.observation_range();
     let widest = WIDEST_DEG.to_radians() as f32;
@@ -79,14 +79,13 @@ impl RetroLobe {
         lobe
     }
 
-    /// Lobes by falling cut-off: the widest first, the last cut off where the table ends.
-    /// `beneath` is the bsdf of the base.
+    /// Lobes by decreasing cut-off: the widest first, the last cut off at the end of the table. `beneath` is the BSDF of the base.
     pub(super) fn widest_first(table: &RetroTable, beneath: f32) -> impl Iterator<Item = Self> + '_ {
         let (edges, known) = edges(table);
         (known - 1..edges.len()).rev().map(move |cells| Self::cut(table, beneath, &edges, cells))
     }
 
-    /// R_A cos θᵢ/(cos β cos ν) less the base's value, 1/sr.
+    /// R_A cos θᵢ/(cos β cos ν) minus the base's value, 1/sr.
     pub(super) fn value_cos(&self, wo: Vec3, wi: Vec3) -> f32 {
         let k = one_minus_cos(wo, wi);
         if k >= self.cut_off() {
@@ -101,7 +100,7 @@ impl RetroLobe {
         self.edges[self.edges.len() - 1]
     }
 
-    /// The observation angle beyond which nothing is sent back, degrees.
+    /// The observation angle beyond which nothing is reflected, degrees.
     pub(super) fn cut_off_deg(&self) -> f64 {
         f64::from(angle(self.cut_off()).to_degrees())
     }
@@ -123,7 +122,7 @@ impl RetroLobe {
         self.edges.windows(2).map(cell).sum()
     }
 
-    /// The shares for a viewer: those of the nearest entrance angle.
+    /// The fractions for a viewer: those of the nearest entrance angle.
     fn shares(&self, wo: Vec3) -> &[f32] {
         let nu = acos(wo.z.min(1.0));
         let entrance = self.table.entrance();
@@ -131,7 +130,7 @@ impl RetroLobe {
         &self.cumulative[i]
     }
 
-    /// A direction about `wo`, by what is sent back from there; it may lie below the surface.
+    /// Samples a direction about `wo`, by the light reflected from there; it may lie below the surface.
     pub(super) fn sample(&self, wo: Vec3, u: Vec2) -> Vec3 {
         let shares = self.shares(wo);
         let i = shares.partition_point(|c| *c <= u.x).clamp(1, shares.len() - 1) - 1;
@@ -159,7 +158,7 @@ fn direction(basis: &Basis, k: f32, azimuth: f32) -> Vec3 {
     basis.outward(Vec3::new(sin * c, sin * s, 1.0 - k))
 }
 
-/// Shares of R_A × solid angle below each edge, for an entrance angle.
+/// Fractions of R_A × solid angle below each edge, for an entrance angle.
 fn cumulative(table: &RetroTable, edges: &[f32], entrance: f32) -> Vec<f32> {
     let cell = |e: &[f32]| f64::from((e[1] - e[0]) * table.at(angle(0.5 * (e[0] + e[1])), entrance));
     let total: f64 = edges.windows(2).map(cell).sum();

@@ -1,21 +1,20 @@
 //! Road markings with glass beads.
 //!
-//! f = k_d/π + κ c(λ) r(α)/max(cos β, cos ν), r = 1/(1 + d²/h²)², 1/sr. The first term is the marking by day. Of the
-//! second, each bead sends light back into a lobe about the way it came; α is the angle between the ways to lamp and
-//! viewer, d = 2 sin(α/2) their distance on the unit sphere, h where r has fallen to a quarter. Beads hide one another
-//! the more, the lower both ways lie, and those that the lower way reaches are the same that the higher sees: the share
-//! of beads in play falls as the lesser cosine, which leaves the greater one in the bsdf (cos β cos ν beneath, min of
-//! both above). Reciprocal; at no incidence does the lobe send back more than κ ∫ r dω = κ π h²/(1 + h²/4). c is of
-//! luminous mean 1 under illuminant A.
+//! f = k_d/π + κ c(λ) r(α)/max(cos β, cos ν), r = 1/(1 + d²/h²)², 1/sr. The first term is the marking by day. In the second, each bead reflects light
+//! into a lobe about the direction of incidence. α is the angle between the directions to lamp and viewer, d = 2 sin(α/2) their distance on the unit
+//! sphere, h the distance at which r has fallen to a quarter. The lower both directions are, the more beads hide one another. The beads that the
+//! lower direction reaches are the same that the higher one sees: the fraction of active beads falls as the lesser cosine, which leaves the greater
+//! one in the BSDF (cos β cos ν in the denominator, min of both in the numerator). Reciprocal; at no incidence is the lobe's albedo more than κ ∫ r
+//! dω = κ π h²/(1 + h²/4). c has the luminous mean 1 under illuminant A.
 //!
-//! κ is set so that at the 30 m geometry of EN 1436 (entrance angle 88.76°, observation angle 1.05°, the lamp and viewer
-//! above one another) L = R_L E_⊥ comes out exactly, E_⊥ on a plane across the beam, base included. For a lamp and a
-//! viewer of fixed heights R_L so depends on distance by r(α) alone, as makers' curves nearly do.
+//! κ is set so that at the 30 m geometry of EN 1436 (entrance angle 88.76°, observation angle 1.05°, the lamp and viewer above one another) L = R_L
+//! E_⊥ holds exactly, E_⊥ on a plane across the beam, base included. For a lamp and a viewer of fixed heights R_L thus depends on distance by r(α)
+//! alone, as manufacturers' curves nearly do.
 //!
-//! The default h of 3° is an assumption: beads of index 1.5 in diffuse paint spread over a few degrees, and no standard
-//! states it. Lobes are drawn exactly: d² = h² u/(1 − u), cut at the opposite direction.
+//! The default h of 3° is an assumption: beads of index 1.5 in diffuse paint spread light over a few degrees, and no standard states it. Lobes are
+//! sampled exactly: d² = h² u/(1 − u), cut at the opposite direction.
 //!
-//! Left out: the wet film itself (a wet marking is one of its wet R_L), structure of the marking, beads' wear.
+//! Left out: the wet film itself (a wet marking is one of its wet R_L), structure of the marking, wear of beads.
 
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
 
@@ -38,13 +37,13 @@ const LAMP_DEG: f64 = 1.24;
 /// The viewer's elevation, degrees.
 const VIEWER_DEG: f64 = 2.29;
 
-/// Where the lobe has fallen to a quarter, degrees, if nothing else is asked for.
+/// Default angle at which the lobe has fallen to a quarter, degrees.
 const LOBE_DEG: f64 = 3.0;
 
-/// How bright a marking is by day.
+/// Brightness of a marking by day.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DayTime {
-    /// Luminance coefficient under diffuse light Q_d, mcd·m⁻²·lx⁻¹: of a matt surface 1000/π times its reflectance.
+    /// Luminance coefficient under diffuse light Q_d, mcd·m⁻²·lx⁻¹: for a diffuse surface 1000/π times its reflectance.
     Qd(f64),
     /// Luminance factor β, 0 to 1.
     LuminanceFactor(f64),
@@ -89,11 +88,11 @@ pub struct RoadMarking {
 }
 
 impl RoadMarking {
-    /// A marking of coefficient `r_l` (mcd·m⁻²·lx⁻¹), brightness `day` and colour `colour` (a spectrum of any scale),
-    /// with beads of the default spread.
+    /// A marking of coefficient `r_l` (mcd·m⁻²·lx⁻¹), brightness `day` and colour `colour` (a spectrum of any scale), with beads of the
+    /// default spread.
     ///
     /// # Errors
-    /// Where a number is out of range, the colour is none, or more is sent back than arrives.
+    /// If a number is out of range, the colour is invalid, or more is reflected than arrives.
     pub fn new(r_l: f64, day: DayTime, colour: &Spectrum) -> Result<Self, MarkingError> {
         Self::with_spread(r_l, day, colour, LOBE_DEG)
     }
@@ -148,20 +147,20 @@ impl SurfaceModel for RoadMarking {
     }
 }
 
-/// Why a road marking is refused.
+/// Error of a road marking.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MarkingError {
-    /// The coefficient is less than the marking's own colour gives.
+    /// The coefficient is below that of the marking's own colour.
     #[error(
         "an R_L of {r_l} mcd/m²/lx was given, but the marking's matt reflectance alone gives {least:.2}; give at least that"
     )]
     Coefficient {
-        /// What was given, mcd·m⁻²·lx⁻¹.
+        /// Value given, mcd·m⁻²·lx⁻¹.
         r_l: f64,
-        /// The least possible, mcd·m⁻²·lx⁻¹.
+        /// Minimum possible value, mcd·m⁻²·lx⁻¹.
         least: f64,
     },
-    /// The marking by day is out of range.
+    /// The reflectance by day is out of range.
     #[error(
         "by day the marking would reflect {reflectance:.3}, but that must lie between 0 and 1; Q_d is at most 318 mcd/m²/lx"
     )]
@@ -172,13 +171,13 @@ pub enum MarkingError {
     /// The spread is out of range.
     #[error("a spread of {spread_deg}° was given, but it must lie between 0.5° and 30°; correct it")]
     Spread {
-        /// What was given, degrees.
+        /// Value given, degrees.
         spread_deg: f64,
     },
-    /// The colour is none.
+    /// The colour is negative or dark.
     #[error("the marking's colour is negative or dark; give a spectrum of 0 or more that has light in it")]
     Colour,
-    /// More is sent back than arrives.
+    /// The marking reflects more than arrives.
     #[error(transparent)]
     Energy(#[from] EnergyGain),
 }
@@ -192,13 +191,13 @@ struct Lobe {
 }
 
 impl Lobe {
-    /// The lobe that adds to `base` what R_L (cd·m⁻²·lx⁻¹) asks for at the 30 m geometry.
+    /// The lobe that, added to `base`, gives R_L (cd·m⁻²·lx⁻¹) at the 30 m geometry.
     fn new(r_l: f64, base: &Spectrum, spread_deg: f64) -> Result<Self, MarkingError> {
         let a = illuminant::named("A").expect("A is in the list");
         let (lamp, viewer) = (LAMP_DEG.to_radians(), VIEWER_DEG.to_radians());
         let (cos_lamp, cos_viewer) = (maths::f64::sin(lamp), maths::f64::sin(viewer));
         let of_base = observer::xyz_of_reflectance(base, a)[1] / core::f64::consts::PI * cos_lamp;
-        // A marking without beads: the rounding of its own R_L is no fault.
+        // A marking without beads: the rounding of its own R_L is no error.
         if !(r_l.is_finite() && r_l > of_base * 0.999) {
             return Err(MarkingError::Coefficient { r_l: r_l * 1e3, least: of_base * 1e3 });
         }
@@ -218,12 +217,12 @@ impl Lobe {
         self.strength * self.fallen(wo, wi) * wi.z / wi.z.max(wo.z)
     }
 
-    /// Share of draws 1 − 1/(1 + d²/h²) at the opposite direction, d = 2.
+    /// Fraction of samples 1 − 1/(1 + d²/h²) at the opposite direction, d = 2.
     fn last(self) -> f32 {
         1.0 - 1.0 / (1.0 + 4.0 / self.width2)
     }
 
-    /// A direction by r(α), over the whole sphere.
+    /// Samples a direction by r(α), over the whole sphere.
     fn sample(self, wo: Vec3, u: Vec2) -> Vec3 {
         let share = u.x * self.last();
         let k = (0.5 * self.width2 * share / (1.0 - share)).min(2.0);
@@ -237,7 +236,7 @@ impl Lobe {
         self.fallen(wo, wi) / (PI * self.width2 * self.last())
     }
 
-    /// By the midpoint rule over the square that directions are drawn from (half a turn).
+    /// By the midpoint rule over the sample square of directions (half a turn).
     fn albedo(self, cos: f32) -> f64 {
         const CELLS: usize = 48;
         let wo = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);

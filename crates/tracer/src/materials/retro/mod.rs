@@ -1,25 +1,22 @@
 //! Retro-reflective sheeting: signs and number plates.
 //!
-//! f_r = k_d(λ)/π + c(λ) [R_A(α, β)/(cos β cos ν) − k̄_d/π]₊, 1/sr. α is the observation angle, between the ways to the lamp and to the
-//! viewer; β the entrance angle, of the lamp to the normal; ν that of the viewer. R_A is the coefficient of
-//! retro-reflection, cd·lx⁻¹·m⁻² (CIE e-ILV 17-24-103; measured by ASTM E810), so that a sheeting under E_⊥ lux has the
-//! luminance R_A E_⊥/cos ν: R_A as measured holds the matt base's light, whose luminous reflectance under illuminant A is
-//! k̄_d, so the lobe adds what is missing, and nothing where the base alone gives more. c is the colour, of luminous mean 1 under CIE illuminant A, the light that R_A is measured in.
-//! The angle is taken from |ωᵢ − ωₒ|, exact for close directions in f32. Light is drawn from about the viewer's
-//! direction by a table of R_A × solid angle, mixed with the cosine for the base.
+//! f_r = k_d(λ)/π + c(λ) [R_A(α, β)/(cos β cos ν) − k̄_d/π]₊, 1/sr. α is the observation angle, between the directions to the lamp and to the viewer;
+//! β the entrance angle, of the lamp to the normal; ν that of the viewer. R_A is the coefficient of retro-reflection, cd·lx⁻¹·m⁻² (CIE e-ILV
+//! 17-24-103; measured by ASTM E810), so that a sheeting under E_⊥ lux has the luminance R_A E_⊥/cos ν. Measured R_A includes the diffuse base's
+//! light, whose luminous reflectance under illuminant A is k̄_d. The lobe therefore adds the difference, and nothing if the base alone gives more. c
+//! is the colour, of luminous mean 1 under CIE illuminant A, the illuminant of R_A measurements. The angle is computed from |ωᵢ − ωₒ|, exact for
+//! close directions in f32. Light is sampled from about the viewer's direction by a table of R_A × solid angle, mixed with the cosine for the base.
 //!
-//! Outside the table R_A is held at its nearest entry: below the first observation angle; beyond the last up to a
-//! cut-off, where it ends; beyond the last entrance angle. The cut-off is 10°, or as much less as the energy asks for: at
-//! no incidence and wavelength is more sent back than arrives. Beyond 60° from the normal, the largest entrance angle
-//! that ASTM E810 measures (or beyond the last entrance angle, if that is larger), the bsdf is held instead: R_A must
-//! vanish where no area is seen. [`Sheeting::limits`] says so in words. A table that gains energy even if cut off at its
-//! last observation angle is refused.
+//! Outside the table R_A has the value of its nearest entry: below the first observation angle; beyond the last up to a cut-off, where it ends;
+//! beyond the last entrance angle. The cut-off is 10°, or less if energy conservation requires it: at no incidence and wavelength is more reflected
+//! than arrives. Beyond 60° from the normal, the largest entrance angle that ASTM E810 measures (or beyond the last entrance angle, if that is
+//! larger), the BSDF is constant instead: R_A must vanish where no area is visible. [`Sheeting::limits`] describes this in words. A table that gains
+//! energy even if cut off at its last observation angle is refused.
 //!
-//! Not reciprocal to the last digit: measured tables depend on β alone, not on ν. Both differ by at most α, by which R_A
-//! hardly changes.
+//! Not reciprocal to the last digit: measured tables depend on β alone, not on ν. The two differ by at most α, by which R_A hardly changes.
 //!
-//! Left out: the rotation of sheets about their normal and of the observation plane (rotation and presentation angles);
-//! gloss of the front (mix with, or coat, another material); dew.
+//! Left out: the rotation of sheets about their normal and of the observation plane (rotation and presentation angles); gloss of the front (mix with,
+//! or coat, another material); dew.
 
 mod lobe;
 mod marking;
@@ -44,7 +41,7 @@ pub use marking::{DayTime, MarkingBsdf, MarkingError, RoadMarking, marking_class
 pub use preset::{SHEETING_CLASSES, SHEETING_COLOURS, SheetingPreset};
 pub use table::{RetroTable, RetroTableError};
 
-/// A retro-reflective sheeting over a matt base.
+/// A retro-reflective sheeting over a diffuse base.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheeting {
     face: Face,
@@ -52,21 +49,21 @@ pub struct Sheeting {
     lobe: RetroLobe,
 }
 
-/// What colours a sheeting.
+/// Colour of a sheeting.
 #[derive(Clone, Debug, PartialEq)]
 enum Face {
     /// A reflectance by day, and the colour c.
     Plain(Spectrum, Spectrum),
-    /// What a white sheeting reflects by day, and the print over it, which colours that and the retro-reflected light.
+    /// Reflectance of a white sheeting by day, and the print over it, which colours both that and the retro-reflected light.
     Printed(f32, Reflectance),
 }
 
 impl Sheeting {
-    /// A sheeting of colour `colour` (a spectrum of any scale) whose own coefficients, measured in illuminant A, are
-    /// `table`, with the matt reflectance `base` by day.
+    /// A sheeting of colour `colour` (a spectrum of any scale) whose own coefficients, measured in illuminant A, are `table`, with the
+    /// diffuse reflectance `base` by day.
     ///
     /// # Errors
-    /// Where base or colour are none, or more is sent back than arrives.
+    /// If base or colour is invalid, or more is reflected than arrives.
     pub fn new(base: Spectrum, colour: &Spectrum, table: RetroTable) -> Result<Self, SheetingError> {
         if !energy::is_weight(&base) {
             return Err(SheetingError::Base);
@@ -76,11 +73,11 @@ impl Sheeting {
         Ok(Self { face: Face::Plain(base, colour), table, lobe })
     }
 
-    /// A white sheeting of coefficients `table` and a reflectance `white` (0 to 1) by day, printed with transparent ink:
-    /// `print` says what share of its light is left at each wavelength. A texture makes a sign of it.
+    /// A white sheeting of coefficients `table` and a reflectance `white` (0 to 1) by day, printed with transparent ink: `print` is the
+    /// fraction of its light that is left at each wavelength. A texture turns it into a sign.
     ///
     /// # Errors
-    /// Where the reflectance is out of range, or more would be sent back than arrives.
+    /// If the reflectance is out of range, or more would be reflected than arrives.
     pub fn printed(white: f64, print: Reflectance, table: RetroTable) -> Result<Self, SheetingError> {
         if !(0.0..=1.0).contains(&white) {
             return Err(SheetingError::Base);
@@ -95,7 +92,7 @@ impl Sheeting {
         self.lobe.cut_off_deg()
     }
 
-    /// How the table is continued, in words.
+    /// Description of the extrapolation of the table.
     #[must_use]
     pub fn limits(&self) -> String {
         let (alpha, beta) = (self.table.observation_deg(), self.table.entrance_deg());
@@ -144,7 +141,7 @@ impl SurfaceModel for Sheeting {
     }
 }
 
-/// The widest lobe of a table that keeps energy.
+/// The widest lobe of a table that does not gain energy.
 fn widest(table: &RetroTable, base: &Spectrum, colour: &Spectrum) -> Result<RetroLobe, EnergyGain> {
     let mut gain = Ok(());
     let beneath = luminous(base) as f32 * FRAC_1_PI;
@@ -168,21 +165,21 @@ fn luminous(of: &Spectrum) -> f64 {
     observer::xyz_of_reflectance(of, illuminant::named("A").expect("A is in the list"))[1]
 }
 
-/// Why a sheeting is refused.
+/// Error of a sheeting.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SheetingError {
-    /// The base is none.
+    /// The base is invalid.
     #[error("the sheeting's reflectance by day is negative or not finite somewhere; it must lie between 0 and 1")]
     Base,
-    /// The colour is none.
+    /// The colour is negative or dark.
     #[error(
         "the colour of the retro-reflected light is negative or dark; give a spectrum of 0 or more that has light in it"
     )]
     Colour,
-    /// The table is none.
+    /// The table is invalid.
     #[error(transparent)]
     Table(#[from] RetroTableError),
-    /// More is sent back than arrives, even if the table is cut off at its last observation angle.
+    /// More is reflected than arrives, even if the table is cut off at its last observation angle.
     #[error(transparent)]
     Energy(#[from] EnergyGain),
 }

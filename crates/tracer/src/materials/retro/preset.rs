@@ -1,10 +1,9 @@
-//! Sheetings as the standards ask for them.
+//! Sheetings as specified by standards.
 //!
-//! Minimum coefficients of white sheeting: EN 12899-1:2007, classes RA1 and RA2 (glass beads), at
-//! observation angles 0.2°, 0.33° and 2° and entrance angles 5°, 30° and 40°; ASTM D4956 type IX (micro-prisms), at
-//! 0.1°, 0.2°, 0.5° and 1° and −4° (taken as 4°) and 30°. Colours by the ratio of their minimum to white's at 0.2° and
-//! the first entrance angle of the same standards; daylight reflectance by the minimum luminance factors of EN 12899-1.
-//! Minima all: sheeting that is new has more. Figures as handbooks give them; the standards themselves decide.
+//! Minimum coefficients of white sheeting: EN 12899-1:2007, classes RA1 and RA2 (glass beads), at observation angles 0.2°, 0.33° and 2° and entrance
+//! angles 5°, 30° and 40°; ASTM D4956 type IX (micro-prisms), at 0.1°, 0.2°, 0.5° and 1° and −4° (taken as 4°) and 30°. Colours by the ratio of their
+//! minimum to white's at 0.2° and the first entrance angle of the same standards; daylight reflectance by the minimum luminance factors of EN
+//! 12899-1. All are minima: new sheeting has more. Figures as handbooks give them; the standards themselves are authoritative.
 //!
 //! The colours' spectra are smooth edges and bands set to the colours' regions, not measured ones.
 
@@ -13,13 +12,12 @@ use etendue_spectra::{Spectrum, illuminant, observer};
 
 use super::{RetroTable, Sheeting, SheetingError};
 
-/// The classes that [`SheetingPreset::named`] knows.
+/// The classes that [`SheetingPreset::named`] accepts.
 pub const SHEETING_CLASSES: &[&str] = &["ra1", "ra2", "d4956-ix"];
 
-/// The colours that [`SheetingPreset::named`] knows.
+/// The colours that [`SheetingPreset::named`] accepts.
 pub const SHEETING_COLOURS: &[&str] = &["white", "yellow", "red", "blue", "green"];
 
-/// A standard's class.
 struct Class {
     observation_deg: &'static [f64],
     entrance_deg: &'static [f64],
@@ -54,7 +52,7 @@ const CLASSES: [Class; 3] = [
     },
 ];
 
-/// What a standard asks of a class and colour.
+/// Values of a standard for a class and colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetingPreset {
     /// Coefficients of the colour itself.
@@ -82,14 +80,14 @@ impl SheetingPreset {
     /// The sheeting: its reflectance by day has the luminance factor under D65.
     ///
     /// # Errors
-    /// Where more would be sent back than arrives: no preset does.
+    /// If more would be reflected than arrives: no preset does.
     pub fn sheeting(&self) -> Result<Sheeting, SheetingError> {
         let luminous = observer::xyz_of_reflectance(&self.colour, illuminant::d65())[1];
         Sheeting::new(self.colour.scaled(self.luminance_factor / luminous), &self.colour, self.table.clone())
     }
 }
 
-/// Share of light left at a wavelength by the dye of a colour, in the order of [`SHEETING_COLOURS`].
+/// Transmitted fraction at a wavelength of the dye of a colour, in the order of [`SHEETING_COLOURS`].
 fn shape(colour: usize, nm: f64) -> f64 {
     let edge = |at: f64, width: f64| 1.0 / (1.0 + exp((at - nm) / width));
     let band = |low: f64, high: f64| edge(low, 8.0) * (1.0 - edge(high, 12.0));

@@ -2,17 +2,17 @@
 
 use etendue_core::maths::f32::{exp, ln};
 
-/// What stands for 0 in a table, cd·lx⁻¹·m⁻²: far below what a dark matt surface sends back.
+/// Value that replaces 0 in a table, cd·lx⁻¹·m⁻²: far below that of a dark diffuse surface.
 const NEXT_TO_NOTHING: f64 = 1e-4;
 
-/// What stands for an observation angle of 0, degrees.
+/// Value that replaces an observation angle of 0, degrees.
 const MIN_DEG: f64 = 0.01;
 
-/// R_A (cd·lx⁻¹·m⁻²) over the observation angle α between the ways to lamp and observer, and the entrance angle β
-/// between the way to the lamp and the normal.
+/// R_A (cd·lx⁻¹·m⁻²) over the observation angle α between the directions to lamp and observer, and the entrance angle β between the
+/// direction to the lamp and the normal.
 ///
-/// Between entries ln R_A is linear in ln α and in β: along α it is a power law, as profiles of sheetings nearly are.
-/// Exact at entries. Outside, the nearest entry's value holds.
+/// Between entries ln R_A is linear in ln α and in β: along α it is a power law, as profiles of sheetings nearly are. Exact at entries.
+/// Outside, the nearest entry's value holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RetroTable {
     observation_deg: Vec<f64>,
@@ -26,11 +26,11 @@ pub struct RetroTable {
 }
 
 impl RetroTable {
-    /// A table of observation angles (0 to 180°, rising), entrance angles (0 to below 90°, rising) and R_A: all entrance
-    /// angles of the first observation angle, then of the next.
+    /// A table of observation angles (0 to 180°, rising), entrance angles (0 to below 90°, rising) and R_A: all entrance angles of the
+    /// first observation angle, then of the next.
     ///
     /// # Errors
-    /// Where a list is empty, out of range or does not rise, or the values are too few, too many or negative.
+    /// If a list is empty, out of range or does not rise, or the values are too few, too many or negative.
     pub fn new(observation_deg: &[f64], entrance_deg: &[f64], values: &[f64]) -> Result<Self, RetroTableError> {
         check_angles("observation", observation_deg, 180.0)?;
         check_angles("entrance", entrance_deg, 89.0)?;
@@ -97,7 +97,7 @@ impl RetroTable {
     }
 }
 
-/// The entry at or below `x`, and how far on towards the next it lies; 0 at the last.
+/// The entry at or below `x`, and the fraction of the step from it to the next; 0 at the last.
 fn place(entries: &[f32], x: f32) -> (usize, f32) {
     let i = entries.partition_point(|e| *e <= x);
     match i.checked_sub(1) {
@@ -120,39 +120,39 @@ fn check_angles(kind: &'static str, angles: &[f64], most_deg: f64) -> Result<(),
     }
 }
 
-/// Why a table of retro-reflection is refused.
+/// Error of a table of retro-reflection.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RetroTableError {
     /// There are no angles.
     #[error("the table has no {kind} angles; give at least one")]
     NoAngles {
-        /// Which angles.
+        /// Kind of the angles.
         kind: &'static str,
     },
     /// An angle is out of range.
     #[error("an {kind} angle of {deg}° was given, but it must lie between 0° and {most_deg}°; correct it")]
     Range {
-        /// Which angle.
+        /// Kind of the angle.
         kind: &'static str,
-        /// What was given, degrees.
+        /// Value given, degrees.
         deg: f64,
-        /// The most, degrees.
+        /// Maximum, degrees.
         most_deg: f64,
     },
     /// Angles do not rise.
     #[error("the {kind} angle {second}° follows {first}°, but angles must rise; sort the table")]
     Order {
-        /// Which angles.
+        /// Kind of the angles.
         kind: &'static str,
         /// The first of the two, degrees.
         first: f64,
         /// The one after, degrees.
         second: f64,
     },
-    /// An observation angle beside 0 is too small.
+    /// An observation angle next to 0 is too small.
     #[error("an observation angle of {deg}° follows another, but only the first may be below {MIN_DEG}°; leave it out")]
     TooFine {
-        /// What was given, degrees.
+        /// Value given, degrees.
         deg: f64,
     },
     /// The number of values does not fit the angles.
@@ -166,7 +166,7 @@ pub enum RetroTableError {
     /// A value is negative or no number.
     #[error("a coefficient of {value} cd/lx/m² was given, but it must be 0 or more and finite; correct it")]
     Value {
-        /// What was given.
+        /// Value given.
         value: f64,
     },
 }

@@ -1,8 +1,8 @@
-//! Directions drawn against the density told, by counting.
+//! Sampled directions against the stated density, by counting.
 //!
-//! The sphere is cut into cells, finer about the directions where lobes are narrow; counts in each cell are compared
-//! with the integral of the density over it by Pearson's χ². What is absorbed, or sent in exact directions, is counted in
-//! a cell of its own, which expects 1 − ∫ pdf dω. Families of such tests are judged together: see [`judge`].
+//! The sphere is divided into cells, finer about the directions where lobes are narrow. Counts in each cell are compared with the integral of the
+//! density over it by Pearson's χ². Absorbed samples, and those in exact directions, are counted in a separate cell, which expects 1 − ∫ pdf dω.
+//! Families of such tests are judged together: see [`judge`].
 
 use super::*;
 use etendue_core::Basis;
@@ -52,7 +52,7 @@ impl Polar {
     }
 }
 
-/// A direction, and about the tangent of half a lobe's half angle about it.
+/// A direction, and the approximate tangent of half the lobe's half angle about it.
 #[derive(Clone, Copy)]
 pub(in crate::materials) struct LobeAxis {
     axis: Vec3,
@@ -70,14 +70,14 @@ pub(in crate::materials) struct Grid {
 }
 
 impl Grid {
-    /// Cells about a direction above the surface and one below; each `scale` is about the tangent of half a lobe's
-    /// half angle (α for micro-facets), 1 for even cells.
+    /// Cells about a direction above the surface and one below; each `scale` is about the tangent of half a lobe's half angle (α for
+    /// microfacets), 1 for uniform cells.
     pub(in crate::materials) fn new(above: LobeAxis, below: LobeAxis) -> Self {
         let polar = |lobe: LobeAxis| Polar { basis: Basis::about(lobe.axis), scale: lobe.scale };
         Self { above: polar(above), below: polar(below) }
     }
 
-    /// Cells about the mirrored direction, and even ones below.
+    /// Cells about the mirror direction, and uniform ones below.
     pub(in crate::materials) fn of_mirror(wo: Vec3, scale: f32) -> Self {
         Self::new(lobe(Vec3::new(-wo.x, -wo.y, wo.z), scale), lobe(Vec3::NEG_Z, 1.0))
     }
@@ -93,12 +93,12 @@ impl Grid {
     }
 }
 
-/// p-value of the counts of drawn directions against the density told. `draw` names the random numbers.
+/// p-value of the counts of sampled directions against the stated density. `draw` names the random numbers.
 pub(in crate::materials) fn p_of_draws(bsdf: &Bsdf<'_, 4>, wo: Vec3, grid: &Grid, draw: u32) -> f64 {
     p_of(bsdf, bsdf, wo, grid, draw)
 }
 
-/// The same for a density told by one bsdf and draws of another.
+/// The same for the density of one BSDF and samples of another.
 fn p_of(told: &Bsdf<'_, 4>, drawn: &Bsdf<'_, 4>, wo: Vec3, grid: &Grid, draw: u32) -> f64 {
     const N: usize = 100_000;
     let mut expected = grid.integrals(|wi| told.evaluate(wo, wi).pdf);
@@ -113,12 +113,12 @@ fn p_of(told: &Bsdf<'_, 4>, drawn: &Bsdf<'_, 4>, wo: Vec3, grid: &Grid, draw: u3
         let sample = drawn.sample(wo, stream.unit_f32(), u).filter(|s| s.event == Event::Scatter);
         observed[sample.map_or(2 * CELLS, |s| grid.index(s.wi))] += 1;
     }
-    // Cells that hardly expect anything take part only with their neighbours: a floor keeps stray counts finite.
+    // Cells of nearly zero expectation take part only with their neighbours: a floor keeps stray counts finite.
     let expected: Vec<_> = expected.iter().map(|e| (e * N as f64).max(1e-3)).collect();
     chi_square::goodness_of_fit(&observed, &expected).expect("many cells").p
 }
 
-/// Refuses a family of tests, each named, whose least p-value would come up by chance in less than one of a hundred.
+/// Fails for a family of tests, each named, whose least p-value would occur by chance in less than one of a hundred.
 pub(in crate::materials) fn judge(p_values: &[(f64, String)]) {
     let (least, name) = p_values.iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("cases");
     let level = chi_square::sidak_level(0.01, p_values.len());

@@ -1,4 +1,4 @@
-//! White surfaces in even light send back what arrives, within 1e-3 at every roughness and angle.
+//! White surfaces in uniform light reflect all of it, within 1e-3 at every roughness and angle.
 
 use super::reflection::*;
 use super::*;
@@ -10,7 +10,7 @@ fn sent_back(material_table: &MaterialTable, degrees: f32) -> f32 {
     albedos_of::<{ 1 << 20 }>(&bsdf(material_table), at_degrees(degrees))[0][0]
 }
 
-/// So good a conductor that it reflects all but 4e-12, by numbers as large as are legal.
+/// A conductor that reflects all but 4e-12, by the largest legal numbers.
 fn bright_metal() -> metal::ComplexIndex {
     metal::ComplexIndex { n: Spectrum::constant(1e-4), k: Spectrum::constant(1e4) }
 }
@@ -64,7 +64,7 @@ fn car_paint_never_sends_back_more_than_arrives() {
     }
 }
 
-/// What widens facets alone, and leaves the tables of energy as they are, loses light and never makes any.
+/// Widening of facets with unchanged energy tables loses light and never adds any.
 #[test]
 fn widened_facets_never_send_back_more_than_arrives() {
     let white = [
@@ -83,8 +83,8 @@ fn widened_facets_never_send_back_more_than_arrives() {
             for degrees in [0.0, 40.0, 75.0, 89.0] {
                 let sent = albedos_of::<{ 1 << 18 }>(&widened, at_degrees(degrees))[0][0];
                 assert!(sent < 1.0 + ALLOWED, "{name} of {min_alpha} at {degrees}°: {sent}");
-                // GGX facets lose what they scatter among themselves, more towards grazing; of wide flakes the coat turns round more than its table
-                // says. The sum is of what is reflected: of glass a part.
+                // GGX facets lose multiple scattering, more towards grazing; for wide flakes the internal reflection of the coat is larger
+                // than in its table. The sum is of reflected light: for glass a part.
                 let floor = match name {
                     "glass" => 0.0,
                     "car paint" => 0.4,

@@ -3,7 +3,7 @@
 use super::*;
 use crate::textures::{Channel, ImageTexture, Sampling, Texels, TextureId, Wrap};
 
-/// A picture of four greys side by side: 0, 1/3, 2/3, 1; without filtering between them at their centres.
+/// An image of four greys side by side: 0, 1/3, 2/3, 1; without filtering between them at their centres.
 fn ramp() -> ImageTexture {
     let texels = (0..4).map(|i| [i as f32 / 3.0; 3]).collect();
     let sampling = Sampling { wrap: [Wrap::Clamp; 2], ..Sampling::default() };
@@ -92,14 +92,14 @@ fn a_white_base_under_a_mapped_coat_keeps_all_light() {
         let bsdf = material_table.bsdf(MaterialId(0), &Lookup::point(Vec2::new(u, 0.5)), true, &WAVELENGTHS);
         for degrees in [0.0, 60.0, 80.0, 88.0] {
             let albedo = albedo(&bsdf, at_degrees(degrees));
-            // That of the table over roughness (see `coated`), beside the 3e-3 of single roughnesses.
+            // Error of the table over roughness (see `coated`), in addition to the 3e-3 of single roughnesses.
             assert!((albedo.max_value() - 1.0).abs() < 1e-2, "{u} at {degrees}: {albedo:?}");
         }
     }
 }
 
-/// Schlick's approximation by its formula, at a mirror and at a white rough metal, which keeps all light that is scattered often enough; what is scattered once is in
-/// `evaluate`, F₀ at normal incidence in proportion.
+/// Schlick's approximation by its formula, at a mirror and at a white rough metal with multiple scattering, which keeps all light. Single
+/// scattering is in `evaluate`, F₀ at normal incidence in proportion.
 #[test]
 fn a_metal_of_a_picture_reflects_its_colours_as_schlick_says() {
     let metal = |alpha: f64| Conductor::of_texture(TextureId(0), alpha).expect("a metal");

@@ -41,7 +41,7 @@ fn metal_of(name: &str, alpha: f64) -> Surface {
     Surface::Conductor(Box::new(Conductor::new(index, alpha).expect("a metal")))
 }
 
-/// So good a conductor that it reflects everything.
+/// A conductor that reflects everything.
 fn perfect_metal(alpha: f64) -> Surface {
     let index = metal::ComplexIndex { n: Spectrum::constant(0.0), k: Spectrum::constant(3.0) };
     Surface::Conductor(Box::new(Conductor::new(index, alpha).expect("a metal")))
@@ -65,7 +65,7 @@ fn leaf(reflectance: f64, transmittance: f64) -> Surface {
 
 fn at_degrees(degrees: f32) -> Vec3 {
     let (s, c) = etendue_core::maths::f32::sin_cos(degrees.to_radians());
-    // Turned in azimuth, so that a fault of one axis shows.
+    // Rotated in azimuth, so that an error of one axis shows.
     Vec3::new(0.8 * s, -0.6 * s, c)
 }
 
@@ -121,7 +121,7 @@ fn weights_are_value_over_density() {
     }
 }
 
-/// Index of the far side over that of the viewer's, seen from the front.
+/// Ratio of the index of the far side to that of the viewer's, seen from the front.
 fn eta(material_table: &MaterialTable) -> f32 {
     match bsdf(material_table) {
         Bsdf::Dielectric(dielectric) => dielectric.eta(),
@@ -129,7 +129,7 @@ fn eta(material_table: &MaterialTable) -> f32 {
     }
 }
 
-/// The bsdf and value × |cos| of a pair of directions told the other way round.
+/// Returns value × |cos| of the BSDF with both directions swapped.
 fn swapped(material_table: &MaterialTable, wo: Vec3, wi: Vec3) -> Spectral<4> {
     if wi.z > 0.0 {
         return bsdf(material_table).evaluate(wi, wo).value_cos / wo.z;
@@ -161,19 +161,18 @@ fn every_material_is_reciprocal() {
     }
 }
 
-/// Share of light that a surface sends on, to both sides, at each wavelength.
+/// Fraction of light that a surface scatters, to both sides, at each wavelength.
 fn albedo(bsdf: &Bsdf<'_, 4>, wo: Vec3) -> Spectral<4> {
     let [reflected, transmitted] = albedos(bsdf, wo);
     reflected + transmitted
 }
 
-/// The same for each side: power, so without the thinning of radiance by refraction.
+/// The same for each side: power, so without the change of radiance by refraction.
 fn albedos(bsdf: &Bsdf<'_, 4>, wo: Vec3) -> [Spectral<4>; 2] {
     albedos_of::<{ 1 << 17 }>(bsdf, wo)
 }
 
-/// By `N` points of a lattice of three dimensions (powers of the plastic number's kin): error below 2e-3 for 2¹⁷ points,
-/// 3e-4 for 2²⁰.
+/// By `N` points of a three-dimensional lattice (of the plastic number's family): error below 2e-3 for 2¹⁷ points, 3e-4 for 2²⁰.
 fn albedos_of<const N: u32>(bsdf: &Bsdf<'_, 4>, wo: Vec3) -> [Spectral<4>; 2] {
     let eta = if let Bsdf::Dielectric(dielectric) = bsdf { dielectric.eta() } else { 1.0 };
     let mut sums = [[0.0_f64; 4]; 2];

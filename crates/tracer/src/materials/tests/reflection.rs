@@ -1,9 +1,9 @@
-//! The models of reflection beyond metals and coats, by the same tests.
+//! Reflection models other than metals and coats, by the same tests.
 
 use super::chi_square::{Grid, judge, p_of_draws};
 use super::*;
 
-/// A matt base under a mirror, an off-specular and a retro lobe.
+/// A diffuse base under a mirror, an off-specular and a retro lobe.
 fn lobes() -> Surface {
     let weight = |v| Spectrum::from_fn(move |nm| v * (0.5 + nm / 2200.0));
     let lobes = vec![
@@ -110,7 +110,7 @@ fn directions_are_drawn_by_the_density_told() {
 
 #[test]
 fn interreflection_gives_back_less_where_metals_absorb() {
-    // Gold at 450 nm reflects four tenths, at 680 nm nearly all: what is scattered twice is redder.
+    // Gold at 450 nm reflects four tenths, at 680 nm nearly all: light scattered twice is redder.
     let [once, all] = [false, true].map(|all| material_table(rough(&gold(), 0.9, Distribution::Ggx, all)));
     let (once, all) = (albedo(&bsdf(&once), at_degrees(40.0)), albedo(&bsdf(&all), at_degrees(40.0)));
     let gain = [0, 3].map(|i| all[i] / once[i]);

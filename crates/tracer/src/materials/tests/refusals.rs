@@ -1,4 +1,4 @@
-//! What no material may be.
+//! Materials that are refused.
 
 use super::*;
 
@@ -25,7 +25,7 @@ fn leaves_send_on_no_more_than_arrives() {
     let of = |r, t| MaterialTable::new(vec![Material::new(leaf(r, t))], vec![]).err();
     assert_eq!(of(0.5, 0.5), None);
     assert!(matches!(of(0.6, 0.5), Some(MaterialError::LeafSum { material: 0, value }) if (value - 1.1).abs() < 1e-6));
-    // Spectra are summed node by node: two that take turns may each be 1.
+    // Spectra are summed node by node: two alternating spectra may each be 1.
     let step = |up: bool| Reflectance::Spectrum(Spectrum::from_fn(|nm| f64::from(u8::from((nm < 600.0) == up))));
     let turns = Surface::Leaf(Box::new(Leaf { reflectance: step(true), transmittance: step(false) }));
     assert!(MaterialTable::new(vec![Material::new(turns)], vec![]).is_ok());
@@ -71,7 +71,7 @@ fn what_counts_on_a_mix_alone_is_refused_on_its_parts() {
     assert_eq!(of(plain(), bent), Some(MaterialError::MixNormal { material: 2 }));
 }
 
-/// Light that is drawn on a glowing surface knows its texture coordinates alone.
+/// Light sampling on an emitting surface has only its texture coordinates.
 #[test]
 fn what_glows_has_no_gaps_laid_on_from_three_sides() {
     use crate::textures::{Channel, ImageTexture, Projection, Sampling, Texels, TextureId};

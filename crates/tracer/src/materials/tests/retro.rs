@@ -1,4 +1,4 @@
-//! Retro-reflection: what signs and markings send back to a viewer beside the lamp.
+//! Retro-reflection: light that signs and markings reflect to a viewer near the lamp.
 
 use super::chi_square::{Grid, judge, lobe, p_of_draws};
 use super::*;
@@ -88,7 +88,7 @@ fn a_marking_returns_its_coefficient_at_the_30_m_geometry() {
 fn a_lamp_farther_from_the_viewer_is_sent_back_weaker() {
     let sign = sheeting("ra2", "white");
     let at = |degrees| luminance(&sign, lamp_and_viewer(5.0, degrees, 0.0));
-    // A lorry's lamp at 1.8 m under the viewer, 100 m away, beside a car's at 0.6 m.
+    // The lamp of a lorry at 1.8 m under the viewer, 100 m away, compared with a car's at 0.6 m.
     assert!(at(0.34) > 8.0 * at(1.03), "{} {}", at(0.34), at(1.03));
     let stripe = marking(300.0, DayTime::Qd(130.0));
     let at = |degrees| luminance(&stripe, lamp_and_viewer(88.0, degrees, 0.0));
@@ -124,8 +124,8 @@ fn directions_are_drawn_by_the_density_told() {
 
 #[test]
 fn lamp_and_viewer_may_nearly_be_exchanged() {
-    // Tables tell the lamp's angle to the normal from the viewer's; within the lobe they differ by α at most. Measured:
-    // by how much the sheeting's values differ when both are exchanged, at 0.33° and 2°.
+    // Tables use the lamp's angle to the normal as if it were the viewer's; within the lobe they differ by α at most. Measured: the
+    // difference of the sheeting's values when both are exchanged, at 0.33° and 2°.
     let sign = sheeting("ra2", "white");
     let bsdf = bsdf(&sign);
     for (observation_deg, most) in [(0.33, 0.01), (2.0, 0.12)] {
@@ -158,7 +158,7 @@ fn limits_are_told_in_words() {
     let preset = SheetingPreset::named("ra1", "white").expect("a preset");
     let words = preset.sheeting().expect("a sheeting").limits();
     assert!(words.contains("below an observation angle of 0.2° and from 2° to"), "{words}");
-    // A table so bright that it must end early.
+    // A table so bright that its lobe must end early.
     let bright = RetroTable::new(&[0.2, 2.0], &[5.0], &[250.0, 40.0]).expect("a table");
     let white = Spectrum::constant(1.0);
     let sheeting = Sheeting::new(white.scaled(0.3), &white, bright.clone()).expect("a sheeting");

@@ -1,4 +1,4 @@
-//! Materials that send light through.
+//! Materials that transmit light.
 
 use super::chi_square::{Grid, judge, lobe, p_of_draws};
 use super::*;
@@ -13,7 +13,7 @@ fn transmitted_directions_are_drawn_by_the_density_told() {
             for (i, degrees) in [0.0, 25.0, 60.0, 84.0].into_iter().enumerate() {
                 let wo = at_degrees(degrees);
                 let Bsdf::Dielectric(glass) = bsdf else { unreachable!() };
-                // Beyond the critical angle the facets that let light through send it along the surface.
+                // Beyond the critical angle the transmitting facets send light along the surface.
                 let straight = Vec3::new(-wo.x, -wo.y, -0.1).normalize();
                 let below = dielectric::refracted(wo, Vec3::Z, glass.eta()).unwrap_or(straight);
                 let alpha = alpha as f32;
@@ -40,7 +40,7 @@ fn smooth_glass_sends_on_all_light() {
             let wo = at_degrees(degrees);
             let [reflected, transmitted] = albedos(&bsdf, wo);
             let Bsdf::Dielectric(glass) = &bsdf else { unreachable!() };
-            // The lattice counts a share of 2^17 points: 2e-4.
+            // The lattice counts a fraction of 2^17 points: 2e-4.
             assert!((reflected[0] - fresnel::interface(wo.z, glass.eta())).abs() < 2e-4, "{degrees}");
             assert!((reflected[0] + transmitted[0] - 1.0).abs() < 1e-5, "{degrees}");
         }
@@ -54,7 +54,7 @@ fn hardly_rough_glass_is_like_smooth_glass() {
         for degrees in [0.0, 30.0, 60.0] {
             let (a, b) = (albedos(&smooth, at_degrees(degrees)), albedos(&rough, at_degrees(degrees)));
             for side in 0..2 {
-                // Facets tilt by about α: the Fresnel factor moves by its slope times α, and by α² in shadowing.
+                // Facets tilt by about α: the Fresnel factor changes by its slope times α, and by α² in shadowing.
                 assert!((a[side][0] - b[side][0]).abs() < 3e-3, "{degrees}: {a:?} {b:?}");
             }
         }
@@ -63,7 +63,7 @@ fn hardly_rough_glass_is_like_smooth_glass() {
 
 #[test]
 fn rough_glass_loses_only_what_is_scattered_twice() {
-    // Seen: 0.1 %, 2.9 % and 22 %.
+    // Measured: 0.1 %, 2.9 % and 22 %.
     for (alpha, loss) in [(0.05, 0.002), (0.3, 0.04), (1.0, 0.25)] {
         let albedo = albedo(&bsdf(&material_table(glass(1.5, alpha))), at_degrees(45.0))[0];
         assert!(albedo <= 1.0 + 1e-3 && albedo > 1.0 - loss, "α {alpha}: {albedo}");

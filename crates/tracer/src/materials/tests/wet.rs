@@ -4,7 +4,7 @@ use super::*;
 use crate::materials::{Puddles, WATER};
 use crate::textures::{Channel, ImageTexture, Sampling, Texels, TextureId, Wrap};
 
-/// Lekner and Dorf (1988): A_wet = (1 − R₀)(1 − p) A/(1 − p A), p = 0.47459, and the film's mirror R₀ = 0.02037.
+/// Lekner and Dorf (1988): A_wet = (1 − R₀)(1 − p) A/(1 − p A), p = 0.47459, and the film's specular reflectance R₀ = 0.02037.
 #[test]
 fn wet_ground_is_as_dark_as_lekner_and_dorf_say() {
     let darkened =
@@ -17,7 +17,7 @@ fn wet_ground_is_as_dark_as_lekner_and_dorf_say() {
     }
 }
 
-/// A puddle is a mirror of 0.72 at 87° where it is deeper than the grains, and as rough as a film where the ground stands out of it.
+/// A puddle is a mirror of 0.72 at 87° where it is deeper than the grains, and as rough as a film where the ground protrudes.
 #[test]
 fn a_puddle_mirrors_by_fresnel() {
     let sampling = Sampling { wrap: [Wrap::Clamp; 2], ..Sampling::default() };
@@ -34,7 +34,7 @@ fn a_puddle_mirrors_by_fresnel() {
     let at = |u: f32| material_table.bsdf(MaterialId(0), &Lookup::point(Vec2::new(u, 0.5)), true, &WAVELENGTHS);
     let (deep, film) = (at(0.25), at(0.75));
     let wo = at_degrees(87.0);
-    // The mirror is drawn with the share of light that it sends back: its weight by that is the Fresnel factor.
+    // The mirror is sampled by its fraction of the reflected light: its weight by that is the Fresnel factor.
     let n = 4096;
     let mirrored: f32 = (0..n)
         .filter_map(|i| deep.sample(wo, (i as f32 + 0.5) / n as f32, Vec2::splat(0.5)))

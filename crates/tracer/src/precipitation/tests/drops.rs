@@ -10,13 +10,13 @@ use etendue_stats::chi_square::goodness_of_fit;
 
 const WATER: f64 = 1.333;
 
-/// Even numbers in [0, 1).
+/// Uniform numbers in [0, 1).
 fn number(i: u32, k: u32) -> f64 {
     let [a, b, ..] = philox4x32([i, k, 0, 0], [77, 5]);
     unit_f64(u64::from(a) << 32 | u64::from(b))
 }
 
-/// Where a ray to +x meets a ball of radius 1, `b` off its axis.
+/// The hit of a ray along +x on a ball of radius 1, `b` off its axis.
 fn at(b: f64, turn: f64) -> DVec3 {
     DVec3::new(-(1.0 - b * b).max(0.0).sqrt(), b * cos(turn), b * sin(turn))
 }
@@ -25,7 +25,7 @@ fn at_place(place_m: DVec3, direction: DVec3) -> DropRay {
     DropRay { place_m, direction }
 }
 
-/// What goes straight through a ball is turned by 2 (i − r), and a ball sees 165.57° of the world.
+/// Light that goes straight through a ball is deflected by 2 (i − r), and a ball sees 165.57° of the world.
 #[test]
 fn light_through_a_ball_is_turned_as_snell_says() {
     let through = |b: f64| refracted(1.0, 1.0, WATER, at_place(at(b, 1.0), DVec3::X), |_| 1.0 - 1e-12).direction;
@@ -33,13 +33,13 @@ fn light_through_a_ball_is_turned_as_snell_says() {
         let turned = acos(through(b).x.min(1.0));
         assert!((turned - 2.0 * (asin(b) - asin(b / WATER))).abs() < 1e-7, "{b}: {turned}");
     }
-    // Straight to the limit of grazing rays from two cosines of incidence; what is left is 1.1 times their product.
+    // Linear extrapolation to grazing rays from two cosines of incidence; the remainder is 1.1 times their product.
     let turned = |cosine: f64| acos(through((1.0 - cosine * cosine).sqrt()).x).to_degrees();
     let field_deg = 2.0 * (2.0 * turned(0.004) - turned(0.008));
     assert!((field_deg - 165.57).abs() < 0.01, "{field_deg}");
 }
 
-/// What a ball shows is upside down.
+/// The image in a ball is upside down.
 #[test]
 fn a_drop_shows_the_world_upside_down() {
     let seen = |b: f64, half_m: [f64; 2]| {
@@ -52,7 +52,7 @@ fn a_drop_shows_the_world_upside_down() {
     }
 }
 
-/// Single drops and the medium beyond them scatter alike: χ² over 12 bins of the angle, at the level 10⁻⁴.
+/// Single drops and the medium beyond them scatter equally: χ² over 12 bins of the angle, at the level 10⁻⁴.
 #[test]
 fn drops_scatter_as_the_phase_function_of_the_medium() {
     const RAYS: u32 = 40_000;
@@ -83,21 +83,21 @@ fn drops_scatter_as_the_phase_function_of_the_medium() {
     assert!(test.p > 1e-4, "{test:?}: {counts:?} {expected:?}");
 }
 
-/// Part of light of both planes that an interface mirrors, by Fresnel.
+/// Fresnel reflectance of an interface, of both planes.
 fn planes(i: f64, r: f64) -> [f64; 2] {
     let (ci, cr) = (cos(i), cos(r));
     let of = |a: f64, b: f64| ((a - b) / (a + b)) * ((a - b) / (a + b));
     [of(ci, WATER * cr), of(WATER * ci, cr)]
 }
 
-/// How much of a cone about an axis `up` above the horizon lies above it.
+/// Fraction of a cone about an axis `up` above the horizon that lies above it.
 fn above(up: f64, turned: f64) -> f64 {
     let x = -(cos(turned) * sin(up)) / (sin(turned) * cos(up)).max(1e-12);
     acos(x.clamp(-1.0, 1.0)) / PI
 }
 
-/// The mean of a ball's disc under a sky of 1 above the horizon and 0 below, seen upwards by `up`: what goes through of its field of 165.57°,
-/// and what is mirrored outside and inside. Van de Hulst's sum, by sixty passages.
+/// The mean of a ball's disc under a sky of 1 above the horizon and 0 below, seen upwards by `up`: light transmitted from its field of
+/// 165.57°, and light reflected outside and inside. Van de Hulst's sum, by sixty passages.
 fn half_bright(up: f64) -> f64 {
     const STEPS: u32 = 5000;
     let at = |k: u32| {

@@ -1,4 +1,4 @@
-//! Which particles exist, and where.
+//! The set of particles and their places.
 
 use super::*;
 use etendue_core::maths::f64::exp;
@@ -31,7 +31,7 @@ fn drops_have_the_sizes_of_the_law() {
     assert!(test.p > 1e-4 && test.degrees_of_freedom > 10, "{test:?}");
 }
 
-/// Whoever looks at a part of space at some time finds the drops that have fallen there, with their velocities, and no others.
+/// Every view of a part of space at some time finds the drops that have fallen there, with their velocities, and no others.
 #[test]
 fn two_views_at_two_times_see_the_same_drops() {
     let field = field(7);
@@ -51,7 +51,7 @@ fn two_views_at_two_times_see_the_same_drops() {
     }
 }
 
-/// An exposure's drops are those of all its moments.
+/// An exposure's drops are those of all its times.
 #[test]
 fn an_interval_holds_what_its_moments_hold() {
     let field = field(1);
@@ -75,7 +75,7 @@ fn another_seed_is_another_rain_and_nothing_is_above_the_top() {
     assert!(found.len() > 1000 && found.iter().all(|particle| particle.at(5.0).z <= 0.0));
 }
 
-/// What is modelled depends on what a pixel resolves, and is bounded.
+/// The modelled particles depend on the resolution of a pixel, and are bounded.
 #[test]
 fn finer_pixels_resolve_more_drops_up_to_a_bound() {
     let field = field(0);

@@ -1,4 +1,4 @@
-//! Laws of size: tables, closed forms, and what they refuse.
+//! Laws of size: tables, closed forms, and refusals.
 
 use super::*;
 use etendue_core::maths::f64::exp;
@@ -24,8 +24,8 @@ fn rain_is_as_the_table_of_marshall_and_palmer() {
         let law = SizeLaw::rain(rate).expect("within the law");
         assert!(near(law.lambda_per_mm(), lambda, 1e-3) && near(law.number_per_m3(), number, 1e-3), "{rate}");
         assert!(near(1e3 * law.meteorological_extinction_per_m(), per_km, 0.01), "{rate}");
-        // The law's own integral goes beyond the 6 mm at which drops end: of the water above x = 6 Λ a share e⁻ˣ (1 + x + x²/2 + x³/6) is left
-        // out, of speeds that are at most 9.5 m/s where the mean of the water's is more than 6.5.
+        // The law's own integral goes beyond the 6 mm at which drops end. Of the water above x = 6 Λ a fraction e⁻ˣ (1 + x + x²/2 + x³/6)
+        // is left out, of speeds that are at most 9.5 m/s where the mean of the water's is more than 6.5.
         let x = 6.0 * lambda;
         let beyond = exp(-x) * (1.0 + x + x * x / 2.0 + x * x * x / 6.0) * 9.5 / 6.5;
         let ratio = law.carried_mm_h() / carried;
@@ -52,8 +52,8 @@ fn drops_fall_as_atlas_measured_and_flatten() {
     assert_eq!((axis_ratio(0.9), axis_ratio(5.0)), (1.0, 1.03 - 0.31));
 }
 
-/// Half of what meteorologists measure, but for the little that drops are flatter than balls: a spheroid of the same volume has the cross-section
-/// of the ball times the cube root of its axis ratio, as seen from the side.
+/// Half of the meteorological extinction, except that drops are slightly flatter than balls: a spheroid of the same volume has the
+/// cross-section of the ball times the cube root of its axis ratio, as seen from the side.
 #[test]
 fn an_image_loses_half_of_the_meteorological_extinction() {
     let law = SizeLaw::rain(10.0).expect("legal");
@@ -62,8 +62,8 @@ fn an_image_loses_half_of_the_meteorological_extinction() {
     assert!(2.0 * field.extinction_per_m() < law.meteorological_extinction_per_m());
 }
 
-/// Molten diameters taken for flakes give 0.65 /km at 1 mm/h, six times too clear; Stoelinga and Warner (1999) have 3.8 /km at 1 m/s. A law for
-/// each kind of crystal spreads over the 3 to 10 times that Rasmussen and others found.
+/// Molten diameters used as flake diameters give 0.65 /km at 1 mm/h, six times too clear; Stoelinga and Warner (1999) have 3.8 /km at 1
+/// m/s. A law for each kind of crystal spans the 3 to 10 times that Rasmussen and others found.
 #[test]
 fn flakes_are_larger_than_their_water() {
     let per_km = |crystals| 1e3 * SizeLaw::snow(1.0, crystals).expect("legal").meteorological_extinction_per_m();

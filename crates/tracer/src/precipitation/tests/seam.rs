@@ -7,14 +7,15 @@ use etendue_core::Ray;
 use etendue_core::maths::f64::{exp, ln};
 use etendue_core::random::{philox4x32, unit_f64};
 
-/// Rain a hundred times as dense, so that few metres take half of the light.
+/// Rain a hundred times as dense, so that few metres attenuate half of the light.
 fn dense() -> Field {
     let law = SizeLaw::rain(100.0).expect("legal");
     Field::new(size_law::SizeLaw { n0: 100.0 * law.n0(), ..law }, DVec3::new(1.0, 2.0, 0.0), 500.0, 0)
 }
 
-/// By distance, what is lost to single drops and to the hollowed medium together is exp(−β d), within 2 %: before, at and beyond the
-/// change-over of the sizes that count (1 m for 2 mm). A thousand rays in each of 60 directions and times; the drops' number alone leaves 0.5 %.
+/// By distance, the transmittance of single drops and the hollowed medium together is exp(−β d), within 2 %: before, at and beyond the
+/// change-over of the relevant sizes (1 m for 2 mm). A thousand rays in each of 60 directions and times; the drops' number alone leaves 0.5
+/// %.
 #[test]
 fn extinction_is_the_same_before_and_beyond_the_change_over() {
     const RAYS: u32 = 1000;
@@ -62,7 +63,7 @@ fn way(field: &Field, change_over: &ChangeOver, distance_m: f64) -> f64 {
     field.hollow(change_over).path_length(DVec3::ZERO, DVec3::X, 0.0, distance_m)
 }
 
-/// Where a camera stands under a roof, nothing is lost within it.
+/// If a camera stands under a roof, nothing is attenuated within it.
 #[test]
 fn nothing_falls_within_the_clear_distance() {
     let field = dense();

@@ -1,4 +1,4 @@
-//! How rain shows in pictures by their exposure.
+//! Visibility of rain in images by their exposure.
 
 use super::*;
 use core::f64::consts::PI;
@@ -7,8 +7,8 @@ use etendue_core::maths::f64::ln;
 const PIXEL_RAD: f64 = 2e-3;
 const SIZE: [usize; 2] = [160, 90];
 
-/// How much of each pixel drops cover during an exposure that begins at 0, by the drops' ways and cross-sections; a drop is no wider than a pixel
-/// where it is farther than 1 m.
+/// Fraction of each pixel that drops cover during an exposure that begins at 0, by the drops' paths and cross-sections; a drop is no wider
+/// than a pixel if it is farther than 1 m.
 fn cover(field: &Field, exposure_s: f64) -> Vec<f64> {
     const STEP_S: f64 = 1e-4;
     let interval = TimeInterval::new(0.0, exposure_s).expect("legal");
@@ -36,8 +36,8 @@ fn cover(field: &Field, exposure_s: f64) -> Vec<f64> {
     cover
 }
 
-/// Garg and Nayar ("Vision and rain", IJCV 75, 2007): the standard deviation that rain makes falls as the root of the exposure. Fitted over 8 to
-/// 125 ms, each the mean of four rains.
+/// Garg and Nayar ("Vision and rain", IJCV 75, 2007): the standard deviation due to rain falls as the root of the exposure. Fitted over 8
+/// to 125 ms, each the mean of four rains.
 #[test]
 fn the_visibility_of_rain_falls_as_the_root_of_the_exposure() {
     let exposures_s = [0.008, 0.016, 0.032, 0.064, 0.125];

@@ -1,4 +1,4 @@
-//! Points and ground truth of what moves: those of the ray's own time.
+//! Points and ground truth of moving objects: those of the ray's own time.
 
 use crate::accel::tests::shapes::{Random, tracked};
 use crate::accel::{Simd, World, WorldBuilder};
@@ -21,7 +21,7 @@ fn square() -> Mesh {
     Mesh::new(positions, vec![], uvs, vec![[0, 1, 2], [0, 2, 3]], vec![]).expect("legal").0
 }
 
-/// Rises from 1e5 m away of the world's origin by 12 m/s, tilts by up to 60°/s and grows.
+/// Rises from 1e5 m away from the world's origin by 12 m/s, tilts by up to 60°/s and grows.
 fn rising(how: Interpolation) -> Track {
     let tilt = |angle: f64| {
         let (sin, cos) = maths::f64::sin_cos(0.5 * angle);
@@ -68,7 +68,7 @@ fn truth_of_a_moving_plane_is_exact_at_the_ray_s_time() {
     }
 }
 
-/// The point lies on the plane of its time to within its error bound, its texture where the transform of that time says.
+/// The point lies on the plane of its time to within its error bound, its texture as in the transform of that time.
 #[test]
 fn points_normals_and_footprints_are_those_of_the_ray_s_time() {
     let mut random = Random::new(62);
@@ -103,7 +103,7 @@ fn points_normals_and_footprints_are_those_of_the_ray_s_time() {
     }
 }
 
-/// Rays that leave a moving plane do not meet it again, from either side, however flat.
+/// Rays that leave a moving plane do not hit it again, from either side, at any angle.
 #[test]
 fn a_moving_plane_is_not_met_again_at_the_time_of_the_point() {
     let mut random = Random::new(63);

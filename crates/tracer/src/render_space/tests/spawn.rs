@@ -1,4 +1,4 @@
-//! Rays that leave a surface leave it, and do not pass through it.
+//! Rays that leave a surface do not pass through it.
 
 use crate::accel::World;
 use crate::accel::WorldBuilder;
@@ -23,8 +23,7 @@ fn met(view: &RenderSpace<'_>, origin: DVec3, target: DVec3) -> Option<SurfacePo
     view.closest(&ray).map(|hit| view.surface(&ray, &hit))
 }
 
-/// The side of the plane through a surface point that a new origin lies on must be the direction's, so nothing flat is
-/// met again.
+/// The new origin must lie on the direction's side of the plane through a surface point, so that no flat surface is hit again.
 fn check_plane(half_m: f32, placement: DAffine3, height: f64) {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let corners = corners.map(|(x, y)| Vec3::new(x * half_m, y * half_m, 0.0)).to_vec();
@@ -58,8 +57,8 @@ fn a_plane_is_not_met_again_from_either_side() {
     check_plane(2.0, DAffine3::from_mat3_translation(stretched, random.cube() * 100.0), 30.0);
 }
 
-/// Which primitive a ray leaves spares work and changes no answer: from both sides of balls of several sizes, each alone and written
-/// out, seen from within.
+/// The primitive that a ray leaves saves work and changes no result: from both sides of balls of several sizes, each alone and merged, seen
+/// from inside.
 #[test]
 fn what_a_ray_leaves_changes_no_answer() {
     let mut random = Random::new(15);
@@ -105,7 +104,7 @@ fn a_plane_far_from_its_own_origin_is_not_met_again() {
     }
 }
 
-/// Rays from a convex body's surface: outward ones meet nothing, inward ones always do.
+/// Rays from a convex body's surface: outward ones hit nothing, inward ones always do.
 fn check_convex(world: &World, camera: DVec3, random: &mut Random) {
     let view = world.render_space(camera);
     for _ in 0..3000 {

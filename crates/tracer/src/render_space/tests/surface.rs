@@ -64,13 +64,12 @@ fn shading_normals_are_on_the_side_of_the_surface_and_fall_back_to_it() {
     for bad in [Vec3::ZERO, Vec3::NAN, Vec3::INFINITY] {
         assert_eq!(shading(vec![bad; 4], DAffine3::IDENTITY), Vec3::Z);
     }
-    // A stretch by 2 along x turns normals by the inverse: (0.3, 0, 0.8).
+    // A stretch by 2 along x rotates normals by the inverse: (0.3, 0, 0.8).
     let stretched = shading(vec![tilted; 4], DAffine3::from_scale(DVec3::new(2.0, 1.0, 1.0)));
     assert!((stretched - Vec3::new(0.3, 0.0, 0.8).normalize()).length() < 1e-6);
 }
 
-/// The quick way in f32 beside that of ground truth in f64, under turns, unequal scales, mirrors, and normals of all
-/// lengths.
+/// The fast f32 code against that of ground truth in f64, under rotations, non-uniform scales, mirrors, and normals of all lengths.
 #[test]
 fn normals_are_those_of_ground_truth() {
     let mut random = Random::new(7);
@@ -87,7 +86,7 @@ fn normals_are_those_of_ground_truth() {
         let direction = (aim - above).normalize();
         let p = point(&view, Ray::new(Vec3::ZERO, direction.as_vec3(), 0.0));
         let truth = view.truth(DVec3::ZERO, direction, 0.0, |_| true).expect("the same surface");
-        // Some ten roundings of 6e-8; the ray meets the triangle at places told by f32.
+        // Some ten roundings of 6e-8; the ray hits the triangle at positions in f32.
         assert!((p.shading_normal.as_dvec3() - truth.normal).length() < 2e-6, "{i}: {p:?} {truth:?}");
         assert!(p.shading_normal.dot(p.geometric_normal) > 0.0);
         assert!((p.local_normal.length() - 1.0).abs() < 1e-6 && (p.geometric_normal.length() - 1.0).abs() < 1e-6);
@@ -211,7 +210,7 @@ fn texture_coordinates_change_as_they_do_between_neighbours() {
             let step = 1e-2;
             let (ahead, behind) = (at(along * step), at(along * -step));
             let (uv, local) = view.change_along(&middle, (along * (2.0 * step)).as_vec3());
-            // Coordinates are rounded at 1e-7 of steps of 1e-2; the sphere bends by a ten-thousandth of them.
+            // Coordinates are rounded at 1e-7 of steps of 1e-2; the sphere curves by a ten-thousandth of them.
             assert!((ahead.uv - behind.uv - uv).length() < 3e-3 * uv.length() + 1e-6, "{} {uv}", ahead.uv - behind.uv);
             assert!((ahead.local - behind.local - local).length() < 3e-3 * local.length() + 1e-6);
         }

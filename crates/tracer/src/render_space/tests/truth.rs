@@ -8,11 +8,11 @@ use etendue_core::maths;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 const INCIDENCES_DEG: [f64; 6] = [0.0, 30.0, 60.0, 80.0, 89.0, 89.4];
-/// Roundings of f64 (1.1e-16) in some thirty operations, of placements 1e6 m from the world's origin relative to metres
-/// (1e6), over the cosine of 89.4° (95 times): 3e-7 in the worst case, where the camera's position itself is so coarse.
+/// Roundings of f64 (1.1e-16) in some thirty operations, of placements 1e6 m from the world's origin relative to metres (1e6), over the
+/// cosine of 89.4° (95 times): 3e-7 in the worst case, as the camera's position itself is so coarse.
 const TOLERANCE: f64 = 3e-7;
 
-/// A square in its own plane z = 0, met at `incidence` from `distance`: position, direction and normal known.
+/// A square in its own plane z = 0, hit at `incidence` from `distance`: position, direction and normal known.
 #[test]
 fn planes_are_met_where_they_are() {
     let mut random = Random::new(3);
@@ -45,7 +45,7 @@ fn planes_are_met_where_they_are() {
     assert!(worst < TOLERANCE, "{worst}");
 }
 
-/// A sphere whose radius is a fifth of the distance, met at `incidence`.
+/// A sphere whose radius is a fifth of the distance, hit at `incidence`.
 #[test]
 fn spheres_are_met_where_they_are() {
     let mut random = Random::new(4);
@@ -72,8 +72,8 @@ fn spheres_are_met_where_they_are() {
     assert!(worst < TOLERANCE, "{worst}");
 }
 
-/// A centimetre's triangle, seen at a slope of a tenth from 100 km: the ray that the accelerator follows passes it up to
-/// 4 mm an axis (half a unit in the last place of 1e5 m) from the exact one, whose plane would lead decimetres away.
+/// A triangle of a centimetre, seen at a slope of a tenth from 100 km. The accelerator's ray is up to 4 mm per axis (half a unit in the
+/// last place of 1e5 m) off the exact one, whose intersection with the plane would be decimetres away.
 #[test]
 fn a_silhouette_is_met_where_the_triangle_is() {
     let mut random = Random::new(5);
@@ -117,7 +117,7 @@ fn the_background_has_no_truth() {
     assert!((truth.distance_m - 4.0).abs() < 1e-12 && (truth.normal - DVec3::NEG_X).length() < 1e-12);
 }
 
-/// A sphere behind 30 squares, of which the first 30, 20 … are passed; then both sides of the sphere.
+/// A sphere behind 30 squares, the first 30, 20 … of which are passed; then both sides of the sphere.
 #[test]
 fn what_is_not_accepted_is_passed_and_the_rest_is_as_exact() {
     let mut random = Random::new(6);

@@ -1,4 +1,4 @@
-//! Pictures with an alpha channel, and pictures laid on from three sides.
+//! Images with an alpha channel, and triplanar images.
 
 use super::*;
 
@@ -15,7 +15,7 @@ fn wide() -> Lookup {
 
 #[test]
 fn what_cannot_be_seen_gives_no_colour_to_what_can() {
-    // A leaf of 0.2 on a white ground that is cut away: far off it is still 0.2, and a quarter of it is there.
+    // A leaf of 0.2 on a white ground that is cut away: from afar it is still 0.2, with an opacity of a quarter.
     let leaf = row(&[(255, 0), (51, 255), (255, 0), (255, 0)]);
     assert!((leaf.sample(&wide())[0] - 0.2).abs() < 1e-6, "{:?}", leaf.sample(&wide()));
     assert!((leaf.channel(&wide(), Channel::Alpha) - 0.25).abs() < 1e-6);

@@ -1,9 +1,8 @@
-//! A road to the horizon: it must neither shimmer nor blur away.
+//! A road to the horizon: it must neither alias nor blur.
 //!
-//! A camera 1.5 m above a textured plane; pixels of 0.5 mrad about a line of sight that meets the plane at a distance.
-//! Each pixel takes a few stratified samples with the footprint of a cone, as paths do, and is compared with the mean of
-//! 2048 unfiltered samples. The filter must keep the mean, bring the pixels' errors well below those of unfiltered
-//! samples, and keep the contrast between pixels that the reference has.
+//! A camera 1.5 m above a textured plane; pixels of 0.5 mrad about a line of sight that hits the plane at a distance. Each pixel takes a few
+//! stratified samples with the footprint of a cone, as paths do, and is compared with the mean of 2048 unfiltered samples. The filter must keep the
+//! mean, bring the pixels' errors well below those of unfiltered samples, and keep the contrast between pixels of the reference.
 
 use super::*;
 use etendue_core::maths::f32::tan;
@@ -13,14 +12,13 @@ use etendue_stats::Moments;
 const HEIGHT_M: f32 = 1.5;
 const PIXEL_RAD: f32 = 0.5e-3;
 
-/// Where the ray of a point in the raster (px from the middle, y up) meets the plane, for a view that meets it at
-/// `distance`.
+/// The intersection of the ray of a point in the raster (px from the middle, y up) with the plane, for a view that hits it at `distance`.
 fn road(distance: f32, raster: Vec2) -> Vec2 {
     let forward = HEIGHT_M / tan(HEIGHT_M / distance - PIXEL_RAD * raster.y);
     Vec2::new(forward * PIXEL_RAD * raster.x, forward)
 }
 
-/// How a pixel reads the texture.
+/// Method of reading the texture.
 #[derive(Clone, Copy)]
 enum Way {
     Point,
@@ -54,7 +52,7 @@ impl Seen<'_> {
         self.texture.sample(&lookup)[0]
     }
 
-    /// Moments of: the reference's pixels, those of the way, and their differences.
+    /// Moments of: the reference's pixels, those of the method, and their differences.
     fn moments(&self, samples: u32, way: Way) -> [Moments; 3] {
         let mut moments = [Moments::default(); 3];
         for (x, y) in (0..8).flat_map(|y| (0..24).map(move |x| (x, y))) {
@@ -78,7 +76,7 @@ fn checker() -> ImageTexture {
     picture(64, 64, Sampling::default(), |x, y| if (x / 32 + y / 32) % 2 == 0 { 0.1 } else { 0.5 })
 }
 
-/// Stones, a texel each, of reflectance 0.02 to 0.3.
+/// Stones, one per texel, of reflectance 0.02 to 0.3.
 fn asphalt() -> ImageTexture {
     picture(256, 256, Sampling::default(), |x, y| {
         let address = PixelAddress {
@@ -94,7 +92,7 @@ fn asphalt() -> ImageTexture {
 /// Samples of a pixel.
 const SAMPLES: u32 = 16;
 
-/// Share of a pixel's width that each of its samples stands for.
+/// Fraction of a pixel's width that each of its samples represents.
 const SHARE: f32 = 0.25;
 
 #[test]
@@ -107,10 +105,10 @@ fn a_distant_road_neither_shimmers_nor_blurs_away() {
             let [reference, _, unfiltered] = seen.moments(SAMPLES, Way::Point);
             let [_, filtered, errors] = seen.moments(SAMPLES, Way::Footprint(SHARE));
             let name = format!("{name} at {distance} m: {reference:?} {filtered:?} {errors:?}");
-            // Three standard errors of the mean difference, and 0.1 % for what filtering moves across the window's edge.
+            // Three standard errors of the mean difference, and 0.1 % for light that filtering moves across the window's edge.
             let allowed = 3.0 * errors.variance_of_mean().expect("pixels").sqrt() + 1e-3 * reference.mean();
             assert!(errors.mean().abs() < allowed, "mean of {name}");
-            // Seen: 1.0 near by, 0.6 at 100 m, 0.1 to 0.4 at 300 m.
+            // Measured: 1.0 near by, 0.6 at 100 m, 0.1 to 0.4 at 300 m.
             let most = if distance < 100.0 {
                 1.02
             } else if distance < 300.0 {
@@ -119,7 +117,7 @@ fn a_distant_road_neither_shimmers_nor_blurs_away() {
                 0.45
             };
             assert!(deviation(&errors) < most * deviation(&unfiltered), "shimmer of {name}");
-            // Seen: 0.99 and more near by, 0.83 at 100 m, 0.7 at 300 m, where a thousand stones share a pixel.
+            // Measured: 0.99 and more near by, 0.83 at 100 m, 0.7 at 300 m, where a thousand stones share a pixel.
             let least = if distance < 100.0 { 0.97 } else { 0.65 };
             assert!(deviation(&filtered) > least * deviation(&reference), "contrast of {name}");
         }
@@ -128,7 +126,7 @@ fn a_distant_road_neither_shimmers_nor_blurs_away() {
 
 #[test]
 fn long_footprints_see_what_lies_along_them() {
-    // Stripes across the way: a long footprint sees their mean, a round one of the same width does not.
+    // Stripes across the viewing direction: a long footprint averages them, a round one of the same width does not.
     let stripes = picture(64, 64, Sampling::default(), |_, y| f32::from(u8::from(y % 16 < 8)));
     let round = Lookup { width: 1.0 / 64.0, ..Lookup::point(Vec2::new(0.5, 3.5 / 64.0)) };
     let along = Lookup { long: Vec2::new(0.0, 0.25), ..round };

@@ -1,4 +1,4 @@
-//! Pictures in tiles: the same bits as in memory, however much memory the tiles have.
+//! Images in tiles: the same bits as in memory, for any amount of tile memory.
 
 use super::*;
 use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
@@ -60,7 +60,7 @@ fn part(texels: &Texels, first: usize, count: usize) -> Texels {
     }
 }
 
-/// Tiles of a picture that comes by `rows` rows.
+/// Tiles of an image given by `rows` rows at a time.
 fn tiles(width: u32, height: u32, texels: &Texels, encoding: TexelEncoding, rows: usize) -> MemoryBlocks {
     let lengths = PyramidWriter::lengths(width, height, encoding);
     let mut kept = MemoryBlocks { blocks: vec![Vec::new(); lengths.len()], ..MemoryBlocks::default() };
@@ -78,7 +78,7 @@ fn tiles(width: u32, height: u32, texels: &Texels, encoding: TexelEncoding, rows
 fn lookups() -> Vec<Lookup> {
     let at = |i: usize| {
         let [u, v, w, l] = [0, 1, 2, 3].map(|k| noise(9_000_000 + 4 * i + k));
-        // Widths from a tenth of a texel to beyond the picture.
+        // Widths from a tenth of a texel to more than the image.
         let width = 1e-4 * etendue_core::maths::f32::exp(11.0 * w);
         let long = if i.is_multiple_of(3) { Vec2::new(4.0 * width * l, -2.0 * width) } else { Vec2::ZERO };
         Lookup { width, long, ..Lookup::point(Vec2::new(3.0 * u - 1.0, 2.0 * v - 0.5)) }

@@ -1,7 +1,7 @@
-//! Which texels are in which block.
+//! Assignment of texels to blocks.
 //!
-//! Block 0 holds what is known of the whole picture, block 1 begins the finest resolution, each of 64 × 64 texels (fewer at the right and lower
-//! edges), row by row; the coarser resolutions follow, down to one texel. Texels of bytes stand as in their file, others, and all of coarser
+//! Block 0 holds statistics of the whole image. Block 1 begins the finest resolution, tiles of 64 × 64 texels (fewer at the right and lower edges),
+//! row by row. The coarser resolutions follow, down to one texel. Texels of bytes are stored as in their file, others, and all of coarser
 //! resolutions, as three little-endian floats.
 
 use glam::Vec3;
@@ -29,12 +29,12 @@ pub(super) struct LevelLayout {
 }
 
 impl LevelLayout {
-    /// Tiles side by side, and one above the other.
+    /// Tiles across, and tiles down.
     pub(super) fn tiles(&self) -> [u32; 2] {
         [self.width, self.height].map(|side| side.div_ceil(TILE))
     }
 
-    /// Columns of the tiles at place `column` among those side by side.
+    /// Columns of the tiles of index `column` across.
     pub(super) fn tile_width(&self, column: u32) -> u32 {
         TILE.min(self.width - column * TILE)
     }
@@ -46,7 +46,7 @@ impl LevelLayout {
     }
 }
 
-/// All resolutions of a picture, the finest first.
+/// All resolutions of an image, the finest first.
 pub(super) fn layout(width: u32, height: u32, encoding: TexelEncoding) -> Vec<LevelLayout> {
     let texel_bytes = if encoding == TexelEncoding::Float { FLOAT_TEXEL } else { 3 };
     let mut levels = vec![LevelLayout { width, height, texel_bytes, first_block: 1 }];
@@ -68,12 +68,11 @@ pub(super) fn lengths(levels: &[LevelLayout]) -> Vec<u32> {
     std::iter::once(STATISTICS_BYTES as u32).chain(tiles).collect()
 }
 
-/// What is known of a whole picture.
+/// Statistics of a whole image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in super::super) struct Statistics {
-    /// Least and greatest value of each channel.
+    /// Minimum and maximum of each channel.
     pub(in super::super) ranges: [(f32, f32); 3],
-    /// Mean.
     pub(in super::super) mean: Vec3,
 }
 

@@ -1,8 +1,8 @@
 //! The tiles that are in memory.
 //!
-//! Tiles are spread over shards by a hash, each with a lock and a share of the limit of its own; within a shard, the clock algorithm (Corbató
-//! 1968) chooses which leaves: one that was not asked for since the hand last passed. Before it comes a short list of each thread's own, of the tiles that it
-//! read last, without a lock. A thread keeps at most 1.5 MB there, beside the limit.
+//! Tiles are spread over shards by a hash. Each shard has a lock and its part of the limit. Within a shard, the clock algorithm (Corbató 1968)
+//! chooses the tile to evict: one that was not used since the hand last passed. In front of it is a short list per thread, of the tiles that it read
+//! last, without a lock. A thread keeps at most 1.5 MB there, in addition to the limit.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -10,16 +10,15 @@ use std::{cell::RefCell, collections::HashMap};
 
 use etendue_core::storage::Blocks;
 
-/// Most shards.
 const MAX_SHARDS: u64 = 64;
 
-/// Fewest bytes of a shard: two tiles of floats.
+/// Minimum bytes of a shard: two tiles of floats.
 const MIN_SHARD_BYTES: u64 = 2 * 64 * 64 * 12;
 
-/// Tiles that a thread keeps for itself.
+/// Tiles that a thread keeps in its own list.
 const RECENT: usize = 32;
 
-/// Numbers the pictures of this process.
+/// Numbers the images of this process.
 static NUMBER: AtomicU32 = AtomicU32::new(0);
 
 thread_local! {
@@ -29,7 +28,7 @@ thread_local! {
 /// Bytes of a tile.
 type Tile = Arc<[u8]>;
 
-/// A limited number of tiles of any number of pictures.
+/// A limited number of tiles of any number of images.
 #[derive(Debug)]
 pub struct TileMemory {
     shards: Vec<Mutex<Shard>>,
@@ -38,7 +37,7 @@ pub struct TileMemory {
 }
 
 impl TileMemory {
-    /// Room for `limit_bytes` of tiles, at least for a few.
+    /// Memory for `limit_bytes` of tiles, at least for a few.
     #[must_use]
     pub fn new(limit_bytes: u64) -> Self {
         let count = (limit_bytes / (4 * MIN_SHARD_BYTES)).clamp(1, MAX_SHARDS);
@@ -47,7 +46,7 @@ impl TileMemory {
         Self { shards, limit_bytes, failure: OnceLock::new() }
     }
 
-    /// Most bytes of tiles.
+    /// Maximum bytes of tiles.
     #[must_use]
     pub fn limit_bytes(&self) -> u64 {
         self.limit_bytes
@@ -59,7 +58,7 @@ impl TileMemory {
         self.shards.iter().map(|shard| shard.lock().unwrap_or_else(PoisonError::into_inner).bytes).sum()
     }
 
-    /// Why a tile could not be read, the first time that one could not: values that were looked up since are no values.
+    /// The first failure to read a tile, if there was one: values that were looked up since are invalid.
     #[must_use]
     pub fn failure(&self) -> Option<&str> {
         self.failure.get().map(String::as_str)
@@ -75,7 +74,7 @@ impl TileMemory {
         match read() {
             Ok(tile) => lock().add(key, tile),
             Err(error) => {
-                // Only the first is told.
+                // Only the first is reported.
                 let _ = self.failure.set(error);
                 Arc::new([])
             }
@@ -97,7 +96,7 @@ struct Shard {
 struct Slot {
     key: u64,
     tile: Tile,
-    /// Whether it was asked for since the hand last passed.
+    /// True if it was used since the hand last passed.
     is_used: bool,
 }
 
@@ -108,7 +107,7 @@ impl Shard {
         Some(Arc::clone(&slot.tile))
     }
 
-    /// Adds a tile, if it is not there by now; answers with the one that is.
+    /// Adds a tile, unless it is already present; returns the stored one.
     fn add(&mut self, key: u64, tile: Tile) -> Tile {
         if let Some(known) = self.find(key) {
             return known;
@@ -123,7 +122,7 @@ impl Shard {
         tile
     }
 
-    /// Moves the hand on by one: over a tile that was asked for, or removing it.
+    /// Moves the hand on by one: over a tile that was used, or removing it.
     fn pass_hand(&mut self) {
         self.hand %= self.slots.len();
         let slot = &mut self.slots[self.hand];
@@ -140,7 +139,7 @@ impl Shard {
     }
 }
 
-/// The blocks of one picture, through the memory.
+/// The blocks of one image, through the memory.
 #[derive(Debug)]
 pub(super) struct Tiles {
     number: u32,
@@ -157,7 +156,7 @@ impl Tiles {
         &self.memory
     }
 
-    /// What `value` makes of a block of `bytes` bytes; of none where it could not be read.
+    /// Applies `value` to a block of `bytes` bytes, or to an empty one if it could not be read.
     pub(super) fn with<T>(&self, block: usize, bytes: usize, value: impl FnOnce(&[u8]) -> T) -> T {
         let key = u64::from(self.number) << 32 | block as u64;
         RECENT_TILES.with_borrow_mut(|recent| {
@@ -178,7 +177,7 @@ impl Tiles {
     }
 }
 
-/// A hash of which every bit depends on all of the key (the finaliser of MurmurHash3, Appleby 2011, its first half).
+/// A hash in which every bit depends on all of the key (the finaliser of MurmurHash3, Appleby 2011, its first half).
 fn spread(key: u64) -> u64 {
     let mixed = (key ^ (key >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
     mixed ^ (mixed >> 33)
@@ -198,7 +197,7 @@ mod tests {
         let memory = TileMemory::new(limit);
         for key in 0..10_000 {
             assert_eq!(*tile(&memory, key), [key as u8; 1000]);
-            // Asked for again and again: it stays.
+            // Used repeatedly: it stays.
             let used = memory.tile(0, || panic!("it was there"));
             assert_eq!(*used, [0; 1000]);
             assert!(memory.held_bytes() <= limit);

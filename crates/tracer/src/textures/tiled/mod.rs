@@ -1,7 +1,7 @@
-//! Pictures whose texels are kept outside of memory, tile by tile, and read where they are looked up.
+//! Images whose texels are stored outside memory, tile by tile, and read at look-up.
 //!
-//! The values are bit for bit those of the same picture in memory: the same texels at all resolutions, interpolated by the same operations. How
-//! many tiles are in memory, and who read them, changes only how long a look-up takes.
+//! The values are bit for bit those of the same image in memory: the same texels at all resolutions, interpolated by the same operations. The number
+//! of tiles in memory, and the threads that read them, change only the time of a look-up.
 
 mod layout;
 mod memory;
@@ -20,19 +20,19 @@ use memory::Tiles;
 pub use memory::TileMemory;
 pub use writer::PyramidWriter;
 
-/// One resolution of a picture.
+/// One resolution of an image.
 #[derive(Clone, Debug)]
 pub(super) struct TiledLevel {
     layout: LevelLayout,
     tiles: Arc<Tiles>,
-    /// The linear values of bytes, of texels that are bytes.
+    /// The linear values of bytes, for texels that are bytes.
     linear: Option<Arc<[f32; 256]>>,
 }
 
-/// The resolutions of a picture of columns and rows, and what is known of the whole.
+/// The resolutions of an image of columns and rows, and the statistics of the whole.
 ///
 /// # Errors
-/// Where the blocks cannot be read.
+/// If the blocks cannot be read.
 pub(super) fn levels(
     width: u32,
     height: u32,
@@ -58,7 +58,7 @@ impl TiledLevel {
         (self.layout.width, self.layout.height)
     }
 
-    /// Bytes of its texels outside of memory.
+    /// Bytes of its texels outside memory.
     pub(super) fn bytes(&self) -> u64 {
         u64::from(self.layout.width) * u64::from(self.layout.height) * self.layout.texel_bytes as u64
     }
@@ -68,14 +68,14 @@ impl TiledLevel {
         self.tiles.memory()
     }
 
-    /// What `value` makes of the tile that a texel is in.
+    /// Applies `value` to the tile that contains a texel.
     fn with_tile<T>(&self, [x, y]: [usize; 2], value: impl FnOnce(&[u8]) -> T) -> T {
         let tile = [x as u32 / TILE, y as u32 / TILE];
         let block = self.layout.first_block + tile[1] as usize * self.layout.tiles()[0] as usize + tile[0] as usize;
         self.tiles.with(block, self.layout.tile_bytes(tile[0], tile[1]), value)
     }
 
-    /// A texel of the tile that it is in; 0 where the tile could not be read.
+    /// A texel of the tile that contains it; 0 if the tile could not be read.
     fn texel_in(&self, tile: &[u8], [x, y]: [usize; 2]) -> Vec3 {
         let width = self.layout.tile_width(x as u32 / TILE) as usize;
         let at = (y % TILE as usize * width + x % TILE as usize) * self.layout.texel_bytes;

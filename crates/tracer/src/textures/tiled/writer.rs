@@ -1,6 +1,6 @@
-//! Making the tiles of a picture of all its resolutions from its rows, a few at a time.
+//! Writes the tiles of an image at all its resolutions from its rows, a few at a time.
 //!
-//! Of each resolution, the rows of one row of tiles are in memory, and those that the next row of the next resolution is the mean of.
+//! For each resolution, memory holds the rows of one row of tiles, and those whose mean is the next row of the next resolution.
 
 use std::collections::VecDeque;
 
@@ -11,7 +11,7 @@ use super::super::mipmap::{Share, overlaps};
 use super::super::texels::{Texel as _, TexelEncoding, Texels, TextureError, TiledError};
 use super::layout::{FLOAT_TEXEL, LevelLayout, Statistics, TILE, layout, lengths};
 
-/// Makes tiles of rows.
+/// Writes tiles from rows.
 #[derive(Debug)]
 pub struct PyramidWriter {
     levels: Vec<LevelWriter>,
@@ -24,10 +24,10 @@ pub struct PyramidWriter {
 }
 
 impl PyramidWriter {
-    /// For a picture of `width` × `height` texels.
+    /// For an image of `width` × `height` texels.
     ///
     /// # Errors
-    /// Where it has none.
+    /// If it has no texels.
     pub fn new(width: u32, height: u32, encoding: TexelEncoding) -> Result<Self, TextureError> {
         if width == 0 || height == 0 {
             return Err(TextureError::Size { width, height, found: 0 });
@@ -48,7 +48,7 @@ impl PyramidWriter {
     /// The next rows, from the top; whole rows of the encoding.
     ///
     /// # Errors
-    /// Where a texel is not finite, there are too many or others than expected, or a tile cannot be written.
+    /// If a texel is not finite, there are too many rows or others than expected, or a tile cannot be written.
     pub fn push(&mut self, rows: &Texels, out: &mut dyn BlockWriter) -> Result<(), TiledError> {
         let width = self.levels[0].layout.width as usize;
         match (rows, self.encoding) {
@@ -70,10 +70,10 @@ impl PyramidWriter {
         }
     }
 
-    /// The end of the picture.
+    /// Finishes the image.
     ///
     /// # Errors
-    /// Where rows are missing, or what is known of the whole cannot be written.
+    /// If rows are missing, or the statistics cannot be written.
     pub fn finish(self, out: &mut dyn BlockWriter) -> Result<(), TiledError> {
         let LevelLayout { width, height, .. } = self.levels[0].layout;
         if self.levels[0].rows != height {
@@ -116,7 +116,7 @@ impl PyramidWriter {
     }
 }
 
-/// What is in memory of one resolution.
+/// Data in memory for one resolution.
 #[derive(Debug)]
 struct LevelWriter {
     layout: LevelLayout,
@@ -127,15 +127,15 @@ struct LevelWriter {
     coarser: Option<Halving>,
 }
 
-/// The rows that the next resolution is made of.
+/// The rows from which the next resolution is computed.
 #[derive(Debug)]
 struct Halving {
     /// Rows of both resolutions.
     fine: u32,
     coarse: u32,
-    /// The columns of each texel of the next resolution, with their shares.
+    /// The columns of each texel of the next resolution, with their weights.
     columns: Vec<Vec<(usize, f32)>>,
-    /// The next row of the next resolution, and its rows of this one, with their shares.
+    /// The next row of the next resolution, and its rows of this one, with their weights.
     next: u32,
     shares: Vec<(usize, f32)>,
     /// Rows from `first` on.
@@ -157,7 +157,7 @@ impl LevelWriter {
         Self { layout, rows: 0, band: Vec::new(), coarser }
     }
 
-    /// Adds a row to the tiles; writes those that are full.
+    /// Adds a row to the tiles; writes the full ones.
     fn store(&mut self, bytes: &[u8], out: &mut dyn BlockWriter) -> Result<(), String> {
         self.band.extend_from_slice(bytes);
         self.rows += 1;
@@ -183,7 +183,7 @@ impl LevelWriter {
         Ok(())
     }
 
-    /// Adds a row to what the next resolution is made of; its next row, where this completes it.
+    /// Adds a row to the input of the next resolution; returns that resolution's next row if this completes it.
     fn halve(&mut self, row: Vec<Vec3>) -> Option<Vec<Vec3>> {
         self.coarser.as_mut()?.add(row)
     }
