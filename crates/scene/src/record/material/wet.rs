@@ -7,7 +7,7 @@ use crate::reader::{number, record};
 use crate::record::reflectance::{Reflectance, any_reflectance};
 
 record! {
-    /// A diffuse base under water of index 1.333. Total internal reflection in the water darkens it (Lekner and Dorf 1988).
+    /// A diffuse base under water of index 1.333. Internal reflection in the water darkens it (Lekner and Dorf 1988).
     pub struct WetGround {
         /// Reflectance of the dry ground, as for "diffuse".
         required reflectance: Reflectance = any_reflectance();
