@@ -29,15 +29,15 @@ struct Bound {
 }
 
 impl Number {
-    /// Lower bound, excluded.
+    /// Sets a lower bound, excluding `value`.
     pub(crate) const fn above(self, value: f64) -> Self {
         Self { low: Some(Bound { value, included: false }), ..self }
     }
-    /// Lower bound, included.
+    /// Sets a lower bound, including `value`.
     pub(crate) const fn at_least(self, value: f64) -> Self {
         Self { low: Some(Bound { value, included: true }), ..self }
     }
-    /// Upper bound, included.
+    /// Sets an upper bound, including `value`.
     pub(crate) const fn at_most(self, value: f64) -> Self {
         Self { high: Some(Bound { value, included: true }), ..self }
     }
