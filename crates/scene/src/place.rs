@@ -15,7 +15,7 @@ pub struct Place {
     file: Arc<Path>,
     spot: Spot,
     key: Arc<str>,
-    /// Index of a value in the list `key`, from 0. The values of a long list so share one text.
+    /// Index of a value in the list `key`, from 0. This allows the values of a long list to share one text.
     element: Option<u32>,
 }
 

@@ -14,9 +14,9 @@ pub struct MeshAsset {
     pub origin: [f64; 3],
     /// Vertices relative to `origin`, in units of the file.
     pub positions: Vec<[f32; 3]>,
-    /// Normals of the vertices, of any length above 0; none, or one a vertex.
+    /// Normals of the vertices, of any length above 0; none, or one per vertex.
     pub normals: Vec<[f32; 3]>,
-    /// Texture coordinates, v upwards; none, or one a vertex.
+    /// Texture coordinates, v upwards; none, or one per vertex.
     pub uvs: Vec<[f32; 2]>,
     /// Indices of vertices, counter-clockwise as seen from the front.
     pub triangles: Vec<[u32; 3]>,

@@ -14,7 +14,7 @@ pub struct PrescriptionAsset {
     pub object_distance_mm: f64,
     /// Distance of the image behind the last surface, mm; 0 where the file leaves it to be computed.
     pub back_focus_mm: f64,
-    /// Where the file leaves the image to be computed: distance of the image plane behind the paraxial image, mm.
+    /// Distance of the image plane behind the paraxial image, mm, where the file leaves the image to be computed.
     pub defocus_mm: f64,
     /// Aperture of the lens; `None` if it is given by the stop's own aperture.
     pub opening: Option<LensOpening>,

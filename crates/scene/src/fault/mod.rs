@@ -106,7 +106,7 @@ impl Faults {
         self.add(ErrorCode::MissingKey, place, missing(key), remedy);
     }
 
-    /// Removes the error of a missing key of the table at `place`: another key is assumed to be meant as it.
+    /// Removes the error of a missing key of the table at `place`, because another key is taken as its misspelling.
     pub(crate) fn take_back_missing(&mut self, place: &Place, key: &str) {
         let problem = missing(key);
         self.list.retain(|fault| fault.place != *place || fault.problem != problem);
@@ -117,8 +117,8 @@ impl Faults {
         self.list.push(Fault::new(code, place, problem, remedy));
     }
 
-    /// Reports that `key`, which stands at `place`, has no effect because of `cause`. It is no error if the command line states the cause and a file
-    /// the key: the command line overrides the file.
+    /// Reports that `key`, at `place`, has no effect because of `cause`. It is no error if the command line states the cause and a file the key: the
+    /// command line overrides the file.
     pub(crate) fn add_idle(
         &mut self,
         code: ErrorCode,

@@ -160,7 +160,7 @@ macro_rules! field {
 ///
 /// - `variant!(rule, Enum::Variant)`: the variant holds the value;
 /// - `variant!(rule, Table::Key => Enum::Variant)`: it holds the value of the only key of a table written with `keyed!`;
-/// - `variant!(rule, Words::Word == Enum::Variant)`: it stands for the only word of a `choice!`.
+/// - `variant!(rule, Words::Word == Enum::Variant)`: it is the only word of a `choice!`.
 macro_rules! variant {
     ($rule:expr, $name:ident::$variant:ident) => {
         $crate::reader::RuleExt::map($rule, $name::$variant, |value| match value {

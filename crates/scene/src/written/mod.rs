@@ -61,7 +61,7 @@ pub struct Table {
     entries: Vec<(String, Item)>,
     /// Place of the table.
     place: Option<Place>,
-    /// True if it stands for a value and is written in one line.
+    /// True if it represents a value and is written in one line.
     inline: bool,
 }
 

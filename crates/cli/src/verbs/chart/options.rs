@@ -108,7 +108,7 @@ impl Views {
 /// Angle and contrast of a slanted edge.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Edge {
-    /// Clockwise rotation, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45
+    /// Clockwise rotation, degrees: a square by 2 … 43 in either direction, or the first edge of a star by up to 45
     #[arg(long, value_name = "DEG", default_value_t = 5.0, allow_negative_numbers = true)]
     pub angle_deg: f64,
     /// Luminance of the bright side over that of the dark side

@@ -204,7 +204,7 @@ impl Modulation {
     /// The waveform, without any delay; `rows` are those of its file, where it has one.
     ///
     /// # Errors
-    /// Where a number is out of its range.
+    /// A number is out of its range.
     pub fn waveform(&self, rows: &[(f64, f64)]) -> Result<Waveform, WaveformError> {
         match self {
             Self::Pwm(record) => record.waveform(),
