@@ -44,7 +44,7 @@ fn a_table_of_efficiencies_above_all() {
 
 #[test]
 fn a_converter_without_gain() {
-    // Saturation of the ADC or of the well cannot be ordered here: no assumption is made.
+    // Without a gain it is unknown whether the ADC or the well saturates first: no value is assumed.
     let spoilt = Spoilt::new();
     spoilt.spoil("small.toml", "full_well_e = 12_000", "full_well_e = 1_000");
     let table = spoilt.spoil("small.toml", "[cameras.sensor]", "[cameras.sensor]");

@@ -50,7 +50,7 @@ fn widths_um(radius_mm: f64) -> [f64; 2] {
     [7.0 + 6.0 * radius_mm * radius_mm, 7.0 + 2.0 * radius_mm]
 }
 
-/// Image of a point near the edge of the image: rows of 40, at this distance from the axis.
+/// Height of images near the end of the field, at this distance from the axis, rows.
 const ROWS: usize = 40;
 const AXIS_ROW: f64 = -160.0;
 const EDGE_PX: f64 = 20.3;
