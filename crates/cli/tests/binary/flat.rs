@@ -148,7 +148,7 @@ fn a_picture_of_no_time_is_dark() {
     assert_eq!(files["automotive/raw.0000.png"], dark["automotive/raw.0000.png"]);
     let series = [&no_time[..], &["--photon-transfer", "3"]].concat();
     flat("scenes/cameras/automotive.toml", &series).0.refused(&["\"exposure_s\"", "which is 0"]);
-    // Effects that need a light rate are refused for pulses without one.
+    // Effects that need a rate of light are refused at zero exposure time.
     flat("scenes/cameras/ccd-mono.toml", &lit).0.refused(&["smear", "exposure_s of 0"]);
 }
 

@@ -1,12 +1,10 @@
 //! Conversion of a Wavefront MTL material to a material of a scene.
 //!
-//! `map_Kd` (sRGB-encoded) or else `Kd` (linear sRGB) becomes the diffuse reflectance. A material with highlights
-//! (`Ks` above 0, illumination model 2 or more or none given, and `Ns` above 0) or with a roughness `Pr` becomes "coated": index `Ni`, or 1.5 where there is none or where it is
-//! outside 1.1 … 4, which is reported;
-//! α = Pr² (Burley, "Physically based shading at Disney", 2012) or else α = √(2 / (Ns + 2)), the GGX width that has the
-//! curvature of a Blinn-Phong lobe of exponent Ns (Walter et al., "Microfacet models for refraction", 2007).
-//! An MTL has no unit for light, so `Ke` is reported and gives none; so are metalness, transparency and the colour of
-//! highlights.
+//! `map_Kd` (sRGB-encoded) or else `Kd` (linear sRGB) becomes the diffuse reflectance. A material with highlights (`Ks` above 0, illumination model 2
+//! or more or not stated, and `Ns` above 0) or with a roughness `Pr` becomes "coated". The index is `Ni`, or 1.5 if it is absent or outside 1.1 … 4,
+//! which is reported. α = Pr² (Burley, "Physically based shading at Disney", 2012) or else α = √(2 / (Ns + 2)), the GGX width with the curvature of a
+//! Blinn-Phong lobe of exponent Ns (Walter et al., "Microfacet models for refraction", 2007). An MTL has no unit for light, so `Ke` is reported and
+//! not used; the same applies to metalness, transparency and the colour of highlights.
 
 use std::path::PathBuf;
 

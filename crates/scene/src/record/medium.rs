@@ -23,7 +23,7 @@ record! {
         optional phase: Phase = record();
         /// Part of the world that it fills. Default: everywhere.
         optional shape: MediumShape = record();
-        /// Position of the shape; only of shapes with bounds.
+        /// Placement of the shape; only of shapes with bounds.
         inside transform: Transform;
         /// Frame in which the shape is placed, and with which it moves. Default: the world.
         optional frame: Placed<String> = name_of(Named::Frame);

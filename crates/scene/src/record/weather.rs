@@ -53,7 +53,7 @@ record! {
         inside extinction: Extinction;
         /// Part of the world that it fills. Default: everywhere.
         optional shape: MediumShape = record();
-        /// Position of the shape in the world; only of shapes with bounds.
+        /// Placement of the shape in the world; only of shapes with bounds.
         inside transform: Transform;
         /// Spatial variation of the density. Default: homogeneous.
         optional unevenness: Unevenness = record();
