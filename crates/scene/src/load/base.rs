@@ -3,8 +3,8 @@
 //! A job, a scene or a camera file may name a base of its own kind and state only the differences. They are merged over the base's tree before any
 //! key is read:
 //! - a table is merged key by key, but one that states its `type` replaces the base's as a whole;
-//! - in lists of named entries, an entry replaces the base's of the same name, and others are appended; a camera of a job is merged over the base's
-//! of its name;
+//! - in lists of named entries, an entry replaces the base's of the same name, and others are appended; a camera of a job is merged over
+//!   the base's of its name;
 //! - any other value replaces the base's.
 //!
 //! `remove = ["lights.sun", "environment"]` first removes entries from the base. A base may have a base.
